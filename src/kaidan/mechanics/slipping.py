@@ -30,7 +30,7 @@ def traction_sum(*, M: Number, a: Number, theta_s: Number, g: Number = STANDARD_
 
     Examples
     --------
-    >>> round(traction_sum(M=10.0, a=1.0, theta_s=np.pi / 6, g=10.0), 12)
+    >>> print(round(traction_sum(M=10.0, a=1.0, theta_s=np.pi / 6, g=10.0), 12))
     60.0
 
     References
@@ -63,7 +63,7 @@ def normal_sum(*, M: Number, theta_s: Number, g: Number = STANDARD_GRAVITY) -> N
 
     Examples
     --------
-    >>> round(normal_sum(M=10.0, theta_s=np.pi / 3, g=10.0), 12)
+    >>> print(round(normal_sum(M=10.0, theta_s=np.pi / 3, g=10.0), 12))
     50.0
 
     References
@@ -128,7 +128,7 @@ def slip_acceleration_up(*, mu_s: Number, theta_s: Number, g: Number = STANDARD_
 
     Examples
     --------
-    >>> round(slip_acceleration_up(mu_s=1.0, theta_s=np.pi / 4, g=10.0), 12)
+    >>> print(round(slip_acceleration_up(mu_s=1.0, theta_s=np.pi / 4, g=10.0), 12))
     0.0
 
     References
@@ -162,7 +162,7 @@ def slip_acceleration_down(
 
     Examples
     --------
-    >>> round(slip_acceleration_down(mu_s=0.5, theta_s=0.0, g=10.0), 12)
+    >>> print(round(slip_acceleration_down(mu_s=0.5, theta_s=0.0, g=10.0), 12))
     -5.0
 
     References
@@ -196,7 +196,7 @@ def equivalent_slope(*, theta_s: Number, a: Number, g: Number = STANDARD_GRAVITY
 
     Examples
     --------
-    >>> round(equivalent_slope(theta_s=np.pi / 4, a=0.0), 12)
+    >>> print(round(equivalent_slope(theta_s=np.pi / 4, a=0.0), 12))
     1.0
 
     References
@@ -228,7 +228,7 @@ def required_friction(*, theta_s: Number, a: Number, g: Number = STANDARD_GRAVIT
 
     Examples
     --------
-    >>> round(required_friction(theta_s=np.pi / 4, a=0.0), 12)
+    >>> print(round(required_friction(theta_s=np.pi / 4, a=0.0), 12))
     1.0
 
     References
