@@ -1,0 +1,192 @@
+"""Every failure mode at once: the margins, the bounds of acceleration and what governs.
+
+One pass over numbers or arrays; `kaidan.assess` and `kaidan.sweep` both stand on it, so that one
+robot and ten million get the same answer.
+"""
+
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+
+from kaidan.mechanics import STANDARD_GRAVITY, Number
+from kaidan.mechanics.margin import slope_limit, theta_s_inf, theta_s_sup
+from kaidan.mechanics.slipping import slip_acceleration_down, slip_acceleration_up
+from kaidan.mechanics.tipping import a_max, a_min_with_slip, max_a_rn, min_a_r0
+
+
+class Mode(IntEnum):
+    """Failure modes, named by what the limit does; ties go to the first."""
+
+    TIP_DOWNHILL = 0
+    """Turns over about the lowest contact (the paper's falling backward, nose up the stairs)."""
+    TIP_UPHILL = 1
+    """Turns over about the highest contact (the paper's falling forward)."""
+    SLIP_UP = 2
+    """Friction cannot give the traction up the stairs: the robot slides down (Eq. 4)."""
+    SLIP_DOWN = 3
+    """Friction cannot give the braking force down the stairs: the robot slides on upward."""
+
+
+class Margins(NamedTuple):
+    """Margins of slope of every failure mode [rad], positive when safe."""
+
+    theta_s_sup: Number
+    """Steepest slope for this acceleration, without allowances."""
+    theta_s_inf: Number
+    """Gentlest slope for this acceleration, without allowances; negative: no such limit."""
+    tip_downhill: Number
+    """theta_s_sup - theta_d - theta_M - theta_s."""
+    tip_uphill: Number
+    """theta_s - theta_s_inf - theta_d."""
+    slip_up: Number
+    """Slope at which friction is used up, minus theta_s; NaN where friction is unknown."""
+    slip_down: Number
+    """theta_s minus the slope below which braking slips; NaN where friction is unknown."""
+    worst: Number
+    """The smallest of the four, leaving out what is unknown."""
+    governs: Number
+    """`Mode` of the smallest."""
+
+
+class AccelerationBounds(NamedTuple):
+    """Bounds of the acceleration up the stairs [m/s^2], without allowances."""
+
+    slip_up: Number
+    slip_down: Number
+    tip_downhill: Number
+    tip_uphill: Number
+    a_max: Number
+    """The smaller upper bound (Eq. 17)."""
+    a_min: Number
+    """The larger lower bound (Eq. 18 with downhill slip)."""
+
+
+def margins(
+    *,
+    L: Number,
+    C_L: Number,
+    C_N: Number,
+    theta_s: Number,
+    p: Number,
+    mu_s: Number,
+    a: Number = 0.0,
+    theta_d: Number = 0.0,
+    theta_M: Number = 0.0,
+    g: Number = STANDARD_GRAVITY,
+) -> Margins:
+    """Margins of slope of every failure mode, the smallest of them and which it is.
+
+    Assumptions: regular nosings, p <= L / 2, constant acceleration. theta_d is taken off both
+    tip limits, because the contact that carries most yields at either end; theta_M only off the
+    downhill one, where the grousers of the lowest contact act.
+
+    Parameters
+    ----------
+    L : float or array
+        Length of the flat underside [m].
+    C_L, C_N : float or array
+        Centroid behind the uphill tip and above the underside [m].
+    theta_s : float or array
+        Slope of the line through the nosings [rad].
+    p : float or array
+        Nosing spacing [m].
+    mu_s : float or array
+        Static friction [1]; NaN for unknown.
+    a : float or array
+        Acceleration up the stairs [m/s^2].
+    theta_d, theta_M : float or array
+        Allowances of Eq. (24) [rad].
+    g : float
+        Gravity [m/s^2].
+
+    Returns
+    -------
+    Margins
+        NaN throughout where p > L / 2, where the model says nothing.
+
+    Examples
+    --------
+    >>> m = margins(L=0.470, C_L=0.196, C_N=0.071, theta_s=np.radians(50.0), p=0.150, mu_s=2.0)
+    >>> print(round(np.degrees(m.worst), 3), Mode(int(m.governs)).name)
+    10.205 TIP_DOWNHILL
+
+    References
+    ----------
+    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eqs. (4), (7), (12), (24); the uphill
+    limit, downhill slip and theta_d at the uphill end derived.
+    """
+    inside = np.where(2.0 * p <= L, 1.0, np.nan)
+    sup = inside * theta_s_sup(L=L, p=p, C_L=C_L, C_N=C_N, a=a, g=g)
+    inf = inside * theta_s_inf(p=p, C_L=C_L, C_N=C_N, a=a, g=g)
+    tip_downhill = sup - theta_d - theta_M - theta_s
+    tip_uphill = theta_s - inf - theta_d
+    slip_up = inside * (slope_limit(grip=mu_s, a=a, g=g) - theta_s)
+    slip_down = inside * (theta_s - slope_limit(grip=-mu_s, a=a, g=g))
+    tip = np.minimum(tip_downhill, tip_uphill)
+    slip = np.minimum(slip_up, slip_down)
+    worst = np.fmin(tip, slip)
+    governs = np.where(
+        slip < tip,
+        np.where(slip_up <= slip_down, Mode.SLIP_UP, Mode.SLIP_DOWN),
+        np.where(tip_downhill <= tip_uphill, Mode.TIP_DOWNHILL, Mode.TIP_UPHILL),
+    )
+    return Margins(sup, inf, tip_downhill, tip_uphill, slip_up, slip_down, worst, governs)
+
+
+def acceleration_bounds(
+    *,
+    L: Number,
+    C_L: Number,
+    C_N: Number,
+    theta_s: Number,
+    p: Number,
+    mu_s: Number,
+    g: Number = STANDARD_GRAVITY,
+) -> AccelerationBounds:
+    """Bounds of the acceleration by every failure mode, over a whole regular flight.
+
+    Parameters
+    ----------
+    L : float or array
+        Length of the flat underside [m].
+    C_L, C_N : float or array
+        Centroid behind the uphill tip and above the underside [m].
+    theta_s : float or array
+        Slope of the line through the nosings [rad].
+    p : float or array
+        Nosing spacing [m].
+    mu_s : float or array
+        Static friction [1]; NaN for unknown.
+    g : float
+        Gravity [m/s^2].
+
+    Returns
+    -------
+    AccelerationBounds
+        NaN throughout where p > L / 2; slip bounds NaN, and left out of a_max and a_min, where
+        friction is unknown. The band is empty where a_min >= a_max.
+
+    Examples
+    --------
+    >>> b = acceleration_bounds(L=0.5, C_L=0.2, C_N=0.1, theta_s=0.0, p=0.1, mu_s=0.5, g=10.0)
+    >>> print(round(b.a_max, 9), round(b.a_min, 9), round(b.tip_downhill, 9))
+    5.0 -5.0 20.0
+
+    References
+    ----------
+    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eqs. (14)-(18); downhill slip derived.
+    """
+    inside = np.where(2.0 * p <= L, 1.0, np.nan)
+    slip_up = inside * slip_acceleration_up(mu_s=mu_s, theta_s=theta_s, g=g)
+    slip_down = inside * slip_acceleration_down(mu_s=mu_s, theta_s=theta_s, g=g)
+    tip_downhill = inside * min_a_r0(L=L, p=p, theta_s=theta_s, C_L=C_L, C_N=C_N, g=g)
+    tip_uphill = inside * max_a_rn(p=p, theta_s=theta_s, C_L=C_L, C_N=C_N, g=g)
+    return AccelerationBounds(
+        slip_up,
+        slip_down,
+        tip_downhill,
+        tip_uphill,
+        a_max(a_S=slip_up, min_a_r0=tip_downhill),
+        a_min_with_slip(a_slip_down=slip_down, max_a_rn=tip_uphill),
+    )

@@ -1,0 +1,410 @@
+"""Falling backward and forward: Eqs. (5)-(7), (11), (12), (15)-(18) of Endo & Nagatani 2016.
+
+The paper's robot looks up the stairs, so that it falls backward over its tail and forward over
+its nose. The functions are named by what the limit does, tipping over the downhill or the uphill
+end, and hold for a robot that looks down the stairs with ``L - C_L`` written for ``C_L``.
+"""
+
+import numpy as np
+
+from kaidan.mechanics import STANDARD_GRAVITY, Number
+
+
+def moment_about_lowest(
+    *,
+    M: Number,
+    a: Number,
+    alpha: Number,
+    theta_alpha: Number,
+    theta_s: Number,
+    g: Number = STANDARD_GRAVITY,
+) -> Number:
+    """Moment of weight and inertia about the lowest contact that turns the robot over downhill.
+
+    ``M a alpha sin(theta_alpha) - M g alpha cos(theta_s + theta_alpha)``
+
+    In equilibrium the normal forces of the other contacts, ``sum k p f_kN``, balance its
+    negative; where it is positive no unilateral contact can, and the robot turns about t_0.
+
+    Parameters
+    ----------
+    M : float or array
+        Mass [kg].
+    a : float or array
+        Acceleration up the stairs [m/s^2].
+    alpha : float or array
+        Distance t_0 to centroid [m].
+    theta_alpha : float or array
+        Angle t_n t_0 C [rad].
+    theta_s : float or array
+        Slope of the line through the nosings [rad].
+    g : float
+        Gravity [m/s^2].
+
+    Returns
+    -------
+    float or array
+        Moment [N m], positive when it tips the robot over its downhill end.
+
+    Examples
+    --------
+    >>> print(moment_about_lowest(M=1.0, a=0.0, alpha=2.0, theta_alpha=0.0, theta_s=0.0, g=10.0))
+    -20.0
+
+    References
+    ----------
+    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eqs. (5) and (6).
+    """
+    return M * a * alpha * np.sin(theta_alpha) - M * g * alpha * np.cos(theta_s + theta_alpha)
+
+
+def moment_about_highest(
+    *,
+    M: Number,
+    a: Number,
+    beta: Number,
+    theta_beta: Number,
+    theta_s: Number,
+    g: Number = STANDARD_GRAVITY,
+) -> Number:
+    """Moment of weight and inertia about the highest contact that turns the robot over uphill.
+
+    ``-M a beta sin(theta_beta) - M g beta cos(theta_beta - theta_s)``
+
+    Parameters
+    ----------
+    M : float or array
+        Mass [kg].
+    a : float or array
+        Acceleration up the stairs [m/s^2].
+    beta : float or array
+        Distance t_n to centroid [m].
+    theta_beta : float or array
+        Angle t_0 t_n C [rad].
+    theta_s : float or array
+        Slope of the line through the nosings [rad].
+    g : float
+        Gravity [m/s^2].
+
+    Returns
+    -------
+    float or array
+        Moment [N m], positive when it tips the robot over its uphill end.
+
+    Examples
+    --------
+    >>> print(moment_about_highest(M=1.0, a=0.0, beta=2.0, theta_beta=0.0, theta_s=0.0, g=10.0))
+    -20.0
+
+    References
+    ----------
+    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eq. (11).
+    """
+    return -M * a * beta * np.sin(theta_beta) - M * g * beta * np.cos(theta_beta - theta_s)
+
+
+def tip_acceleration_downhill(
+    *, theta_alpha: Number, theta_s: Number, g: Number = STANDARD_GRAVITY
+) -> Number:
+    """Acceleration a_r0 above which the robot turns over about the lowest contact.
+
+    ``a_r0 = (cos(theta_s) / tan(theta_alpha) - sin(theta_s)) g``; safe up to and including it.
+
+    Parameters
+    ----------
+    theta_alpha : float or array
+        Angle t_n t_0 C [rad], see `kaidan.mechanics.triangle.theta_alpha`.
+    theta_s : float or array
+        Slope of the line through the nosings [rad].
+    g : float
+        Gravity [m/s^2].
+
+    Returns
+    -------
+    float or array
+        a_r0 [m/s^2], up the stairs positive.
+
+    Examples
+    --------
+    >>> print(round(tip_acceleration_downhill(theta_alpha=np.pi / 4, theta_s=0.0, g=10.0), 9))
+    10.0
+
+    References
+    ----------
+    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eqs. (7) and (15).
+    """
+    return (np.cos(theta_s) / np.tan(theta_alpha) - np.sin(theta_s)) * g
+
+
+def tip_acceleration_uphill(
+    *, theta_beta: Number, theta_s: Number, g: Number = STANDARD_GRAVITY
+) -> Number:
+    """Acceleration a_rn (usually negative) below which the robot turns over the highest contact.
+
+    ``a_rn = -(cos(theta_s) / tan(theta_beta) + sin(theta_s)) g``; safe down to and including it.
+
+    Parameters
+    ----------
+    theta_beta : float or array
+        Angle t_0 t_n C [rad], see `kaidan.mechanics.triangle.theta_beta`.
+    theta_s : float or array
+        Slope of the line through the nosings [rad].
+    g : float
+        Gravity [m/s^2].
+
+    Returns
+    -------
+    float or array
+        a_rn [m/s^2], up the stairs positive.
+
+    Examples
+    --------
+    >>> print(round(tip_acceleration_uphill(theta_beta=np.pi / 4, theta_s=0.0, g=10.0), 9))
+    -10.0
+
+    References
+    ----------
+    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eqs. (12) and (16).
+
+    Errata: Eq. (12) writes theta_B for theta_beta.
+    """
+    return -(np.cos(theta_s) / np.tan(theta_beta) + np.sin(theta_s)) * g
+
+
+def a_r0(
+    *, s: Number, theta_s: Number, C_L: Number, C_N: Number, g: Number = STANDARD_GRAVITY
+) -> Number:
+    """Acceleration a_r0 with the lowest contact ``s`` behind the uphill tip.
+
+    ``a_r0 = g [((s - C_L) / C_N) cos(theta_s) - sin(theta_s)]``, s = d + k p.
+
+    Parameters
+    ----------
+    s : float or array
+        Lowest contact behind the uphill tip of the flat [m], see
+        `kaidan.mechanics.plane.lowest_contact`.
+    theta_s : float or array
+        Slope of the line through the nosings [rad].
+    C_L, C_N : float or array
+        Centroid behind the uphill tip and above the underside [m].
+    g : float
+        Gravity [m/s^2].
+
+    Returns
+    -------
+    float or array
+        a_r0 [m/s^2], up the stairs positive.
+
+    Examples
+    --------
+    >>> print(round(a_r0(s=0.4, theta_s=0.0, C_L=0.2, C_N=0.1, g=10.0), 9))
+    20.0
+
+    References
+    ----------
+    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eq. (15) with Eq. (8) in closed form.
+    """
+    return g * ((s - C_L) / C_N * np.cos(theta_s) - np.sin(theta_s))
+
+
+def a_rn(
+    *, d: Number, theta_s: Number, C_L: Number, C_N: Number, g: Number = STANDARD_GRAVITY
+) -> Number:
+    """Acceleration a_rn with the highest contact ``d`` behind the uphill tip.
+
+    ``a_rn = -g [((C_L - d) / C_N) cos(theta_s) + sin(theta_s)]``
+
+    Parameters
+    ----------
+    d : float or array
+        Progress: highest contact behind the uphill tip of the flat [m].
+    theta_s : float or array
+        Slope of the line through the nosings [rad].
+    C_L, C_N : float or array
+        Centroid behind the uphill tip and above the underside [m].
+    g : float
+        Gravity [m/s^2].
+
+    Returns
+    -------
+    float or array
+        a_rn [m/s^2], up the stairs positive.
+
+    Examples
+    --------
+    >>> print(round(a_rn(d=0.1, theta_s=0.0, C_L=0.2, C_N=0.1, g=10.0), 9))
+    -10.0
+
+    References
+    ----------
+    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eq. (16) with Eq. (13) in closed form.
+    """
+    return -g * ((C_L - d) / C_N * np.cos(theta_s) + np.sin(theta_s))
+
+
+def min_a_r0(
+    *,
+    L: Number,
+    p: Number,
+    theta_s: Number,
+    C_L: Number,
+    C_N: Number,
+    g: Number = STANDARD_GRAVITY,
+) -> Number:
+    """Minimum of a_r0 over the progress, reached just after the lowest contact has left.
+
+    ``min a_r0 = g [((L - p - C_L) / C_N) cos(theta_s) - sin(theta_s)]``
+
+    The new lowest contact then lies L - p behind the uphill tip, whatever n is.
+
+    Assumptions: regular nosings, p <= L / 2 (two contacts remain).
+
+    Parameters
+    ----------
+    L : float or array
+        Length of the flat underside [m].
+    p : float or array
+        Nosing spacing [m].
+    theta_s : float or array
+        Slope of the line through the nosings [rad].
+    C_L, C_N : float or array
+        Centroid behind the uphill tip and above the underside [m].
+    g : float
+        Gravity [m/s^2].
+
+    Returns
+    -------
+    float or array
+        Minimum [m/s^2], attained.
+
+    Examples
+    --------
+    >>> print(round(min_a_r0(L=0.5, p=0.1, theta_s=0.0, C_L=0.2, C_N=0.1, g=10.0), 9))
+    20.0
+
+    References
+    ----------
+    Derived from Eqs. (8)-(10), (15) of Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y.
+    """
+    return a_r0(s=L - p, theta_s=theta_s, C_L=C_L, C_N=C_N, g=g)
+
+
+def max_a_rn(
+    *, p: Number, theta_s: Number, C_L: Number, C_N: Number, g: Number = STANDARD_GRAVITY
+) -> Number:
+    """Supremum of a_rn over the progress, approached just before the next nosing is met.
+
+    ``max a_rn = -g [((C_L - p) / C_N) cos(theta_s) + sin(theta_s)]``
+
+    Assumptions: regular nosings, p <= L / 2.
+
+    Parameters
+    ----------
+    p : float or array
+        Nosing spacing [m].
+    theta_s : float or array
+        Slope of the line through the nosings [rad].
+    C_L, C_N : float or array
+        Centroid behind the uphill tip and above the underside [m].
+    g : float
+        Gravity [m/s^2].
+
+    Returns
+    -------
+    float or array
+        Supremum [m/s^2], approached as d -> p but not attained.
+
+    Examples
+    --------
+    >>> print(round(max_a_rn(p=0.1, theta_s=0.0, C_L=0.2, C_N=0.1, g=10.0), 9))
+    -10.0
+
+    References
+    ----------
+    Derived from Eqs. (13), (16) of Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y.
+    """
+    return a_rn(d=p, theta_s=theta_s, C_L=C_L, C_N=C_N, g=g)
+
+
+def a_max(*, a_S: Number, min_a_r0: Number) -> Number:
+    """Upper end of the paper's stable band of acceleration.
+
+    ``a_max = min(a_S, min(a_r0))``
+
+    Parameters
+    ----------
+    a_S, min_a_r0 : float or array
+        Slip limit and smallest downhill tip limit [m/s^2].
+
+    Returns
+    -------
+    float or array
+        a_max [m/s^2]; the stable band lies strictly below. An unknown (NaN) a_S is left out.
+
+    Examples
+    --------
+    >>> print(a_max(a_S=2.0, min_a_r0=3.0))
+    2.0
+
+    References
+    ----------
+    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eq. (17).
+    """
+    return np.fmin(a_S, min_a_r0)
+
+
+def a_min(*, max_a_rn: Number) -> Number:
+    """Lower end of the paper's stable band of acceleration.
+
+    ``a_min = max(a_rn)``
+
+    Parameters
+    ----------
+    max_a_rn : float or array
+        Largest uphill tip limit [m/s^2].
+
+    Returns
+    -------
+    float or array
+        a_min [m/s^2]; the stable band lies strictly above.
+
+    Examples
+    --------
+    >>> print(a_min(max_a_rn=-3.0))
+    -3.0
+
+    References
+    ----------
+    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eq. (18).
+
+    Errata: the band forgets that the tracks can also slip down; `a_min_with_slip` does not.
+    """
+    return max_a_rn
+
+
+def a_min_with_slip(*, a_slip_down: Number, max_a_rn: Number) -> Number:
+    """Lower end of the stable band of acceleration with downhill slip in it.
+
+    ``max(max(a_rn), a_slip_down)``
+
+    Parameters
+    ----------
+    a_slip_down, max_a_rn : float or array
+        Downhill slip limit and largest uphill tip limit [m/s^2].
+
+    Returns
+    -------
+    float or array
+        Lower end [m/s^2]. An unknown (NaN) a_slip_down is left out.
+
+    Examples
+    --------
+    >>> print(a_min_with_slip(a_slip_down=-8.0, max_a_rn=-9.0))
+    -8.0
+
+    References
+    ----------
+    Derived: Eq. (18) of Endo & Nagatani 2016 (doi:10.1186/s40648-016-0058-y) with the slip bound
+    it lacks.
+    """
+    return np.fmax(a_slip_down, max_a_rn)
