@@ -1,0 +1,192 @@
+"""The staircase's data sheet: rises, goings, first and last riser, nosings, landings.
+
+::
+
+                                 ______ upper landing
+                        ______ _|  last_rise
+               going   |
+             |<------>_|  rise
+         ____|       |
+             |_______|   . . .  nosing spacing = hypot(rise, going), nosing to nosing
+    _________| first_rise
+    lower landing
+
+``n`` risers have ``n`` nosings, the last one being the edge of the upper landing, and ``n - 1``
+goings between them.
+"""
+
+import math
+from typing import ClassVar, Literal, Self
+
+from pydantic import Field
+
+from kaidan import catalog
+from kaidan.sheet import Sheet, model_validator, quantity
+
+Length = tuple[float, ...]
+
+_RISE = (0.02, 0.6)
+_ODD_RISE = (0.005, 0.6)
+_GOING = (0.02, 2.5)
+
+
+class StairsUncertainty(Sheet):
+    """Standard uncertainties (one sigma) of the flight's figures; zero means taken as exact."""
+
+    label: ClassVar[str] = "stairs: uncertainty"
+
+    angle: float = quantity("rad", 0.0, 0.35, "of the angle", default=0.0)
+    nosing_spacing: float = quantity("m", 0.0, 0.2, "of the nosing spacing", default=0.0)
+
+
+class Stairs(Sheet):
+    """A straight flight of stairs, uniform (rise, going) or measured (rises, goings)."""
+
+    label: ClassVar[str] = "stairs"
+
+    name: str = Field(default="stairs", description="short name, used on the command line")
+    title: str = Field(default="", description="full name")
+    rise: float | None = quantity(
+        "m", *_RISE, "vertical distance between adjacent nosings of a uniform flight", default=None
+    )
+    going: float | None = quantity(
+        "m",
+        *_GOING,
+        "horizontal distance between adjacent nosings of a uniform flight",
+        default=None,
+    )
+    steps: int = Field(
+        default=12,
+        ge=2,
+        le=10_000,
+        description="number of risers of a uniform flight",
+        json_schema_extra={"unit": "risers"},
+    )
+    first_rise: float | None = quantity(
+        "m", *_ODD_RISE, "first riser of a uniform flight, where it differs", default=None
+    )
+    last_rise: float | None = quantity(
+        "m", *_ODD_RISE, "last riser of a uniform flight, where it differs", default=None
+    )
+    rises: Length | None = Field(
+        default=None,
+        min_length=2,
+        max_length=10_000,
+        description="measured risers from bottom to top [m], instead of rise",
+    )
+    goings: Length | None = Field(
+        default=None,
+        min_length=1,
+        max_length=10_000,
+        description="measured goings from bottom to top [m], one fewer than the risers",
+    )
+    nosing_overhang: float = quantity(
+        "m", 0.0, 0.1, "overhang of the nosing over the tread below", default=0.0
+    )
+    open_risers: bool = Field(default=False, description="whether there is no riser board")
+    lower_landing: float = quantity("m", 0.0, 100.0, "length of the lower landing", default=2.0)
+    upper_landing: float = quantity("m", 0.0, 100.0, "length of the upper landing", default=2.0)
+    direction: Literal["up", "down"] = Field(default="up", description="which way the robot goes")
+    uncertainty: StairsUncertainty = Field(
+        default=StairsUncertainty(), description="standard uncertainties"
+    )
+    sources: dict[str, str] = Field(
+        default={}, description="where each figure comes from, with its status letter"
+    )
+    notes: str = Field(default="", description="what the user should know")
+
+    @model_validator(mode="after")
+    def _uniform_or_measured(self) -> Self:
+        uniform = (self.rise, self.going)
+        measured = (self.rises, self.goings)
+        if None in uniform and None in measured:
+            raise self.refuse("give rise and going, or the measured lists rises and goings")
+        if uniform != (None, None) and measured != (None, None):
+            raise self.refuse("give either rise and going or rises and goings, not both")
+        if self.rises is not None and self.goings is not None:
+            if len(self.goings) != len(self.rises) - 1:
+                raise self.refuse(
+                    f"{len(self.rises)} rises need {len(self.rises) - 1} goings, "
+                    f"not {len(self.goings)}"
+                )
+            if self.first_rise is not None or self.last_rise is not None:
+                raise self.refuse("first_rise and last_rise stand in the list rises already")
+            for field, values, (low, high) in (
+                ("rises", self.rises, _ODD_RISE),
+                ("goings", self.goings, _GOING),
+            ):
+                for index, value in enumerate(values):
+                    if not low <= value <= high:
+                        raise self.refuse(
+                            f"{field}[{index}] = {value:g} m is not within {low:g} to {high:g} m"
+                        )
+        if self.nosing_overhang >= min(self.step_goings):
+            raise self.refuse(
+                f"nosing_overhang = {self.nosing_overhang:g} m is not less than the going "
+                f"{min(self.step_goings):g} m"
+            )
+        return self
+
+    @classmethod
+    def named(cls, name: str) -> Self:
+        """Stairs of the catalogue, or of a TOML file.
+
+        Raises
+        ------
+        UnknownNameError, InputError
+            Neither, or a bad file.
+        """
+        return catalog.load("stairs", name, cls.from_text)
+
+    @classmethod
+    def inclined(cls, *, angle: float, nosing_spacing: float, steps: int = 12) -> Self:
+        """Uniform flight from its angle [rad] and nosing spacing [m]."""
+        return cls(
+            name=f"{math.degrees(angle):g} deg at {nosing_spacing * 1e3:g} mm",
+            rise=nosing_spacing * math.sin(angle),
+            going=nosing_spacing * math.cos(angle),
+            steps=steps,
+        )
+
+    @property
+    def step_rises(self) -> Length:
+        """All risers from bottom to top [m]."""
+        if self.rises is not None:
+            return self.rises
+        assert self.rise is not None
+        first = self.rise if self.first_rise is None else self.first_rise
+        last = self.rise if self.last_rise is None else self.last_rise
+        return (first, *(self.rise,) * (self.steps - 2), last)
+
+    @property
+    def step_goings(self) -> Length:
+        """All goings from bottom to top [m]."""
+        if self.goings is not None:
+            return self.goings
+        assert self.going is not None
+        return (self.going,) * (self.steps - 1)
+
+    @property
+    def distinct_steps(self) -> tuple[tuple[float, float], ...]:
+        """Different pairs (rise, going) [m] from nosing to nosing, in order of first occurrence.
+
+        The first riser, from the landing to the first nosing, is not among them.
+        """
+        return tuple(dict.fromkeys(zip(self.step_rises[1:], self.step_goings, strict=True)))
+
+    @property
+    def angle(self) -> float:
+        """Slope of the line from the first to the last nosing [rad]."""
+        return math.atan2(sum(self.step_rises[1:]), sum(self.step_goings))
+
+    @property
+    def nosing_spacing(self) -> float:
+        """Mean distance from nosing to nosing along that line [m]."""
+        gaps = len(self.step_goings)
+        return math.hypot(sum(self.step_rises[1:]), sum(self.step_goings)) / gaps
+
+    @property
+    def irregularity(self) -> float:
+        """Largest minus smallest riser or going between nosings, the larger of the two [m]."""
+        rises, goings = self.step_rises[1:], self.step_goings
+        return max(max(rises) - min(rises), max(goings) - min(goings))
