@@ -99,7 +99,7 @@ def best_inclination(*, l_c: Number, C_N: Number, R: Number) -> Number:
     """
     P = 2.0 - R / C_N
     Q = l_c / C_N
-    q = np.maximum(P, np.finfo(float).tiny)
+    q = np.maximum(P, 1e-100)  # keeps the powers of P finite where there is no answer
     t = 2.0 * np.sqrt(q / 3.0) * np.sinh(np.arcsinh(1.5 * Q / q * np.sqrt(3.0 / q)) / 3.0)
     return validity(holds=(P > 0.0) & (t <= Q)) * np.arctan(t)
 

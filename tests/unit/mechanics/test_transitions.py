@@ -1,0 +1,155 @@
+import numpy as np
+import pytest
+from scipy.optimize import brentq, linprog, minimize_scalar
+
+from kaidan.mechanics.transitions import (
+    best_inclination,
+    crest_energy,
+    crest_progress,
+    entry_catch_margin,
+    entry_energy,
+    entry_progress,
+    largest_step_height,
+    riser_start_friction,
+    step_height,
+)
+
+ROBOTS = [  # l_c, C_N, R
+    (0.274, 0.071, 0.060),  # Kenaf's centroid with an end radius of ours
+    (0.3, 0.1, 0.1),
+    (0.2, 0.15, 0.0),
+    (0.5, 0.08, 0.12),  # R > C_N and yet on the flat
+]
+
+
+def edge_under_the_centroid(theta, l_c, C_N, R):
+    """Height of the point of the flat plumb under the centroid, from coordinates."""
+    forward = np.array([np.cos(theta), np.sin(theta)])
+    normal = np.array([-np.sin(theta), np.cos(theta)])
+    rear_tip = np.array([0.0, R]) - R * normal
+    com = rear_tip + l_c * forward + C_N * normal
+    s = (com[0] - rear_tip[0]) / forward[0]
+    return (rear_tip + s * forward)[1]
+
+
+@pytest.mark.parametrize(("l_c", "C_N", "R"), ROBOTS)
+@pytest.mark.parametrize("theta", [0.0, 0.2, 0.7])
+def test_step_height_by_coordinates(theta, l_c, C_N, R):
+    # oracle
+    height = step_height(theta=theta, l_c=l_c, C_N=C_N, R=R)
+    assert height == pytest.approx(edge_under_the_centroid(theta, l_c, C_N, R), abs=1e-14)
+
+
+def test_step_height_ends_where_the_plumb_line_leaves_the_flat():
+    # limit: C_N tan(theta) = l_c, where only the tail's own height is left
+    theta = np.arctan(2.0)
+    inside = step_height(theta=theta - 1e-9, l_c=0.2, C_N=0.1, R=0.05)
+    assert inside == pytest.approx(0.05 * (1.0 - np.cos(theta)), abs=1e-8)
+    assert np.isnan(step_height(theta=theta + 1e-9, l_c=0.2, C_N=0.1, R=0.05))
+    assert step_height(theta=0.0, l_c=0.0, C_N=0.1, R=0.05) == 0.0  # equality is still on it
+
+
+@pytest.mark.parametrize(("l_c", "C_N", "R"), ROBOTS)
+def test_best_inclination_maximises_the_step(l_c, C_N, R):
+    # oracle: bounded numerical maximum; flat top, so the angle is good to sqrt(1e-16) only
+    found = minimize_scalar(
+        lambda theta: -edge_under_the_centroid(theta, l_c, C_N, R),
+        bounds=(0.0, np.pi / 2 - 1e-3),
+        method="bounded",
+        options={"xatol": 1e-10},
+    )
+    assert best_inclination(l_c=l_c, C_N=C_N, R=R) == pytest.approx(found.x, abs=1e-6)
+    assert largest_step_height(l_c=l_c, C_N=C_N, R=R) == pytest.approx(-found.fun, abs=1e-14)
+
+
+def test_best_inclination_solves_the_cubic():
+    # hand: t = 1 for C_N = R, l_c = 2 R; t = 1 for R = 0, l_c = 3 C_N
+    assert best_inclination(l_c=0.2, C_N=0.1, R=0.1) == pytest.approx(np.pi / 4, abs=1e-15)
+    assert best_inclination(l_c=0.3, C_N=0.1, R=0.0) == pytest.approx(np.pi / 4, abs=1e-15)
+
+
+def test_best_inclination_where_the_edge_would_meet_the_rear_end():
+    # hand: R = 1.5 C_N gives t^3 + t/2 = Q; t = Q at Q^2 = 1/2
+    limit = np.sqrt(0.5) * 0.1
+    assert np.isnan(best_inclination(l_c=limit * (1.0 - 1e-9), C_N=0.1, R=0.15))
+    found = best_inclination(l_c=limit * (1.0 + 1e-9), C_N=0.1, R=0.15)
+    assert np.tan(found) == pytest.approx(np.sqrt(0.5), abs=1e-8)
+
+
+def test_best_inclination_without_a_closed_form_is_nan():
+    # R = 2 C_N and beyond; no warning on the way
+    assert np.isnan(best_inclination(l_c=0.3, C_N=0.1, R=0.2))
+    assert np.isnan(largest_step_height(l_c=0.3, C_N=0.1, R=0.25))
+
+
+def test_large_step_of_a_flat_robot():
+    # limit: C_N -> 0 is a plank, which balances at any inclination: the step tends to l_c
+    assert largest_step_height(l_c=1.0, C_N=1e-9, R=0.0) == pytest.approx(1.0, abs=1e-5)
+
+
+def lifting_moment(mu, l_c, C_L, R):
+    """Largest moment about the rear tip, over the weight, that the contacts can raise the nose by.
+
+    Linear programme over floor normal and traction at the rear tip, riser normal and friction.
+    """
+    L = l_c + C_L
+    result = linprog(
+        c=[0.0, 0.0, -R, -(L + R)],
+        A_eq=[[0.0, 1.0, -1.0, 0.0], [1.0, 0.0, 0.0, 1.0]],
+        b_eq=[0.0, 1.0],
+        A_ub=[[-mu, 1.0, 0.0, 0.0], [0.0, 0.0, -mu, 1.0]],
+        b_ub=[0.0, 0.0],
+        bounds=[(0.0, None)] * 4,
+    )
+    return -result.fun - l_c
+
+
+@pytest.mark.parametrize(("l_c", "C_L", "R"), [(0.274, 0.196, 0.06), (0.2, 0.4, 0.1)])
+def test_riser_start_friction_by_linear_programme(l_c, C_L, R):
+    # oracle: the friction at which the largest lifting moment is zero; HiGHS is good to 1e-9
+    mu = brentq(lifting_moment, 0.05, 1.5, args=(l_c, C_L, R), xtol=1e-12)
+    assert riser_start_friction(l_c=l_c, C_L=C_L, R=R) == pytest.approx(mu, abs=1e-8)
+
+
+def test_riser_start_friction_by_hand():
+    # hand: R = 0: mu^2 = l_c / C_L; l_c = C_L + 2 R: mu = 1
+    assert riser_start_friction(l_c=0.09, C_L=0.25, R=0.0) == pytest.approx(0.6, abs=1e-15)
+    assert riser_start_friction(l_c=0.4, C_L=0.2, R=0.1) == pytest.approx(1.0, abs=1e-15)
+
+
+def test_crest_progress():
+    # hand: 45 degrees; braking by g sin(theta) takes the slope away
+    pose = {"C_L": 0.2, "C_N": 0.1, "theta_s": np.pi / 4}
+    assert crest_progress(**pose, a=0.0) == pytest.approx(0.3, abs=1e-15)
+    assert crest_progress(**pose, a=-10.0 * np.sqrt(0.5), g=10.0) == pytest.approx(0.2, abs=1e-15)
+    assert crest_progress(C_L=0.2, C_N=0.1, theta_s=0.0, a=9.80665) == pytest.approx(0.3, abs=1e-15)
+
+
+def test_crest_energy_is_the_fall_of_the_centroid():
+    # oracle: centroid turned about the edge from the balanced pose to the level one
+    theta, C_N, M, g = 0.7, 0.08, 15.0, 9.8
+    along = C_N * np.tan(theta)  # the foot of the centroid, up the slope from the edge
+    com_balanced = along * np.sin(theta) + C_N * np.cos(theta)
+    assert crest_energy(M=M, C_N=C_N, theta_s=theta, g=g) == pytest.approx(
+        M * g * (com_balanced - C_N), abs=1e-12
+    )
+    assert crest_energy(M=1.0, C_N=1.0, theta_s=np.pi / 3) == pytest.approx(9.80665, abs=1e-12)
+
+
+def test_entry_progress():
+    # hand: braking by g moves the zero moment point C_N towards the leading tip
+    assert entry_progress(C_L=0.2, C_N=0.1, a=0.0) == pytest.approx(0.2, abs=1e-15)
+    assert entry_progress(C_L=0.2, C_N=0.1, a=9.80665) == pytest.approx(0.1, abs=1e-15)
+    assert entry_progress(C_L=0.2, C_N=0.1, a=-5.0, g=10.0) == pytest.approx(0.25, abs=1e-15)
+
+
+def test_entry_energy_is_the_fall_of_the_centroid():
+    # hand: C_N (1 - cos 60) = C_N / 2
+    assert entry_energy(M=4.0, C_N=0.1, theta_s=np.pi / 3, g=10.0) == pytest.approx(2.0, abs=1e-12)
+    assert entry_energy(M=1.0, C_N=2.0, theta_s=np.pi / 3) == pytest.approx(9.80665, abs=1e-12)
+
+
+def test_entry_catch_margin():
+    # hand: Kenaf catches the next nosing at 180 mm, not at 200 mm
+    assert entry_catch_margin(C_L=0.196, p=0.18) == pytest.approx(0.016, abs=1e-15)
+    assert entry_catch_margin(C_L=0.196, p=0.2) == pytest.approx(-0.004, abs=1e-15)
