@@ -167,26 +167,31 @@ class Stairs(Sheet):
         return (self.going,) * (self.steps - 1)
 
     @property
-    def distinct_steps(self) -> tuple[tuple[float, float], ...]:
-        """Different pairs (rise, going) [m] from nosing to nosing, in order of first occurrence.
+    def regular_steps(self) -> tuple[tuple[float, float], ...]:
+        """Pairs (rise, going) [m] from nosing to nosing while the robot traverses.
 
-        The first riser, from the landing to the first nosing, is not among them.
+        The first riser belongs to entering and the last one to landing, so neither is among them
+        (but in a measured flight of three risers or fewer the last one is).
         """
-        return tuple(dict.fromkeys(zip(self.step_rises[1:], self.step_goings, strict=True)))
+        if self.rise is not None and self.going is not None:
+            return ((self.rise, self.going),) * max(1, self.steps - 2)
+        pairs = tuple(zip(self.step_rises[1:], self.step_goings, strict=True))
+        return pairs[:-1] if len(pairs) > 2 else pairs
 
     @property
     def angle(self) -> float:
-        """Slope of the line from the first to the last nosing [rad]."""
-        return math.atan2(sum(self.step_rises[1:]), sum(self.step_goings))
+        """Slope of the line through the nosings of the regular steps [rad]."""
+        return math.atan2(*map(sum, zip(*self.regular_steps, strict=True)))
 
     @property
     def nosing_spacing(self) -> float:
         """Mean distance from nosing to nosing along that line [m]."""
-        gaps = len(self.step_goings)
-        return math.hypot(sum(self.step_rises[1:]), sum(self.step_goings)) / gaps
+        return math.hypot(*map(sum, zip(*self.regular_steps, strict=True))) / len(
+            self.regular_steps
+        )
 
     @property
     def irregularity(self) -> float:
-        """Largest minus smallest riser or going between nosings, the larger of the two [m]."""
-        rises, goings = self.step_rises[1:], self.step_goings
-        return max(max(rises) - min(rises), max(goings) - min(goings))
+        """Largest minus smallest rise or going of the regular steps, the larger of the two [m]."""
+        rises, goings = zip(*self.regular_steps, strict=True)
+        return float(max(max(rises) - min(rises), max(goings) - min(goings)))

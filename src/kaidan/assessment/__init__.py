@@ -1,0 +1,186 @@
+"""One robot, one staircase: verdict, margins, what governs, what to do."""
+
+from collections.abc import Iterable
+from typing import Any, Literal
+
+from kaidan.assessment.allowance import Allowance as Allowance
+from kaidan.assessment.answer import Assessment as Assessment
+from kaidan.assessment.case import Case, Direction, Facing
+from kaidan.errors import InputError
+from kaidan.robot import Payload, Posture, Robot
+from kaidan.stairs import Stairs
+from kaidan.surface import Surface
+
+LARGEST_ACCELERATION = 9.8
+"""Beyond it no tracked robot accelerates, and the limits lose their meaning [m/s^2]."""
+
+
+def assess(
+    robot: Robot | str,
+    stairs: Stairs | str,
+    *,
+    surface: Surface | str | None = None,
+    friction: float | None = None,
+    acceleration: float = 0.0,
+    speed: float | None = None,
+    direction: Direction | None = None,
+    facing: Facing = "nose-first",
+    flippers: Posture | Literal["flat", "stowed"] = "stowed",
+    payload: Payload | Iterable[Payload] = (),
+    theta_d: Any = None,
+    theta_M: Any = None,
+    risk: float = 0.01,
+    model: Literal["closed-form"] = "closed-form",
+) -> Assessment:
+    """Whether a tracked robot can take a flight of stairs, and by how much.
+
+    Parameters
+    ----------
+    robot : Robot or str
+        Robot, or its name in the catalogue, or a TOML file.
+    stairs : Stairs or str
+        Stairs, or their name in the catalogue, or a TOML file.
+    surface : Surface or str, optional
+        Surface under the tracks; without one (and without `friction`) no GO is given.
+    friction : float, optional
+        Static friction instead of a surface [1].
+    acceleration : float
+        Acceleration up the stairs, whichever way the robot goes [m/s^2].
+    speed : float, optional
+        Speed [m/s]: for power, and for the energy measure.
+    direction : {"up", "down"}, optional
+        Which way the robot goes; the stairs sheet's without one.
+    facing : {"nose-first", "tail-first"}
+        Which end leads.
+    flippers : Posture or {"flat", "stowed"}
+        Posture of the flippers.
+    payload : Payload or iterable of Payload
+        Masses fixed to the robot.
+    theta_d, theta_M : float, (low, high) or None
+        Measured allowances of Eq. (24) [rad]; None takes 0 to 2.6 degrees each (theta_M is zero
+        when descending).
+    risk : float
+        Probability of failure that the operator accepts, (0, 0.5].
+    model : {"closed-form"}
+        Which model judges.
+
+    Returns
+    -------
+    Assessment
+        A robot that cannot climb is an answer, not an error.
+
+    Raises
+    ------
+    InputError
+        An input without physical meaning; the text names it.
+
+    Examples
+    --------
+    >>> from math import radians
+    >>> answer = assess("kenaf", Stairs.inclined(angle=radians(50), nosing_spacing=0.150),
+    ...                 friction=2.0)
+    >>> answer.verdict, round(answer.margin_angle_deg, 3), round(answer.margin_deg, 2)
+    ('go', 60.205, 5.01)
+
+    References
+    ----------
+    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y.
+    """
+    from kaidan.assessment.closed_form import judge
+    from kaidan.assessment.wording import put_into_words
+
+    case = case_of(
+        robot,
+        stairs,
+        surface=surface,
+        friction=friction,
+        acceleration=acceleration,
+        speed=speed,
+        direction=direction,
+        facing=facing,
+        flippers=flippers,
+        payload=payload,
+        theta_d=theta_d,
+        theta_M=theta_M,
+        risk=risk,
+    )
+    if model != "closed-form":
+        raise InputError(f"model = {model!r} is not known; known: closed-form")
+    return put_into_words(case, judge(case))
+
+
+def case_of(
+    robot: Robot | str,
+    stairs: Stairs | str,
+    *,
+    surface: Surface | str | None = None,
+    friction: float | None = None,
+    acceleration: float = 0.0,
+    speed: float | None = None,
+    direction: Direction | None = None,
+    facing: Facing = "nose-first",
+    flippers: Posture | Literal["flat", "stowed"] = "stowed",
+    payload: Payload | Iterable[Payload] = (),
+    theta_d: Any = None,
+    theta_M: Any = None,
+    risk: float = 0.01,
+) -> Case:
+    """Case of the same arguments as `assess`: names resolved, everything checked."""
+    robot = Robot.named(robot) if isinstance(robot, str) else robot
+    stairs = Stairs.named(stairs) if isinstance(stairs, str) else stairs
+    if surface is not None and friction is not None:
+        raise InputError("give either a surface or a friction, not both")
+    if friction is not None:
+        surface = Surface.of_friction(friction)
+    elif isinstance(surface, str):
+        surface = Surface.named(surface)
+    direction = direction or stairs.direction
+    for name, value, allowed in (
+        ("direction", direction, ("up", "down")),
+        ("facing", facing, ("nose-first", "tail-first")),
+    ):
+        if value not in allowed:
+            raise InputError(f"{name} = {value!r} is not known; known: {', '.join(allowed)}")
+    _within("acceleration", acceleration, -LARGEST_ACCELERATION, LARGEST_ACCELERATION, "m/s^2")
+    _within("risk", risk, 1e-4, 0.5, "")
+    if speed is not None:
+        fastest = robot.drive.max_speed or 30.0
+        _within("speed", speed, 0.0, fastest, f"m/s, the most {robot.name} can do")
+    case = Case(
+        robot=robot,
+        stairs=stairs,
+        surface=surface,
+        posture=_posture(robot, flippers),
+        payload=(payload,) if isinstance(payload, Payload) else tuple(payload),
+        direction=direction,
+        facing=facing,
+        acceleration=float(acceleration),
+        speed=speed,
+        theta_d=Allowance.of(theta_d, name="theta_d"),
+        theta_M=Allowance.of(theta_M, name="theta_M", descending=direction == "down"),
+        risk=risk,
+    )
+    _ = case.stance  # refuses a posture or payload that the robot cannot have
+    return case
+
+
+def _within(name: str, value: float, low: float, high: float, unit: str) -> None:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise InputError(f"{name} = {value!r} is not a number")
+    if not low <= value <= high:
+        raise InputError(f"{name} = {value:g} is not within {low:g} to {high:g} {unit}".rstrip())
+
+
+def _posture(robot: Robot, flippers: Posture | str) -> Posture:
+    if isinstance(flippers, Posture):
+        return flippers
+    if flippers == "stowed":
+        return Posture()
+    if flippers != "flat":
+        raise InputError(f"flippers = {flippers!r} is not known; known: flat, stowed, or angles")
+    if robot.front_flippers is None and robot.rear_flippers is None:
+        raise InputError(f"robot {robot.name!r} has no flippers")
+    return Posture(
+        front="flat" if robot.front_flippers else None,
+        rear="flat" if robot.rear_flippers else None,
+    )

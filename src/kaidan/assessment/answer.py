@@ -1,0 +1,218 @@
+"""The answer of `kaidan.assess`: verdict, margins, what governs, what would help."""
+
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict
+
+Verdict = Literal["go", "caution", "no-go", "outside-model"]
+
+
+class Answered(BaseModel):
+    """Part of an answer; frozen."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+
+
+class AllowanceShown(Answered):
+    """An allowance as it was taken off."""
+
+    low_deg: float
+    """Kindest reading [deg]."""
+    high_deg: float
+    """Worst reading, taken off `margin_deg` [deg]."""
+    source: str
+    """"measured", "default" (nobody measured it) or "not applicable"."""
+
+
+class Paper(Answered):
+    """The paper's own quantities [m/s^2], nose or tail up as asked, without allowances."""
+
+    a_S: float | None
+    """Eq. (14) with the smallest friction; null where friction is unknown."""
+    min_a_r0: float
+    """Smallest value of Eq. (15) over the progress."""
+    max_a_rn: float
+    """Largest value of Eq. (16) over the progress."""
+    a_max: float
+    """Eq. (17)."""
+    a_min: float
+    """Eq. (18): without downhill slip, as printed."""
+
+
+class Contact(Answered):
+    """A contact at the governing pose, just after the lowest nosing has left."""
+
+    behind_uphill_tip_m: float
+    """Place along the track [m]."""
+    load_share: float
+    """Share of the normal load, contacts as equal springs [1]."""
+    normal_N: float | None
+    """Normal force [N]; null where the mass is unknown."""
+    traction_N: float | None
+    """Tractive force, up the stairs positive, if all contacts work alike [N]."""
+    required_friction: float
+    """Traction over normal force [1]."""
+
+
+class Measures(Answered):
+    """Published stability measures at the governing pose, without allowances."""
+
+    static_margin_mm: float
+    """Static stability margin: horizontal distance of the centroid from tipping [mm]."""
+    zmp_margin_mm: float
+    """Distance of the zero moment point from the nearer end contact, along the track [mm]."""
+    energy_margin_mm: float
+    """Normalised energy stability margin (Hirose) [mm]."""
+    force_angle_Nm_rad: float | None
+    """Force-angle measure (Papadopoulos & Rey 1996) [N m rad]; null without a mass."""
+    speed_height_mm: float | None
+    """v^2 / 2g [mm]: a body this fast could rise so far; null without a speed."""
+
+
+class Change(Answered):
+    """Something that would help, and what the verdict would then be."""
+
+    change: str
+    """What to do."""
+    verdict: Verdict
+    """Verdict with it."""
+    margin_deg: float | None
+    """`margin_deg` with it; null where only friction was missing."""
+
+
+class Probability(Answered):
+    """Probability of each failure mode on the worst reading of what is only known as a range."""
+
+    tip_downhill: float
+    tip_uphill: float
+    slip_up: float | None
+    """Null where friction is unknown."""
+    slip_down: float | None
+    drive: float | None
+    """Null where the drive's traction is unknown."""
+    outside_model: float
+    """Probability that the model does not apply at all."""
+    any: float
+    """Probability of at least one of them."""
+
+
+class Assessment(Answered):
+    """Can this robot take these stairs? One object with everything that was found.
+
+    Angles in degrees, lengths in millimetres or metres and accelerations in m/s^2, up the stairs
+    positive, as the names say. Null means: no such number, or not known.
+    """
+
+    verdict: Verdict
+    """go: stable with the allowances off, friction known, at the chosen risk. caution: go only if
+    something unstated is kind, or by controlling the acceleration (area E). no-go: areas A to C.
+    outside-model: the model says nothing."""
+    model: str
+    """Which model answered."""
+    governs: str
+    """What decides: tip_downhill, tip_uphill, slip_up, slip_down, drive, friction_unknown or
+    validity."""
+    reason: str
+    """The verdict in one sentence."""
+    robot: str
+    stairs: str
+    surface: str | None
+    direction: Literal["up", "down"]
+    facing: Literal["nose-first", "tail-first"]
+    area: str | None
+    """Area of the paper's d-a plane the asked acceleration reaches on the worst reading: A to E,
+    or DOWNHILL_SLIP."""
+    angle_deg: float
+    """Slope of the stairs, of the governing step [deg]."""
+    nosing_spacing_m: float
+    """Nosing to nosing, of the governing step [m]."""
+    contacts_n: int
+    """n = floor(L / p): nosings that carry the robot after one has left."""
+    flat_length_m: float
+    """L, flippers in line included [m]."""
+    com_from_front_m: float
+    """C_L, payload and flippers included [m]."""
+    com_height_m: float
+    """C_N, payload and flippers included [m]."""
+    mass_kg: float | None
+    """Mass with payload [kg]."""
+    margin_angle_deg: float | None
+    """theta_s_sup for this robot, spacing, facing and acceleration, without allowances [deg]."""
+    lower_angle_deg: float | None
+    """theta_s_inf, or null where no slope is too gentle [deg]."""
+    margin_backward_deg: float | None
+    """theta_s_sup minus the angle, without allowances [deg]."""
+    margin_deg: float | None
+    """Smallest margin of all failure modes, allowances off, at the chosen risk [deg]: positive
+    for go, negative or zero for no-go. Unknown friction is left out."""
+    margin_at_best_deg: float | None
+    """The same on the kindest reading of what is only known as a range [deg]."""
+    margins_deg: dict[str, float | None]
+    """Margin of each failure mode, as `margin_deg` [deg]."""
+    margin_interval_deg: tuple[float, float] | None
+    """95 % interval of the smallest margin on the worst reading [deg]; null if all is certain."""
+    margin_centroid_mm: float | None
+    """How far the centroid may move along the track before a tip limit is crossed, allowances
+    off, at the chosen risk [mm]; negative: how far it is beyond."""
+    allowances: dict[str, AllowanceShown]
+    """theta_d and theta_M."""
+    acceleration: float
+    """Acceleration asked about [m/s^2]."""
+    a_slip_up: float | None
+    """Above it the tracks slip down, smallest friction [m/s^2]."""
+    a_slip_down: float | None
+    """Below it the tracks slip up, smallest friction [m/s^2]."""
+    a_tip_downhill: float | None
+    """Above it the robot turns over its downhill end [m/s^2]."""
+    a_tip_uphill: float | None
+    """Below it the robot turns over its uphill end [m/s^2]."""
+    falls_over: Literal["nose", "tail"] | None
+    """The end over which the robot falls, where a tip limit is crossed."""
+    a_max: float | None
+    """Upper end of the band, slip included, allowances not; null if the band is empty [m/s^2]."""
+    a_min: float | None
+    """Lower end of the band [m/s^2]."""
+    a_max_safe: float | None
+    """Upper end with the allowances taken off; null if the band is empty [m/s^2]."""
+    a_min_safe: float | None
+    """Lower end with the allowances taken off [m/s^2]."""
+    hardest_start: float | None
+    """Hardest safe start in the direction of travel, a positive number [m/s^2]."""
+    hardest_stop: float | None
+    """Hardest safe stop from travel in that direction, a positive number [m/s^2]."""
+    paper: Paper | None
+    """The paper's own quantities."""
+    required_friction: float
+    """Static friction below which the robot slips at the asked acceleration [1]."""
+    friction: tuple[float, float] | None
+    """Static friction of the surface, from the worst to the kindest reading [1]."""
+    contacts: tuple[Contact, ...]
+    """Contacts at the governing pose."""
+    traction_N: float | None
+    """Sum of the tractive forces, rolling resistance included [N]."""
+    power_W: float | None
+    """Power at the motors at the asked speed [W]."""
+    measures: Measures | None
+    """Published stability measures at the governing pose."""
+    probability: Probability | None
+    """Null if no input is uncertain."""
+    risk: float
+    """Risk level the verdict was asked for."""
+    what_would_help: tuple[Change, ...]
+    """Changes that raise the margin, the best first."""
+    notes: tuple[str, ...]
+    """What the reader must know about this answer."""
+
+    @property
+    def exit_code(self) -> int:
+        """0 go or caution, 1 no-go, 3 outside the model."""
+        return {"go": 0, "caution": 0, "no-go": 1, "outside-model": 3}[self.verdict]
+
+    def to_json(self) -> str:
+        """One JSON object, indented."""
+        return self.model_dump_json(indent=2)
+
+    @classmethod
+    def json_schema(cls) -> dict[str, Any]:
+        """JSON schema of that object."""
+        return cls.model_json_schema(mode="serialization")

@@ -1,0 +1,119 @@
+"""One robot, one staircase, one way of going: everything a model needs to judge it."""
+
+from dataclasses import dataclass, replace
+from functools import cache
+from statistics import NormalDist
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan.assessment.allowance import Allowance
+from kaidan.robot import Drive, Payload, Posture, Robot, Stance
+from kaidan.stairs import Stairs
+from kaidan.surface import Surface
+
+Direction = Literal["up", "down"]
+Facing = Literal["nose-first", "tail-first"]
+Array = NDArray[np.float64]
+
+SAMPLES = 2048
+"""Latin hypercube samples of the uncertain inputs: 20 lie beyond a risk of 1 %."""
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """Question to a model; build one with `kaidan.assess`."""
+
+    robot: Robot
+    stairs: Stairs
+    surface: Surface | None
+    posture: Posture
+    payload: tuple[Payload, ...]
+    direction: Direction
+    facing: Facing
+    acceleration: float
+    speed: float | None
+    theta_d: Allowance
+    theta_M: Allowance
+    risk: float
+
+    @property
+    def nose_up(self) -> bool:
+        """Whether the nose points up the stairs."""
+        return (self.direction == "up") == (self.facing == "nose-first")
+
+    @property
+    def stance(self) -> Stance:
+        """Robot in its posture under its payload."""
+        return self.robot.stance(self.posture, self.payload)
+
+    @property
+    def drive(self) -> Drive:
+        """Limits of the drive."""
+        return self.robot.drive
+
+    def changed(self, **changes: object) -> "Case":
+        """Same question with something changed."""
+        return replace(self, **changes)  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True, slots=True)
+class Draws:
+    """Inputs of the formulas; axes: sample, step of the flight."""
+
+    L: Array
+    C_L: Array
+    """Centroid behind the UPHILL end of the flat [m]."""
+    C_N: Array
+    theta_s: Array
+    p: Array
+    mu_low: Array
+    """NaN where friction is unknown."""
+    mu_high: Array
+
+
+def draws(case: Case, stance: Stance, *, certain: bool = False) -> Draws:
+    """Inputs of the formulas for a case: one row if all is `certain`, else `SAMPLES` rows.
+
+    Each uncertain quantity is normal about its value, stratified (Latin hypercube) with a fixed
+    seed, so that the same question always has the same answer.
+    """
+    steps = np.array(list(dict.fromkeys(case.stairs.regular_steps)))
+    theta_s, p = np.arctan2(steps[:, 0], steps[:, 1]), np.hypot(steps[:, 0], steps[:, 1])
+    of_robot, of_stairs = case.robot.uncertainty, case.stairs.uncertainty
+    surface = case.surface
+    spread = np.array(
+        [
+            of_robot.flat_length,
+            of_robot.com_from_front,
+            of_robot.com_height,
+            of_stairs.angle,
+            of_stairs.nosing_spacing,
+            surface.friction_uncertainty if surface else 0.0,
+        ]
+    )
+    if spread.any() and not certain:
+        L, C_L, C_N, d_theta, d_p, d_mu = _unit_draws()[:, :, None] * spread[:, None, None]
+    else:
+        L = C_L = C_N = d_theta = d_p = d_mu = np.zeros((1, 1))
+    L = stance.flat_length + L
+    C_L = stance.com_from_front + C_L
+    return Draws(
+        L=L,
+        C_L=C_L if case.nose_up else L - C_L,
+        C_N=np.maximum(stance.com_height + C_N, 1e-4),
+        theta_s=np.clip(theta_s + d_theta, 0.0, 1.57),
+        p=np.maximum(p + d_p, 1e-3),
+        mu_low=np.maximum(surface.friction_low + d_mu, 0.0) if surface else d_mu + np.nan,
+        mu_high=np.maximum(surface.friction_high + d_mu, 0.0) if surface else d_mu + np.nan,
+    )
+
+
+@cache
+def _unit_draws() -> Array:
+    """Latin hypercube of six independent standard normals, shape (6, SAMPLES)."""
+    strata = (np.arange(SAMPLES) + 0.5) / SAMPLES
+    normal = np.array([NormalDist().inv_cdf(float(q)) for q in strata])
+    shuffle = np.random.default_rng(2016)
+    return np.stack([shuffle.permutation(normal) for _ in range(6)])
