@@ -86,9 +86,6 @@ def assess(
     ----------
     Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y.
     """
-    from kaidan.assessment.closed_form import judge
-    from kaidan.assessment.wording import put_into_words
-
     case = case_of(
         robot,
         stairs,
@@ -104,6 +101,14 @@ def assess(
         theta_M=theta_M,
         risk=risk,
     )
+    return answer_to(case, model=model)
+
+
+def answer_to(case: Case, *, model: str = "closed-form") -> Assessment:
+    """Answer of a model to a case; see `assess`."""
+    from kaidan.assessment.closed_form import judge
+    from kaidan.assessment.wording import put_into_words
+
     if model != "closed-form":
         raise InputError(f"model = {model!r} is not known; known: closed-form")
     return put_into_words(case, judge(case))

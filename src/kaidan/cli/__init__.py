@@ -4,20 +4,40 @@ Exit codes: 0 go or caution, 1 no-go, 2 bad input, 3 outside the model.
 """
 
 import sys
+from typing import Annotated
 
 import typer
 
-from kaidan.cli import catalogs
+from kaidan.cli import assess, catalogs
 
 app = typer.Typer(
     name="kaidan",
-    help="Can this tracked robot take these stairs?",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        from kaidan import __version__
+
+        typer.echo(__version__)
+        raise typer.Exit
+
+
+@app.callback()
+def kaidan(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, help="Show the version and exit.")
+    ] = False,
+) -> None:
+    """Can this tracked robot take these stairs?"""
+
+
+assess.register(app)
 catalogs.register(app)
 
 

@@ -1,0 +1,197 @@
+"""``kaidan assess``: the main job."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from kaidan.cli import options
+
+if TYPE_CHECKING:
+    from kaidan.assessment.answer import Assessment
+
+Strict = Annotated[bool, typer.Option("--strict", help="Exit with 1 on caution too.")]
+Model = Annotated[str, typer.Option(help="Which model judges: closed-form.")]
+
+
+def register(app: typer.Typer) -> None:
+    """Add ``assess`` to the command line."""
+    app.command("assess")(assess)
+
+
+def assess(
+    robot: options.RobotName,
+    stairs: options.StairsName = None,
+    rise: options.Rise = None,
+    going: options.Going = None,
+    angle: options.Angle = None,
+    nosing_spacing: options.NosingSpacing = None,
+    steps: options.Steps = None,
+    surface: options.SurfaceName = None,
+    friction: options.Friction = None,
+    acceleration: options.Acceleration = "0m/s2",
+    speed: options.Speed = None,
+    direction: options.Direction = None,
+    facing: options.Facing = "nose-first",
+    flippers: options.Flippers = "stowed",
+    payload: options.PayloadText = None,
+    theta_d: options.ThetaD = None,
+    theta_m: options.ThetaM = None,
+    override: options.Override = None,
+    uncertainty: options.UncertaintyText = None,
+    risk: options.Risk = 0.01,
+    model: Model = "closed-form",
+    strict: Strict = False,
+    as_json: options.AsJson = False,
+) -> None:
+    """Say whether ROBOT can take STAIRS, by how much, what governs and what would help.
+
+    Exit code: 0 go or caution (--strict: caution is 1), 1 no-go, 2 bad input, 3 outside the model.
+    """
+    from kaidan.assessment import answer_to
+
+    case = options.case_from(
+        robot,
+        options.stairs_of(
+            stairs, rise=rise, going=going, angle=angle, nosing_spacing=nosing_spacing, steps=steps
+        ),
+        surface=surface,
+        friction=friction,
+        acceleration=acceleration,
+        speed=speed,
+        direction=direction,
+        facing=facing,
+        flippers=flippers,
+        payload=payload,
+        theta_d=theta_d,
+        theta_m=theta_m,
+        override=override,
+        uncertainty=uncertainty,
+        risk=risk,
+    )
+    answer = answer_to(case, model=model)
+    typer.echo(answer.to_json() if as_json else as_text(answer))
+    raise typer.Exit(1 if strict and answer.verdict == "caution" else answer.exit_code)
+
+
+def as_text(answer: "Assessment") -> str:
+    """Answer as a page for people, the verdict first."""
+    lines = [
+        f"{_VERDICT[answer.verdict]}  {answer.robot} on {answer.stairs}, {answer.direction} "
+        f"{answer.facing.replace('-', ' ')}",
+        f"  {answer.reason}",
+        "",
+        _row(
+            "stairs",
+            f"{answer.angle_deg:.1f} deg, {1e3 * answer.nosing_spacing_m:.0f} mm "
+            "from nosing to nosing",
+        ),
+        _row(
+            "robot",
+            f"L {1e3 * answer.flat_length_m:.0f} mm, C_L "
+            f"{1e3 * answer.com_from_front_m:.0f} mm, C_N {1e3 * answer.com_height_m:.0f} mm, "
+            + ("mass not known" if answer.mass_kg is None else f"{answer.mass_kg:.1f} kg"),
+        ),
+    ]
+    if answer.margin_deg is not None:
+        lines += _margin_rows(answer)
+    lines.append(_friction_row(answer))
+    lines += _force_rows(answer)
+    if answer.what_would_help:
+        lines += ["", "  What would help"]
+        lines += [f"    {_change(change)}" for change in answer.what_would_help]
+    lines += ["", "  Notes", *(f"    {note}" for note in answer.notes)]
+    return "\n".join(lines)
+
+
+_VERDICT = {
+    "go": "GO",
+    "caution": "CAUTION",
+    "no-go": "NO-GO",
+    "outside-model": "OUTSIDE THE MODEL",
+}
+
+
+def _row(name: str, text: str) -> str:
+    return f"  {name:<16}{text}"
+
+
+def _margin_rows(answer: "Assessment") -> list[str]:
+    assert answer.margin_deg is not None
+    best = answer.margin_at_best_deg
+    spread = (
+        "" if best is None or abs(best - answer.margin_deg) < 0.05 else f" (at best {best:+.1f})"
+    )
+    shown = ", ".join(
+        f"{name} {value.low_deg:.1f} to {value.high_deg:.1f} deg ({value.source})"
+        for name, value in answer.allowances.items()
+    )
+    rows = [
+        _row("governs", answer.governs.replace("_", " ")),
+        _row(
+            "margin",
+            f"{answer.margin_deg:+.1f} deg{spread}, centroid "
+            f"{answer.margin_centroid_mm:+.0f} mm; tips beyond {answer.margin_angle_deg:.1f} deg"
+            + (
+                ""
+                if answer.lower_angle_deg is None
+                else f", and below {answer.lower_angle_deg:.1f} deg"
+            ),
+        ),
+        _row("taken off", shown),
+    ]
+    if answer.margin_interval_deg is not None and answer.probability is not None:
+        low, high = answer.margin_interval_deg
+        rows.append(
+            _row(
+                "uncertain",
+                f"95 % of margins within {low:+.1f} to {high:+.1f} deg; "
+                f"fails with probability {answer.probability.any:.3f} "
+                f"(accepted: {answer.risk:g})",
+            )
+        )
+    if answer.a_min_safe is None or answer.a_max_safe is None:
+        rows.append(_row("acceleration", "no constant acceleration is safe"))
+    else:
+        rows.append(
+            _row(
+                "acceleration",
+                f"safe from {answer.a_min_safe:+.2f} to "
+                f"{answer.a_max_safe:+.2f} m/s2 up the stairs; "
+                f"hardest start {_or_none(answer.hardest_start)}, "
+                f"hardest stop {_or_none(answer.hardest_stop)}",
+            )
+        )
+    return rows
+
+
+def _or_none(value: float | None) -> str:
+    return "none" if value is None else f"{value:.2f} m/s2"
+
+
+def _friction_row(answer: "Assessment") -> str:
+    text = f"{answer.required_friction:.2f} required"
+    if answer.friction is None:
+        return _row("friction", f"{text}, not stated")
+    low, high = answer.friction
+    stated = f"{low:g}" if low == high else f"{low:g} to {high:g}"
+    return _row("friction", f"{text}, {stated} stated ({answer.surface})")
+
+
+def _force_rows(answer: "Assessment") -> list[str]:
+    if not answer.contacts:
+        return []
+    shares = " / ".join(f"{100 * contact.load_share:.0f} %" for contact in answer.contacts)
+    rows = [_row("load", f"{shares} on the nosings, highest to lowest, as the lowest one leaves")]
+    if answer.traction_N is not None:
+        each = " / ".join(f"{contact.traction_N:.0f}" for contact in answer.contacts)
+        power = "" if answer.power_W is None else f"; {answer.power_W:.0f} W"
+        rows.append(_row("traction", f"{answer.traction_N:.0f} N in all, {each} N each{power}"))
+    return rows
+
+
+def _change(change: "object") -> str:
+    from kaidan.assessment.answer import Change
+
+    assert isinstance(change, Change)
+    margin = "" if change.margin_deg is None else f" ({change.margin_deg:+.1f} deg)"
+    return f"{change.change}: {_VERDICT[change.verdict]}{margin}"

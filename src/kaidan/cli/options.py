@@ -1,0 +1,295 @@
+"""Options that several commands share, and what becomes of their texts."""
+
+import re
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from kaidan.assessment.case import Case
+    from kaidan.robot import Payload, Posture, Robot
+    from kaidan.stairs import Stairs
+
+RobotName = Annotated[
+    str, typer.Argument(metavar="ROBOT", help="Catalogue name (kaidan robots) or TOML file.")
+]
+StairsName = Annotated[
+    str | None,
+    typer.Argument(metavar="[STAIRS]", help="Catalogue name (kaidan stairs) or TOML file."),
+]
+Rise = Annotated[str | None, typer.Option(help="Rise of uniform stairs, for example 180mm or 7in.")]
+Going = Annotated[str | None, typer.Option(help="Going of uniform stairs, for example 280mm.")]
+Angle = Annotated[str | None, typer.Option(help="Angle of uniform stairs, for example 50deg.")]
+NosingSpacing = Annotated[
+    str | None, typer.Option(help="Nosing to nosing along the slope, for example 150mm.")
+]
+Steps = Annotated[int | None, typer.Option(help="Number of risers of uniform stairs [12].")]
+SurfaceName = Annotated[
+    str | None, typer.Option("--surface", help="Catalogue name (kaidan surfaces) or TOML file.")
+]
+Friction = Annotated[
+    str | None,
+    typer.Option(help="Static friction of the tracks on the nosings: 0.8, or a range 0.6..1.0."),
+]
+Acceleration = Annotated[
+    str, typer.Option(help="Acceleration UP the stairs, whichever way it goes, e.g. 0.3m/s2.")
+]
+Speed = Annotated[str | None, typer.Option(help="Speed, for example 0.1m/s.")]
+Direction = Annotated[str | None, typer.Option(help="up or down [up].")]
+Facing = Annotated[str, typer.Option(help="nose-first or tail-first.")]
+Flippers = Annotated[
+    str,
+    typer.Option(
+        help="stowed, flat (in line with the track), or the angles of front and rear: 20deg,-5deg."
+    ),
+]
+PayloadText = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--payload",
+        help="MASS@BEHIND_FRONT,HEIGHT, for example 5kg@200mm,300mm; may be given again.",
+    ),
+]
+ThetaD = Annotated[
+    str | None,
+    typer.Option(help="Measured inclination from track deformation, 2.6deg or 1deg..2.6deg."),
+]
+ThetaM = Annotated[
+    str | None, typer.Option("--theta-m", help="Measured loss from grousers, 1.2deg..2.6deg.")
+]
+Override = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        help="Own figure for the robot: com_from_front=200mm, com_height=, flat_length=, "
+        "mass=20kg.",
+    ),
+]
+UncertaintyText = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--uncertainty",
+        help="Standard uncertainty: com_from_front=5mm, com_height=, flat_length=, angle=0.5deg, "
+        "nosing_spacing=, friction=0.05; may be given again.",
+    ),
+]
+Risk = Annotated[float, typer.Option(help="Probability of failure that is accepted.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
+
+_OVERRIDES = {
+    "com_from_front": "length",
+    "com_height": "length",
+    "flat_length": "length",
+    "mass": "mass",
+}
+_UNCERTAINTIES = {
+    "com_from_front": "length",
+    "com_height": "length",
+    "flat_length": "length",
+    "angle": "angle",
+    "nosing_spacing": "length",
+    "friction": "number",
+}
+
+
+def stairs_of(
+    name: str | None,
+    *,
+    rise: str | None,
+    going: str | None,
+    angle: str | None,
+    nosing_spacing: str | None,
+    steps: int | None,
+) -> "Stairs":
+    """Stairs from a name or from the shape given by options; exactly one of the three ways."""
+    from kaidan.errors import InputError
+    from kaidan.stairs import Stairs
+    from kaidan.units import parse
+
+    shape = {"--rise": rise, "--going": going, "--angle": angle, "--nosing-spacing": nosing_spacing}
+    given = {option for option, value in shape.items() if value is not None}
+    if name is not None:
+        if given or steps is not None:
+            extra = ", ".join(sorted(given) or ["--steps"])
+            raise InputError(f"give either the stairs {name!r} or {extra}, not both")
+        return Stairs.named(name)
+    count = {} if steps is None else {"steps": steps}
+    if given == {"--rise", "--going"}:
+        assert rise is not None
+        assert going is not None
+        return Stairs(
+            name=f"{rise} x {going}",
+            rise=parse(rise, "length", option="--rise"),
+            going=parse(going, "length", option="--going"),
+            **count,
+        )
+    if given == {"--angle", "--nosing-spacing"}:
+        assert angle is not None
+        assert nosing_spacing is not None
+        slope = parse(angle, "angle", option="--angle")
+        if not 0 < slope < 1.5533:
+            raise InputError(f"--angle {angle!r} is not within 0 to 89 deg")
+        return Stairs.inclined(
+            angle=slope,
+            nosing_spacing=parse(nosing_spacing, "length", option="--nosing-spacing"),
+            **count,
+        )
+    raise InputError(
+        "no stairs: give a catalogue name (kaidan stairs), a TOML file, --rise with --going, or "
+        "--angle with --nosing-spacing"
+    )
+
+
+def robot_of(name: str, overrides: list[str] | None) -> "Robot":
+    """Robot by name with the user's own figures in place of the sheet's."""
+    from kaidan.robot import Robot
+
+    robot = Robot.named(name)
+    own = _pairs(overrides, _OVERRIDES, "--set")
+    if not own:
+        return robot
+    sheet = robot.model_dump()
+    if "flat_length" in own:
+        sheet["track"]["flat_length"] = own.pop("flat_length")
+    return Robot.model_validate(sheet | own)
+
+
+def case_from(
+    robot: str,
+    stairs: "Stairs",
+    *,
+    surface: str | None = None,
+    friction: str | None = None,
+    acceleration: str = "0m/s2",
+    speed: str | None = None,
+    direction: str | None = None,
+    facing: str = "nose-first",
+    flippers: str = "stowed",
+    payload: list[str] | None = None,
+    theta_d: str | None = None,
+    theta_m: str | None = None,
+    override: list[str] | None = None,
+    uncertainty: list[str] | None = None,
+    risk: float = 0.01,
+) -> "Case":
+    """Case from the texts of the shared options."""
+    from kaidan.assessment import case_of
+    from kaidan.errors import InputError
+    from kaidan.surface import Surface
+    from kaidan.units import parse
+
+    sheet = robot_of(robot, override)
+    doubts = _pairs(uncertainty, _UNCERTAINTIES, "--uncertainty")
+    ground = None if surface is None else Surface.named(surface)
+    if friction is not None:
+        if ground is not None:
+            raise InputError("give either --surface or --friction, not both")
+        low, high = _range(friction, lambda text: _number(text, "--friction"))
+        ground = Surface(name=f"friction {friction}", friction_low=low, friction_high=high)
+    if "friction" in doubts and ground is None:
+        raise InputError("--uncertainty friction needs --friction or --surface")
+    ground = _doubted(ground, {"friction_uncertainty": doubts.get("friction")})
+    stairs = stairs.model_copy(
+        update={
+            "uncertainty": _doubted(stairs.uncertainty, _only(doubts, "angle", "nosing_spacing"))
+        }
+    )
+    sheet = sheet.model_copy(
+        update={
+            "uncertainty": _doubted(
+                sheet.uncertainty, _only(doubts, "com_from_front", "com_height", "flat_length")
+            )
+        }
+    )
+
+    def allowance(text: str | None, option: str) -> Any:
+        return None if text is None else _range(text, lambda t: parse(t, "angle", option=option))
+
+    return case_of(
+        sheet,
+        stairs,
+        surface=ground,
+        acceleration=parse(acceleration, "acceleration", option="--acceleration"),
+        speed=None if speed is None else parse(speed, "speed", option="--speed"),
+        direction=direction,  # type: ignore[arg-type]
+        facing=facing,  # type: ignore[arg-type]
+        flippers=_flippers(flippers),
+        payload=[_payload(text) for text in payload or ()],
+        theta_d=allowance(theta_d, "--theta-d"),
+        theta_M=allowance(theta_m, "--theta-m"),
+        risk=risk,
+    )
+
+
+def _pairs(texts: list[str] | None, kinds: dict[str, str], option: str) -> dict[str, float]:
+    from kaidan.errors import InputError
+    from kaidan.units import parse
+
+    values = {}
+    for text in ",".join(texts or ()).split(",") if texts else ():
+        name, equals, value = text.partition("=")
+        name = name.strip()
+        if not equals or name not in kinds:
+            raise InputError(
+                f"{option} {text!r}: write NAME=VALUE with a name of {', '.join(kinds)}"
+            )
+        where = f"{option} {name}"
+        number = kinds[name] == "number"
+        values[name] = _number(value, where) if number else parse(value, kinds[name], option=where)
+    return values
+
+
+def _only(values: dict[str, float], *names: str) -> dict[str, float | None]:
+    return {name: values.get(name) for name in names}
+
+
+def _doubted(sheet: Any, doubts: dict[str, float | None]) -> Any:
+    stated = {name: value for name, value in doubts.items() if value is not None}
+    return type(sheet).model_validate(sheet.model_dump() | stated) if stated else sheet
+
+
+def _number(text: str, option: str) -> float:
+    from kaidan.errors import InputError
+
+    if not re.fullmatch(r"\s*[+-]?(\d+\.?\d*|\.\d+)\s*", text, re.ASCII):
+        raise InputError(f"{option} {text!r} is not a plain number such as 0.8")
+    return float(text)
+
+
+def _range(text: str, read: Any) -> tuple[float, float]:
+    low, dots, high = text.partition("..")
+    return (read(low), read(high)) if dots else (read(text), read(text))
+
+
+def _flippers(text: str) -> "Posture | Any":
+    from kaidan.robot import Posture
+    from kaidan.units import parse
+
+    if "," not in text:
+        return text.strip()
+    ends: list[float | str | None] = []
+    for part in text.split(",", 1):
+        word = part.strip()
+        if word == "stowed":
+            ends.append(None)
+        else:
+            ends.append(word if word == "flat" else parse(word, "angle", option="--flippers"))
+    return Posture(front=ends[0], rear=ends[1])
+
+
+def _payload(text: str) -> "Payload":
+    from kaidan.errors import InputError
+    from kaidan.robot import Payload
+    from kaidan.units import parse
+
+    mass, at, place = text.partition("@")
+    behind, comma, height = place.partition(",")
+    if not at or not comma:
+        raise InputError(
+            f"--payload {text!r}: write MASS@BEHIND_FRONT,HEIGHT, for example 5kg@200mm,300mm"
+        )
+    return Payload(
+        mass=parse(mass, "mass", option="--payload"),
+        from_front=parse(behind, "length", option="--payload"),
+        height=parse(height, "length", option="--payload"),
+    )
