@@ -13,7 +13,7 @@
 
 import math
 from collections.abc import Iterable
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 from pydantic import Field
 
@@ -187,10 +187,8 @@ class Posture(Sheet):
         return self
 
 
-class Stance(Sheet):
+class Stance(NamedTuple):
     """What the closed form sees of a robot in a posture under its payload."""
-
-    label: ClassVar[str] = "stance"
 
     flat_length: float
     """Length of the flat underside, flippers in line with it included [m]."""

@@ -5,14 +5,23 @@ TOML files and the tables of the documentation.
 """
 
 import tomllib
-from collections.abc import Mapping
-from typing import Any, ClassVar, Self
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, ClassVar, Self, get_args
 
-from pydantic import BaseModel, ConfigDict, Field, ModelWrapValidatorHandler, ValidationError
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    ModelWrapValidatorHandler,
+    ValidationError,
+)
 from pydantic import model_validator as model_validator
 from pydantic.fields import FieldInfo
 
 from kaidan.errors import InputError
+
+PLACEHOLDER = "FILL IN"
+"""What stands for a value that the user has yet to fill in; no sheet accepts it."""
 
 _MISTAKEN_UNITS = {
     "m": (("millimetres", 1e-3), ("inches", 0.0254), ("centimetres", 1e-2), ("feet", 0.3048)),
@@ -56,40 +65,60 @@ def quantity(
 class Sheet(BaseModel):
     """A frozen, validated data sheet; unphysical input raises `InputError`."""
 
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", allow_inf_nan=False, use_attribute_docstrings=True
-    )
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
     label: ClassVar[str] = "sheet"
     """What an error calls the owner of a wrong field."""
 
     @model_validator(mode="wrap")
     @classmethod
     def _tell_what_is_wrong(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        try:
-            return handler(data)
-        except ValidationError as error:
-            texts = [cls._text(dict(detail)) for detail in error.errors(include_url=False)]
-            raise InputError("; ".join(texts)) from None
+        wrong = [cls._text(detail) for detail in cls._no_numbers(data)]
+        if not wrong:
+            try:
+                return handler(data)
+            except ValidationError as error:
+                wrong = [cls._text(dict(detail)) for detail in error.errors(include_url=False)]
+        raise InputError("; ".join(wrong)) from None
+
+    @classmethod
+    def _no_numbers(cls, data: Any) -> Iterator[dict[str, Any]]:
+        """Details of what pydantic would kindly turn into a number: true, "0.5"."""
+        for name, value in data.items() if isinstance(data, Mapping) else ():
+            many = isinstance(value, list | tuple)
+            for index, item in enumerate(value if many else (value,)):
+                if isinstance(item, bool | str) and bounds(cls.model_fields.get(name))[0]:
+                    loc = (name, index) if many else (name,)
+                    yield {"loc": loc, "type": "not_a_number", "input": item}
 
     @classmethod
     def _text(cls, detail: Mapping[str, Any]) -> str:
-        path = [str(part) for part in detail["loc"]]
-        where = f"{cls.label}: {'.'.join(path)}" if path else cls.label
-        field = cls.model_fields.get(path[0]) if path else None
-        kind, value = detail["type"], detail["input"]
-        unit, low, high = _bounds(field)
+        path, kind, value = detail["loc"], detail["type"], detail["input"]
+        where = f"{cls.label}: {_path(path)}" if path else cls.label
+        field = cls.model_fields.get(str(path[0])) if path else None
+        unit, low, high = bounds(field)
         if kind == "missing":
             return f"{where} is missing" + (f" ({field.description})" if field else "")
         if kind == "extra_forbidden":
             return f"{where} is not a known field; known: {', '.join(cls.model_fields)}"
-        if unit is None:
-            return f"{where} = {value!r}: {detail['msg']}"
-        number = isinstance(value, int | float) and not isinstance(value, bool)
-        shown = f"{value:g}" if number else repr(value)
-        text = f"{where} = {shown} {unit} is not within {low:g} to {high:g} {unit}"
-        for name, factor in _MISTAKEN_UNITS.get(unit, ()) if number else ():
-            if low <= value * factor <= high and value > high:
-                return f"{text} (in {name}? that would be {value * factor:g} {unit})"
+        of_unit = f" {unit}" if unit and unit != "1" else ""
+        within = f"{low:g} to {high:g}{of_unit}"
+        if value == PLACEHOLDER and field is not None:
+            allowed = f", {within}" if unit else ""
+            return f"{where} is still to be filled in: {field.description}{allowed}"
+        if kind == "model_type":
+            return f"{where} = {_shown(value)} is not a table of fields"
+        if unit is None or kind in ("too_short", "too_long"):
+            return f"{where} = {_shown(value)}: {detail['msg']}"
+        if is_list(field) and len(path) == 1:
+            return f"{where} = {_shown(value)} is not a list of numbers"
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            return f"{where} = {_shown(value)} is not a number"
+        if kind.startswith("int_"):
+            return f"{where} = {_shown(value)} is not a whole number"
+        text = f"{where} = {_shown(value)}{of_unit} is not within {within}"
+        for name, factor in _MISTAKEN_UNITS.get(unit, ()):
+            if high < value <= high / factor and low <= value * factor:
+                return f"{text} (in {name}? that would be {value * factor:.6g} {unit})"
         return text
 
     def refuse(self, text: str) -> InputError:
@@ -100,9 +129,15 @@ class Sheet(BaseModel):
     def from_text(cls, text: str, *, origin: str) -> Self:
         """Sheet read from TOML text; `origin` is what errors call it."""
         try:
-            return cls.model_validate(tomllib.loads(text))
+            table = tomllib.loads(text)
         except tomllib.TOMLDecodeError as error:
             raise InputError(f"{origin}: not valid TOML: {error}") from None
+        except RecursionError:
+            raise InputError(f"{origin}: not a sheet: tables or lists nested too deeply") from None
+        except ValueError:
+            raise InputError(f"{origin}: not a sheet: a number with too many digits") from None
+        try:
+            return cls.model_validate(table)
         except InputError as error:
             raise InputError(f"{origin}: {error}") from None
 
@@ -113,12 +148,52 @@ class Sheet(BaseModel):
         return "\n".join(lines).strip() + "\n"
 
 
-def _bounds(field: FieldInfo | None) -> tuple[str | None, float, float]:
+def bounds(field: FieldInfo | None) -> tuple[str | None, float, float]:
+    """Unit and plausible range of a field or of each item of its list; unit None without one."""
     if field is None or not isinstance(field.json_schema_extra, dict):
         return None, 0.0, 0.0
-    low = next((m.ge for m in field.metadata if hasattr(m, "ge")), float("-inf"))
-    high = next((m.le for m in field.metadata if hasattr(m, "le")), float("inf"))
+    limits = [*field.metadata, *_item_limits(field.annotation)]
+    low = next((m.ge for m in limits if hasattr(m, "ge")), float("-inf"))
+    high = next((m.le for m in limits if hasattr(m, "le")), float("inf"))
     return str(field.json_schema_extra["unit"]), float(low), float(high)
+
+
+def _item_limits(annotation: Any) -> list[Any]:
+    """Limits inside an annotation such as ``tuple[Annotated[float, Field(ge=0)], ...] | None``."""
+    found = list(getattr(annotation, "__metadata__", ()))
+    for part in get_args(annotation):
+        found += _item_limits(part)
+    return [m for item in found for m in (item.metadata if isinstance(item, FieldInfo) else [item])]
+
+
+def is_list(field: FieldInfo | None) -> bool:
+    """Whether a field takes a list of numbers."""
+    return field is not None and bool(_item_limits(field.annotation))
+
+
+def _path(path: Sequence[int | str]) -> str:
+    text = ""
+    for part in path:
+        key = part if isinstance(part, str) and part.isidentifier() else _shown(part)
+        text += f"[{part}]" if isinstance(part, int) else f".{key}" if text else key
+    return text
+
+
+def _shown(value: Any) -> str:
+    """Text of a value in one short line, whatever it is."""
+    if isinstance(value, Mapping):
+        return "a table"
+    if isinstance(value, list | tuple):
+        return "a list"
+    if isinstance(value, bool | str):
+        text = _value(value)
+        return text if len(text) <= 60 else f"{text[:57]}...{text[-1:]}"
+    if isinstance(value, int | float):
+        try:
+            return f"{value:.12g}"
+        except OverflowError:
+            return "a number of more than 300 digits"
+    return repr(value)[:60]
 
 
 def _write_table(table: Mapping[str, Any], path: tuple[str, ...], lines: list[str]) -> None:
@@ -143,9 +218,6 @@ def _value(value: Any) -> str:
         return repr(value)
     if isinstance(value, str):
         escaped = value.replace("\\", "\\\\").replace('"', '\\"')
-        return (
-            '"'
-            + "".join(c if c >= " " and c != "\x7f" else f"\\u{ord(c):04x}" for c in escaped)
-            + '"'
-        )
+        quoted = "".join(c if c >= " " and c != "\x7f" else f"\\u{ord(c):04x}" for c in escaped)
+        return f'"{quoted}"'
     return "[" + ", ".join(_value(item) for item in value) + "]"

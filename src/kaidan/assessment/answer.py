@@ -1,19 +1,13 @@
 """The answer of `kaidan.assess`: verdict, margins, what governs, what would help."""
 
+from dataclasses import asdict, dataclass
 from typing import Any, Literal
-
-from pydantic import BaseModel, ConfigDict
 
 Verdict = Literal["go", "caution", "no-go", "outside-model"]
 
 
-class Answered(BaseModel):
-    """Part of an answer; frozen."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
-
-
-class AllowanceShown(Answered):
+@dataclass(frozen=True, kw_only=True)
+class AllowanceShown:
     """An allowance as it was taken off."""
 
     low_deg: float
@@ -24,7 +18,8 @@ class AllowanceShown(Answered):
     """"measured", "default" (nobody measured it) or "not applicable"."""
 
 
-class Paper(Answered):
+@dataclass(frozen=True, kw_only=True)
+class Paper:
     """The paper's own quantities [m/s^2], nose or tail up as asked, without allowances."""
 
     a_S: float | None
@@ -39,7 +34,8 @@ class Paper(Answered):
     """Eq. (18): without downhill slip, as printed."""
 
 
-class Contact(Answered):
+@dataclass(frozen=True, kw_only=True)
+class Contact:
     """A contact at the governing pose, just after the lowest nosing has left."""
 
     behind_uphill_tip_m: float
@@ -54,7 +50,8 @@ class Contact(Answered):
     """Traction over normal force [1]."""
 
 
-class Measures(Answered):
+@dataclass(frozen=True, kw_only=True)
+class Measures:
     """Published stability measures at the governing pose, without allowances."""
 
     static_margin_mm: float
@@ -69,7 +66,8 @@ class Measures(Answered):
     """v^2 / 2g [mm]: a body this fast could rise so far; null without a speed."""
 
 
-class Change(Answered):
+@dataclass(frozen=True, kw_only=True)
+class Change:
     """Something that would help, and what the verdict would then be."""
 
     change: str
@@ -80,7 +78,8 @@ class Change(Answered):
     """`margin_deg` with it; null where only friction was missing."""
 
 
-class Probability(Answered):
+@dataclass(frozen=True, kw_only=True)
+class Probability:
     """Probability of each failure mode on the worst reading of what is only known as a range."""
 
     tip_downhill: float
@@ -96,7 +95,8 @@ class Probability(Answered):
     """Probability of at least one of them."""
 
 
-class Assessment(Answered):
+@dataclass(frozen=True, kw_only=True)
+class Assessment:
     """Can this robot take these stairs? One object with everything that was found.
 
     Angles in degrees, lengths in millimetres or metres and accelerations in m/s^2, up the stairs
@@ -210,9 +210,19 @@ class Assessment(Answered):
 
     def to_json(self) -> str:
         """One JSON object, indented."""
-        return self.model_dump_json(indent=2)
+        import json
+
+        return json.dumps(asdict(self), indent=2, ensure_ascii=False, allow_nan=False)
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
         """JSON schema of that object."""
-        return cls.model_json_schema(mode="serialization")
+        from pydantic import ConfigDict, TypeAdapter
+
+        documented = ConfigDict(use_attribute_docstrings=True)
+        for part in (*_PARTS, cls):
+            setattr(part, "__pydantic_config__", documented)  # noqa: B010
+        return TypeAdapter(cls).json_schema(mode="serialization")
+
+
+_PARTS = (AllowanceShown, Paper, Contact, Measures, Change, Probability)

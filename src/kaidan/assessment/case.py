@@ -1,9 +1,7 @@
 """One robot, one staircase, one way of going: everything a model needs to judge it."""
 
-from dataclasses import dataclass, replace
 from functools import cache
-from statistics import NormalDist
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,8 +19,7 @@ SAMPLES = 2048
 """Latin hypercube samples of the uncertain inputs: 20 lie beyond a risk of 1 %."""
 
 
-@dataclass(frozen=True, slots=True)
-class Case:
+class Case(NamedTuple):
     """Question to a model; build one with `kaidan.assess`."""
 
     robot: Robot
@@ -55,11 +52,10 @@ class Case:
 
     def changed(self, **changes: object) -> "Case":
         """Same question with something changed."""
-        return replace(self, **changes)  # type: ignore[arg-type]
+        return self._replace(**changes)  # type: ignore[arg-type]
 
 
-@dataclass(frozen=True, slots=True)
-class Draws:
+class Draws(NamedTuple):
     """Inputs of the formulas; axes: sample, step of the flight."""
 
     L: Array
@@ -113,6 +109,8 @@ def draws(case: Case, stance: Stance, *, certain: bool = False) -> Draws:
 @cache
 def _unit_draws() -> Array:
     """Latin hypercube of six independent standard normals, shape (6, SAMPLES)."""
+    from statistics import NormalDist
+
     strata = (np.arange(SAMPLES) + 0.5) / SAMPLES
     normal = np.array([NormalDist().inv_cdf(float(q)) for q in strata])
     shuffle = np.random.default_rng(2016)

@@ -1,8 +1,7 @@
 """The closed form: the paper's criterion on a regular flight, both readings, every sample."""
 
 import math
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -27,8 +26,7 @@ LARGEST_IRREGULARITY = 0.0095
 MODES = (*(mode.name.lower() for mode in Mode), "drive")
 
 
-@dataclass(frozen=True, slots=True)
-class Reading:
+class Reading(NamedTuple):
     """Margins on one reading of what is only known as a range; axes: mode, sample, step."""
 
     modes: Array
@@ -45,8 +43,7 @@ class Reading:
         return np.where(np.isnan(smallest), -np.inf, smallest)
 
 
-@dataclass(frozen=True, slots=True)
-class Judgement:
+class Judgement(NamedTuple):
     """What the closed form finds, before it is put into words."""
 
     verdict: Verdict
@@ -89,7 +86,7 @@ def judge(case: Case) -> Judgement:
         outside = "the nosing spacing may well be more than half the flat length of the track"
     per_mode = np.array([at_risk(mode.min(axis=-1), case.risk) for mode in worst.modes])
     governing = int(np.nanargmin(per_mode)) if np.isfinite(per_mode).any() else 0
-    step = int(np.argmin(np.median(worst.modes[governing], axis=0)))
+    step = int(np.argmin(worst.modes[governing].mean(axis=0)))
     governs, semi_stable = MODES[governing], False
     verdict: Verdict
     if outside:

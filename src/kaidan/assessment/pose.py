@@ -1,7 +1,7 @@
 """The governing pose, just after the lowest nosing has left: its contacts and measures."""
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,8 +14,7 @@ from kaidan.mechanics.slipping import equivalent_slope
 from kaidan.mechanics.triangle import alpha, beta, theta_alpha, theta_beta
 
 
-@dataclass(frozen=True, slots=True)
-class Pose:
+class Pose(NamedTuple):
     """Robot on the governing step, its lowest nosing just lost (state C of the paper)."""
 
     L: float

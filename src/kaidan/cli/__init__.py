@@ -3,12 +3,18 @@
 Exit codes: 0 go or caution, 1 no-go, 2 bad input, 3 outside the model.
 """
 
+import os
 import sys
 from typing import Annotated
 
 import typer
 
 from kaidan.cli import assess, catalogs
+
+_START_LIGHTLY = {
+    "OPENBLAS_NUM_THREADS": "1",  # no matrix here is worth the threads numpy would start
+    "PYDANTIC_DISABLE_PLUGINS": "__all__",  # kaidan uses none, and looking for some takes time
+}
 
 app = typer.Typer(
     name="kaidan",
@@ -43,6 +49,8 @@ catalogs.register(app)
 
 def main() -> None:
     """Run the command line; what kaidan refuses ends with exit code 2 and one line."""
+    for name, value in _START_LIGHTLY.items():
+        os.environ.setdefault(name, value)
     from kaidan.errors import KaidanError
 
     try:

@@ -1,0 +1,51 @@
+"""Whole-process time of short commands over `python -c "import numpy, pydantic"`.
+
+The two run in turn, so that a machine that slows down slows both; the median of the ratios counts.
+"""
+
+import argparse
+import statistics
+import subprocess
+import sys
+import time
+
+from record import finish, options
+
+FLOOR = [sys.executable, "-c", "import numpy, pydantic"]
+RUN = [sys.executable, "-c", "from kaidan.cli import main; main()"]
+COMMANDS = {
+    "--help": ["--help"],
+    "assess --model closed-form": [
+        "assess",
+        "absolem",
+        "ibc",
+        "--flippers",
+        "flat",
+        "--surface",
+        "concrete-dry",
+        "--model",
+        "closed-form",
+    ],
+}
+
+
+def seconds(command: list[str]) -> float:
+    start = time.perf_counter()
+    subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
+    return time.perf_counter() - start
+
+
+def main() -> None:
+    arguments = options(argparse.ArgumentParser(description=__doc__))
+    arguments.add_argument("--runs", type=int, default=15)
+    chosen = arguments.parse_args()
+    figures = {}
+    for name, command in COMMANDS.items():
+        seconds(RUN + command)
+        ratios = [seconds(RUN + command) / seconds(FLOOR) for _ in range(chosen.runs)]
+        figures[f"kaidan {name} / floor"] = statistics.median(ratios)
+    finish(figures, chosen, targets={name: 2.0 for name in figures})
+
+
+if __name__ == "__main__":
+    main()
