@@ -66,21 +66,20 @@ def zero_moment_point(
     return C_L + C_N * equivalent_slope(theta_s=theta_s, a=a, g=g)
 
 
-def _springs(x: Number, x_z: Number, loaded: Number) -> tuple[Number, Number, Number]:
-    """Return number and mean position of the loaded contacts, and x_z's lever over their spread."""
-    m = np.sum(loaded, axis=-1, keepdims=True)
-    mean = np.sum(np.where(loaded, x, 0.0), axis=-1, keepdims=True) / np.maximum(m, 1)
+def _springs(x: Number, x_z: Number, loaded: Number) -> tuple[Number, Number]:
+    """Return the shares by the springs that are loaded, and x_z's lever over their spread [1/m]."""
+    m = np.maximum(np.sum(loaded, axis=-1, keepdims=True), 1)
+    mean = np.sum(np.where(loaded, x, 0.0), axis=-1, keepdims=True) / m
     spread = np.sum(np.where(loaded, x - mean, 0.0) ** 2, axis=-1, keepdims=True)
     lever = (x_z - mean) / np.where(spread > 0.0, spread, np.inf)
-    return m, mean, lever
+    return 1.0 / m + lever * (x - mean), lever
 
 
 def _loaded(x: Number, x_z: Number) -> Number:
     """Return which contacts stay loaded when those that would pull are let go, again and again."""
     loaded = np.isfinite(x) & np.isfinite(x_z)
     for _ in range(np.shape(x)[-1]):
-        m, mean, lever = _springs(x, x_z, loaded)
-        share = 1.0 / np.maximum(m, 1) + lever * (x - mean)
+        share, _ = _springs(x, x_z, loaded)
         loaded = loaded & (share >= -ROUNDING)
     return loaded
 
@@ -134,8 +133,7 @@ def load_shares(*, x: Number, x_z: Number) -> Number:
     """
     x_z = np.expand_dims(x_z, -1)
     loaded = _loaded(x, x_z)
-    m, mean, lever = _springs(x, x_z, loaded)
-    share = 1.0 / np.maximum(m, 1) + lever * (x - mean)
+    share, _ = _springs(x, x_z, loaded)
     return np.where(_between(x, x_z), np.where(loaded, np.maximum(share, 0.0), 0.0), np.nan)
 
 
@@ -178,8 +176,9 @@ def _tilt(x: Number, x_z: Number) -> Number:
     """Return inclination per total load over stiffness [1/m]: x_z's lever over the spread."""
     x_z = np.expand_dims(x_z, -1)
     loaded = _loaded(x, x_z)
-    m, _, lever = _springs(x, x_z, loaded)
-    return np.where(_between(x, x_z) & (m > 1), lever, np.nan)[..., 0]
+    _, lever = _springs(x, x_z, loaded)
+    several = np.sum(loaded, axis=-1, keepdims=True) > 1
+    return np.where(_between(x, x_z) & several, lever, np.nan)[..., 0]
 
 
 def deformation_inclination(*, x: Number, x_z: Number, load: Number, stiffness: Number) -> Number:
@@ -263,5 +262,4 @@ def deformation_stiffness(*, x: Number, x_z: Number, load: Number, theta_d: Numb
     Derived, see `deformation_inclination`.
     """
     tilt = _tilt(x, x_z)
-    found = tilt * theta_d > 0.0
-    return np.where(found, load * tilt / np.where(found, theta_d, 1.0), np.nan)[()]
+    return load * tilt / np.where(tilt * theta_d > 0.0, theta_d, np.nan)

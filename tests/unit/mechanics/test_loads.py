@@ -130,6 +130,14 @@ def test_absent_contacts_are_nan_and_carry_nothing():
     assert np.isnan(load_shares(x=np.array([np.nan, np.nan]), x_z=0.1)).all()
 
 
+def test_every_pose_has_its_own_ends():
+    # hand: each point lies between the contacts of the other pose, beyond its own
+    x = np.array([[0.0, 0.1, np.nan], [0.2, 0.3, 0.4]])
+    shares = load_shares(x=x, x_z=np.array([0.15, 0.15]))
+    assert np.isnan(shares).all()
+    assert np.isnan(load_shares(x=x, x_z=np.array([0.25, 0.05]))).all()
+
+
 def test_unknown_resultant_gives_unknown_shares():
     assert np.isnan(load_shares(x=np.array([0.1, 0.5]), x_z=np.nan)).all()
 

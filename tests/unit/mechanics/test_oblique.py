@@ -36,6 +36,7 @@ def test_oblique_spacing():
     # hand: 3-4-5
     assert oblique_spacing(p=0.2, psi=np.arctan(0.75)) == pytest.approx(0.25, abs=1e-15)
     assert oblique_spacing(p=0.2, psi=-np.arctan(0.75)) == pytest.approx(0.25, abs=1e-15)
+    assert oblique_spacing(p=0.2, psi=1.5) == pytest.approx(0.2 / np.cos(1.5), abs=1e-15)
     assert np.isnan(oblique_spacing(p=0.2, psi=np.pi / 2))
     assert np.isnan(oblique_spacing(p=0.2, psi=-2.0))
 
@@ -83,6 +84,7 @@ def test_track_lag_by_coordinates(theta_s, psi):
 
 
 def test_track_lag_outside_validity_is_nan():
+    assert track_lag(gauge=0.3, psi=1.5) == pytest.approx(0.3 * np.tan(1.5), abs=1e-14)
     assert np.isnan(track_lag(gauge=0.3, psi=np.pi / 2))
     assert np.isnan(track_lag(gauge=0.3, psi=-np.pi / 2))
 

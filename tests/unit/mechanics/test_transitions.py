@@ -76,6 +76,12 @@ def test_best_inclination_where_the_edge_would_meet_the_rear_end():
     assert np.tan(found) == pytest.approx(np.sqrt(0.5), abs=1e-8)
 
 
+def test_centroid_over_the_rear_tip_climbs_nothing():
+    # limit: l_c = 0 with R = C_N: t^3 + t = 0, the edge at the rear tip itself
+    assert best_inclination(l_c=0.0, C_N=0.1, R=0.1) == 0.0
+    assert largest_step_height(l_c=0.0, C_N=0.1, R=0.1) == 0.0
+
+
 def test_best_inclination_without_a_closed_form_is_nan():
     # R = 2 C_N and beyond; no warning on the way
     assert np.isnan(best_inclination(l_c=0.3, C_N=0.1, R=0.2))
