@@ -28,6 +28,7 @@ _MISTAKEN_UNITS = {
     "rad": (("degrees", 0.017453292519943295),),
     "kg": (("grams", 1e-3),),
 }
+_ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t"}
 
 
 def quantity(
@@ -68,6 +69,8 @@ class Sheet(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
     label: ClassVar[str] = "sheet"
     """What an error calls the owner of a wrong field."""
+    asked_for: ClassVar[frozenset[str]] = frozenset()
+    """Optional fields that a blank sheet asks for all the same."""
 
     @model_validator(mode="wrap")
     @classmethod
@@ -186,7 +189,7 @@ def _shown(value: Any) -> str:
     if isinstance(value, list | tuple):
         return "a list"
     if isinstance(value, bool | str):
-        text = _value(value)
+        text = toml_value(value)
         return text if len(text) <= 60 else f"{text[:57]}...{text[-1:]}"
     if isinstance(value, int | float):
         try:
@@ -202,22 +205,28 @@ def _write_table(table: Mapping[str, Any], path: tuple[str, ...], lines: list[st
     nested = {key: value for key, value in table.items() if isinstance(value, Mapping)}
     for key, value in table.items():
         if key not in nested and value is not None:
-            lines.append(f"{_key(key)} = {_value(value)}")
+            lines.append(f"{_key(key)} = {toml_value(value)}")
     for key, value in nested.items():
         _write_table(value, (*path, key), lines)
 
 
 def _key(key: str) -> str:
-    return key if key.replace("_", "").replace("-", "").isalnum() and key.isascii() else _value(key)
+    bare = key.isascii() and key.replace("_", "").replace("-", "").isalnum()
+    return key if bare else toml_value(key)
 
 
-def _value(value: Any) -> str:
+def toml_value(value: Any) -> str:
+    """TOML text of a string, number, truth value or list."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, int | float):
         return repr(value)
     if isinstance(value, str):
-        escaped = value.replace("\\", "\\\\").replace('"', '\\"')
-        quoted = "".join(c if c >= " " and c != "\x7f" else f"\\u{ord(c):04x}" for c in escaped)
-        return f'"{quoted}"'
-    return "[" + ", ".join(_value(item) for item in value) + "]"
+        return f'"{"".join(_escaped(character) for character in value)}"'
+    return "[" + ", ".join(toml_value(item) for item in value) + "]"
+
+
+def _escaped(character: str) -> str:
+    if character in _ESCAPES:
+        return _ESCAPES[character]
+    return character if character >= " " and character != "\x7f" else f"\\u{ord(character):04x}"

@@ -16,7 +16,7 @@ goings between them.
 """
 
 import math
-from typing import ClassVar, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field
 
@@ -28,6 +28,9 @@ Length = tuple[float, ...]
 _RISE = (0.02, 0.6)
 _ODD_RISE = (0.005, 0.6)
 _GOING = (0.02, 2.5)
+
+_Rise = Annotated[float, Field(ge=_ODD_RISE[0], le=_ODD_RISE[1])]
+_Going = Annotated[float, Field(ge=_GOING[0], le=_GOING[1])]
 
 
 class StairsUncertainty(Sheet):
@@ -43,6 +46,7 @@ class Stairs(Sheet):
     """A straight flight of stairs, uniform (rise, going) or measured (rises, goings)."""
 
     label: ClassVar[str] = "stairs"
+    asked_for: ClassVar[frozenset[str]] = frozenset({"rise", "going"})
 
     name: str = Field(default="stairs", description="short name, used on the command line")
     title: str = Field(default="", description="full name")
@@ -68,17 +72,19 @@ class Stairs(Sheet):
     last_rise: float | None = quantity(
         "m", *_ODD_RISE, "last riser of a uniform flight, where it differs", default=None
     )
-    rises: Length | None = Field(
+    rises: tuple[_Rise, ...] | None = Field(
         default=None,
         min_length=2,
         max_length=10_000,
-        description="measured risers from bottom to top [m], instead of rise",
+        description="measured risers from bottom to top, instead of rise",
+        json_schema_extra={"unit": "m"},
     )
-    goings: Length | None = Field(
+    goings: tuple[_Going, ...] | None = Field(
         default=None,
         min_length=1,
         max_length=10_000,
-        description="measured goings from bottom to top [m], one fewer than the risers",
+        description="measured goings from bottom to top, one fewer than the risers",
+        json_schema_extra={"unit": "m"},
     )
     nosing_overhang: float = quantity(
         "m", 0.0, 0.1, "overhang of the nosing over the tread below", default=0.0
@@ -111,15 +117,10 @@ class Stairs(Sheet):
                 )
             if self.first_rise is not None or self.last_rise is not None:
                 raise self.refuse("first_rise and last_rise stand in the list rises already")
-            for field, values, (low, high) in (
-                ("rises", self.rises, _ODD_RISE),
-                ("goings", self.goings, _GOING),
-            ):
-                for index, value in enumerate(values):
-                    if not low <= value <= high:
-                        raise self.refuse(
-                            f"{field}[{index}] = {value:g} m is not within {low:g} to {high:g} m"
-                        )
+            if "steps" in self.model_fields_set and self.steps != len(self.rises):
+                raise self.refuse(
+                    f"steps = {self.steps} contradicts the {len(self.rises)} rises; leave it out"
+                )
         if self.nosing_overhang >= min(self.step_goings):
             raise self.refuse(
                 f"nosing_overhang = {self.nosing_overhang:g} m is not less than the going "

@@ -1,14 +1,16 @@
 """The catalogues: TOML files with a source for every number, by kind and name.
 
 ``robots``, ``stairs`` and ``surfaces`` are folders of this package; a file's stem is the name.
-``gross.toml`` holds the robots of which no centroid is published.
+``gross.toml`` holds the robots of which no centroid is published. Sources begin with a status
+letter: V read in the named source, C computed from a public robot model, D derived, U recalled
+and unconfirmed.
 """
 
 import tomllib
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from typing import Any, Literal, TypeVar
+from typing import Literal, TypeVar
 
 from kaidan.errors import InputError, UnknownNameError
 
@@ -17,6 +19,7 @@ T = TypeVar("T")
 
 _HERE = Path(__file__).parent
 _SINGULAR = {"robots": "robot", "stairs": "staircase", "surfaces": "surface"}
+_LARGEST_FILE = 1_000_000
 
 
 @cache
@@ -26,8 +29,8 @@ def names(kind: Kind) -> tuple[str, ...]:
 
 
 @cache
-def gross_robots() -> dict[str, dict[str, Any]]:
-    """Robots of which only gross figures are published, by name."""
+def gross_robots() -> dict[str, dict[str, str]]:
+    """Robots of which only gross figures are published, by name: title, figures, source."""
     return tomllib.loads((_HERE / "gross.toml").read_text(encoding="utf-8"))
 
 
@@ -53,7 +56,7 @@ def load(kind: Kind, name: str, read: Callable[..., T]) -> T:
     UnknownNameError
         No such name and no such file.
     InputError
-        A robot of which no centroid is published.
+        A robot of which no centroid is published, or a file that cannot be read.
     """
     stem = name.strip().lower()
     if stem in names(kind):
@@ -65,14 +68,26 @@ def load(kind: Kind, name: str, read: Callable[..., T]) -> T:
         )
     path = Path(name)
     try:
-        is_file = path.is_file()
+        exists = stem != "" and path.exists()
     except (OSError, ValueError):
-        is_file = False
-    if not is_file:
+        exists = False
+    if not exists:
         raise UnknownNameError(_SINGULAR[kind], name, names(kind))
+    origin = name if name.isprintable() else repr(name)
+    return read(_text(path, origin), origin=origin)
+
+
+def _text(path: Path, origin: str) -> str:
+    """Text of a user's file, with or without a byte order mark."""
     try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "not UTF-8 text"
-        raise InputError(f"{name}: cannot be read: {reason}") from None
-    return read(text, origin=name)
+        if path.is_dir():
+            raise InputError(f"{origin}: cannot be read: a folder, not a TOML file")
+        if not path.is_file():
+            raise InputError(f"{origin}: cannot be read: not a regular file")
+        if path.stat().st_size > _LARGEST_FILE:
+            raise InputError(f"{origin}: cannot be read: larger than 1 MB, so not a sheet")
+        return path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise InputError(f"{origin}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{origin}: cannot be read: not UTF-8 text") from None
