@@ -153,3 +153,20 @@ def test_limits_themselves_are_allowed():
     )
     assert plan.reserve == 0.0
     np.testing.assert_array_equal(plan.v, 0.5)
+
+
+def test_a_path_without_cells_keeps_its_speed():
+    # limit
+    empty = np.zeros(0)
+    plan = acceleration_plan(lower=empty, upper=empty, width=empty, v_max=0.5, v_start=0.3)
+    assert plan.a.shape == (0,)
+    assert plan.v == pytest.approx([0.3], abs=1e-15)
+    assert plan.reserve == 0.0
+
+
+@pytest.mark.parametrize("short", ["lower", "upper", "width"])
+def test_a_path_needs_every_cell_described(short):
+    path = {"lower": -np.ones(2), "upper": np.ones(2), "width": np.ones(2)}
+    path[short] = path[short][:1]
+    with pytest.raises(ValueError, match="zip"):
+        acceleration_plan(**path, v_max=1.0)

@@ -217,6 +217,13 @@ def test_deformation_outside_validity_is_nan():
     assert np.isnan(deformation_inclination(x=single, x_z=0.3, load=1.0, stiffness=1.0))
 
 
+def test_every_pose_has_its_own_inclination():
+    # hand: one contact alone, a pair (see test_deformation_inclination_of_two_contacts), a miss
+    x = np.array([[0.1, np.nan], [0.1, 0.5], [0.1, 0.5]])
+    theta_d = deformation_inclination(x=x, x_z=np.array([0.1, 0.4, 0.6]), load=100.0, stiffness=1e4)
+    np.testing.assert_allclose(theta_d, [np.nan, 0.0125, np.nan], rtol=0, atol=ROUNDING)
+
+
 def test_deformation_stiffness_is_the_inverse():
     # hand: see test_deformation_inclination_of_two_contacts
     k = deformation_stiffness(x=np.array([0.1, 0.5]), x_z=0.4, load=100.0, theta_d=0.0125)
