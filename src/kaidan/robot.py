@@ -235,7 +235,7 @@ class Robot(Sheet):
 
     @model_validator(mode="after")
     def _centroid_inside(self) -> Self:
-        front, rear = -self.track.front_radius, self.track.flat_length + self.track.rear_radius
+        front, rear = 0.0 - self.track.front_radius, self.track.flat_length + self.track.rear_radius
         if not front <= self.com_from_front <= rear:
             raise self.refuse(
                 f"com_from_front = {self.com_from_front:g} m puts the centroid outside the robot: "

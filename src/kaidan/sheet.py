@@ -229,4 +229,7 @@ def toml_value(value: Any) -> str:
 def _escaped(character: str) -> str:
     if character in _ESCAPES:
         return _ESCAPES[character]
-    return character if character >= " " and character != "\x7f" else f"\\u{ord(character):04x}"
+    if character.isprintable():
+        return character
+    code = ord(character)
+    return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
