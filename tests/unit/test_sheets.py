@@ -1,0 +1,407 @@
+"""Sheets: every refusal to the letter, and TOML out and in again."""
+
+import math
+
+import pytest
+from pydantic import ValidationError
+
+from kaidan import catalog
+from kaidan.errors import InputError
+from kaidan.robot import Drive, FlipperPair, Payload, Posture, Robot, Track, Uncertainty
+from kaidan.sheet import PLACEHOLDER
+from kaidan.stairs import Stairs, StairsUncertainty
+from kaidan.surface import Surface
+
+TRACK = {"flat_length": 0.5}
+ROBOT = {"name": "r", "com_from_front": 0.25, "com_height": 0.1, "track": TRACK}
+FLIPPER = {"length": 0.33, "root_radius": 0.089, "tip_radius": 0.029, "pivot_height": 0.089}
+FLIGHT = {"rise": 0.18, "going": 0.28}
+SURFACE = {"friction_low": 0.5, "friction_high": 0.6}
+ROBOT_FIELDS = (
+    "name, title, mass, com_from_front, com_height, inertia, track, front_flippers, "
+    "rear_flippers, drive, uncertainty, sources, notes"
+)
+
+
+def refusal(sheet, data):
+    with pytest.raises(InputError) as caught:
+        sheet.model_validate(data)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("change", "text"),
+    [
+        (
+            {"com_height": 100},
+            "robot: com_height = 100 m is not within 0.005 to 3 m "
+            "(in millimetres? that would be 0.1 m)",
+        ),
+        (
+            {"com_height": 4.0},
+            "robot: com_height = 4 m is not within 0.005 to 3 m "
+            "(in inches? that would be 0.1016 m)",
+        ),
+        ({"com_height": -0.1}, "robot: com_height = -0.1 m is not within 0.005 to 3 m"),
+        ({"com_height": 0}, "robot: com_height = 0 m is not within 0.005 to 3 m"),
+        ({"com_height": math.nan}, "robot: com_height = nan m is not within 0.005 to 3 m"),
+        ({"com_height": math.inf}, "robot: com_height = inf m is not within 0.005 to 3 m"),
+        ({"com_height": -math.inf}, "robot: com_height = -inf m is not within 0.005 to 3 m"),
+        (
+            {"drive": {"efficiency": 1.0000001}},
+            "robot: drive: efficiency = 1.0000001 is not within 0.05 to 1",
+        ),
+        (
+            {"mass": 38700},
+            "robot: mass = 38700 kg is not within 0.1 to 5000 kg (in grams? that would be 38.7 kg)",
+        ),
+        (
+            {"mass": 10**400},
+            "robot: mass = a number of more than 300 digits kg is not within 0.1 to 5000 kg",
+        ),
+        ({"com_height": "0.1"}, 'robot: com_height = "0.1" is not a number'),
+        ({"com_height": True}, "robot: com_height = true is not a number"),
+        ({"com_height": None}, "robot: com_height = None is not a number"),
+        ({"com_height": [0.1]}, "robot: com_height = a list is not a number"),
+        ({"com_height": {"mm": 100}}, "robot: com_height = a table is not a number"),
+        (
+            {"com_height": "100 millimetres, measured by tilting " * 9},
+            'robot: com_height = "100 millimetres, measured by tilting 100 millimetres, me..." '
+            "is not a number",
+        ),
+        ({"name": 5}, "robot: name = 5: Input should be a valid string"),
+        ({"track": 5}, "robot: track = 5 is not a table of fields"),
+        ({"track": [TRACK]}, "robot: track = a list is not a table of fields"),
+        (
+            {"track": {"flat_length": 470}},
+            "robot: track: flat_length = 470 m is not within 0.05 to 5 m "
+            "(in millimetres? that would be 0.47 m)",
+        ),
+        (
+            {"track": {}},
+            "robot: track: flat_length is missing (length of the flat underside of the track)",
+        ),
+        (
+            {"com_hight": 0.1},
+            f"robot: com_hight is not a known field; known: {ROBOT_FIELDS}",
+        ),
+        (
+            {"a\n\x1b[31m": 0.1},
+            f'robot: "a\\n\\u001b[31m" is not a known field; known: {ROBOT_FIELDS}',
+        ),
+        (
+            {"com_height": PLACEHOLDER},
+            "robot: com_height is still to be filled in: centroid above the underside of the "
+            "track, 0.005 to 3 m",
+        ),
+        (
+            {"sources": {"mass": 5}},
+            "robot: sources.mass = 5: Input should be a valid string",
+        ),
+        (
+            {"drive": {"acceleration_control": "perhaps"}},
+            'robot: drive: acceleration_control = "perhaps": Input should be a valid boolean, '
+            "unable to interpret input",
+        ),
+        (
+            {"drive": {"efficiency": 85}},
+            "robot: drive: efficiency = 85 is not within 0.05 to 1",
+        ),
+        (
+            {"uncertainty": {"com_height": 5}},
+            "robot: uncertainty: com_height = 5 m is not within 0 to 0.5 m "
+            "(in millimetres? that would be 0.005 m)",
+        ),
+        (
+            {"front_flippers": {**FLIPPER, "stowed_angle": 90}},
+            "robot: flippers: stowed_angle = 90 rad is not within -3.14159 to 3.14159 rad "
+            "(in degrees? that would be 1.5708 rad)",
+        ),
+        # contradictions
+        (
+            {"com_from_front": 0.6},
+            "robot: com_from_front = 0.6 m puts the centroid outside the robot: allowed 0 to 0.5 m",
+        ),
+        (
+            {"com_from_front": -0.1},
+            "robot: com_from_front = -0.1 m puts the centroid outside the robot: "
+            "allowed 0 to 0.5 m",
+        ),
+        (
+            {"com_from_front": 0.65, "track": {**TRACK, "front_radius": 0.1, "rear_radius": 0.1}},
+            "robot: com_from_front = 0.65 m puts the centroid outside the robot: "
+            "allowed -0.1 to 0.6 m",
+        ),
+        (
+            {"front_flippers": {**FLIPPER, "mass": 1.5}},
+            "robot: mass is missing: the flippers' mass moves the centroid",
+        ),
+        (
+            {"mass": 3, "front_flippers": {**FLIPPER, "mass": 3}},
+            "robot: mass = 3 kg is not more than its flippers' 3 kg",
+        ),
+        (
+            {"front_flippers": {**FLIPPER, "length": 0.05}},
+            "robot: flippers: length = 0.05 m is too short to lay the tip in line with the track "
+            "from a pivot 0.089 m above it",
+        ),
+    ],
+)
+def test_robot_refuses_to_the_letter(change, text):
+    assert refusal(Robot, {**ROBOT, **change}) == text
+
+
+def test_a_robot_names_all_its_wrong_fields_at_once():
+    assert refusal(Robot, {**ROBOT, "mass": -1, "com_height": 9999}) == (
+        "robot: mass = -1 kg is not within 0.1 to 5000 kg; "
+        "robot: com_height = 9999 m is not within 0.005 to 3 m"
+    )
+
+
+def test_a_robot_of_nothing_says_what_it_needs():
+    assert refusal(Robot, {}) == (
+        "robot: name is missing (short name, used on the command line); "
+        "robot: com_from_front is missing (centroid behind the front end of the flat underside); "
+        "robot: com_height is missing (centroid above the underside of the track); "
+        "robot: track is missing (main tracks)"
+    )
+
+
+@pytest.mark.parametrize("data", [5, "kenaf", None, [1, 2]])
+def test_what_is_no_table_is_no_sheet(data):
+    assert refusal(Surface, data).endswith(" is not a table of fields")
+
+
+@pytest.mark.parametrize(
+    ("data", "text"),
+    [
+        (
+            {"rise": 180, "going": 280},
+            "stairs: rise = 180 m is not within 0.02 to 0.6 m "
+            "(in millimetres? that would be 0.18 m); "
+            "stairs: going = 280 m is not within 0.02 to 2.5 m "
+            "(in millimetres? that would be 0.28 m)",
+        ),
+        (
+            {"rise": 7, "going": 11},
+            "stairs: rise = 7 m is not within 0.02 to 0.6 m (in inches? that would be 0.1778 m); "
+            "stairs: going = 11 m is not within 0.02 to 2.5 m (in inches? that would be 0.2794 m)",
+        ),
+        (
+            {"rise": 0.9, "going": 0.28},
+            "stairs: rise = 0.9 m is not within 0.02 to 0.6 m (in inches? that would be 0.02286 m)",
+        ),
+        ({"rise": 0.18}, "stairs: give rise and going, or the measured lists rises and goings"),
+        ({}, "stairs: give rise and going, or the measured lists rises and goings"),
+        (
+            {**FLIGHT, "rises": [0.18, 0.18], "goings": [0.28]},
+            "stairs: give either rise and going or rises and goings, not both",
+        ),
+        (
+            {"rises": [0.18, 0.18], "goings": [0.28, 0.28]},
+            "stairs: 2 rises need 1 goings, not 2",
+        ),
+        (
+            {"rises": [0.18, 0.18], "goings": [0.28], "first_rise": 0.15},
+            "stairs: first_rise and last_rise stand in the list rises already",
+        ),
+        (
+            {"rises": [0.18, 0.18], "goings": [0.28], "steps": 12},
+            "stairs: steps = 12 contradicts the 2 rises; leave it out",
+        ),
+        (
+            {"rises": [0.18, 180, 0.18], "goings": [0.28, 0.28]},
+            "stairs: rises[1] = 180 m is not within 0.005 to 0.6 m "
+            "(in millimetres? that would be 0.18 m)",
+        ),
+        (
+            {"rises": [0.18, 0.18, 0.18], "goings": [0.28, math.nan]},
+            "stairs: goings[1] = nan m is not within 0.02 to 2.5 m",
+        ),
+        (
+            {"rises": [0.18, "0.18"], "goings": [True]},
+            'stairs: rises[1] = "0.18" is not a number; stairs: goings[0] = true is not a number',
+        ),
+        (
+            {"rises": [0.18], "goings": [0.28]},
+            "stairs: rises = a list: Tuple should have at least 2 items after validation, not 1",
+        ),
+        ({"rises": 0.18, "goings": [0.28]}, "stairs: rises = 0.18 is not a list of numbers"),
+        ({"rises": "0.18", "goings": [0.28]}, 'stairs: rises = "0.18" is not a list of numbers'),
+        ({"rises": {}, "goings": [0.28]}, "stairs: rises = a table is not a list of numbers"),
+        ({**FLIGHT, "steps": 12.5}, "stairs: steps = 12.5 is not a whole number"),
+        ({**FLIGHT, "steps": 1}, "stairs: steps = 1 risers is not within 2 to 10000 risers"),
+        ({**FLIGHT, "steps": True}, "stairs: steps = true is not a number"),
+        (
+            {**FLIGHT, "nosing_overhang": 30},
+            "stairs: nosing_overhang = 30 m is not within 0 to 0.1 m "
+            "(in millimetres? that would be 0.03 m)",
+        ),
+        (
+            {"rise": 0.18, "going": 0.05, "nosing_overhang": 0.05},
+            "stairs: nosing_overhang = 0.05 m is not less than the going 0.05 m",
+        ),
+        (
+            {**FLIGHT, "direction": "sideways"},
+            "stairs: direction = \"sideways\": Input should be 'up' or 'down'",
+        ),
+        (
+            {**FLIGHT, "uncertainty": {"angle": 2}},
+            "stairs: uncertainty: angle = 2 rad is not within 0 to 0.35 rad "
+            "(in degrees? that would be 0.0349066 rad)",
+        ),
+        (
+            {**FLIGHT, "run": 0.28},
+            "stairs: run is not a known field; known: name, title, rise, going, steps, "
+            "first_rise, last_rise, rises, goings, nosing_overhang, open_risers, lower_landing, "
+            "upper_landing, direction, uncertainty, sources, notes",
+        ),
+        (
+            {"rise": PLACEHOLDER, "going": PLACEHOLDER},
+            "stairs: rise is still to be filled in: vertical distance between adjacent nosings of "
+            "a uniform flight, 0.02 to 0.6 m; stairs: going is still to be filled in: horizontal "
+            "distance between adjacent nosings of a uniform flight, 0.02 to 2.5 m",
+        ),
+    ],
+)
+def test_stairs_refuse_to_the_letter(data, text):
+    assert refusal(Stairs, data) == text
+
+
+@pytest.mark.parametrize(
+    ("change", "text"),
+    [
+        ({"friction_low": -0.1}, "surface: friction_low = -0.1 is not within 0 to 5"),
+        ({"friction_high": 60}, "surface: friction_high = 60 is not within 0 to 5"),
+        ({"friction_low": math.nan}, "surface: friction_low = nan is not within 0 to 5"),
+        ({"friction_low": 0.7}, "surface: friction_low = 0.7 is more than friction_high = 0.6"),
+        (
+            {"friction_low": PLACEHOLDER},
+            "surface: friction_low is still to be filled in: smallest static friction, 0 to 5",
+        ),
+    ],
+)
+def test_surface_refuses_to_the_letter(change, text):
+    assert refusal(Surface, {**SURFACE, **change}) == text
+
+
+@pytest.mark.parametrize(
+    ("sheet", "data", "text"),
+    [
+        (
+            Payload,
+            {"mass": 5, "from_front": 250, "height": 0.2},
+            "payload: from_front = 250 m is not within -3 to 8 m "
+            "(in millimetres? that would be 0.25 m)",
+        ),
+        (
+            Posture,
+            {"front": "up"},
+            "posture: front = 'up'; allowed: an angle in rad, 'flat' or none",
+        ),
+        (Posture, {"rear": 90.0}, "posture: rear = 90 rad is not within -3.14159 to 3.14159 rad"),
+    ],
+)
+def test_payload_and_posture_refuse_to_the_letter(sheet, data, text):
+    assert refusal(sheet, data) == text
+
+
+def test_toml_errors_name_the_file():
+    with pytest.raises(InputError) as caught:
+        Surface.from_text("friction_low = ", origin="mine.toml")
+    assert str(caught.value) == "mine.toml: not valid TOML: Invalid value (at end of document)"
+    with pytest.raises(InputError) as caught:
+        Surface.from_text("friction_low = 0.5", origin="mine.toml")
+    assert str(caught.value) == (
+        "mine.toml: surface: friction_high is missing (largest static friction)"
+    )
+
+
+def test_numbers_may_be_whole():
+    assert Robot.model_validate({**ROBOT, "mass": 20}).mass == 20.0
+    assert Stairs.model_validate({**FLIGHT, "steps": 5.0}).steps == 5
+
+
+def test_the_ends_of_a_range_are_allowed():
+    assert Track(flat_length=0.05).flat_length == 0.05
+    assert Track(flat_length=5.0).flat_length == 5.0
+
+
+def test_sheets_are_frozen():
+    with pytest.raises(ValidationError, match="frozen"):
+        Surface(**SURFACE).friction_low = 0.1
+
+
+SHEETS = {
+    "robots": Robot,
+    "stairs": Stairs,
+    "surfaces": Surface,
+}
+
+
+@pytest.mark.parametrize(
+    ("kind", "name"), [(kind, name) for kind in SHEETS for name in catalog.names(kind)]
+)
+def test_every_catalogue_sheet_survives_toml(kind, name):
+    sheet = SHEETS[kind].named(name)
+    assert SHEETS[kind].from_text(sheet.to_toml(), origin="again") == sheet
+
+
+@pytest.mark.parametrize(
+    "sheet",
+    [
+        Robot(
+            name='odd "name" \\ with\ttab\nline, ünïcödé, \x7f and \x01',
+            title="階段",
+            mass=1e-1 + 0.2,
+            com_from_front=1 / 3,
+            com_height=0.1,
+            inertia=1e-4,
+            track=Track(flat_length=0.5, gauge=0.4, stiffness=3.4e4),
+            front_flippers=FlipperPair(**FLIPPER, mass=0.1, max_speed=0.7854),
+            drive=Drive(acceleration_control=True, max_power=1e6),
+            uncertainty=Uncertainty(com_height=0.005),
+            sources={"track.flat_length": "V: x", "a b": "", "": "U: y", "ä": 'q"'},
+            notes='two\n"""lines"""\\',
+        ),
+        Stairs(rises=(0.18, 0.175, 0.18), goings=(0.28, 0.281), direction="down"),
+        Stairs(
+            **FLIGHT,
+            steps=5,
+            first_rise=0.15,
+            last_rise=0.19,
+            open_risers=True,
+            uncertainty=StairsUncertainty(angle=0.01),
+        ),
+        Surface(**SURFACE, friction_uncertainty=1e-5),
+    ],
+    ids=["robot", "measured", "uniform", "surface"],
+)
+def test_odd_sheets_survive_toml(sheet):
+    assert type(sheet).from_text(sheet.to_toml(), origin="again") == sheet
+
+
+def test_toml_leaves_out_what_is_default():
+    assert Surface(**SURFACE).to_toml() == "friction_low = 0.5\nfriction_high = 0.6\n"
+
+
+@pytest.mark.parametrize("sheet", SHEETS.values(), ids=SHEETS)
+def test_every_quantity_has_unit_range_and_meaning(sheet):
+    """Walk the JSON schema: every number is bounded, explained and has its unit."""
+    schema = sheet.model_json_schema()
+    models = [schema, *schema.get("$defs", {}).values()]
+    for model in models:
+        for name, field in model["properties"].items():
+            assert field.get("description"), name
+            variants = field.get("anyOf", [field])
+            for variant in variants:
+                number = variant.get("items", variant)
+                if number.get("type") in ("number", "integer"):
+                    assert "unit" in field, name
+                    assert {"minimum", "maximum"} <= number.keys(), name
+
+
+def test_the_schema_of_a_list_bounds_its_items():
+    rises = Stairs.model_json_schema()["properties"]["rises"]
+    assert rises["unit"] == "m"
+    assert rises["anyOf"][0]["items"] == {"maximum": 0.6, "minimum": 0.005, "type": "number"}
