@@ -164,9 +164,21 @@ def test_a_path_without_cells_keeps_its_speed():
     assert plan.reserve == 0.0
 
 
-@pytest.mark.parametrize("short", ["lower", "upper", "width"])
-def test_a_path_needs_every_cell_described(short):
-    path = {"lower": -np.ones(2), "upper": np.ones(2), "width": np.ones(2)}
+@pytest.mark.parametrize(
+    ("short", "hopeless"),
+    [
+        ("lower", {}),
+        ("upper", {}),
+        ("width", {}),
+        # an error even where the answer would be "no plan": an empty band, a start too fast
+        ("lower", {"upper": -2.0 * np.ones(2)}),
+        ("upper", {"upper": -2.0 * np.ones(2)}),
+        ("width", {"v_start": 5.0}),
+    ],
+)
+def test_a_path_needs_every_cell_described(short, hopeless):
+    path = {"lower": -np.ones(2), "upper": np.ones(2), "width": np.ones(2), "v_max": 1.0}
+    path |= hopeless
     path[short] = path[short][:1]
     with pytest.raises(ValueError, match="zip"):
-        acceleration_plan(**path, v_max=1.0)
+        acceleration_plan(**path)
