@@ -44,7 +44,7 @@ def main() -> None:
         seconds(RUN + command)
         ratios = [seconds(RUN + command) / seconds(FLOOR) for _ in range(chosen.runs)]
         figures[f"kaidan {name} / floor"] = statistics.median(ratios)
-    finish(figures, chosen, targets={name: 2.0 for name in figures})
+    finish(figures, chosen, targets=dict.fromkeys(figures, 2.0))
 
 
 if __name__ == "__main__":

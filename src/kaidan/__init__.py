@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from kaidan.robot import Payload, Posture, Robot
     from kaidan.stairs import Stairs
     from kaidan.surface import Surface
+    from kaidan.sweeps import stream, sweep, verdicts
 
 __version__ = "0.1.0"
 
@@ -21,10 +22,16 @@ _HOME = {
     "Robot": "kaidan.robot",
     "Stairs": "kaidan.stairs",
     "Surface": "kaidan.surface",
+    "stream": "kaidan.sweeps",
+    "sweep": "kaidan.sweeps",
+    "verdicts": "kaidan.sweeps",
 }
 
 __all__ = [  # noqa: RUF022 - what a user meets first
     "assess",
+    "sweep",
+    "verdicts",
+    "stream",
     "Assessment",
     "Robot",
     "Stairs",

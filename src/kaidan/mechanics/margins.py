@@ -47,6 +47,8 @@ class Margins(NamedTuple):
     """The smallest of the four, leaving out what is unknown."""
     governs: Number
     """`Mode` of the smallest."""
+    inside: Number
+    """1 where the model holds, NaN where p > L / 2."""
 
 
 class AccelerationBounds(NamedTuple):
@@ -131,7 +133,7 @@ def margins(
         np.where(slip_up <= slip_down, Mode.SLIP_UP, Mode.SLIP_DOWN),
         np.where(tip_downhill <= tip_uphill, Mode.TIP_DOWNHILL, Mode.TIP_UPHILL),
     )
-    return Margins(sup, inf, tip_downhill, tip_uphill, slip_up, slip_down, worst, governs)
+    return Margins(sup, inf, tip_downhill, tip_uphill, slip_up, slip_down, worst, governs, inside)
 
 
 def acceleration_bounds(

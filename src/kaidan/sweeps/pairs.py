@@ -1,0 +1,316 @@
+"""Verdicts with every margin for arrays of robots and stairs, pair by pair, as fast as memory."""
+
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan.errors import InputError
+from kaidan.mechanics.verdict import Judged, judged
+from kaidan.sweeps import compiled
+
+Engine = Literal["auto", "numpy", "compiled"]
+Array = NDArray[Any]
+
+INPUTS = {
+    "flat_length": "L",
+    "com_from_uphill": "C_L",
+    "com_height": "C_N",
+    "angle": "theta_s",
+    "nosing_spacing": "p",
+    "friction": "mu_s",
+    "acceleration": "a",
+    "theta_d": "theta_d",
+    "theta_M": "theta_M",
+    "theta_d_spare": "spare_d",
+    "theta_M_spare": "spare_M",
+}
+"""Inputs by their English names, and the symbols of the formulas."""
+
+CODES = ("verdict", "governs")
+"""Outputs that are codes (int8); all others are float64."""
+
+_DEFAULTS = {"friction": np.nan} | dict.fromkeys(
+    ("acceleration", "theta_d", "theta_M", "theta_d_spare", "theta_M_spare"), 0.0
+)
+_CHUNK = {"numpy": 1 << 13, "compiled": 1 << 16}
+_RANGES = {
+    "flat_length": (0.05, 5.0, "m"),
+    "com_from_uphill": (-1.0, 6.0, "m"),
+    "com_height": (0.005, 3.0, "m"),
+    "angle": (0.0, 1.5533, "rad"),
+    "nosing_spacing": (0.02, 2.5, "m"),
+    "friction": (0.0, 5.0, "1"),
+    "acceleration": (-9.8, 9.8, "m/s^2"),
+    "theta_d": (0.0, 0.6, "rad"),
+    "theta_M": (0.0, 0.6, "rad"),
+    "theta_d_spare": (0.0, 0.6, "rad"),
+    "theta_M_spare": (0.0, 0.6, "rad"),
+}
+
+
+def verdicts(
+    inputs: Mapping[str, Any],
+    *,
+    out: Judged | None = None,
+    engine: Engine = "auto",
+    checked: bool = True,
+) -> Judged:
+    """Verdict and every margin of many pairs of robot and stairs.
+
+    Parameters
+    ----------
+    inputs : mapping of str to float or array
+        `flat_length`, `com_from_uphill` (centroid behind the end that points up the stairs),
+        `com_height`, `nosing_spacing` [m], `angle` [rad]; optional `friction` [1] (left out:
+        unknown), `acceleration` [m/s^2], `theta_d`, `theta_M`, `theta_d_spare`, `theta_M_spare`
+        [rad], see `kaidan.mechanics.verdict.judged`. Arrays broadcast against each other.
+    out : Judged, optional
+        Arrays of an earlier answer of the same shape to write into, C-contiguous.
+    engine : {"auto", "numpy", "compiled"}
+        "compiled" needs ``kaidan[fast]``; "auto" takes it if it is there.
+    checked : bool
+        Whether to refuse inputs without physical meaning (one more pass over them).
+
+    Returns
+    -------
+    Judged
+        Arrays of the broadcast shape: codes int8, margins float64 (rad, m, m/s^2).
+
+    Raises
+    ------
+    InputError
+        Missing, unknown or unphysical inputs, shapes that do not broadcast, or an `out` that
+        does not fit.
+    MissingExtraError
+        engine = "compiled" without numba.
+
+    Examples
+    --------
+    >>> kenaf = dict(flat_length=0.470, com_from_uphill=0.196, com_height=0.071)
+    >>> slopes = np.radians([50.0, 59.0, 62.0])
+    >>> verdicts({**kenaf, "angle": slopes, "nosing_spacing": 0.15, "friction": 2.0}).verdict
+    array([0, 0, 2], dtype=int8)
+    """
+    arrays, shape = _broadcast(inputs)
+    if checked:
+        _check(arrays)
+    if out is None:
+        out = Judged(
+            *(np.empty(shape, np.int8 if name in CODES else np.float64) for name in Judged._fields)
+        )
+    flat_out = _flat(out, shape)
+    size = int(np.prod(shape))
+    if engine == "auto":
+        engine = "compiled" if compiled.available() else "numpy"
+    if engine not in _CHUNK:
+        raise InputError(f"engine = {engine!r} is not known; known: auto, numpy, compiled")
+    kernel = _compiled_kernel() if engine == "compiled" else _numpy_kernel
+    step = _CHUNK[engine]
+    flat_in = [_chunks(array, shape, step) for array in arrays.values()]
+
+    def work(start: int) -> None:
+        stop = min(start + step, size)
+        kernel([take(start, stop) for take in flat_in], [o[start:stop] for o in flat_out])
+
+    starts = range(0, size, step)
+    if len(starts) <= 2:
+        for start in starts:
+            work(start)
+    else:
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            for _ in pool.map(work, starts, chunksize=1):
+                pass
+    return out
+
+
+def stream(
+    chunks: Iterable[Mapping[str, Any]], *, engine: Engine = "auto", checked: bool = True
+) -> Iterator[Judged]:
+    """Verdicts of chunks of pairs as they come, in memory for one chunk.
+
+    The arrays of an answer are written anew for the next chunk of the same shape: take out what
+    is to be kept before asking for the next.
+
+    Parameters
+    ----------
+    chunks : iterable of mappings
+        Inputs of `verdicts`, a chunk at a time.
+    engine : {"auto", "numpy", "compiled"}
+        See `verdicts`.
+    checked : bool
+        See `verdicts`.
+
+    Yields
+    ------
+    Judged
+        Answer of each chunk.
+    """
+    out: Judged | None = None
+    for inputs in chunks:
+        _, shape = _broadcast(inputs)
+        if out is not None and np.shape(out.verdict) != shape:
+            out = None
+        out = verdicts(inputs, out=out, engine=engine, checked=checked)
+        yield out
+
+
+def _broadcast(inputs: Mapping[str, Any]) -> tuple[dict[str, Array], tuple[int, ...]]:
+    unknown = set(inputs) - set(INPUTS)
+    if unknown:
+        raise InputError(f"unknown input {sorted(unknown)[0]!r}; known: {', '.join(INPUTS)}")
+    missing = [name for name in INPUTS if name not in inputs and name not in _DEFAULTS]
+    if missing:
+        raise InputError(f"missing input: {', '.join(missing)}")
+    try:
+        arrays = {
+            name: np.asarray(inputs.get(name, _DEFAULTS.get(name)), dtype=np.float64)
+            for name in INPUTS
+        }
+    except (TypeError, ValueError) as error:
+        raise InputError(f"inputs must be numbers or arrays of numbers: {error}") from None
+    try:
+        shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
+    except ValueError:
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items() if array.ndim)
+        raise InputError(f"shapes do not broadcast: {shapes}") from None
+    return arrays, shape
+
+
+def _check(arrays: Mapping[str, Array]) -> None:
+    for name, array in arrays.items():
+        low, high, unit = _RANGES[name]
+        if array.size == 0:
+            continue
+        least, most = np.fmin.reduce(array, axis=None), np.fmax.reduce(array, axis=None)
+        if name != "friction" and np.isnan(array.sum()):
+            raise InputError(f"{name} holds NaN")
+        if least < low or most > high:
+            bad = least if least < low else most
+            raise InputError(f"{name} = {bad:g} {unit} is not within {low:g} to {high:g} {unit}")
+
+
+def _flat(out: Judged, shape: tuple[int, ...]) -> list[Array]:
+    for name, array in zip(Judged._fields, out, strict=True):
+        if array.shape != shape or not array.flags.c_contiguous:
+            raise InputError(
+                f"out.{name} has shape {array.shape}, not {shape}, or is not contiguous"
+            )
+    return [array.reshape(-1) for array in out]
+
+
+def _chunks(array: Array, shape: tuple[int, ...], step: int) -> Any:
+    """Give contiguous pieces of an input as if it were broadcast and flat."""
+    if array.size == 1:
+        constant = np.full(step, array.reshape(-1)[0])
+        return lambda start, stop: constant[: stop - start]
+    if array.shape != shape:
+        array = np.ascontiguousarray(np.broadcast_to(array, shape))
+    flat = np.ascontiguousarray(array).reshape(-1)
+    return lambda start, stop: flat[start:stop]
+
+
+def _numpy_kernel(inputs: list[Array], outputs: list[Array]) -> None:
+    with np.errstate(invalid="ignore"):
+        answer = judged(**dict(zip(INPUTS.values(), inputs, strict=True)))
+    for target, value in zip(outputs, answer, strict=True):
+        target[...] = value
+
+
+@cache
+def _compiled_kernel() -> Any:
+    """Two loops, because one that writes all twelve outputs is too much for the vectoriser."""
+    formula = compiled.compiled(judged)
+    njit = compiled.numba().njit(error_model="numpy", nogil=True)
+
+    @njit
+    def angles(  # type: ignore[no-untyped-def]
+        L,
+        C_L,
+        C_N,
+        theta_s,
+        p,
+        mu_s,
+        a,
+        theta_d,
+        theta_M,
+        spare_d,
+        spare_M,
+        verdict,
+        governs,
+        margin,
+        theta_s_sup,
+        tip_downhill,
+        tip_uphill,
+        slip_up,
+        slip_down,
+    ):
+        for i in range(L.size):
+            answer = formula(
+                L[i],
+                C_L[i],
+                C_N[i],
+                theta_s[i],
+                p[i],
+                mu_s[i],
+                a[i],
+                theta_d[i],
+                theta_M[i],
+                spare_d[i],
+                spare_M[i],
+            )
+            verdict[i] = answer.verdict
+            governs[i] = answer.governs
+            margin[i] = answer.margin
+            theta_s_sup[i] = answer.theta_s_sup
+            tip_downhill[i] = answer.tip_downhill
+            tip_uphill[i] = answer.tip_uphill
+            slip_up[i] = answer.slip_up
+            slip_down[i] = answer.slip_down
+
+    @njit
+    def others(  # type: ignore[no-untyped-def]
+        L,
+        C_L,
+        C_N,
+        theta_s,
+        p,
+        mu_s,
+        a,
+        theta_d,
+        theta_M,
+        spare_d,
+        spare_M,
+        a_max,
+        a_min,
+        centroid,
+        required_friction,
+    ):
+        for i in range(L.size):
+            answer = formula(
+                L[i],
+                C_L[i],
+                C_N[i],
+                theta_s[i],
+                p[i],
+                mu_s[i],
+                a[i],
+                theta_d[i],
+                theta_M[i],
+                spare_d[i],
+                spare_M[i],
+            )
+            a_max[i] = answer.a_max
+            a_min[i] = answer.a_min
+            centroid[i] = answer.centroid
+            required_friction[i] = answer.required_friction
+
+    def kernel(inputs: list[Array], outputs: list[Array]) -> None:
+        angles(*inputs, *outputs[:8])
+        others(*inputs, *outputs[8:])
+
+    return kernel
