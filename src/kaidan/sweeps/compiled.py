@@ -80,7 +80,7 @@ def _stand_in(value: Any, formula: FunctionType) -> Any:
     if value is np and formula.__module__ != elementary.__name__:
         return _numpy_for_numbers()
     if isinstance(value, EnumType):  # numbers, not members
-        members = {name: int(member) for name, member in value.__members__.items()}
+        members: dict[str, int] = {member.name: int(member) for member in value}  # type: ignore
         return namedtuple(value.__name__, members)(**members)
     return value
 
