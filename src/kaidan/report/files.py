@@ -1,0 +1,114 @@
+"""Files that are there whole or not at all, and the same bytes every time."""
+
+import csv
+import io
+import json
+import math
+import os
+import secrets
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from kaidan.errors import InputError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FORMATS = ("png", "svg", "pdf")
+"""Formats of figures, by the suffix of the file."""
+
+_METADATA: dict[str, dict[str, str | None]] = {
+    "png": {"Software": "kaidan"},
+    "svg": {"Creator": "kaidan", "Date": None},
+    "pdf": {"Creator": "kaidan", "CreationDate": None},
+}
+"""Without dates, so that the same question gives the same file."""
+
+
+def figure_format(path: Path) -> str:
+    """Format that the suffix of a figure's file asks for.
+
+    Raises
+    ------
+    InputError
+        Another suffix, or none.
+    """
+    suffix = path.suffix.lower().removeprefix(".")
+    if suffix not in FORMATS:
+        known = ", ".join(f".{name}" for name in FORMATS)
+        what = f"unknown suffix {path.suffix!r}" if path.suffix else "no suffix"
+        raise InputError(f"figure {str(path)!r}: {what}; known: {known}")
+    return suffix
+
+
+def figure_bytes(figure: "Figure", form: str) -> bytes:
+    """Bytes of a figure in one of `FORMATS`."""
+    from kaidan.report import look
+
+    buffer = io.BytesIO()
+    with look.settings():
+        figure.savefig(buffer, format=form, dpi=look.DPI, metadata=_METADATA[form])
+    return buffer.getvalue()
+
+
+def json_text(value: Any) -> str:
+    """Indented JSON in ASCII; arrays become lists, NaN and infinity become null."""
+    return json.dumps(_plain(value), indent=2, allow_nan=False) + "\n"
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if hasattr(value, "tolist"):
+        return _plain(value.tolist())
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
+
+
+def csv_text(columns: Mapping[str, Iterable[Any]]) -> str:
+    """CSV with one header line; NaN and None become empty fields."""
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(columns)
+    plain = [_plain(list(column)) for column in columns.values()]
+    writer.writerows(zip(*plain, strict=True))
+    return buffer.getvalue()
+
+
+def write_all(contents: Mapping[Path, bytes | str]) -> None:
+    """Write files one by one, each under a passing name in its folder until it is whole.
+
+    Parameters
+    ----------
+    contents : mapping of Path to bytes or str
+        What each file shall hold; text is written as UTF-8.
+
+    Raises
+    ------
+    InputError
+        A file or folder that cannot be written; the file then is as it was before.
+    """
+    for path, content in contents.items():
+        _write(path, content.encode("utf-8") if isinstance(content, str) else content)
+
+
+def _write(path: Path, content: bytes) -> None:
+    if path.exists() and not path.is_file():
+        raise InputError(f"{path}: cannot be written: not a file")
+    passing = path.with_name(f".{path.name[:100]}.{secrets.token_hex(6)}.part")
+    try:
+        handle = os.open(passing, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(content)
+            os.replace(passing, path)
+        except BaseException:
+            passing.unlink(missing_ok=True)
+            raise
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise InputError(f"{path}: cannot be written: {reason}") from None
