@@ -1,0 +1,155 @@
+"""Picture of a matrix of verdicts, legible without colour."""
+
+import textwrap
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from kaidan.assessment.answer import Verdict
+from kaidan.report import look
+from kaidan.report.matrix import WORDS, Cell, Matrix
+
+_ROW, _COLUMN, _HEAD, _TOP = 0.36, 0.6, 0.5, 0.32
+"""Height of a row, least width of a column, height of the head and of the title [in]."""
+_STRIP = 0.11
+"""Share of a cell's width that carries the hatch."""
+
+_FILLS: dict[Verdict, dict[str, Any]] = {
+    "go": {"facecolor": "#c5e8dc", "hatch": None},
+    "caution": {"facecolor": "#fbf1cc", "hatch": "//////"},
+    "no-go": {"facecolor": "#f2c6af", "hatch": "xxxxxx"},
+    "outside-model": {"facecolor": "#ffffff", "hatch": "......"},
+}
+_SIGNS: dict[Verdict, dict[str, Any]] = {
+    "go": {"marker": "o", "markerfacecolor": look.BLACK},
+    "caution": {"marker": "^", "markerfacecolor": "white"},
+    "no-go": {"marker": "X", "markerfacecolor": look.BLACK},
+    "outside-model": {"marker": "s", "markerfacecolor": "white"},
+}
+
+
+def matrix_figure(matrix: Matrix) -> Figure:
+    """Picture of a matrix: a sign, a word and the margin in every cell.
+
+    Parameters
+    ----------
+    matrix : Matrix
+        Verdicts.
+
+    Returns
+    -------
+    Figure
+        As wide as a page, or wider where there are many robots.
+    """
+    rows, columns = len(matrix.stairs), len(matrix.robots)
+    with look.settings():
+        probe = look.blank(1.0)
+        sides = [_side(row[0]) for row in matrix.cells]
+        left = max(look.extent(probe, text)[0] for text in sides) + 0.2
+        width = max(look.WIDTH, left + columns * _COLUMN + 0.1)
+        column = min(1.1, (width - left - 0.1) / columns)
+        notes = _notes(matrix, int((width - 0.2) * 14))
+        foot = 0.36 + 0.155 * len(notes)
+        height = _TOP + _HEAD + rows * _ROW + foot
+        figure = look.blank(height, width)
+        axes = figure.add_axes(
+            (left / width, foot / height, columns * column / width, rows * _ROW / height)
+        )
+        axes.set_xlim(0.0, columns)
+        axes.set_ylim(rows, 0.0)
+        axes.axis("off")
+        for r, row in enumerate(matrix.cells):
+            axes.text(-0.1 / column, r + 0.5, sides[r], ha="right", va="center")
+            for c, cell in enumerate(row):
+                _draw_cell(axes, r, c, cell)
+        for c, cell in enumerate(matrix.cells[0]):
+            name = "\n".join(textwrap.wrap(look.named(cell.robot, 22), 11))
+            posture = f"\n({cell.flippers})" if cell.flippers in ("flat", "stowed") else ""
+            axes.text(c + 0.5, -0.12, name + posture, ha="center", va="bottom", linespacing=1.1)
+        figure.text(
+            0.1 / width,
+            1 - 0.2 / height,
+            look.named(matrix.conditions, 120),
+            fontsize=9.0,
+            weight="bold",
+        )
+        _draw_key(figure, (foot - 0.2) / height)
+        for index, text in enumerate(reversed(notes)):
+            figure.text(0.1 / width, (0.06 + 0.155 * index) / height, text)
+    return figure
+
+
+def _draw_cell(axes: Axes, row: int, column: int, cell: Cell) -> None:
+    _draw_swatch(axes, row, column, 1.0, cell.verdict)
+    middle = column + (1 + _STRIP) / 2
+    axes.text(middle, row + 0.3, WORDS[cell.verdict], ha="center", va="center")
+    margin = "" if cell.margin_deg != cell.margin_deg else f"{cell.margin_deg:+.1f}"
+    sign = middle if not margin else column + _STRIP + 0.13
+    axes.plot(
+        sign,
+        row + 0.72,
+        markersize=4.5,
+        markeredgecolor=look.BLACK,
+        markeredgewidth=0.8,
+        **_SIGNS[cell.verdict],
+    )
+    axes.text(column + 0.94, row + 0.72, margin.replace("-", "−"), ha="right", va="center")
+
+
+def _draw_swatch(axes: Axes, row: float, column: float, width: float, verdict: Verdict) -> None:
+    fill = _FILLS[verdict]
+    axes.add_patch(Rectangle((column, row), width, 1.0, facecolor=fill["facecolor"], linewidth=0.0))
+    axes.add_patch(
+        Rectangle(
+            (column, row),
+            _STRIP,
+            1.0,
+            facecolor="none",
+            edgecolor="#555555",
+            hatch=fill["hatch"],
+            linewidth=0.0,
+        )
+    )
+    axes.add_patch(
+        Rectangle((column, row), width, 1.0, facecolor="none", edgecolor="white", linewidth=2.0)
+    )
+
+
+def _draw_key(figure: Figure, bottom: float) -> None:
+    """Key of the signs below the matrix."""
+    width = figure.get_size_inches()[0]
+    axes = figure.add_axes(
+        (0.1 / width, bottom, 1 - 0.2 / width, 0.15 / figure.get_size_inches()[1])
+    )
+    axes.set_xlim(0.0, width - 0.2)
+    axes.set_ylim(1.0, 0.0)
+    axes.axis("off")
+    place = 0.08
+    for verdict, word in {**WORDS, "outside-model": "OUTSIDE THE MODEL"}.items():
+        axes.plot(
+            place,
+            0.5,
+            markersize=4.5,
+            markeredgecolor=look.BLACK,
+            markeredgewidth=0.8,
+            clip_on=False,
+            **_SIGNS[verdict],
+        )
+        axes.text(place + 0.1, 0.5, word, va="center")
+        place += 0.35 + look.extent(figure, word)[0]
+    axes.text(place, 0.5, "number: smallest margin [°], worst reading", va="center")
+
+
+def _side(cell: Cell) -> str:
+    shape = f"{cell.angle_deg:.1f}°, {1e3 * cell.nosing_spacing_m:.0f} mm"
+    return f"{look.named(cell.stairs, 24)}  {shape}"
+
+
+def _notes(matrix: Matrix, width: int) -> list[str]:
+    if not matrix.without_centroid:
+        return []
+    names = ", ".join(robot.name for robot in matrix.without_centroid)
+    text = f"No centroid is published, so no margin: {names}."
+    return textwrap.wrap(text, width, break_on_hyphens=False)
