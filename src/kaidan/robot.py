@@ -36,6 +36,9 @@ class Track(Sheet):
     rear_radius: float = quantity(
         "m", 0.0, 0.6, "radius of the rear end, belt included", default=0.0, symbol="R"
     )
+    gap: float = quantity(
+        "m", 0.0, 4.0, "middle part of the flat underside that has no track", default=0.0
+    )
     gauge: float | None = quantity(
         "m", 0.05, 4.0, "distance between the middles of the two tracks", default=None
     )

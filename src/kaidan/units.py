@@ -20,7 +20,7 @@ _EXAMPLE = {
     "speed": "0.1m/s",
 }
 _QUANTITY = re.compile(
-    r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s]\S*)?\s*", re.ASCII
+    r"\s*([+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s]\S*)?\s*", re.ASCII
 )
 
 
@@ -49,7 +49,7 @@ def parse(text: str, kind: str, *, option: str) -> float:
     units = _UNITS[kind]
     match = _QUANTITY.fullmatch(text)
     if match is None:
-        raise InputError(f"{option} {text!r} is not a {kind}; write for example {_EXAMPLE[kind]}")
+        raise InputError(f"{option} {text!r} is no {kind}; write for example {_EXAMPLE[kind]}")
     number, unit = match.groups()
     if unit is None:
         choices = " or ".join(f"{number}{name}" for name in list(units)[:3])

@@ -182,6 +182,11 @@ def _outside(case: Case, stance: Stance, at: Draws) -> str:
             f"the flat length of {stance.flat_length * 1e3:.0f} mm (p > L/2), so one nosing alone "
             "carries the robot at times"
         )
+    if case.robot.track.gap > 0:
+        return (
+            f"{case.robot.track.gap * 1e3:.0f} mm in the middle of the underside have no track "
+            "to carry a nosing"
+        )
     if stance.tips_below:
         return "a flipper reaches below the underside of the track"
     if case.stairs.irregularity > LARGEST_IRREGULARITY + 1e-12:

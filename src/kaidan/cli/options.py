@@ -251,7 +251,7 @@ def _doubted(sheet: Any, doubts: dict[str, float | None]) -> Any:
 def _number(text: str, option: str) -> float:
     from kaidan.errors import InputError
 
-    if not re.fullmatch(r"\s*[+-]?(\d+\.?\d*|\.\d+)\s*", text, re.ASCII):
+    if not re.fullmatch(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)\s*", text, re.ASCII):
         raise InputError(f"{option} {text!r} is not a plain number such as 0.8")
     return float(text)
 
