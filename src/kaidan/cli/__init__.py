@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from kaidan.cli import assess, catalogs
+from kaidan.cli import assess, catalogs, reports
 
 _START_LIGHTLY = {
     "OPENBLAS_NUM_THREADS": "1",  # no matrix here is worth the threads numpy would start
@@ -45,6 +45,7 @@ def kaidan(
 
 assess.register(app)
 catalogs.register(app)
+reports.register(app)
 
 
 def main() -> None:
