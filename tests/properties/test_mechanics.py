@@ -354,7 +354,7 @@ EXAMPLES = {
     "d": 0.03, "k": 2.0, "n": 3.0, "p": 0.15, "L": 0.47, "C_L": 0.196, "C_N": 0.071, "s": 0.35,
     "alpha": 0.3, "beta": 0.3, "theta_alpha": 0.6, "theta_beta": 0.8, "min_a_r0": 3.0,
     "max_a_rn": -4.0, "a_S": 2.0, "a_slip_down": -9.0, "a_r0": 8.0, "a_rn": -7.0, "grip": 0.8,
-    "theta_s_sup": 1.0, "theta_d": 0.05, "theta_M": 0.02, "share": 0.4, "x_0": 0.4, "x_n": 0.05,
+    "theta_s_sup": 1.0, "theta_d": 0.05, "theta_M": 0.02, "spare_d": 0.03, "spare_M": 0.01, "share": 0.4, "x_0": 0.4, "x_n": 0.05,
     "x_z": 0.3, "backward": 0.01, "forward": 0.02, "v": 0.3, "theta": 0.5, "l_c": 0.27, "R": 0.06,
     "F": 80.0, "c_rr": 0.05, "r": 0.05, "eta": 0.7, "T": 2.0, "gamma": 0.4, "psi": 0.3,
     "gauge": 0.3, "g": 9.8, "holds": 1.0,
@@ -366,16 +366,9 @@ NEEDS_NUMPY = {
 }  # fmt: skip
 
 
-LABELS_LOST = {
-    # np.where makes a plain array of its answer, whose axes then no longer carry names
-    "plane.state", "plane.lowest_contact", "plane.area", "margins.margins",
-    "margins.acceleration_bounds",
-}  # fmt: skip
-
-
 MODULES = (
     "slipping", "triangle", "tipping", "plane", "margin", "margins", "loads", "measures",
-    "transitions", "drive", "oblique", "validity",
+    "transitions", "drive", "oblique", "validity", "verdict",
 )  # fmt: skip
 
 
@@ -433,9 +426,7 @@ def test_arrays_give_what_floats_give(function):
 
 
 @pytest.mark.parametrize("function", FORMULAS)
-def test_labels_stay(function, request):
-    if request.node.callspec.id in LABELS_LOST:
-        request.applymarker(pytest.mark.xfail(reason="np.where strips the labels", strict=True))
+def test_labels_stay(function):
     values = two_of_each(function)
     labelled = {
         name: xr.DataArray(value, dims=name, coords={name: value}) for name, value in values.items()

@@ -98,8 +98,8 @@ def test_nonsense_is_refused_in_one_line(text):
 def test_no_number_at_all_gets_an_example():
     with pytest.raises(InputError) as caught:
         parse("steep", "angle", option="--angle")
-    assert str(caught.value).startswith("--angle 'steep' is not a")
-    assert str(caught.value).endswith(" angle; write for example 50deg")
+    assert str(caught.value).startswith("--angle 'steep' is no angle;")
+    assert str(caught.value).endswith("; write for example 50deg")
 
 
 def test_a_number_past_all_bounds_is_refused():

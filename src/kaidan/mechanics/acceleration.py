@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.plane import contact_count
 from kaidan.mechanics.tipping import a_r0, a_rn
+from kaidan.mechanics.validity import validity
 
 Array = NDArray[np.float64]
 
@@ -69,6 +70,7 @@ def tip_band(
     Returns
     -------
     Band
+        NaN where p > L / 2.
 
     References
     ----------
@@ -81,8 +83,9 @@ def tip_band(
         [np.linspace(0.0, d_C, before + 1)[:before], np.linspace(d_C, p, cells - before + 1)]
     )
     k = np.where(np.arange(cells) < before, n, n - 1)
-    upper = a_r0(s=edges[:-1] + k * p, theta_s=theta_s, C_L=C_L, C_N=C_N, g=g)
-    lower = a_rn(d=edges[1:], theta_s=theta_s, C_L=C_L, C_N=C_N, g=g)
+    inside = float(validity(holds=2.0 * p <= L))
+    upper = inside * a_r0(s=edges[:-1] + k * p, theta_s=theta_s, C_L=C_L, C_N=C_N, g=g)
+    lower = inside * a_rn(d=edges[1:], theta_s=theta_s, C_L=C_L, C_N=C_N, g=g)
     return Band(edges, lower, upper)
 
 

@@ -13,6 +13,7 @@ from kaidan.mechanics import STANDARD_GRAVITY, Number
 from kaidan.mechanics.margin import slope_limit, theta_s_inf, theta_s_sup
 from kaidan.mechanics.slipping import slip_acceleration_down, slip_acceleration_up
 from kaidan.mechanics.tipping import a_max, a_min_with_slip, max_a_rn, min_a_r0
+from kaidan.mechanics.validity import validity
 
 
 class Mode(IntEnum):
@@ -118,7 +119,7 @@ def margins(
     Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eqs. (4), (7), (12), (24); the uphill
     limit, downhill slip and theta_d at the uphill end derived.
     """
-    inside = np.where(2.0 * p <= L, 1.0, np.nan)
+    inside = validity(holds=2.0 * p <= L)
     sup = inside * theta_s_sup(L=L, p=p, C_L=C_L, C_N=C_N, a=a, g=g)
     inf = inside * theta_s_inf(p=p, C_L=C_L, C_N=C_N, a=a, g=g)
     tip_downhill = sup - theta_d - theta_M - theta_s
@@ -127,11 +128,10 @@ def margins(
     slip_down = inside * (theta_s - slope_limit(grip=-mu_s, a=a, g=g))
     tip = np.minimum(tip_downhill, tip_uphill)
     slip = np.minimum(slip_up, slip_down)
-    worst = np.fmin(tip, slip)
-    governs = np.where(
-        slip < tip,
-        np.where(slip_up <= slip_down, Mode.SLIP_UP, Mode.SLIP_DOWN),
-        np.where(tip_downhill <= tip_uphill, Mode.TIP_DOWNHILL, Mode.TIP_UPHILL),
+    worst = np.fmin(tip, slip) + 0.0 * tip  # an unknown slip is left out, an unknown tip is not
+    slips = slip < tip
+    governs = slips * (Mode.SLIP_UP + (slip_down < slip_up)) + (1 - slips) * (
+        tip_uphill < tip_downhill
     )
     return Margins(sup, inf, tip_downhill, tip_uphill, slip_up, slip_down, worst, governs, inside)
 
@@ -179,7 +179,7 @@ def acceleration_bounds(
     ----------
     Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eqs. (14)-(18); downhill slip derived.
     """
-    inside = np.where(2.0 * p <= L, 1.0, np.nan)
+    inside = validity(holds=2.0 * p <= L)
     slip_up = inside * slip_acceleration_up(mu_s=mu_s, theta_s=theta_s, g=g)
     slip_down = inside * slip_acceleration_down(mu_s=mu_s, theta_s=theta_s, g=g)
     tip_downhill = inside * min_a_r0(L=L, p=p, theta_s=theta_s, C_L=C_L, C_N=C_N, g=g)

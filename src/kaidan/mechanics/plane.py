@@ -99,9 +99,7 @@ def state(*, d: Number, L: Number, p: Number) -> Number:
     Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Fig. 3 and its text.
     """
     d_C = L - contact_count(L=L, p=p) * p
-    return np.where(
-        d > d_C, State.D, np.where(d == d_C, State.C, np.where(d > 0, State.B, State.A))
-    )
+    return (d < d_C) * (d > 0) * State.B + (d == d_C) * State.C + (d > d_C) * State.D
 
 
 def lowest_contact(*, d: Number, L: Number, p: Number) -> Number:
@@ -135,7 +133,7 @@ def lowest_contact(*, d: Number, L: Number, p: Number) -> Number:
     Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Fig. 3 and its text.
     """
     n = contact_count(L=L, p=p)
-    return d + np.where(d < L - n * p, n, n - 1) * p
+    return d + (n - (d >= L - n * p)) * p
 
 
 def area(
@@ -181,17 +179,10 @@ def area(
     Errata: areas A and C can overlap and equality is in none of the paper's areas; the downhill
     slip area does not exist there.
     """
+    slips, falls_back, falls_forward = a >= a_S, a > a_r0, a < a_rn
+    slips_down = a <= a_slip_down
     stable = (a < np.minimum(a_S, min_a_r0)) & (a > np.maximum(a_slip_down, max_a_rn))
-    return np.where(
-        a >= a_S,
-        Area.A,
-        np.where(
-            a > a_r0,
-            Area.B,
-            np.where(
-                a < a_rn,
-                Area.C,
-                np.where(a <= a_slip_down, Area.DOWNHILL_SLIP, np.where(stable, Area.D, Area.E)),
-            ),
-        ),
+    # one step further for every area that it is not in: the first that holds is the answer
+    return (1 - slips) * (
+        1 + (1 - falls_back) * (1 + (1 - falls_forward) * (1 + (1 - slips_down) * (2 - stable)))
     )

@@ -117,14 +117,10 @@ def judged(
     )
     tip_at_best = np.minimum(m.tip_downhill + (spare_d + spare_M), m.tip_uphill + spare_d)
     at_best = np.fmin(tip_at_best, np.minimum(m.slip_up, m.slip_down))
-    verdict = np.where(
-        m.worst > 0,
-        np.where(m.slip_up == m.slip_up, Verdict.GO, Verdict.CAUTION),
-        np.where(
-            at_best > 0,
-            Verdict.CAUTION,
-            np.where(m.worst == m.worst, Verdict.NO_GO, Verdict.OUTSIDE_MODEL),
-        ),
+    holds, holds_at_best = m.worst > 0, at_best > 0
+    unknown, outside = m.slip_up != m.slip_up, m.worst != m.worst
+    verdict = holds * unknown * Verdict.CAUTION + (1 - holds) * (
+        holds_at_best * Verdict.CAUTION + (1 - holds_at_best) * (Verdict.NO_GO + outside)
     )
     # sin and cos from the tangent: over arrays the trigonometry is what costs
     x, y = L - p - C_L, p - C_L

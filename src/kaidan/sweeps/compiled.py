@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from kaidan.errors import MissingExtraError
+from kaidan.mechanics.validity import validity
 from kaidan.sweeps import elementary
 
 _OURS = ("kaidan.mechanics", elementary.__name__)
@@ -75,6 +76,8 @@ def _stand_in(value: Any, formula: FunctionType) -> Any:
     """What a name of a formula stands for in its compiled twin."""
     if value is elementary.where:
         return _select()
+    if value is validity:
+        return compiled(elementary.validity)
     if isinstance(value, FunctionType) and value.__module__.startswith(_OURS):
         return compiled(value)
     if value is np and formula.__module__ != elementary.__name__:

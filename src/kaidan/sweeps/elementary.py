@@ -18,6 +18,11 @@ def where(condition: bool, x: float, y: float) -> float:
     return x if condition else y
 
 
+def validity(*, holds: bool) -> float:
+    """`kaidan.mechanics.validity.validity` without a power."""
+    return where(holds, 1.0, math.nan)
+
+
 def minimum(x: float, y: float) -> float:
     """Smaller of two numbers; NaN if either is."""
     return where((x < y) | (x != x), x, y)
