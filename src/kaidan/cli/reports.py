@@ -187,10 +187,9 @@ def _show_margin(curve: "MarginCurve") -> None:
         echo(f"OUTSIDE THE MODEL: {curve.outside}")
         return
     columns = {name: _list(values) for name, values in curve.columns().items()}
-    every = math.ceil(len(curve.p) / _ROWS)
     rows = [
         {name: values[index] for name, values in columns.items()}
-        for index in range(0, len(curve.p), every)
+        for index in _told(curve.p.tolist())
     ]
     echo_table(
         rows,
@@ -229,6 +228,17 @@ def _show_margin(curve: "MarginCurve") -> None:
                 "inside": "inside the model",
             },
         )
+
+
+def _told(p: list[float]) -> list[int]:
+    """Lines of a table that are told on the terminal, at round spacings if there are enough."""
+    for step in (10, 20, 25, 50, 100):
+        round_ones = [
+            i for i, x in enumerate(p) if abs(1e3 * x / step - round(1e3 * x / step)) < 1e-6
+        ]
+        if _ROWS / 4 <= len(round_ones) <= _ROWS:
+            return round_ones
+    return list(range(0, len(p), math.ceil(len(p) / _ROWS)))
 
 
 def plane(

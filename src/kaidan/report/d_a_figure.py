@@ -93,7 +93,7 @@ def draw_plane(axes: Axes, plane: Plane) -> None:
     d = 1e3 * plane.d
     for region in plane.regions():
         axes.fill_between(
-            d,
+            1e3 * region.d,
             np.clip(region.low, low, high),
             np.clip(region.high, low, high),
             **look.fill(f"area {region.area.name}"),
@@ -202,6 +202,7 @@ def _draw_states(axes: Axes, plane: Plane) -> None:
         if start == end:
             sideways = "left" if name == "C" and near else "center"
             axes.plot([1e3 * start] * 2, [0.0, 0.4], color=look.BLACK, linewidth=0.7, clip_on=False)
+            name = "A = C" if plane.d_C == 0 else name
             axes.text(1e3 * start, 0.7, name, ha=sideways, **at)
             continue
         text = f"{name}: {contacts} contacts"

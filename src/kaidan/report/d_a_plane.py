@@ -106,10 +106,7 @@ class Plane(NamedTuple):
             return ()
         cuts = {0.0, self.d_C, self.p}
         for curve in (self.a_r0, self.a_rn):
-            for index in range(len(self.d) - 1):
-                (x, y), (left, right) = self.d[index : index + 2], curve[index : index + 2]
-                if x < y and (left - a) * (right - a) < 0:
-                    cuts.add(float(x + (y - x) * (a - left) / (right - left)))
+            cuts.update(d for _, d in self._crossings(curve, a))
         edges = sorted(cut for cut in cuts if 0 <= cut <= self.p)
         found: list[Stay] = []
         for start, end in pairwise(edges):
@@ -125,26 +122,56 @@ class Plane(NamedTuple):
         if self.outside:
             return ()
         at = self.limits
-        slip_up, slip_down = (np.full_like(self.d, at[name]) for name in ("a_S", "a_slip_down"))
-        upper, lower = np.minimum(slip_up, self.a_r0), np.maximum(slip_down, self.a_rn)
+        levels = (at["a_S"], at["a_slip_down"])
+        corners = [
+            corner
+            for curve in (self.a_r0, self.a_rn)
+            for level in levels
+            for corner in self._crossings(curve, level)
+        ]
+        after, places = [index + 1 for index, _ in corners], [d for _, d in corners]
+        order = np.argsort(places)
+        d, r0, rn = (
+            np.insert(curve, np.array(after, dtype=int)[order], np.array(values)[order])
+            for curve, values in (
+                (self.d, places),
+                (self.a_r0, [self._between(self.a_r0, *corner) for corner in corners]),
+                (self.a_rn, [self._between(self.a_rn, *corner) for corner in corners]),
+            )
+        )
+        slip_up, slip_down = (np.full_like(d, level) for level in levels)
+        upper, lower = np.minimum(slip_up, r0), np.maximum(slip_down, rn)
         low, high = max(at["a_slip_down"], self.max_a_rn), min(at["a_S"], self.min_a_r0)
+        below = np.minimum(rn, upper)
         parts = [
-            (Area.A, slip_up, np.full_like(self.d, np.inf)),
+            (Area.A, slip_up, np.full_like(d, np.inf)),
             (Area.B, upper, slip_up),
-            (Area.C, np.full_like(self.d, -np.inf), np.minimum(self.a_rn, upper)),
-            (Area.DOWNHILL_SLIP, np.minimum(self.a_rn, upper), np.minimum(slip_down, upper)),
+            (Area.C, np.full_like(d, -np.inf), below),
+            (Area.DOWNHILL_SLIP, below, np.minimum(slip_down, upper)),
         ]
         if low < high:
             parts += [
-                (Area.D, np.full_like(self.d, low), np.full_like(self.d, high)),
-                (Area.E, lower, np.full_like(self.d, low)),
-                (Area.E, np.full_like(self.d, high), upper),
+                (Area.D, np.full_like(d, low), np.full_like(d, high)),
+                (Area.E, lower, np.full_like(d, low)),
+                (Area.E, np.full_like(d, high), upper),
             ]
         else:
             parts.append((Area.E, lower, upper))
-        return tuple(
-            Region(name, self.d, below, np.maximum(above, below)) for name, below, above in parts
-        )
+        return tuple(Region(name, d, foot, np.maximum(head, foot)) for name, foot, head in parts)
+
+    def _crossings(self, curve: Array, level: float) -> list[tuple[int, float]]:
+        """Where a curve crosses a level: index of the point before, and progress."""
+        found = []
+        for index in range(len(self.d) - 1):
+            (x, y), (left, right) = self.d[index : index + 2], curve[index : index + 2]
+            if x < y and (left - level) * (right - level) < 0:
+                found.append((index, float(x + (y - x) * (level - left) / (right - left))))
+        return found
+
+    def _between(self, curve: Array, index: int, d: float) -> float:
+        """Value of a curve between two points of the grid, where it is straight."""
+        (x, y), (left, right) = self.d[index : index + 2], curve[index : index + 2]
+        return float(left + (right - left) * (d - x) / (y - x))
 
     def states(self) -> tuple[tuple[str, float, float, int], ...]:
         """States A to D: name, start and end in the progress [m], contacts that carry."""

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from kaidan.assessment.allowance import Allowance
 from kaidan.assessment.case import Case
+from kaidan.assessment.closed_form import judge
 from kaidan.mechanics.margin import theta_s_inf, theta_s_sup, theta_s_sup_corrected
 from kaidan.mechanics.plane import contact_count
 from kaidan.stairs import Stairs
@@ -136,7 +137,7 @@ def margin_curve(case: Case, p: Array, marks: tuple[Mark, ...] = ()) -> MarginCu
     stance = case.stance
     L, C_N = stance.flat_length, stance.com_height
     C_L = stance.com_from_front if case.nose_up else L - stance.com_from_front
-    outside = "a flipper reaches below the underside of the track" if stance.tips_below else ""
+    outside = _outside(case, L)
     inside = np.where((2 * p <= L) & (not outside), 1.0, np.nan)
     with np.errstate(invalid="ignore"):
         sup = inside * theta_s_sup(L=L, p=p, C_L=C_L, C_N=C_N, a=case.acceleration)
@@ -165,6 +166,15 @@ def margin_curve(case: Case, p: Array, marks: tuple[Mark, ...] = ()) -> MarginCu
         inf_corrected=(inf + d.high, inf + d.low),
         marks=marks,
     )
+
+
+def _outside(case: Case, L: float) -> str:
+    """Why the closed form does not apply to the robot whatever the spacing; empty if it does.
+
+    Asked of the judge itself on a long regular flight whose spacing is well inside the model.
+    """
+    probe = Stairs.inclined(angle=math.pi / 4, nosing_spacing=max(0.03, L / 4), steps=1000)
+    return judge(case.changed(stairs=probe)).outside
 
 
 def mark(stairs: Stairs) -> Mark:
