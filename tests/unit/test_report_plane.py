@@ -94,6 +94,7 @@ def test_limits_agree_with_assess():
         (6, 0.22, {"friction": 0.5, "direction": "down"}),
         (30, 0.235, {"friction": 1.0}),
         (30, 0.47 / 3, {"friction": 1.0}),  # states A and C coincide
+        (15, 0.22, {"friction": 0.1}),  # area C reaches above a_S, where A comes first
     ],
 )
 def test_drawn_areas_are_those_of_the_definition(angle, p, options):
@@ -101,7 +102,8 @@ def test_drawn_areas_are_those_of_the_definition(angle, p, options):
     if found.outside:  # 2 p > L by rounding
         pytest.skip(found.outside)
     rng = np.random.default_rng(7)
-    for d, a in zip(rng.uniform(0, p, 400), rng.uniform(-40, 40, 400), strict=True):
+    reach = np.where(np.arange(2000) % 2, 40, 3)
+    for d, a in zip(rng.uniform(0, p, 2000), reach * rng.uniform(-1, 1, 2000), strict=True):
         if abs(d - found.d_C) < 1e-3:
             continue
         expected = found.area_at(d, a)
@@ -123,6 +125,12 @@ def test_one_acceleration_goes_through_areas_in_turn():
     assert [stay.area for stay in plane(40, 0.2, friction=2.0).stays(0.0)] == [Area.D]
     assert [stay.area for stay in plane(40, 0.2, friction=0.5).stays(0.0)] == [Area.A]
     assert [stay.area for stay in plane(10, 0.2, friction=2.0).stays(-9.0)][-1] is Area.C
+
+
+def test_state_c_counts_as_detached():
+    found = plane(44, 0.2, friction=2.0)
+    assert found.area_at(found.d_C, found.min_a_r0 + 1e-6) is Area.B
+    assert found.area_at(found.d_C - 1e-9, found.min_a_r0 + 1e-6) is Area.E
 
 
 def test_unknown_friction_bounds_nothing():
