@@ -115,8 +115,25 @@ def test_folders_that_are_not_there_or_in_the_way(tmp_path):
         files.write_all({tmp_path / "no" / "a.csv": "x"})
     with pytest.raises(InputError, match="cannot be written: not a file"):
         files.write_all({tmp_path: "x"})
-    with pytest.raises(InputError, match="cannot be written: "):
-        files.write_all({Path("a\0b"): "x"})
+    for odd in ("a\0b", "x" * 300, "\udce9/a"):
+        with pytest.raises(InputError, match="cannot be written: "):
+            files.write_all({tmp_path / odd: "x"})
+
+
+def test_a_link_stays_a_link(tmp_path):
+    real = tmp_path / "real.csv"
+    real.write_text("old")
+    link = tmp_path / "link.csv"
+    link.symlink_to(real)
+    files.write_all({link: "new"})
+    assert link.is_symlink()
+    assert real.read_text() == "new"
+
+
+def test_a_name_as_long_as_the_system_allows(tmp_path):
+    path = tmp_path / ("é" * 125 + ".csv")
+    files.write_all({path: "x"})
+    assert path.read_text() == "x"
 
 
 def test_labels_keep_their_order_and_distance():

@@ -168,6 +168,8 @@ def test_no_name_leaves_the_picture():
         (["kenaf", "--from", "0mm"], "--from '0mm' is not within 10mm to 5m"),
         (["kenaf", "--csv", "/proc/no/m.csv"],
          "/proc/no/m.csv: cannot be written: No such file or directory"),
+        (["kenaf", "--csv", "m.png", "--figure", "m.png"],
+         "--figure and --csv cannot both be m.png"),
         (["kenaf", "--facing", "sideways"],
          "facing = 'sideways' is not known; known: nose-first, tail-first"),
     ],

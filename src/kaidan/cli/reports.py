@@ -44,7 +44,7 @@ Accelerate = Annotated[
 ]
 RobotNames = Annotated[
     list[str] | None,
-    typer.Argument(metavar="[ROBOT]...", help="Catalogue names or TOML files [all robots]."),
+    typer.Argument(metavar="ROBOT", help="Catalogue names or TOML files [all robots]."),
 ]
 StairsNames = Annotated[
     list[str] | None,
@@ -105,7 +105,7 @@ def margin(
     from kaidan.report.margin_curve import margin_curve
     from kaidan.stairs import Stairs
 
-    form = _form(figure)
+    form = _form(figure, csv)
     case = options.case_from(
         robot,
         Stairs.inclined(angle=0.5, nosing_spacing=0.15),  # plays no part
@@ -360,7 +360,7 @@ def compare(
     from kaidan.robot import Robot
     from kaidan.stairs import Stairs
 
-    form = _form(figure)
+    form = _form(figure, csv)
     gross = catalog.gross_robots()
     asked = robots or [*catalog.names("robots"), *gross]
     apart = [name.strip().lower() for name in asked if name.strip().lower() in gross]
@@ -476,8 +476,8 @@ def reproduce(out: Folder = None, formats: Formats = None, as_json: options.AsJs
         contents[out / "reproduction.json"] = files.json_text(found)
         try:
             out.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise InputError(f"{out}: cannot be made: {error.strerror or error}") from None
+        except (OSError, ValueError) as error:
+            raise InputError(f"{out}: cannot be made: {files.reason(error)}") from None
     _put_out(contents, found if as_json else None, _show_reproduction)
     if out is None and not as_json:
         echo("Figures, captions and tables as files: kaidan reproduce --out FOLDER")
@@ -539,10 +539,13 @@ def _show_reproduction() -> None:
         echo(text)
 
 
-def _form(figure: Path | None) -> str:
-    """Format of a figure's file, refused before anything is computed."""
+def _form(figure: Path | None, csv: Path | None = None) -> str:
+    """Format of a figure's file; what cannot be is refused before anything is computed."""
+    from kaidan.errors import InputError
     from kaidan.report.files import figure_format
 
+    if figure is not None and figure == csv:
+        raise InputError(f"--figure and --csv cannot both be {figure}")
     return "" if figure is None else figure_format(figure)
 
 

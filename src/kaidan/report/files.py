@@ -97,18 +97,23 @@ def write_all(contents: Mapping[Path, bytes | str]) -> None:
 
 
 def _write(path: Path, content: bytes) -> None:
-    if path.exists() and not path.is_file():
-        raise InputError(f"{path}: cannot be written: not a file")
-    passing = path.with_name(f".{path.name[:100]}.{secrets.token_hex(6)}.part")
     try:
+        target = Path(os.path.realpath(path))  # a link stays a link
+        if target.exists() and not target.is_file():
+            raise InputError(f"{path}: cannot be written: not a file")
+        passing = target.with_name(f".kaidan-{secrets.token_hex(8)}.part")
         handle = os.open(passing, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
         try:
             with os.fdopen(handle, "wb") as file:
                 file.write(content)
-            os.replace(passing, path)
+            os.replace(passing, target)
         except BaseException:
             passing.unlink(missing_ok=True)
             raise
     except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise InputError(f"{path}: cannot be written: {reason}") from None
+        raise InputError(f"{path}: cannot be written: {reason(error)}") from None
+
+
+def reason(error: OSError | ValueError) -> str:
+    """Why a file or folder cannot be had, in the system's words."""
+    return error.strerror if isinstance(error, OSError) and error.strerror else str(error)
