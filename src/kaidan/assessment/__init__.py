@@ -1,7 +1,10 @@
 """One robot, one staircase: verdict, margins, what governs, what to do."""
 
+import math
 from collections.abc import Iterable
-from typing import Any, Literal
+from numbers import Real
+from os import PathLike, fspath
+from typing import Any, Literal, TypeVar
 
 from kaidan.assessment.allowance import Allowance as Allowance
 from kaidan.assessment.answer import Assessment as Assessment
@@ -14,12 +17,18 @@ from kaidan.surface import Surface
 LARGEST_ACCELERATION = 9.8
 """Beyond it no tracked robot accelerates, and the limits lose their meaning [m/s^2]."""
 
+FRICTION = (0.0, 5.0)
+"""Plausible static friction, as in `Surface` [1]."""
+
+RISK = (1e-4, 0.5)
+"""Probabilities of failure that can be asked for."""
+
 
 def assess(
-    robot: Robot | str,
-    stairs: Stairs | str,
+    robot: Robot | str | PathLike[str],
+    stairs: Stairs | str | PathLike[str],
     *,
-    surface: Surface | str | None = None,
+    surface: Surface | str | PathLike[str] | None = None,
     friction: float | None = None,
     acceleration: float = 0.0,
     speed: float | None = None,
@@ -36,11 +45,11 @@ def assess(
 
     Parameters
     ----------
-    robot : Robot or str
+    robot : Robot, str or path
         Robot, or its name in the catalogue, or a TOML file.
-    stairs : Stairs or str
+    stairs : Stairs, str or path
         Stairs, or their name in the catalogue, or a TOML file.
-    surface : Surface or str, optional
+    surface : Surface, str or path, optional
         Surface under the tracks; without one (and without `friction`) no GO is given.
     friction : float, optional
         Static friction instead of a surface [1].
@@ -110,15 +119,15 @@ def answer_to(case: Case, *, model: str = "closed-form") -> Assessment:
     from kaidan.assessment.wording import put_into_words
 
     if model != "closed-form":
-        raise InputError(f"model = {model!r} is not known; known: closed-form")
+        raise InputError(f"model = {_shown(model)} is not known; known: closed-form")
     return put_into_words(case, judge(case))
 
 
 def case_of(
-    robot: Robot | str,
-    stairs: Stairs | str,
+    robot: Robot | str | PathLike[str],
+    stairs: Stairs | str | PathLike[str],
     *,
-    surface: Surface | str | None = None,
+    surface: Surface | str | PathLike[str] | None = None,
     friction: float | None = None,
     acceleration: float = 0.0,
     speed: float | None = None,
@@ -131,35 +140,37 @@ def case_of(
     risk: float = 0.01,
 ) -> Case:
     """Case of the same arguments as `assess`: names resolved, everything checked."""
-    robot = Robot.named(robot) if isinstance(robot, str) else robot
-    stairs = Stairs.named(stairs) if isinstance(stairs, str) else stairs
+    robot, stairs = _sheet(robot, Robot), _sheet(stairs, Stairs)
     if surface is not None and friction is not None:
         raise InputError("give either a surface or a friction, not both")
     if friction is not None:
-        surface = Surface.of_friction(friction)
-    elif isinstance(surface, str):
-        surface = Surface.named(surface)
-    direction = direction or stairs.direction
+        surface = Surface.of_friction(_within("friction", friction, *FRICTION, ""))
+    elif surface is not None:
+        surface = _sheet(surface, Surface)
+    direction = stairs.direction if direction is None else direction
     for name, value, allowed in (
         ("direction", direction, ("up", "down")),
         ("facing", facing, ("nose-first", "tail-first")),
     ):
-        if value not in allowed:
-            raise InputError(f"{name} = {value!r} is not known; known: {', '.join(allowed)}")
-    _within("acceleration", acceleration, -LARGEST_ACCELERATION, LARGEST_ACCELERATION, "m/s^2")
-    _within("risk", risk, 1e-4, 0.5, "")
+        if not isinstance(value, str) or value not in allowed:
+            raise InputError(f"{name} = {_shown(value)} is not known; known: {', '.join(allowed)}")
+    largest = LARGEST_ACCELERATION
+    acceleration = _within("acceleration", acceleration, -largest, largest, "m/s^2")
+    risk = _within("risk", risk, *RISK, "")
     if speed is not None:
-        fastest = robot.drive.max_speed or 30.0
-        _within("speed", speed, 0.0, fastest, f"m/s, the most {robot.name} can do")
+        fastest, why = 30.0, "m/s"
+        if robot.drive.max_speed is not None:
+            fastest, why = robot.drive.max_speed, f"m/s, the most {robot.name} can do"
+        speed = _within("speed", speed, 0.0, fastest, why)
     case = Case(
         robot=robot,
         stairs=stairs,
         surface=surface,
         posture=_posture(robot, flippers),
-        payload=(payload,) if isinstance(payload, Payload) else tuple(payload),
+        payload=_payloads(payload),
         direction=direction,
         facing=facing,
-        acceleration=float(acceleration),
+        acceleration=acceleration,
         speed=speed,
         theta_d=Allowance.of(theta_d, name="theta_d"),
         theta_M=Allowance.of(theta_M, name="theta_M", descending=direction == "down"),
@@ -169,20 +180,61 @@ def case_of(
     return case
 
 
-def _within(name: str, value: float, low: float, high: float, unit: str) -> None:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise InputError(f"{name} = {value!r} is not a number")
-    if not low <= value <= high:
-        raise InputError(f"{name} = {value:g} is not within {low:g} to {high:g} {unit}".rstrip())
+T = TypeVar("T", Robot, Stairs, Surface)
+
+
+def _sheet(given: Any, kind: type[T]) -> T:
+    """Sheet as given, or by its name or path."""
+    if isinstance(given, kind):
+        return given
+    if isinstance(given, PathLike):
+        given = fspath(given)
+    if isinstance(given, str):
+        return kind.named(given)
+    raise InputError(
+        f"{kind.label} = {_shown(given)} is not a {kind.__name__}, a name of the catalogue or a "
+        "TOML file"
+    )
+
+
+def _payloads(given: Any) -> tuple[Payload, ...]:
+    if isinstance(given, Payload):
+        return (given,)
+    if isinstance(given, Iterable) and not isinstance(given, str):
+        each = tuple(given)
+        if all(isinstance(one, Payload) for one in each):
+            return each
+    raise InputError(f"payload = {_shown(given)} is not a Payload or a list of them")
+
+
+def _within(name: str, value: Any, low: float, high: float, unit: str) -> float:
+    """Number that is within its range; numpy's numbers are numbers, truth values are not."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise InputError(f"{name} = {_shown(value)} is not a number")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not low <= number <= high:
+        raise InputError(f"{name} = {number:g} is not within {low:g} to {high:g} {unit}".rstrip())
+    return number
+
+
+def _shown(value: Any) -> str:
+    """Text of any value in one short line."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def _posture(robot: Robot, flippers: Posture | str) -> Posture:
     if isinstance(flippers, Posture):
         return flippers
+    if not isinstance(flippers, str) or flippers not in ("flat", "stowed"):
+        raise InputError(
+            f"flippers = {_shown(flippers)} is not known; known: flat, stowed, or angles"
+        )
     if flippers == "stowed":
         return Posture()
-    if flippers != "flat":
-        raise InputError(f"flippers = {flippers!r} is not known; known: flat, stowed, or angles")
     if robot.front_flippers is None and robot.rear_flippers is None:
         raise InputError(f"robot {robot.name!r} has no flippers")
     return Posture(

@@ -8,11 +8,15 @@ from kaidan.assessment.allowance import Allowance
 from kaidan.assessment.answer import Change
 from kaidan.assessment.case import Case
 from kaidan.assessment.closed_form import Judgement, at_risk, judge
+from kaidan.errors import InputError
 from kaidan.mechanics.slipping import required_friction
 from kaidan.robot import Posture
+from kaidan.sheet import bounds
 from kaidan.surface import Surface
 
 _RANK = {"go": 0, "caution": 1, "no-go": 2, "outside-model": 3}
+LARGEST_FRICTION = bounds(Surface.model_fields["friction_low"])[2]
+"""Beyond it no surface is known."""
 _MARGIN_WORTH_TELLING = math.radians(0.05)
 
 
@@ -34,10 +38,10 @@ def what_would_help(case: Case, found: Judgement) -> tuple[Change, ...]:
     ]
     better = []
     for text, changed in candidates:
-        if isinstance(changed, Change):
-            better.append(changed)
+        try:
+            then = judge(changed)
+        except InputError:  # a posture or place of the centroid that the robot cannot have
             continue
-        then = judge(changed)
         if _better(then, found):
             margin = math.degrees(then.margin) if math.isfinite(then.margin) else None
             better.append(Change(change=text, verdict=then.verdict, margin_deg=margin))
@@ -52,7 +56,7 @@ def _better(then: Judgement, now: Judgement) -> bool:
     return then.margin > now.margin + _MARGIN_WORTH_TELLING
 
 
-Candidate = tuple[str, Case | Change]
+Candidate = tuple[str, Case]
 
 
 def _turned_round(case: Case) -> list[Candidate]:
@@ -80,8 +84,10 @@ def _gentler(case: Case) -> list[Candidate]:
 def _more_friction(case: Case, found: Judgement) -> list[Candidate]:
     if found.governs not in ("slip_up", "slip_down", "friction_unknown"):
         return []
-    steepest = float(found.nominal.theta_s.max())
-    needed = math.ceil(100 * float(required_friction(theta_s=steepest, a=case.acceleration)) + 1)
+    required = required_friction(theta_s=found.nominal.theta_s, a=case.acceleration)
+    needed = math.ceil(100 * float(required.max()) + 1)
+    if needed / 100 > LARGEST_FRICTION:
+        return []
     surface = Surface.of_friction(needed / 100)
     if case.surface is None:
         text = f"Make sure of a friction of {needed / 100:.2f} or more"
@@ -107,7 +113,7 @@ def _centroid_moved(case: Case, found: Judgement) -> list[Candidate]:
     """Shift of the centroid that would give a tip margin of zero, if the track is long enough."""
     if found.governs not in ("tip_downhill", "tip_uphill"):
         return []
-    short = -at_risk(found.worst.centroid.min(axis=-1), case.risk)
+    short = -at_risk(found.worst.centroid, case.risk)
     at, step, tilt = found.nominal, found.step, case.theta_d.high + case.theta_M.high
     L, p, C_N = float(at.L[0, 0]), float(at.p[0, step]), float(at.C_N[0, 0])
     theta = float(at.theta_s[0, step])
@@ -119,15 +125,13 @@ def _centroid_moved(case: Case, found: Judgement) -> list[Candidate]:
     end = "front" if uphill == case.nose_up else "rear"
     sign = -1.0 if end == "front" else 1.0
     robot = case.robot
-    moved = robot.com_from_front + sign * shift
-    try:
-        changed = robot.model_copy(update={"com_from_front": moved})
-        text = f"Move the centroid {1e3 * shift:.0f} mm towards the {end}"
-        if case.payload and found.stance.mass is not None:
-            load = sum(payload.mass for payload in case.payload)
-            if load > 0:
-                travel = shift * found.stance.mass / load
-                text += f" (the payload by {1e3 * travel:.0f} mm)"
-        return [(text, case.changed(robot=changed))]
-    except ArithmeticError:
-        return []
+    share = 1.0
+    if robot.mass is not None and found.stance.mass is not None:
+        share = robot.mass / found.stance.mass  # a payload stays where it is
+    moved = robot.com_from_front + sign * shift / share
+    changed = robot.model_copy(update={"com_from_front": moved})
+    text = f"Move the centroid {1e3 * shift:.0f} mm towards the {end}"
+    load = sum(payload.mass for payload in case.payload)
+    if load > 0 and found.stance.mass is not None:
+        text += f" (the payload by {1e3 * shift * found.stance.mass / load:.0f} mm)"
+    return [(text, case.changed(robot=changed))]

@@ -1,10 +1,13 @@
 """The allowances theta_d and theta_M of Eq. (24): measured, or a default that is shown."""
 
 import math
+from functools import cache
+from numbers import Real
 from typing import Any, ClassVar, Literal, Self
 
 from pydantic import Field
 
+from kaidan.errors import InputError
 from kaidan.sheet import Sheet, model_validator, quantity
 
 UNMEASURED = math.radians(2.6)
@@ -44,12 +47,29 @@ class Allowance(Sheet):
         Returns
         -------
         Allowance
+
+        Raises
+        ------
+        InputError
+            Neither an angle nor a pair of them, or not within 0 to 0.6 rad.
         """
         if isinstance(stated, cls):
             return stated
         if stated is None:
-            if name == "theta_M" and descending:
-                return cls(low=0.0, high=0.0, source="not applicable")
-            return cls(low=0.0, high=UNMEASURED, source="default")
-        low, high = stated if isinstance(stated, tuple | list) else (stated, stated)
-        return cls(low=low, high=high)
+            return cls._unstated(zero=name == "theta_M" and descending)
+        ends = tuple(stated) if isinstance(stated, tuple | list) else (stated, stated)
+        if len(ends) != 2 or not all(isinstance(end, Real) for end in ends):
+            raise InputError(f"{name} is not an angle or a pair (low, high) [rad]")
+        try:
+            if ends[0] is ends[1]:
+                cls(low=0.0, high=ends[1])  # one refusal, not two alike
+            return cls(low=ends[0], high=ends[1])
+        except InputError as error:
+            raise InputError(f"{name}: {error}") from None
+
+    @classmethod
+    @cache
+    def _unstated(cls, *, zero: bool) -> Self:
+        if zero:
+            return cls(low=0.0, high=0.0, source="not applicable")
+        return cls(low=0.0, high=UNMEASURED, source="default")

@@ -121,7 +121,7 @@ class Assessment:
     facing: Literal["nose-first", "tail-first"]
     area: str | None
     """Area of the paper's d-a plane the asked acceleration reaches on the worst reading: A to E,
-    or DOWNHILL_SLIP."""
+    or DOWNHILL_SLIP. E where only an acceleration that follows the position holds it."""
     angle_deg: float
     """Slope of the stairs, of the governing step [deg]."""
     nosing_spacing_m: float
@@ -173,9 +173,10 @@ class Assessment:
     a_min: float | None
     """Lower end of the band [m/s^2]."""
     a_max_safe: float | None
-    """Upper end with the allowances taken off; null if the band is empty [m/s^2]."""
+    """Upper end with the allowances taken off, at the chosen risk; null if the band is empty
+    [m/s^2]."""
     a_min_safe: float | None
-    """Lower end with the allowances taken off [m/s^2]."""
+    """Lower end with the allowances taken off, at the chosen risk [m/s^2]."""
     hardest_start: float | None
     """Hardest safe start in the direction of travel, a positive number [m/s^2]."""
     hardest_stop: float | None
@@ -209,10 +210,10 @@ class Assessment:
         return {"go": 0, "caution": 0, "no-go": 1, "outside-model": 3}[self.verdict]
 
     def to_json(self) -> str:
-        """One JSON object, indented."""
+        """One JSON object, indented, in ASCII."""
         import json
 
-        return json.dumps(asdict(self), indent=2, ensure_ascii=False, allow_nan=False)
+        return json.dumps(asdict(self), indent=2, allow_nan=False)
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:

@@ -4,9 +4,10 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kaidan.assessment.answer import Verdict
-from kaidan.assessment.case import Array, Case, Draws, draws
+from kaidan.assessment.case import Array, Case, Draws, draws, nominal
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.acceleration import acceleration_plan, tip_band
 from kaidan.mechanics.drive import drive_acceleration, drive_slope
@@ -15,7 +16,8 @@ from kaidan.mechanics.margin import (
     centroid_margin_uphill,
     semi_stable_limit,
 )
-from kaidan.mechanics.margins import Margins, Mode, margins
+from kaidan.mechanics.margins import Mode, margins
+from kaidan.mechanics.plane import contact_count
 from kaidan.mechanics.slipping import slip_acceleration_down, slip_acceleration_up
 from kaidan.robot import Stance
 
@@ -23,24 +25,25 @@ MODEL = "closed-form"
 LARGEST_IRREGULARITY = 0.0095
 """Difference within a flight up to which it counts as regular [m]: IBC 1011.5.4 allows 9.5 mm."""
 
+CREEP = 0.05
+"""Slowest speed of a plan over the drive's largest: at rest nothing follows a position."""
+
 MODES = (*(mode.name.lower() for mode in Mode), "drive")
 
 
+_TIPS = (Mode.TIP_DOWNHILL, Mode.TIP_UPHILL)
+"""The first of `MODES`; past the limit of any other the robot slips or stalls: no area E."""
+
+
 class Reading(NamedTuple):
-    """Margins on one reading of what is only known as a range; axes: mode, sample, step."""
+    """Margins on one reading of what is only known as a range, over the whole flight."""
 
     modes: Array
-    """Margin of slope of each of `MODES` [rad], (5, samples, steps); NaN: not known."""
-    bare: Margins
-    """What the formulas gave, without drive."""
+    """Margin of slope of each of `MODES` [rad], (5, samples); NaN: not known."""
+    worst: Array
+    """Smallest of each sample [rad]; minus infinity where the model does not hold."""
     centroid: Array
-    """How far the centroid may move [m], (samples, steps)."""
-
-    @property
-    def worst(self) -> Array:
-        """Smallest margin of each sample [rad]; minus infinity where the model does not hold."""
-        smallest = np.fmin.reduce(self.modes, axis=0).min(axis=-1)
-        return np.where(np.isnan(smallest), -np.inf, smallest)
+    """How far the centroid may move [m], (samples,); minus infinity where no place holds."""
 
 
 class Judgement(NamedTuple):
@@ -77,16 +80,17 @@ def judge(case: Case) -> Judgement:
     Judgement
     """
     stance = case.stance
-    sampled, nominal = draws(case, stance), draws(case, stance, certain=True)
-    worst = _read(case, stance, sampled, kind=False)
-    best = _read(case, stance, sampled, kind=True)
-    outside = _outside(case, stance, sampled)
+    at = nominal(case, stance)
+    worst, best, share_outside = _readings(case, stance, at)
+    outside = _outside(case, stance, share_outside)
     margin, margin_at_best = at_risk(worst.worst, case.risk), at_risk(best.worst, case.risk)
     if not outside and margin_at_best == -np.inf:
         outside = "the nosing spacing may well be more than half the flat length of the track"
-    per_mode = np.array([at_risk(mode.min(axis=-1), case.risk) for mode in worst.modes])
-    governing = int(np.nanargmin(per_mode)) if np.isfinite(per_mode).any() else 0
-    step = int(np.argmin(worst.modes[governing].mean(axis=0)))
+    per_mode = [at_risk(mode, case.risk) for mode in worst.modes]
+    governing = min(range(len(MODES)), key=lambda mode: _nan_last(per_mode[mode]))
+    step = 0
+    if at.p.size > 1:
+        step = int(np.argmin(_margins(case, stance, at).modes[governing, WORST, 0]))
     governs, semi_stable = MODES[governing], False
     verdict: Verdict
     if outside:
@@ -98,7 +102,8 @@ def judge(case: Case) -> Judgement:
         if margin > 0:
             governs = "friction_unknown"
     else:
-        semi_stable = _semi_stable(case, stance, nominal, step)
+        holds = not any(margin <= 0 for margin in per_mode[len(_TIPS) :])
+        semi_stable = holds and _semi_stable(case, stance, at, step)
         verdict = "caution" if semi_stable else "no-go"
     return Judgement(
         verdict,
@@ -107,7 +112,7 @@ def judge(case: Case) -> Judgement:
         margin,
         margin_at_best,
         stance,
-        nominal,
+        at,
         worst,
         best,
         outside,
@@ -115,72 +120,112 @@ def judge(case: Case) -> Judgement:
     )
 
 
+def _nan_last(value: float) -> float:
+    return math.inf if math.isnan(value) else value
+
+
 def at_risk(values: Array, risk: float) -> float:
     """Value that all but a share `risk` of the samples exceed.
 
     It is positive just where the share of samples that are zero or negative is at most `risk`.
     """
+    if len(values) == 1:
+        return float(values[0])
     if np.isnan(values).all():
         return math.nan
     return float(np.sort(np.where(np.isnan(values), -np.inf, values))[int(risk * len(values))])
 
 
-def _read(case: Case, stance: Stance, at: Draws, *, kind: bool) -> Reading:
-    theta_d = case.theta_d.low if kind else case.theta_d.high
-    theta_M = case.theta_M.low if kind else case.theta_M.high
+class _Margins(NamedTuple):
+    """Margins on both readings; axes: (mode,) reading, sample, step."""
+
+    modes: Array
+    centroid: Array
+
+
+WORST, BEST = 0, 1
+"""Readings of what is only known as a range, in the order in which they are counted."""
+
+
+def _margins(case: Case, stance: Stance, at: Draws) -> _Margins:
+    """Margins of every mode, and of the centroid, on the worst and the best reading."""
+    theta_d, theta_M = case.theta_d, case.theta_M
+    tilt_d = np.array([[[theta_d.high]], [[theta_d.low]]])
+    tilt_M = np.array([[[theta_M.high]], [[theta_M.low]]])
+    geometry: dict[str, Any] = {"p": at.p, "C_L": at.C_L, "C_N": at.C_N, "a": case.acceleration}
     bare = margins(
         L=at.L,
-        C_L=at.C_L,
-        C_N=at.C_N,
         theta_s=at.theta_s,
-        p=at.p,
-        mu_s=at.mu_high if kind else at.mu_low,
-        a=case.acceleration,
-        theta_d=theta_d,
-        theta_M=theta_M,
+        mu_s=np.array((at.mu_low, at.mu_high)),
+        theta_d=tilt_d,
+        theta_M=tilt_M,
+        **geometry,
     )
-    shape = np.shape(bare.worst)
-    modes = np.empty((len(MODES), *shape))
+    modes = np.empty((len(MODES), *np.shape(bare.worst)))
     modes[: len(Mode)] = bare.tip_downhill, bare.tip_uphill, bare.slip_up, bare.slip_down
-    modes[-1] = _drive_margin(case, stance, at)
-    tilted = at.theta_s + theta_d + theta_M
-    downhill = centroid_margin_downhill(
-        L=at.L, p=at.p, C_L=at.C_L, C_N=at.C_N, theta_s=tilted, a=case.acceleration
-    )
-    uphill = centroid_margin_uphill(
-        p=at.p, C_L=at.C_L, C_N=at.C_N, theta_s=at.theta_s - theta_d, a=case.acceleration
-    )
-    return Reading(modes, bare, np.minimum(downhill, uphill))
+    modes[-1] = bare.inside * (_drive_slope(case, stance) - at.theta_s)
+    tilted = at.theta_s + (tilt_d + tilt_M)
+    downhill = centroid_margin_downhill(L=at.L, theta_s=tilted, **geometry)
+    uphill = centroid_margin_uphill(theta_s=at.theta_s - tilt_d, **geometry)
+    upright = np.where(tilted < math.pi / 2, downhill, -np.inf)
+    return _Margins(modes, np.minimum(upright, uphill))
 
 
-def traction_limit(case: Case) -> float | None:
-    """Largest sum of tractive forces at the asked speed [N]; None where it is not known."""
+def _readings(case: Case, stance: Stance, at: Draws) -> tuple[Reading, Reading, float]:
+    """Both readings over the whole flight, and the share of samples outside the model."""
+    found = [_over_steps(case, stance, block) for block in draws(case, at)]
+    modes, centroid, outside = found[0]
+    for others in found[1:]:
+        modes, centroid = np.minimum(modes, others[0]), np.minimum(centroid, others[1])
+        outside = outside | others[2]
+    worst = np.fmin.reduce(modes, axis=0)
+    worst[np.isnan(worst)] = -np.inf
+    readings = [Reading(modes[:, i], worst[i], centroid[i]) for i in (WORST, BEST)]
+    return readings[WORST], readings[BEST], np.count_nonzero(outside) / len(outside)
+
+
+def _over_steps(case: Case, stance: Stance, at: Draws) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Smallest margins over the steps, of the modes and of the centroid; what is outside."""
+    found = _margins(case, stance, at)
+    beyond: NDArray[np.bool_] = np.any(2 * at.p > at.L, axis=-1)
+    return found.modes.min(axis=-1), found.centroid.min(axis=-1), beyond
+
+
+def traction_limit(case: Case, speed: float | None = None) -> float | None:
+    """Largest sum of tractive forces [N] at a speed, the asked one without; None: not known."""
     drive = case.drive
     limits = [drive.max_traction] if drive.max_traction is not None else []
-    if drive.max_power is not None and case.speed:
-        limits.append(drive.max_power * drive.efficiency / case.speed)
+    speed = case.speed if speed is None else speed
+    if drive.max_power is not None and speed:
+        limits.append(drive.max_power * drive.efficiency / speed)
     return min(limits) if limits else None
 
 
-def _drive_margin(case: Case, stance: Stance, at: Draws) -> Any:
+def _drive_slope(case: Case, stance: Stance) -> float:
+    """Steepest slope the drive can climb or hold at the asked acceleration; NaN: not known."""
     force = traction_limit(case)
     if force is None or stance.mass is None:
         return math.nan
-    known: dict[str, Any] = {"F": force, "M": stance.mass, "c_rr": case.drive.rolling_resistance}
-    spare = drive_acceleration(theta_s=math.pi / 2, **known) - case.acceleration
+    known: dict[str, Any] = {"F": force, "M": stance.mass, "c_rr": case.rolling_resistance}
     with np.errstate(invalid="ignore"):
-        limit = drive_slope(a=case.acceleration, **known)
-    return np.where(spare >= 0, math.pi / 2, limit) - at.theta_s
+        limit = float(drive_slope(a=case.acceleration, **known))
+    if math.isnan(limit):  # the force is enough for any slope, or for none
+        return math.pi / 2 if force > stance.mass * case.acceleration else -math.pi / 2
+    return min(limit, math.pi / 2)
 
 
-def _outside(case: Case, stance: Stance, at: Draws) -> str:
-    n = stance.flat_length / case.stairs.nosing_spacing
-    share_outside = float(np.mean((2 * at.p > at.L).any(axis=-1)))
+def _outside(case: Case, stance: Stance, share_outside: float) -> str:
     if share_outside > case.risk:
+        p = max(math.hypot(rise, going) for rise, going in case.stairs.regular_steps)
+        spacing, half = f"the nosing spacing of {p * 1e3:.0f} mm", "more than half the flat length"
+        if 2 * p > stance.flat_length:
+            return (
+                f"{spacing} is {half} of {stance.flat_length * 1e3:.0f} mm (p > L/2), so one "
+                "nosing alone carries the robot at times"
+            )
         return (
-            f"the nosing spacing of {case.stairs.nosing_spacing * 1e3:.0f} mm is more than half "
-            f"the flat length of {stance.flat_length * 1e3:.0f} mm (p > L/2), so one nosing alone "
-            "carries the robot at times"
+            f"{spacing} is {half} of {stance.flat_length * 1e3:.0f} mm (p > L/2) with a "
+            f"probability of {share_outside:.2g}, more than the accepted {case.risk:g}"
         )
     if case.robot.track.gap > 0:
         return (
@@ -195,7 +240,7 @@ def _outside(case: Case, stance: Stance, at: Draws) -> str:
             f"{LARGEST_IRREGULARITY * 1e3:.1f} mm up to which a flight counts as regular"
         )
     nosings = len(case.stairs.step_rises)
-    if nosings < math.floor(n) + 1:
+    if nosings < contact_count(L=stance.flat_length, p=case.stairs.nosing_spacing) + 1:
         return f"the flight's {nosings} nosings are fewer than the track holds at once"
     return ""
 
@@ -205,11 +250,11 @@ def _semi_stable(case: Case, stance: Stance, at: Draws, step: int) -> bool:
     drive = case.drive
     if not drive.acceleration_control or drive.max_speed is None:
         return False
-    plan = plan_acceleration(case, stance, at, step)
+    plan = plan_acceleration(case, stance, at, step, v_min=CREEP * drive.max_speed)
     return bool(plan.reserve >= 0)
 
 
-def plan_acceleration(case: Case, stance: Stance, at: Draws, step: int) -> Any:
+def plan_acceleration(case: Case, stance: Stance, at: Draws, step: int, v_min: float = 0.0) -> Any:
     """Acceleration over one flight of the governing step, within the drive's limits.
 
     Parameters
@@ -222,6 +267,8 @@ def plan_acceleration(case: Case, stance: Stance, at: Draws, step: int) -> Any:
         Nominal inputs (the first row counts).
     step : int
         Which of the flight's different steps.
+    v_min : float
+        Slowest speed of the plan [m/s].
 
     Returns
     -------
@@ -235,6 +282,7 @@ def plan_acceleration(case: Case, stance: Stance, at: Draws, step: int) -> Any:
         upper=upper,
         width=width,
         v_max=case.drive.max_speed if case.drive.max_speed is not None else math.inf,
+        v_min=v_min,
         v_start=case.speed,
     )
 
@@ -244,17 +292,16 @@ def flight_band(case: Case, stance: Stance, at: Draws, step: int) -> tuple[Array
     theta_s, p = float(at.theta_s[0, step]), float(at.p[0, step])
     L, C_L, C_N = float(at.L[0, 0]), float(at.C_L[0, 0]), float(at.C_N[0, 0])
     mu = float(at.mu_low[0, 0])
-    drive, force = case.drive, traction_limit(case)
+    drive, force = case.drive, traction_limit(case, case.drive.max_speed)
     tilt_down = case.theta_d.high + case.theta_M.high
     downhill = tip_band(L=L, p=p, C_L=C_L, C_N=C_N, theta_s=theta_s + tilt_down)
     uphill = tip_band(L=L, p=p, C_L=C_L, C_N=C_N, theta_s=theta_s - case.theta_d.high)
     upper = np.fmin(downhill.upper, slip_acceleration_up(mu_s=mu, theta_s=theta_s))
     lower = np.fmax(uphill.lower, slip_acceleration_down(mu_s=mu, theta_s=theta_s))
     if force is not None and stance.mass is not None:
-        most = drive_acceleration(
-            F=force, M=stance.mass, theta_s=theta_s, c_rr=drive.rolling_resistance
-        )
-        upper = np.minimum(upper, most)
+        known: dict[str, Any] = {"M": stance.mass, "c_rr": case.rolling_resistance}
+        upper = np.minimum(upper, drive_acceleration(F=force, theta_s=theta_s, **known))
+        lower = np.maximum(lower, drive_acceleration(F=-force, theta_s=theta_s, **known))
     width = np.diff(downhill.edges)
     if case.direction == "down":
         lower, upper, width = -upper[::-1], -lower[::-1], width[::-1]

@@ -1,20 +1,25 @@
 """From a judgement to an answer: numbers with their units, what governs in words, notes."""
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
 from kaidan.assessment.advice import what_would_help
 from kaidan.assessment.answer import AllowanceShown, Assessment, Paper, Probability
-from kaidan.assessment.case import Array, Case
-from kaidan.assessment.closed_form import MODEL, MODES, Judgement, at_risk
+from kaidan.assessment.case import Array, Case, Draws, draws
+from kaidan.assessment.closed_form import MODEL, MODES, Judgement, at_risk, traction_limit
 from kaidan.assessment.pose import Pose, contacts_at, governing_pose, measures_at
 from kaidan.mechanics import drive, tipping
 from kaidan.mechanics.margin import theta_s_inf, theta_s_sup
 from kaidan.mechanics.margins import AccelerationBounds, acceleration_bounds
 from kaidan.mechanics.plane import Area, area
-from kaidan.mechanics.slipping import required_friction
+from kaidan.mechanics.slipping import (
+    required_friction,
+    slip_acceleration_down,
+    slip_acceleration_up,
+)
 
 NAMES = {
     "tip_downhill": "tipping over its downhill end",
@@ -31,14 +36,14 @@ def put_into_words(case: Case, found: Judgement) -> Assessment:
     stance, pose = found.stance, governing_pose(case, found)
     inside = found.verdict != "outside-model"
     angle, p, a, mass = pose.theta_s, pose.p, case.acceleration, stance.mass
-    bare, safe = _bounds(case, pose)
-    band_low, band_high = _band(bare.a_min, bare.a_max)
-    safe_low, safe_high = _band(safe.a_min, safe.a_max)
+    bare, safe = _bounds(case, found)
+    band_low, band_high = _band(bare.a_min, bare.a_max) if inside else (None, None)
+    safe_low, safe_high = _band(safe.a_min, safe.a_max) if inside else (None, None)
     brake = None if safe_low is None else -safe_low
     start, stop = (safe_high, brake) if case.direction == "up" else (brake, safe_high)
     sup = float(theta_s_sup(L=pose.L, p=p, C_L=pose.C_L, C_N=pose.C_N, a=a))
     inf = float(theta_s_inf(p=p, C_L=pose.C_L, C_N=pose.C_N, a=a))
-    modes = [at_risk(mode.min(axis=-1), case.risk) for mode in found.worst.modes]
+    modes = [at_risk(mode, case.risk) for mode in found.worst.modes]
     uncertain = len(found.worst.worst) > 1
     traction, power = _traction_and_power(case, pose, mass)
     return Assessment(
@@ -51,7 +56,7 @@ def put_into_words(case: Case, found: Judgement) -> Assessment:
         surface=case.surface.name if case.surface else None,
         direction=case.direction,
         facing=case.facing,
-        area=_area(case, pose, bare, safe) if inside else None,
+        area=_area(case, found, safe) if inside else None,
         angle_deg=math.degrees(angle),
         nosing_spacing_m=p,
         contacts_n=pose.n,
@@ -70,7 +75,7 @@ def put_into_words(case: Case, found: Judgement) -> Assessment:
         },
         margin_interval_deg=_interval(found.worst.worst) if uncertain and inside else None,
         margin_centroid_mm=(
-            1e3 * at_risk(found.worst.centroid.min(axis=-1), case.risk) if inside else None
+            _number(1e3 * at_risk(found.worst.centroid, case.risk)) if inside else None
         ),
         allowances={
             name: AllowanceShown(
@@ -81,10 +86,10 @@ def put_into_words(case: Case, found: Judgement) -> Assessment:
             for name, value in (("theta_d", case.theta_d), ("theta_M", case.theta_M))
         },
         acceleration=a,
-        a_slip_up=_number(bare.slip_up),
-        a_slip_down=_number(bare.slip_down),
-        a_tip_downhill=_number(bare.tip_downhill),
-        a_tip_uphill=_number(bare.tip_uphill),
+        a_slip_up=_number(bare.slip_up) if inside else None,
+        a_slip_down=_number(bare.slip_down) if inside else None,
+        a_tip_downhill=_number(bare.tip_downhill) if inside else None,
+        a_tip_uphill=_number(bare.tip_uphill) if inside else None,
         falls_over=_falls_over(case, found, bare) if inside else None,
         a_max=band_high,
         a_min=band_low,
@@ -94,14 +99,14 @@ def put_into_words(case: Case, found: Judgement) -> Assessment:
         hardest_stop=stop if stop is not None and stop > 0 else None,
         paper=Paper(
             a_S=_number(bare.slip_up),
-            min_a_r0=float(bare.tip_downhill),
-            max_a_rn=float(bare.tip_uphill),
-            a_max=float(bare.a_max),
-            a_min=float(tipping.a_min(max_a_rn=bare.tip_uphill)),
+            min_a_r0=bare.tip_downhill,
+            max_a_rn=bare.tip_uphill,
+            a_max=bare.a_max,
+            a_min=tipping.a_min(max_a_rn=bare.tip_uphill),
         )
         if inside
         else None,
-        required_friction=float(required_friction(theta_s=angle, a=a)),
+        required_friction=float(required_friction(theta_s=found.nominal.theta_s, a=a).max()),
         friction=(case.surface.friction_low, case.surface.friction_high) if case.surface else None,
         contacts=contacts_at(pose, a, mass) if inside else (),
         traction_N=traction,
@@ -114,23 +119,52 @@ def put_into_words(case: Case, found: Judgement) -> Assessment:
     )
 
 
-def _bounds(case: Case, pose: Pose) -> tuple[AccelerationBounds, AccelerationBounds]:
-    """Bounds of the acceleration without and with the allowances taken off."""
-    at: dict[str, Any] = {"L": pose.L, "C_L": pose.C_L, "C_N": pose.C_N, "p": pose.p}
-    mu = case.surface.friction_low if case.surface else math.nan
-    bare = acceleration_bounds(mu_s=mu, theta_s=pose.theta_s, **at)
+def _bounds(case: Case, found: Judgement) -> tuple[AccelerationBounds, AccelerationBounds]:
+    """Bounds of the acceleration over the whole flight.
+
+    First the sheets' figures without allowances; then, for what is called safe, with the
+    allowances taken off and at the chosen risk.
+    """
+    at = found.nominal
+    bare = acceleration_bounds(
+        L=at.L, C_L=at.C_L, C_N=at.C_N, p=at.p, theta_s=at.theta_s, mu_s=at.mu_low
+    )
+    safe = (_safe_bounds(case, block) for block in draws(case, at))
+    return _tightest([bare], case.risk), _tightest(safe, case.risk)
+
+
+def _safe_bounds(case: Case, at: Draws) -> AccelerationBounds:
+    """Bounds of the acceleration with the worst reading of the allowances taken off."""
+    inside = np.where(2.0 * at.p <= at.L, 1.0, np.nan)
+    centroid: dict[str, Any] = {"C_L": at.C_L, "C_N": at.C_N, "p": at.p}
     tilt = case.theta_d.high + case.theta_M.high
-    down = acceleration_bounds(mu_s=mu, theta_s=pose.theta_s + tilt, **at).tip_downhill
-    up = acceleration_bounds(mu_s=mu, theta_s=pose.theta_s - case.theta_d.high, **at).tip_uphill
-    safe = AccelerationBounds(
-        bare.slip_up,
-        bare.slip_down,
+    down = inside * tipping.min_a_r0(L=at.L, theta_s=at.theta_s + tilt, **centroid)
+    up = inside * tipping.max_a_rn(theta_s=at.theta_s - case.theta_d.high, **centroid)
+    slip_up = inside * slip_acceleration_up(mu_s=at.mu_low, theta_s=at.theta_s)
+    slip_down = inside * slip_acceleration_down(mu_s=at.mu_low, theta_s=at.theta_s)
+    return AccelerationBounds(
+        slip_up,
+        slip_down,
         down,
         up,
-        tipping.a_max(a_S=bare.slip_up, min_a_r0=down),
-        tipping.a_min_with_slip(a_slip_down=bare.slip_down, max_a_rn=up),
+        tipping.a_max(a_S=slip_up, min_a_r0=down),
+        tipping.a_min_with_slip(a_slip_down=slip_down, max_a_rn=up),
     )
-    return bare, safe
+
+
+_SIGN = AccelerationBounds(1.0, -1.0, 1.0, -1.0, 1.0, -1.0)
+"""1 for an upper bound, -1 for a lower one."""
+
+
+def _tightest(blocks: Iterable[AccelerationBounds], risk: float) -> AccelerationBounds:
+    """Bounds that hold on every step and in all but a share `risk` of the samples."""
+    least: list[Array] = []
+    for bounds in blocks:
+        here = [(s * b).min(axis=-1) for s, b in zip(_SIGN, bounds, strict=True)]
+        least = [np.minimum(a, b) for a, b in zip(least, here, strict=True)] if least else here
+    return AccelerationBounds(
+        *(s * at_risk(values, risk) for s, values in zip(_SIGN, least, strict=True))
+    )
 
 
 def _band(low: Any, high: Any) -> tuple[float | None, float | None]:
@@ -157,7 +191,7 @@ def _traction_and_power(
     if mass is None:
         return None, None
     force = drive.drive_force(
-        M=mass, a=case.acceleration, theta_s=pose.theta_s, c_rr=case.drive.rolling_resistance
+        M=mass, a=case.acceleration, theta_s=pose.theta_s, c_rr=case.rolling_resistance
     )
     if case.speed is None:
         return float(force), None
@@ -165,11 +199,13 @@ def _traction_and_power(
     return float(force), float(drive.drive_power(F=force, v=v, eta=case.drive.efficiency))
 
 
-def _area(case: Case, pose: Pose, bare: AccelerationBounds, safe: AccelerationBounds) -> str:
+def _area(case: Case, found: Judgement, safe: AccelerationBounds) -> str:
     """Worst area that the asked acceleration reaches over the progress, allowances off."""
+    if found.semi_stable:
+        return Area.E.name
     limits = {
-        "a_S": bare.slip_up if case.surface else np.inf,
-        "a_slip_down": bare.slip_down if case.surface else -np.inf,
+        "a_S": safe.slip_up if case.surface else np.inf,
+        "a_slip_down": safe.slip_down if case.surface else -np.inf,
         "a_r0": safe.tip_downhill,
         "a_rn": safe.tip_uphill,
         "min_a_r0": safe.tip_downhill,
@@ -195,7 +231,7 @@ def _probability(found: Judgement) -> Probability:
             return None
         return float(np.mean(~(values > 0)))
 
-    each = [share(mode.min(axis=-1)) for mode in found.worst.modes]
+    each = [share(mode) for mode in found.worst.modes]
     return Probability(
         tip_downhill=each[0] if each[0] is not None else 1.0,
         tip_uphill=each[1] if each[1] is not None else 1.0,
@@ -245,8 +281,12 @@ def _notes(case: Case, found: Judgement, pose: Pose) -> tuple[str, ...]:
             f"The steps differ by {1e3 * case.stairs.irregularity:.1f} mm; the worst of them is "
             "judged as if the whole flight were like it."
         )
-    if case.drive.max_traction is None and case.drive.max_power is None:
-        notes.append("The drive's traction is not known and not judged.")
+    if traction_limit(case) is None or found.stance.mass is None:
+        text = "The drive's traction is not known and not judged."
+        if case.drive.max_traction is not None or case.drive.max_power is not None:
+            missing = "mass" if found.stance.mass is None else "speed"
+            text = f"The drive is not judged: that takes the {missing}, which is not stated."
+        notes.append(text)
     if case.speed and found.verdict != "outside-model":
         shown = measures_at(pose, case.acceleration, None, case.speed)
         if shown.speed_height_mm is not None and shown.speed_height_mm > shown.energy_margin_mm:
