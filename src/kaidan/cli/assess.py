@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kaidan.cli import options
+from kaidan.cli.tables import echo
 
 if TYPE_CHECKING:
     from kaidan.assessment.answer import Assessment
@@ -69,7 +70,7 @@ def assess(
         risk=risk,
     )
     answer = answer_to(case, model=model)
-    typer.echo(answer.to_json() if as_json else as_text(answer))
+    echo(answer.to_json() if as_json else as_text(answer))
     raise typer.Exit(1 if strict and answer.verdict == "caution" else answer.exit_code)
 
 
@@ -121,6 +122,11 @@ def _margin_rows(answer: "Assessment") -> list[str]:
     spread = (
         "" if best is None or abs(best - answer.margin_deg) < 0.05 else f" (at best {best:+.1f})"
     )
+    centroid = (
+        ""
+        if answer.margin_centroid_mm is None
+        else f"centroid {answer.margin_centroid_mm:+.0f} mm; "
+    )
     shown = ", ".join(
         f"{name} {value.low_deg:.1f} to {value.high_deg:.1f} deg ({value.source})"
         for name, value in answer.allowances.items()
@@ -129,8 +135,8 @@ def _margin_rows(answer: "Assessment") -> list[str]:
         _row("governs", answer.governs.replace("_", " ")),
         _row(
             "margin",
-            f"{answer.margin_deg:+.1f} deg{spread}, centroid "
-            f"{answer.margin_centroid_mm:+.0f} mm; tips beyond {answer.margin_angle_deg:.1f} deg"
+            f"{answer.margin_deg:+.1f} deg{spread}, {centroid}"
+            f"tips beyond {answer.margin_angle_deg:.1f} deg"
             + (
                 ""
                 if answer.lower_angle_deg is None
