@@ -8,19 +8,15 @@ from numpy.typing import NDArray
 
 from kaidan.assessment.case import Case
 from kaidan.assessment.closed_form import (
+    CREEP,
     Judgement,
     flight_band,
     plan_acceleration,
     semi_stable_angle,
 )
-from kaidan.mechanics.acceleration import acceleration_plan
 from kaidan.robot import Drive
 
 Array = NDArray[np.float64]
-
-
-CREEP = 0.05
-"""Slowest speed of a plan over the drive's largest: at rest nothing follows a position."""
 
 
 class Planned(NamedTuple):
@@ -31,6 +27,8 @@ class Planned(NamedTuple):
     found: bool
     needless: bool
     """Whether a constant speed keeps to all limits, allowances taken off."""
+    repeats: bool
+    """Whether the limits leave an acceleration that is zero on average over a nosing spacing."""
     path: Array
     """Edges of the cells along the path [m]; empty without a plan."""
     a: Array
@@ -54,6 +52,7 @@ class Planned(NamedTuple):
         return {
             "found": self.found,
             "needless": self.needless,
+            "repeats": self.repeats,
             "reason": self.reason,
             "reserve": self.reserve,
             "needed_speed": self.needed_speed,
@@ -87,6 +86,7 @@ def planned(case: Case, found: Judgement) -> Planned:
         reason=f"No plan: outside the closed form, {found.outside}.",
         found=False,
         needless=False,
+        repeats=False,
         path=none,
         a=none,
         lower=none,
@@ -100,33 +100,29 @@ def planned(case: Case, found: Judgement) -> Planned:
     if found.outside:
         return missing
     lower, upper, width = flight_band(case, found.stance, found.nominal, step)
+    drive = case.drive
+    slowest = CREEP * (drive.max_speed or 0.0)
     missing = missing._replace(
         needless=bool(np.all((lower <= 0) & (upper >= 0))),
-        needed_speed=least_speed_limit(lower=lower, upper=upper, width=width),
+        repeats=bool(np.sum(lower * width) <= 0 <= np.sum(upper * width)),
+        needed_speed=least_speed_limit(lower=lower, upper=upper, width=width, v_min=slowest),
     )
-    drive = case.drive
     if not drive.acceleration_control or drive.max_speed is None:
         return missing._replace(reason=_why_not(case, found, missing))
-    plan = plan_acceleration(case, found.stance, found.nominal, step)
+    plan = plan_acceleration(case, found.stance, found.nominal, step, v_min=slowest)
     if not plan.reserve >= 0:
         return missing._replace(reason=_why_not(case, found, missing))
-    if plan.v.min() < CREEP * drive.max_speed:
-        plan = acceleration_plan(
-            lower=lower,
-            upper=upper,
-            width=width,
-            v_max=drive.max_speed,
-            v_min=CREEP * drive.max_speed,
-            v_start=case.speed,
-        )
-        if not plan.reserve >= 0:
-            return missing._replace(reason=_why_not(case, found, missing))
-    needless = " A constant speed would do as well." if missing.needless else ""
+    more = ""
+    if missing.needless:
+        more = " A constant speed would do as well."
+    elif not missing.repeats:
+        change = "lose" if plan.v[-1] < plan.v[0] else "gain"
+        more = f" It must {change} speed over the whole flight and enter it at {plan.v[0]:.2f} m/s."
     return missing._replace(
         reason=(
             f"An acceleration that follows the position holds it: {plan.a.min():+.2f} to "
             f"{plan.a.max():+.2f} m/s2 along the path, {plan.v.min():.2f} to {plan.v.max():.2f} "
-            f"m/s, {plan.reserve:.2f} m/s2 from its limits everywhere.{needless}"
+            f"m/s, {plan.reserve:.2f} m/s2 from its limits everywhere.{more}"
         ),
         found=True,
         path=np.concatenate([[0.0], np.cumsum(width)]),
@@ -138,12 +134,12 @@ def planned(case: Case, found: Judgement) -> Planned:
     )
 
 
-def least_speed_limit(*, lower: Array, upper: Array, width: Array) -> float:
+def least_speed_limit(*, lower: Array, upper: Array, width: Array, v_min: float = 0.0) -> float:
     """Smallest speed limit with which an acceleration within its band takes the whole path.
 
-    Carried back, ``E_i = max(0, E_(i+1) - upper w)`` is the least energy from which the rest can
-    be driven; carried forward, ``E_(i+1) = max(that, E_i + lower w)`` is the slowest way of all,
-    and its fastest place is the limit that is needed.
+    Carried back, ``E_i = max(v_min^2/2, E_(i+1) - upper w)`` is the least energy from which the
+    rest can be driven; carried forward, ``E_(i+1) = max(that, E_i + lower w)`` is the slowest way
+    of all, and its fastest place is the limit that is needed.
 
     Parameters
     ----------
@@ -151,6 +147,8 @@ def least_speed_limit(*, lower: Array, upper: Array, width: Array) -> float:
         Band of the acceleration along the path in each cell [m/s^2].
     width : array
         Length of each cell [m].
+    v_min : float
+        Slowest speed allowed [m/s].
 
     Returns
     -------
@@ -167,9 +165,10 @@ def least_speed_limit(*, lower: Array, upper: Array, width: Array) -> float:
     """
     if bool(np.any(lower > upper)):
         return math.nan
-    least = [0.0]
+    slowest = v_min**2 / 2
+    least = [slowest]
     for most, w in zip(reversed(upper.tolist()), reversed(width.tolist()), strict=True):
-        least.append(max(0.0, least[-1] - most * w))
+        least.append(max(slowest, least[-1] - most * w))
     least.reverse()
     energy = fastest = least[0]
     for floor, low, w in zip(least[1:], lower.tolist(), width.tolist(), strict=True):
@@ -201,19 +200,14 @@ def _why_not(case: Case, found: Judgement, missing: Planned) -> str:
                 f"{math.degrees(missing.steepest):.1f} deg, where the mean of a_r0 over a nosing "
                 "spacing is negative: no acceleration that repeats from nosing to nosing holds it."
             )
-        helps = _what_would_do(case, found)
+        helps = _what_would_do(case, found, CREEP * drive.max_speed)
         if math.isnan(needed):
             return f"No plan: at some place no acceleration is allowed at all.{helps}"
         return (
             f"No plan: it takes up to {needed:.2f} m/s, and the drive's largest speed is "
             f"{drive.max_speed:g} m/s.{helps}"
         )
-    if case.speed is not None:
-        return f"No plan from a speed of {case.speed:g} m/s at the start."
-    return (
-        f"No plan that keeps moving at {CREEP:.0%} of the drive's largest speed or more: the only "
-        "ones come to a stand between two nosings."
-    )
+    return f"No plan from a speed of {case.speed:g} m/s at the start."
 
 
 def _with_control(needed: float, most: float | None) -> str:
@@ -223,7 +217,7 @@ def _with_control(needed: float, most: float | None) -> str:
     return f" With it, and speeds up to {needed:.2f} m/s{limit}, there would be one."
 
 
-def _what_would_do(case: Case, found: Judgement) -> str:
+def _what_would_do(case: Case, found: Judgement, slowest: float) -> str:
     """Say which single limit, if lifted, would leave a plan within the drive's speed."""
     drive, at = case.drive, found.nominal
     assert drive.max_speed is not None
@@ -243,6 +237,7 @@ def _what_would_do(case: Case, found: Judgement) -> str:
     helpful = []
     for text, (changed, draws) in ideas.items():
         lower, upper, width = flight_band(changed, found.stance, draws, found.step)
-        if least_speed_limit(lower=lower, upper=upper, width=width) <= drive.max_speed:
+        band: dict[str, Array] = {"lower": lower, "upper": upper, "width": width}
+        if least_speed_limit(**band, v_min=slowest) <= drive.max_speed:
             helpful.append(text)
     return f" It would do with {' or '.join(helpful)}." if helpful else ""
