@@ -163,7 +163,7 @@ def _margins(case: Case, stance: Stance, at: Draws) -> _Margins:
     )
     modes = np.empty((len(MODES), *np.shape(bare.worst)))
     modes[: len(Mode)] = bare.tip_downhill, bare.tip_uphill, bare.slip_up, bare.slip_down
-    modes[-1] = bare.inside * (_drive_slope(case, stance) - at.theta_s)
+    modes[-1] = bare.inside * (steepest_for_drive(case, stance, case.acceleration) - at.theta_s)
     tilted = at.theta_s + (tilt_d + tilt_M)
     downhill = centroid_margin_downhill(L=at.L, theta_s=tilted, **geometry)
     uphill = centroid_margin_uphill(theta_s=at.theta_s - tilt_d, **geometry)
@@ -179,7 +179,7 @@ def _readings(case: Case, stance: Stance, at: Draws) -> tuple[Reading, Reading, 
         modes, centroid = np.minimum(modes, others[0]), np.minimum(centroid, others[1])
         outside = outside | others[2]
     worst = np.fmin.reduce(modes, axis=0)
-    worst[np.isnan(worst)] = -np.inf
+    worst[np.isnan(modes[: len(_TIPS)]).any(axis=0)] = -np.inf
     readings = [Reading(modes[:, i], worst[i], centroid[i]) for i in (WORST, BEST)]
     return readings[WORST], readings[BEST], np.count_nonzero(outside) / len(outside)
 
@@ -201,17 +201,41 @@ def traction_limit(case: Case, speed: float | None = None) -> float | None:
     return min(limits) if limits else None
 
 
-def _drive_slope(case: Case, stance: Stance) -> float:
-    """Steepest slope the drive can climb or hold at the asked acceleration; NaN: not known."""
+def steepest_for_drive(case: Case, stance: Stance, a: Any) -> Any:
+    """Steepest slope on which the drive brings the traction for an acceleration.
+
+    Parameters
+    ----------
+    case : Case
+        The question; `a` stands for its acceleration.
+    stance : Stance
+        Of the case's robot.
+    a : float or array
+        Acceleration up the stairs [m/s^2].
+
+    Returns
+    -------
+    float or array
+        Slope [rad], at most pi/2; NaN where traction or mass is not known.
+    """
     force = traction_limit(case)
     if force is None or stance.mass is None:
         return math.nan
     known: dict[str, Any] = {"F": force, "M": stance.mass, "c_rr": case.rolling_resistance}
     with np.errstate(invalid="ignore"):
-        limit = float(drive_slope(a=case.acceleration, **known))
-    if math.isnan(limit):  # the force is enough for any slope, or for none
-        return math.pi / 2 if force > stance.mass * case.acceleration else -math.pi / 2
-    return min(limit, math.pi / 2)
+        limit = drive_slope(a=a, **known)
+    any_or_none = np.where(force > stance.mass * a, math.pi / 2, -math.pi / 2)
+    return np.minimum(np.where(np.isnan(limit), any_or_none, limit), math.pi / 2)
+
+
+def gap_below(case: Case, stance: Stance) -> str:
+    """Why nosings are not carried all along the underside; empty if they are."""
+    if case.robot.track.gap > 0:
+        return (
+            f"{case.robot.track.gap * 1e3:.0f} mm in the middle of the underside have no track "
+            "to carry a nosing"
+        )
+    return "a flipper reaches below the underside of the track" if stance.tips_below else ""
 
 
 def _outside(case: Case, stance: Stance, share_outside: float) -> str:
@@ -227,13 +251,9 @@ def _outside(case: Case, stance: Stance, share_outside: float) -> str:
             f"{spacing} is {half} of {stance.flat_length * 1e3:.0f} mm (p > L/2) with a "
             f"probability of {share_outside:.2g}, more than the accepted {case.risk:g}"
         )
-    if case.robot.track.gap > 0:
-        return (
-            f"{case.robot.track.gap * 1e3:.0f} mm in the middle of the underside have no track "
-            "to carry a nosing"
-        )
-    if stance.tips_below:
-        return "a flipper reaches below the underside of the track"
+    gap = gap_below(case, stance)
+    if gap:
+        return gap
     if case.stairs.irregularity > LARGEST_IRREGULARITY + 1e-12:
         return (
             f"the steps differ by {case.stairs.irregularity * 1e3:.1f} mm, more than the "

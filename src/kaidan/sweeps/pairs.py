@@ -40,7 +40,7 @@ _DEFAULTS = {"friction": np.nan} | dict.fromkeys(
 _CHUNK = {"numpy": 1 << 13, "compiled": 1 << 16}
 _RANGES = {
     "flat_length": (0.05, 5.0, "m"),
-    "com_from_uphill": (-1.0, 6.0, "m"),
+    "com_from_uphill": (-0.6, 5.6, "m"),  # the largest end radius beyond either end of the flat
     "com_height": (0.005, 3.0, "m"),
     "angle": (0.0, 1.5533, "rad"),
     "nosing_spacing": (0.02, 2.5, "m"),
@@ -70,7 +70,8 @@ def verdicts(
         unknown), `acceleration` [m/s^2], `theta_d`, `theta_M`, `theta_d_spare`, `theta_M_spare`
         [rad], see `kaidan.mechanics.verdict.judged`. Arrays broadcast against each other.
     out : Judged, optional
-        Arrays of an earlier answer of the same shape to write into, C-contiguous.
+        Arrays of an earlier answer of the same shape to write into, C-contiguous and apart from
+        the inputs.
     engine : {"auto", "numpy", "compiled"}
         "compiled" needs ``kaidan[fast]``; "auto" takes it if it is there.
     checked : bool
@@ -100,14 +101,14 @@ def verdicts(
     if checked:
         _check(arrays)
     if out is None:
-        out = Judged(
-            *(np.empty(shape, np.int8 if name in CODES else np.float64) for name in Judged._fields)
-        )
-    flat_out = _flat(out, shape)
+        out = Judged(*(np.empty(shape, _type_of(name)) for name in Judged._fields))
+    else:
+        _fits(out, shape, arrays)
+    flat_out = [array.reshape(-1) for array in out]
     size = int(np.prod(shape))
     if engine == "auto":
         engine = "compiled" if compiled.available() else "numpy"
-    if engine not in _CHUNK:
+    if engine not in ("numpy", "compiled"):
         raise InputError(f"engine = {engine!r} is not known; known: auto, numpy, compiled")
     kernel = _compiled_kernel() if engine == "compiled" else _numpy_kernel
     step = _CHUNK[engine]
@@ -166,13 +167,10 @@ def _broadcast(inputs: Mapping[str, Any]) -> tuple[dict[str, Array], tuple[int, 
     missing = [name for name in INPUTS if name not in inputs and name not in _DEFAULTS]
     if missing:
         raise InputError(f"missing input: {', '.join(missing)}")
-    try:
-        arrays = {
-            name: np.asarray(inputs.get(name, _DEFAULTS.get(name)), dtype=np.float64)
-            for name in INPUTS
-        }
-    except (TypeError, ValueError) as error:
-        raise InputError(f"inputs must be numbers or arrays of numbers: {error}") from None
+    arrays = {
+        name: numbers_of(name, inputs[name] if name in inputs else _DEFAULTS[name])
+        for name in INPUTS
+    }
     try:
         shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
     except ValueError:
@@ -181,26 +179,54 @@ def _broadcast(inputs: Mapping[str, Any]) -> tuple[dict[str, Array], tuple[int, 
     return arrays, shape
 
 
+def numbers_of(name: str, value: Any) -> Array:
+    """Array of float64; refuses what numpy would kindly turn into one: masks, texts, truth."""
+    if np.ma.is_masked(value):
+        raise InputError(f"{name} holds masked values")
+    try:
+        array = np.asarray(value)
+    except ValueError as error:
+        raise InputError(f"{name} is not a number or an array of numbers: {error}") from None
+    if array.dtype.kind not in "iuf":
+        raise InputError(f"{name} is not a number or an array of numbers, but of {array.dtype}")
+    with np.errstate(over="ignore"):
+        return array.astype(np.float64, copy=False)
+
+
 def _check(arrays: Mapping[str, Array]) -> None:
     for name, array in arrays.items():
         low, high, unit = _RANGES[name]
         if array.size == 0:
             continue
         least, most = np.fmin.reduce(array, axis=None), np.fmax.reduce(array, axis=None)
-        if name != "friction" and np.isnan(array.sum()):
+        with np.errstate(invalid="ignore", over="ignore"):
+            doubtful = name != "friction" and np.isnan(array.sum())
+        if doubtful and np.isnan(array).any():
             raise InputError(f"{name} holds NaN")
         if least < low or most > high:
             bad = least if least < low else most
             raise InputError(f"{name} = {bad:g} {unit} is not within {low:g} to {high:g} {unit}")
 
 
-def _flat(out: Judged, shape: tuple[int, ...]) -> list[Array]:
+def _type_of(name: str) -> type[np.int8] | type[np.float64]:
+    return np.int8 if name in CODES else np.float64
+
+
+def _fits(out: Judged, shape: tuple[int, ...], inputs: Mapping[str, Array]) -> None:
+    """Refuse arrays that an answer cannot be written into, or that are still to be read."""
+    if not isinstance(out, Judged) or not all(isinstance(array, np.ndarray) for array in out):
+        raise InputError("out is not an earlier answer of verdicts")
     for name, array in zip(Judged._fields, out, strict=True):
-        if array.shape != shape or not array.flags.c_contiguous:
+        if array.shape != shape or not array.flags.c_contiguous or not array.flags.writeable:
             raise InputError(
-                f"out.{name} has shape {array.shape}, not {shape}, or is not contiguous"
+                f"out.{name} has shape {array.shape}, not {shape}, or is not contiguous or is "
+                "read-only"
             )
-    return [array.reshape(-1) for array in out]
+        if array.dtype != _type_of(name):
+            raise InputError(f"out.{name} is of {array.dtype}, not {np.dtype(_type_of(name))}")
+        for other, given in inputs.items():
+            if np.may_share_memory(array, given):
+                raise InputError(f"out.{name} shares its memory with the input {other}")
 
 
 def _chunks(array: Array, shape: tuple[int, ...], step: int) -> Any:

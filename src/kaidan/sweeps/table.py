@@ -1,18 +1,21 @@
 """Labelled sweeps: arrays of any parameter in, an xarray Dataset with units out."""
 
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from kaidan.assessment import case_of
+from kaidan.assessment.case import Case
+from kaidan.assessment.closed_form import MODES, gap_below, steepest_for_drive
 from kaidan.errors import InputError
-from kaidan.mechanics.margins import Mode
+from kaidan.mechanics.plane import contact_count
 from kaidan.mechanics.verdict import Judged, Verdict
 from kaidan.robot import Payload, Posture, Robot
 from kaidan.stairs import Stairs
 from kaidan.surface import Surface
-from kaidan.sweeps.pairs import Engine, verdicts
+from kaidan.sweeps.pairs import CODES, Engine, numbers_of, verdicts
 
 if TYPE_CHECKING:
     import xarray
@@ -39,7 +42,9 @@ _ANGLES = {
     "tip_uphill": ("tip_uphill_deg", "margin against tipping over the uphill end"),
     "slip_up": ("slip_up_deg", "margin against sliding down for lack of friction"),
     "slip_down": ("slip_down_deg", "margin against sliding up when braking"),
+    "drive": ("drive_deg", "margin of the drive's traction"),
 }
+DRIVE = MODES.index("drive")
 _OTHERS = {
     "a_max": ("a_max", "m/s^2", 1.0, "upper end of the band of acceleration, without allowances"),
     "a_min": ("a_min", "m/s^2", 1.0, "lower end of the band of acceleration"),
@@ -84,8 +89,10 @@ def sweep(
     -------
     xarray.Dataset
         ``verdict`` and ``governs`` as codes (their meanings in the attributes), margins in
-        degrees, bounds in m/s^2, each with its unit. Area E counts as NO-GO, since it needs a
-        controlled acceleration; friction known as a range counts with its smallest value.
+        degrees, bounds in m/s^2, each with its unit; NaN outside the model. The sheets' figures
+        count, without their uncertainty. Area E counts as NO-GO, since it needs a controlled
+        acceleration; friction known as a range counts with its smallest value; of the drive its
+        largest traction is judged, not its power, which takes a speed.
 
     Raises
     ------
@@ -110,7 +117,10 @@ def sweep(
     given = {name: _labelled(name, value) for name, value in parameters.items()}
     if surface is not None and "friction" in given:
         raise InputError("give either a surface or a friction, not both")
-    angle, nosing_spacing = _shape(given, stairs)
+    try:
+        xarray.align(*given.values(), join="exact")
+    except ValueError as error:
+        raise InputError(f"parameters share a dimension but not its labels: {error}") from None
     base = case_of(
         robot,
         _placeholder(stairs),
@@ -120,9 +130,12 @@ def sweep(
         direction=direction,
         facing=facing,
     )
+    flight = None if stairs is None else base.stairs
+    angle, nosing_spacing = _shape(given, flight)
     stance = base.stance
     length = given.get("flat_length", stance.flat_length)
     com = given.get("com_from_front", stance.com_from_front)
+    _centroid_inside(base.robot, com, length)
     known = base.surface.friction_low if base.surface else math.nan
     inputs = {
         "flat_length": length,
@@ -141,7 +154,9 @@ def sweep(
     arrays = xarray.broadcast(*(xarray.DataArray(value) for value in inputs.values()))
     plain = {name: array.values for name, array in zip(inputs, arrays, strict=True)}
     answer = verdicts(plain, engine=engine)
-    table = _dataset(answer, arrays[0].dims)
+    drive = steepest_for_drive(base, stance, plain["acceleration"]) - plain["angle"]
+    answer, drive = _beyond_the_formulas(base, flight, plain, answer, drive)
+    table = _dataset(answer, drive, arrays[0].dims)
     coordinates = {name: value for name, value in given.items() if value.dims == (name,)}
     table = table.assign_coords(coordinates)
     table.attrs |= {
@@ -157,14 +172,9 @@ def _labelled(name: str, value: Any) -> "xarray.DataArray":
     import xarray
 
     if isinstance(value, xarray.DataArray):
-        array = value
+        array = value.copy(data=numbers_of(name, value.values))
     else:
-        try:
-            numbers = np.asarray(value, dtype=np.float64)
-        except (TypeError, ValueError):
-            raise InputError(
-                f"{name} = {value!r} is not a number or a sequence of numbers"
-            ) from None
+        numbers = numbers_of(name, value)
         if numbers.ndim > 1:
             raise InputError(f"{name} has {numbers.ndim} dimensions; name them in a DataArray")
         dims = (name,) if numbers.ndim else ()
@@ -172,12 +182,11 @@ def _labelled(name: str, value: Any) -> "xarray.DataArray":
     return array.assign_attrs(units=PARAMETERS[name])
 
 
-def _shape(given: dict[str, Any], stairs: Stairs | str | None) -> tuple[Any, Any]:
+def _shape(given: dict[str, Any], sheet: Stairs | None) -> tuple[Any, Any]:
     """Angle and nosing spacing from the swept parameters and the sheet."""
     sides, slope = {"rise", "going"} & set(given), {"angle", "nosing_spacing"} & set(given)
     if sides and slope:
         raise InputError("sweep either rise and going or angle and nosing_spacing, not both")
-    sheet = Stairs.named(stairs) if isinstance(stairs, str) else stairs
     if sheet is not None and len(set(sheet.regular_steps)) > 1:
         raise InputError(f"stairs {sheet.name!r} are not uniform; sweep them step by step")
     if sheet is None and len(sides) != 2 and len(slope) != 2:
@@ -193,20 +202,66 @@ def _shape(given: dict[str, Any], stairs: Stairs | str | None) -> tuple[Any, Any
     return shape["angle"], shape["nosing_spacing"]
 
 
-def _placeholder(stairs: Stairs | str | None) -> Stairs | str:
+def _placeholder(stairs: Any) -> Any:
     """Stairs for the parts of a case that no sweep replaces: direction and checks."""
     return Stairs(rise=0.18, going=0.28) if stairs is None else stairs
 
 
-def _dataset(answer: Judged, dims: Any) -> "xarray.Dataset":
+def _centroid_inside(robot: Robot, com: Any, length: Any) -> None:
+    """Refuse a centroid outside the robot, as the robot's sheet does."""
+    track = robot.track
+    wrong = (com < -track.front_radius) | (com > length + track.rear_radius)
+    if np.any(wrong):
+        raise InputError(
+            f"com_from_front = {float(np.max(np.where(wrong, com, -np.inf))):g} m puts the "
+            f"centroid outside the robot: allowed {0.0 - track.front_radius:g} m to flat_length "
+            f"{track.rear_radius:+g} m"
+        )
+
+
+def _beyond_the_formulas(
+    case: Case, flight: Stairs | None, inputs: dict[str, Any], answer: Judged, drive: Any
+) -> tuple[Judged, Any]:
+    """Put into an answer what `kaidan.assess` judges beside the margins of the formulas.
+
+    The drive's traction; and outside the model are nosings that nothing carries, and flights
+    with fewer nosings than the track holds at once.
+    """
+    outside = np.full(np.shape(answer.margin), bool(gap_below(case, case.stance)))
+    if flight is not None:
+        held = contact_count(L=inputs["flat_length"], p=inputs["nosing_spacing"]) + 1
+        outside |= len(flight.step_rises) < held
+    numbers = answer._asdict()
+    for name in set(numbers) - set(CODES):
+        numbers[name] = np.where(outside, np.nan, numbers[name])
+    beyond = outside | (answer.verdict == Verdict.OUTSIDE_MODEL)
+    drive = np.where(beyond, np.nan, drive)
+    codes = np.where(drive <= 0, Verdict.NO_GO, answer.verdict)
+    return answer._replace(
+        **numbers
+        | {
+            "verdict": np.where(beyond, Verdict.OUTSIDE_MODEL, codes).astype(np.int8),
+            "governs": np.where(drive < numbers["margin"], DRIVE, answer.governs).astype(np.int8),
+            "margin": np.fmin(numbers["margin"], drive),
+            "centroid": np.where(_past_vertical(inputs), np.nan, numbers["centroid"]),
+        }
+    ), drive
+
+
+def _past_vertical(inputs: dict[str, Any]) -> Any:
+    """Where no place of the centroid holds, because the allowances lean it past the vertical."""
+    return inputs["angle"] + inputs["theta_d"] + inputs["theta_M"] >= np.pi / 2
+
+
+def _dataset(answer: Judged, drive: Any, dims: Any) -> "xarray.Dataset":
     import xarray
 
     variables: dict[str, Any] = {
-        "verdict": (dims, answer.verdict, _codes(Verdict)),
-        "governs": (dims, answer.governs, _codes(Mode)),
+        "verdict": (dims, answer.verdict, _codes(word.name for word in Verdict)),
+        "governs": (dims, answer.governs, _codes(MODES)),
     }
     for field, (name, meaning) in _ANGLES.items():
-        values = np.degrees(getattr(answer, field))
+        values = np.degrees(drive if field == "drive" else getattr(answer, field))
         variables[name] = (dims, values, {"units": "deg", "long_name": meaning})
     for field, (name, unit, factor, meaning) in _OTHERS.items():
         values = getattr(answer, field) * factor
@@ -214,6 +269,6 @@ def _dataset(answer: Judged, dims: Any) -> "xarray.Dataset":
     return xarray.Dataset(variables)
 
 
-def _codes(kind: Any) -> dict[str, Any]:
-    words = (member.name.lower().replace("_", "-") for member in kind)
-    return {"flag_values": [int(member) for member in kind], "flag_meanings": " ".join(words)}
+def _codes(names: Iterable[str]) -> dict[str, Any]:
+    words = [name.lower().replace("_", "-") for name in names]
+    return {"flag_values": list(range(len(words))), "flag_meanings": " ".join(words)}
