@@ -4,6 +4,16 @@ from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 Verdict = Literal["go", "caution", "no-go", "outside-model"]
+Governs = Literal[
+    "tip_downhill",
+    "tip_uphill",
+    "slip_up",
+    "slip_down",
+    "drive",
+    "friction_unknown",
+    "validity",
+]
+AreaName = Literal["A", "B", "C", "DOWNHILL_SLIP", "D", "E"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -14,7 +24,7 @@ class AllowanceShown:
     """Kindest reading [deg]."""
     high_deg: float
     """Worst reading, taken off `margin_deg` [deg]."""
-    source: str
+    source: Literal["measured", "default", "not applicable"]
     """"measured", "default" (nobody measured it) or "not applicable"."""
 
 
@@ -109,7 +119,7 @@ class Assessment:
     outside-model: the model says nothing."""
     model: str
     """Which model answered."""
-    governs: str
+    governs: Governs
     """What decides: tip_downhill, tip_uphill, slip_up, slip_down, drive, friction_unknown or
     validity."""
     reason: str
@@ -119,7 +129,7 @@ class Assessment:
     surface: str | None
     direction: Literal["up", "down"]
     facing: Literal["nose-first", "tail-first"]
-    area: str | None
+    area: AreaName | None
     """Area of the paper's d-a plane the asked acceleration reaches on the worst reading: A to E,
     or DOWNHILL_SLIP. E where only an acceleration that follows the position holds it."""
     angle_deg: float
@@ -217,10 +227,10 @@ class Assessment:
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
-        """JSON schema of that object."""
+        """JSON schema of that object; exact: it names every property and forbids others."""
         from pydantic import ConfigDict, TypeAdapter
 
-        documented = ConfigDict(use_attribute_docstrings=True)
+        documented = ConfigDict(use_attribute_docstrings=True, extra="forbid")
         for part in (*_PARTS, cls):
             setattr(part, "__pydantic_config__", documented)  # noqa: B010
         return TypeAdapter(cls).json_schema(mode="serialization")

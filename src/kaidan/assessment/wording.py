@@ -49,7 +49,7 @@ def put_into_words(case: Case, found: Judgement) -> Assessment:
     return Assessment(
         verdict=found.verdict,
         model=MODEL,
-        governs=found.governs,
+        governs=found.governs,  # type: ignore[arg-type]
         reason=_reason(case, found),
         robot=case.robot.name,
         stairs=case.stairs.name,
@@ -199,7 +199,7 @@ def _traction_and_power(
     return float(force), float(drive.drive_power(F=force, v=v, eta=case.drive.efficiency))
 
 
-def _area(case: Case, found: Judgement, safe: AccelerationBounds) -> str:
+def _area(case: Case, found: Judgement, safe: AccelerationBounds) -> Any:
     """Worst area that the asked acceleration reaches over the progress, allowances off."""
     if found.semi_stable:
         return Area.E.name

@@ -29,6 +29,15 @@ class What(StrEnum):
     SURFACE = "surface"
 
 
+class Schema(StrEnum):
+    """What has a JSON schema."""
+
+    ROBOT = "robot"
+    STAIRS = "stairs"
+    SURFACE = "surface"
+    ANSWER = "answer"
+
+
 def register(app: typer.Typer) -> None:
     """Add the commands of this module to the command line."""
     app.command("robots")(robots)
@@ -169,13 +178,18 @@ def new(
     echo(f"wrote {shown}: fill it in, then look at it: kaidan {listing} {shown}")
 
 
-def schema(what: Annotated[What, typer.Argument(help="Kind of sheet.")]) -> None:
-    """Print the JSON schema of a sheet.
+def schema(what: Annotated[Schema, typer.Argument(help="Kind of sheet, or answer.")]) -> None:
+    """Print the JSON schema of a sheet, or of the answer of kaidan assess --json.
 
-    Every quantity has its unit, its symbol where the paper has one, and its range.
+    Every quantity of a sheet has its unit, its symbol where the paper has one, and its range.
     """
     dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
-    echo_json(dialect | _model(what).model_json_schema())
+    if what is Schema.ANSWER:
+        from kaidan.assessment import Assessment
+
+        echo_json(dialect | Assessment.json_schema())
+    else:
+        echo_json(dialect | _model(What(what.value)).model_json_schema())
 
 
 _COMMANDS = {
