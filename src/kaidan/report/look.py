@@ -252,7 +252,7 @@ def name_area(axes: Axes, inside: NDArray[np.bool_], text: str, *, size: float =
     """
     wide, tall = size_of(axes)
     width, height = extent(figure_of(axes), text, size)
-    for turned in (False, True):
+    for turned in (False, True) if len(text) > 12 else (False,):
         size_now = (height, width) if turned else (width, height)
         place = roomiest(
             inside,
