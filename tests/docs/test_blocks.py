@@ -1,0 +1,219 @@
+"""Every fenced Python and shell block of the README and the documentation, executed.
+
+``pycon``
+    a doctest; names live on from block to block of a page.
+``python``
+    executed, likewise.
+``console``
+    ``$ `` begins a command of bash, what follows is its output, standard error included. Where
+    output is shown it must be that, but for lines that are only ``...``. Without output shown the
+    command must not be refused (exit code 2). All commands of a page run in one empty folder.
+``sh``
+    a command line that someone else executes; `ELSEWHERE` says who.
+"""
+
+import contextlib
+import doctest
+import io
+import math
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+from markdown_it import MarkdownIt
+
+ROOT = Path(__file__).parents[2]
+PAGES = sorted(
+    path.relative_to(ROOT)
+    for path in (
+        *ROOT.glob("*.md"),
+        *(path for path in ROOT.glob("docs/**/*.md") if "_build" not in path.parts),
+    )
+)
+KNOWN = {"pycon", "python", "console", "sh"}
+SILENT = {"", "text", "toml", "json"}
+"""Languages that nothing executes; ```` ```{directive} ```` is Sphinx's."""
+
+ELSEWHERE = {
+    "pip install .": ".ci/run, as part of the README's line",
+    "python3 -m venv .venv && . .venv/bin/activate": ".ci/run, elsewhere",
+    "pip install -e '.[dev]'": ".ci/run",
+    "pip install '.[docs]'": ".ci/run, within '.[dev]'",
+    "ruff format --check . && ruff check . && mypy && lint-imports": ".ci/run",
+    'pytest -n auto -m "not slow"': ".ci/run",
+    "pytest -m slow": ".ci/run",
+    "python benchmarks/startup.py": "by hand",
+    "python benchmarks/assess.py": "by hand",
+    "python benchmarks/pairs.py": "by hand",
+    "sphinx-build -W -n -b html docs docs/_build/html": "test_site.py",
+    "mutmut run --max-children 1   # about four minutes on one core": "by hand",
+    "mutmut results": "by hand",
+}
+
+
+class Fence(NamedTuple):
+    language: str
+    line: int
+    text: str
+
+
+def fences(page: Path) -> list[Fence]:
+    tokens = MarkdownIt().parse((ROOT / page).read_text(encoding="utf-8"))
+    return [
+        Fence(token.info.split()[0] if token.info else "", token.map[0] + 1, token.content)
+        for token in tokens
+        if token.type == "fence" and token.map
+    ]
+
+
+def commands(text: str) -> Iterator[tuple[str, list[str]]]:
+    """Commands of a console block with the lines of output that are shown."""
+    command, output = "", []
+    for line in text.splitlines():
+        if line.startswith("$ "):
+            if command:
+                yield command, output
+            command, output = line.removeprefix("$ "), []
+        elif command.endswith("\\") and line.startswith("> "):
+            command = command[:-1] + line.removeprefix("> ")
+        else:
+            assert command, f"output before the first command: {line!r}"
+            output.append(line.rstrip())
+    if command:
+        yield command, output
+
+
+LONG = re.compile(r"-?\d+\.\d{6,}(?:e-?\d+)?")
+"""A number with all its digits, of which the last ones are the machine's."""
+
+
+def same(shown: str, printed: str) -> bool:
+    """Whether a line is as shown, long numbers to 1e-9: rounding differs between C libraries."""
+    if LONG.sub("#", shown) != LONG.sub("#", printed):
+        return False
+    pairs = zip(LONG.findall(shown), LONG.findall(printed), strict=True)
+    return all(math.isclose(float(x), float(y), rel_tol=1e-9) for x, y in pairs)
+
+
+def matches(shown: list[str], printed: list[str]) -> bool:
+    """Whether lines are as shown, ``...`` standing for any number of lines."""
+    if "..." in shown:
+        at = shown.index("...")
+        head, rest = shown[:at], shown[at + 1 :]
+        return matches(head, printed[:at]) and any(
+            matches(rest, printed[skip:]) for skip in range(at, len(printed) + 1)
+        )
+    return len(shown) == len(printed) and all(map(same, shown, printed))
+
+
+def environment() -> dict[str, str]:
+    """As on a plain terminal of no particular width, this Python's commands first."""
+    kept = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
+    folder = str(Path(sys.executable).parent)
+    return kept | {"PATH": folder + os.pathsep + kept["PATH"], "PYTHONIOENCODING": "utf-8"}
+
+
+def run_console(fence: Fence, folder: Path) -> None:
+    code = 0
+    for command, shown in commands(fence.text):
+        if command == "echo $?":
+            assert shown == [str(code)], f"line {fence.line}: exit code {code}"
+            code = 0
+            continue
+        assert code != 2, f"line {fence.line}: the command before {command!r} is refused"
+        done = subprocess.run(
+            ["bash", "-c", command],
+            cwd=folder,
+            env=environment(),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            encoding="utf-8",
+        )
+        code = done.returncode
+        printed = [line.rstrip() for line in done.stdout.splitlines()]
+        while shown and not shown[-1]:
+            shown.pop()
+        while printed and not printed[-1]:
+            printed.pop()
+        if shown:
+            assert matches(shown, printed), (
+                f"line {fence.line}: {command}\n--- shown\n"
+                + "\n".join(shown)
+                + "\n--- printed\n"
+                + "\n".join(printed)
+            )
+        assert code in (0, 1, 2, 3), f"line {fence.line}: {command}\n{done.stdout}"
+    assert code != 2, f"line {fence.line}: the last command is refused, and no echo $? says so"
+
+
+def run_doctest(fence: Fence, page: Path, names: dict[str, object]) -> None:
+    test = doctest.DocTestParser().get_doctest(
+        fence.text, names, f"{page}:{fence.line}", str(page), fence.line
+    )
+    told = io.StringIO()
+    runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS, verbose=False)
+    runner.run(test, out=told.write, clear_globs=False)
+    names.update(test.globs)
+    assert runner.failures == 0, told.getvalue()
+
+
+@pytest.mark.parametrize("page", PAGES, ids=str)
+def test_blocks_of_a_page_do_what_they_show(page, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {"__name__": "__main__"}
+    for fence in fences(page):
+        if fence.language == "pycon":
+            run_doctest(fence, page, names)
+        elif fence.language == "python":
+            with contextlib.redirect_stdout(io.StringIO()):
+                exec(compile(fence.text, f"{page}:{fence.line}", "exec"), names)
+        elif fence.language == "console":
+            run_console(fence, tmp_path)
+        elif fence.language == "sh":
+            for line in fence.text.splitlines():
+                assert line in ELSEWHERE or line in ci_lines(), f"{page}:{fence.line}: {line}"
+        else:
+            directive = fence.language.startswith("{")
+            assert fence.language in SILENT or directive, f"{page}:{fence.line}: {fence.language}"
+
+
+def ci_lines() -> list[str]:
+    """The two lines of the README that .ci/run executes."""
+    lines = (ROOT / "README.md").read_text(encoding="utf-8").splitlines()
+    marked = [lines.index(f"<!-- ci: {name} -->") for name in ("run", "test")]
+    for at in marked:
+        assert lines[at + 1] == "```sh"
+        assert lines[at + 3] == "```", "one command line each"
+    return [lines[at + 2] for at in marked]
+
+
+def test_the_readme_has_one_line_to_run_and_one_to_test():
+    run, test = ci_lines()
+    assert "kaidan assess" in run
+    assert "pytest" in test
+
+
+def test_the_readme_shows_what_its_line_prints():
+    """The block after the line, which .ci/run prints too."""
+    run, _ = ci_lines()
+    shown = [fence.text for fence in fences(Path("README.md")) if fence.language == "console"]
+    assert any(f"$ {run.split(' && ')[-1]}\n" in text for text in shown)
+
+
+def test_no_block_is_left_out_by_its_language():
+    found = {fence.language for page in PAGES for fence in fences(page)}
+    assert found >= KNOWN - {"python"}
+
+
+def test_matching_lines():
+    assert matches(["a", "...", "c"], ["a", "b", "b", "c"])
+    assert matches(["...", "c"], ["c"])
+    assert not matches(["a"], ["a", "b"])
+    assert not matches(["a", "..."], ["b"])
+    assert matches(["1.1999999999999997"], ["1.2000000000000002"])
+    assert not matches(["1.2"], ["1.3"])

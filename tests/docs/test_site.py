@@ -1,0 +1,62 @@
+"""The documentation site builds without warnings and asks the network for nothing."""
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.slow
+
+DOCS = Path(__file__).parents[2] / "docs"
+FETCHED = re.compile(
+    r"<(?:script|img|iframe|source|video|audio)[^>]*\ssrc=\"(?:https?:)?//[^\"]*\""
+    r"|<link(?=[^>]*rel=\"(?:stylesheet|preload|icon|preconnect|shortcut icon)\")[^>]*"
+    r"href=\"(?:https?:)?//[^\"]*\""
+    r"|@import\s+(?:url\()?[\"']?(?:https?:)?//|url\([\"']?(?:https?:)?//",
+)
+"""What a browser would fetch; a link that a reader may follow is not."""
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    pytest.importorskip("sphinx", reason="pip install '.[docs]'")
+    folder = tmp_path_factory.mktemp("site")
+    source = folder / "docs"
+    shutil.copytree(DOCS, source, ignore=shutil.ignore_patterns("_build", "gallery"))
+    for page in ("CONTRIBUTING.md", "CHANGELOG.md"):
+        shutil.copy(DOCS.parent / page, folder)
+    done = subprocess.run(
+        [sys.executable, "-m", "sphinx", "-W", "-n", "-b", "html", source, folder / "html"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+    )
+    assert done.returncode == 0, done.stdout
+    return folder / "html"
+
+
+def test_the_site_builds_without_warnings(site):
+    assert (site / "index.html").is_file()
+
+
+def test_the_site_fetches_nothing_from_elsewhere(site):
+    for path in [*site.rglob("*.html"), *site.rglob("*.css")]:
+        found = FETCHED.search(path.read_text(encoding="utf-8"))
+        assert found is None, f"{path.relative_to(site)}: {found.group() if found else ''}"
+
+
+def test_formulas_are_mathml(site):
+    page = (site / "theory" / "margin.html").read_text(encoding="utf-8")
+    assert page.count("<math ") > 20
+    assert '<span class="eqno">(19)</span>' in page
+    assert "MathJax" not in page
+
+
+def test_no_path_of_the_builder_is_in_the_site(site):
+    for path in site.rglob("*.html"):
+        text = path.read_text(encoding="utf-8")
+        assert str(DOCS) not in text, path.name
+        assert str(site) not in text, path.name
