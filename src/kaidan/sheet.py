@@ -78,9 +78,17 @@ class Sheet(BaseModel):
         wrong = [cls._text(detail) for detail in cls._no_numbers(data)]
         if not wrong:
             try:
-                return handler(data)
+                sheet = handler(data)
             except ValidationError as error:
                 wrong = [cls._text(dict(detail)) for detail in error.errors(include_url=False)]
+            else:
+                wrong = [
+                    f"{cls.label}: {name} holds half a character (a lone surrogate)"
+                    for name, value in sheet.__dict__.items()
+                    if isinstance(value, str | dict) and not _is_unicode(value)
+                ]
+                if not wrong:
+                    return sheet
         raise InputError("; ".join(wrong)) from None
 
     @classmethod
@@ -149,6 +157,12 @@ class Sheet(BaseModel):
         lines: list[str] = []
         _write_table(self.model_dump(exclude_defaults=True), (), lines)
         return "\n".join(lines).strip() + "\n"
+
+
+def _is_unicode(value: str | dict[str, str]) -> bool:
+    """Whether a text, or all texts of a mapping, can be written as UTF-8."""
+    texts = (value,) if isinstance(value, str) else (*value.keys(), *value.values())
+    return not any("\ud800" <= character <= "\udfff" for text in texts for character in text)
 
 
 def bounds(field: FieldInfo | None) -> tuple[str | None, float, float]:

@@ -21,6 +21,7 @@ from typing import Annotated, ClassVar, Literal, Self
 from pydantic import Field
 
 from kaidan import catalog
+from kaidan.errors import InputError
 from kaidan.sheet import Sheet, model_validator, quantity
 
 Length = tuple[float, ...]
@@ -142,12 +143,16 @@ class Stairs(Sheet):
     @classmethod
     def inclined(cls, *, angle: float, nosing_spacing: float, steps: int = 12) -> Self:
         """Uniform flight from its angle [rad] and nosing spacing [m]."""
-        return cls(
-            name=f"{math.degrees(angle):g} deg at {nosing_spacing * 1e3:g} mm",
-            rise=nosing_spacing * math.sin(angle),
-            going=nosing_spacing * math.cos(angle),
-            steps=steps,
-        )
+        name = f"{math.degrees(angle):g} deg at {nosing_spacing * 1e3:g} mm"
+        try:
+            return cls(
+                name=name,
+                rise=nosing_spacing * math.sin(angle),
+                going=nosing_spacing * math.cos(angle),
+                steps=steps,
+            )
+        except InputError as error:
+            raise InputError(f"{name}: {error}") from None
 
     @property
     def step_rises(self) -> Length:

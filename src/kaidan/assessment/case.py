@@ -62,6 +62,24 @@ class Case(NamedTuple):
         resistance = self.robot.drive.rolling_resistance
         return resistance if self.direction == "up" else -resistance
 
+    @property
+    def spread(self) -> tuple[float, ...]:
+        """Standard uncertainties of L, C_L, C_N, angle, nosing spacing and friction."""
+        of_robot, of_stairs = self.robot.uncertainty, self.stairs.uncertainty
+        return (
+            of_robot.flat_length,
+            of_robot.com_from_front,
+            of_robot.com_height,
+            of_stairs.angle,
+            of_stairs.nosing_spacing,
+            self.surface.friction_uncertainty if self.surface else 0.0,
+        )
+
+    @property
+    def uncertain(self) -> bool:
+        """Whether any input has an uncertainty."""
+        return any(self.spread)
+
     def changed(self, **changes: object) -> "Case":
         """Same question with something changed."""
         return self._replace(**changes)  # type: ignore[arg-type]
@@ -107,18 +125,10 @@ def draws(case: Case, at: Draws) -> Iterator[Draws]:
     seed, so that the same question always has the same answer. The same samples for all steps,
     which come in blocks that fit into memory; one block of one row if all is certain.
     """
-    of_robot, of_stairs = case.robot.uncertainty, case.stairs.uncertainty
-    spread = (
-        of_robot.flat_length,
-        of_robot.com_from_front,
-        of_robot.com_height,
-        of_stairs.angle,
-        of_stairs.nosing_spacing,
-        case.surface.friction_uncertainty if case.surface else 0.0,
-    )
-    if not any(spread):
+    if not case.uncertain:
         yield at
         return
+    spread = case.spread
     count = max(SAMPLES, math.ceil(BEYOND / case.risk))
     L, C_L, C_N, d_theta, d_p, d_mu = (
         _unit_draws(count)[:, :, None] * np.array(spread)[:, None, None]

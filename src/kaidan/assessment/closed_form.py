@@ -17,7 +17,7 @@ from kaidan.mechanics.margin import (
     semi_stable_limit,
 )
 from kaidan.mechanics.margins import Mode, margins
-from kaidan.mechanics.plane import contact_count
+from kaidan.mechanics.plane import contact_count, two_contacts_remain
 from kaidan.mechanics.slipping import slip_acceleration_down, slip_acceleration_up
 from kaidan.robot import Stance
 
@@ -187,16 +187,20 @@ def _readings(case: Case, stance: Stance, at: Draws) -> tuple[Reading, Reading, 
 def _over_steps(case: Case, stance: Stance, at: Draws) -> tuple[Array, Array, NDArray[np.bool_]]:
     """Smallest margins over the steps, of the modes and of the centroid; what is outside."""
     found = _margins(case, stance, at)
-    beyond: NDArray[np.bool_] = np.any(2 * at.p > at.L, axis=-1)
+    beyond: NDArray[np.bool_] = np.any(~two_contacts_remain(L=at.L, p=at.p), axis=-1)
     return found.modes.min(axis=-1), found.centroid.min(axis=-1), beyond
 
 
 def traction_limit(case: Case, speed: float | None = None) -> float | None:
-    """Largest sum of tractive forces [N] at a speed, the asked one without; None: not known."""
+    """Largest sum of tractive forces [N] at a speed, the asked one without; None: not known.
+
+    The power counts only on the way up: what the drive can brake on the way down is another
+    figure, which no sheet gives.
+    """
     drive = case.drive
     limits = [drive.max_traction] if drive.max_traction is not None else []
     speed = case.speed if speed is None else speed
-    if drive.max_power is not None and speed:
+    if drive.max_power is not None and speed and case.direction == "up":
         limits.append(drive.max_power * drive.efficiency / speed)
     return min(limits) if limits else None
 
@@ -242,7 +246,7 @@ def _outside(case: Case, stance: Stance, share_outside: float) -> str:
     if share_outside > case.risk:
         p = max(math.hypot(rise, going) for rise, going in case.stairs.regular_steps)
         spacing, half = f"the nosing spacing of {p * 1e3:.0f} mm", "more than half the flat length"
-        if 2 * p > stance.flat_length:
+        if not two_contacts_remain(L=stance.flat_length, p=p):
             return (
                 f"{spacing} is {half} of {stance.flat_length * 1e3:.0f} mm (p > L/2), so one "
                 "nosing alone carries the robot at times"
@@ -266,9 +270,16 @@ def _outside(case: Case, stance: Stance, share_outside: float) -> str:
 
 
 def _semi_stable(case: Case, stance: Stance, at: Draws, step: int) -> bool:
-    """Whether the robot can follow an a(d) through areas D and E (worst reading of the ranges)."""
+    """Whether the robot can follow an a(d) through areas D and E (worst reading of the ranges).
+
+    Not where an input is uncertain, because a plan holds for one set of figures; and not where the
+    limits make it lose or gain speed from nosing to nosing, because the flight would decide.
+    """
     drive = case.drive
-    if not drive.acceleration_control or drive.max_speed is None:
+    if not drive.acceleration_control or drive.max_speed is None or case.uncertain:
+        return False
+    lower, upper, width = flight_band(case, stance, at, step)
+    if not lower @ width <= 0 <= upper @ width:
         return False
     plan = plan_acceleration(case, stance, at, step, v_min=CREEP * drive.max_speed)
     return bool(plan.reserve >= 0)

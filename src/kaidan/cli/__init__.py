@@ -5,7 +5,8 @@ Exit codes: 0 go or caution, 1 no-go, 2 bad input, 3 outside the model.
 
 import os
 import sys
-from typing import Annotated
+from contextlib import suppress
+from typing import Annotated, NoReturn
 
 import typer
 
@@ -57,8 +58,16 @@ def main() -> None:
     try:
         app()
     except KaidanError as error:
-        print(f"kaidan: {error}", file=sys.stderr)  # noqa: T201
-        sys.exit(2)
+        _complain(str(error))
     except BrokenPipeError:
         sys.stderr.close()
         sys.exit(0)
+    except OSError as error:  # a full disk behind standard output, for example
+        _complain(f"the answer cannot be written: {error.strerror or error}")
+
+
+def _complain(text: str) -> NoReturn:
+    """Say in one line what is wrong, if anybody listens, and end with exit code 2."""
+    with suppress(OSError):
+        print(f"kaidan: {text}", file=sys.stderr, flush=True)  # noqa: T201
+    sys.exit(2)

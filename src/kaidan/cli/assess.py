@@ -76,8 +76,9 @@ def assess(
 
 def as_text(answer: "Assessment") -> str:
     """Answer as a page for people, the verdict first."""
+    names = " ".join(f"{answer.robot} on {answer.stairs}".split())
     lines = [
-        f"{_VERDICT[answer.verdict]}  {answer.robot} on {answer.stairs}, {answer.direction} "
+        f"{_VERDICT[answer.verdict]}  {names}, {answer.direction} "
         f"{answer.facing.replace('-', ' ')}",
         f"  {answer.reason}",
         "",
@@ -180,7 +181,7 @@ def _friction_row(answer: "Assessment") -> str:
         return _row("friction", f"{text}, not stated")
     low, high = answer.friction
     stated = f"{low:g}" if low == high else f"{low:g} to {high:g}"
-    return _row("friction", f"{text}, {stated} stated ({answer.surface})")
+    return _row("friction", f"{text}, {stated} stated ({' '.join(str(answer.surface).split())})")
 
 
 def _force_rows(answer: "Assessment") -> list[str]:

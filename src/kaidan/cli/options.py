@@ -1,6 +1,7 @@
 """Options that several commands share, and what becomes of their texts."""
 
 import re
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -184,7 +185,7 @@ def case_from(
     if friction is not None:
         if ground is not None:
             raise InputError("give either --surface or --friction, not both")
-        low, high = _range(friction, lambda text: _number(text, "--friction"))
+        low, high = _range(friction, "--friction", lambda text: _number(text, "--friction"))
         ground = Surface(name=f"friction {friction}", friction_low=low, friction_high=high)
     if "friction" in doubts and ground is None:
         raise InputError("--uncertainty friction needs --friction or --surface")
@@ -203,7 +204,9 @@ def case_from(
     )
 
     def allowance(text: str | None, option: str) -> Any:
-        return None if text is None else _range(text, lambda t: parse(t, "angle", option=option))
+        if text is None:
+            return None
+        return _range(text, option, lambda part: parse(part, "angle", option=option))
 
     return case_of(
         sheet,
@@ -233,6 +236,8 @@ def _pairs(texts: list[str] | None, kinds: dict[str, str], option: str) -> dict[
             raise InputError(
                 f"{option} {text!r}: write NAME=VALUE with a name of {', '.join(kinds)}"
             )
+        if name in values:
+            raise InputError(f"{option} {name} is given twice")
         where = f"{option} {name}"
         number = kinds[name] == "number"
         values[name] = _number(value, where) if number else parse(value, kinds[name], option=where)
@@ -256,9 +261,16 @@ def _number(text: str, option: str) -> float:
     return float(text)
 
 
-def _range(text: str, read: Any) -> tuple[float, float]:
+def _range(text: str, option: str, read: Callable[[str], float]) -> tuple[float, float]:
+    from kaidan.errors import InputError
+
     low, dots, high = text.partition("..")
-    return (read(low), read(high)) if dots else (read(text), read(text))
+    if not dots:
+        value = read(text)
+        return value, value
+    if not low.strip() or not high.strip():
+        raise InputError(f"{option} {text!r}: a range has two ends, LOW..HIGH")
+    return read(low), read(high)
 
 
 def _flippers(text: str) -> "Posture | Any":

@@ -178,6 +178,8 @@ def _marks() -> "tuple[Mark, ...]":
 
 
 def _show_margin(curve: "MarginCurve") -> None:
+    from kaidan.mechanics.plane import two_contacts_remain
+
     lead = f"{curve.direction} {curve.facing.replace('-', ' ')}, a = {curve.acceleration:g} m/s2"
     echo(
         f"{curve.robot}, {lead}: L {1e3 * curve.L:.0f} mm, centroid {1e3 * curve.C_L:.0f} mm "
@@ -217,7 +219,7 @@ def _show_margin(curve: "MarginCurve") -> None:
                     "name": mark.name,
                     "angle_deg": math.degrees(mark.theta_s),
                     "nosing_spacing_m": mark.p,
-                    "inside": 2 * mark.p <= curve.L,
+                    "inside": bool(two_contacts_remain(L=curve.L, p=mark.p)),
                 }
                 for mark in sorted(curve.marks, key=lambda mark: mark.theta_s)
             ],

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.mechanics import STANDARD_GRAVITY
-from kaidan.mechanics.plane import contact_count
+from kaidan.mechanics.plane import contact_count, two_contacts_remain
 from kaidan.mechanics.tipping import a_r0, a_rn
 from kaidan.mechanics.validity import validity
 
@@ -83,7 +83,7 @@ def tip_band(
         [np.linspace(0.0, d_C, before + 1)[:before], np.linspace(d_C, p, cells - before + 1)]
     )
     k = np.where(np.arange(cells) < before, n, n - 1)
-    inside = float(validity(holds=2.0 * p <= L))
+    inside = float(validity(holds=two_contacts_remain(L=L, p=p)))
     upper = inside * a_r0(s=edges[:-1] + k * p, theta_s=theta_s, C_L=C_L, C_N=C_N, g=g)
     lower = inside * a_rn(d=edges[1:], theta_s=theta_s, C_L=C_L, C_N=C_N, g=g)
     return Band(edges, lower, upper)

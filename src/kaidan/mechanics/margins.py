@@ -11,6 +11,7 @@ import numpy as np
 
 from kaidan.mechanics import STANDARD_GRAVITY, Number
 from kaidan.mechanics.margin import slope_limit, theta_s_inf, theta_s_sup
+from kaidan.mechanics.plane import two_contacts_remain
 from kaidan.mechanics.slipping import slip_acceleration_down, slip_acceleration_up
 from kaidan.mechanics.tipping import a_max, a_min_with_slip, max_a_rn, min_a_r0
 from kaidan.mechanics.validity import validity
@@ -119,7 +120,7 @@ def margins(
     Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eqs. (4), (7), (12), (24); the uphill
     limit, downhill slip and theta_d at the uphill end derived.
     """
-    inside = validity(holds=2.0 * p <= L)
+    inside = validity(holds=two_contacts_remain(L=L, p=p))
     sup = inside * theta_s_sup(L=L, p=p, C_L=C_L, C_N=C_N, a=a, g=g)
     inf = inside * theta_s_inf(p=p, C_L=C_L, C_N=C_N, a=a, g=g)
     tip_downhill = sup - theta_d - theta_M - theta_s
@@ -179,7 +180,7 @@ def acceleration_bounds(
     ----------
     Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eqs. (14)-(18); downhill slip derived.
     """
-    inside = validity(holds=2.0 * p <= L)
+    inside = validity(holds=two_contacts_remain(L=L, p=p))
     slip_up = inside * slip_acceleration_up(mu_s=mu_s, theta_s=theta_s, g=g)
     slip_down = inside * slip_acceleration_down(mu_s=mu_s, theta_s=theta_s, g=g)
     tip_downhill = inside * min_a_r0(L=L, p=p, theta_s=theta_s, C_L=C_L, C_N=C_N, g=g)

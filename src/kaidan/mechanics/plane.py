@@ -6,6 +6,9 @@ import numpy as np
 
 from kaidan.mechanics import Number
 
+_ROUNDING = 1.0 + 4.0 * 2.0**-52
+"""Four units of rounding: a quotient of lengths so little below a whole number is that number."""
+
 
 class State(IntEnum):
     """States of the robot between two nosings (Fig. 3)."""
@@ -69,7 +72,35 @@ def contact_count(*, L: Number, p: Number) -> Number:
     Errata: "n is an integer greater than 2" contradicts the paper's own tests at 180-220 mm,
     where n = 2; the equations need n >= 2.
     """
-    return np.floor(L / p * (1.0 + 4.0 * 2.0**-52))
+    return np.floor(L / p * _ROUNDING)
+
+
+def two_contacts_remain(*, L: Number, p: Number) -> Number:
+    """Whether two nosings carry the robot after one has left, so that the model holds.
+
+    ``p <= L / 2``, that is n >= 2, with the rounding of `contact_count`.
+
+    Parameters
+    ----------
+    L : float or array
+        Length of the flat underside [m].
+    p : float or array
+        Nosing spacing [m].
+
+    Returns
+    -------
+    bool or array of bool
+
+    Examples
+    --------
+    >>> print(two_contacts_remain(L=0.470, p=0.235), two_contacts_remain(L=0.470, p=0.236))
+    True False
+
+    References
+    ----------
+    Derived from Fig. 3 of Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y.
+    """
+    return 2.0 * p <= L * _ROUNDING
 
 
 def state(*, d: Number, L: Number, p: Number) -> Number:

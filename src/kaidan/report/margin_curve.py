@@ -10,7 +10,7 @@ from kaidan.assessment.allowance import Allowance
 from kaidan.assessment.case import Case
 from kaidan.assessment.closed_form import judge
 from kaidan.mechanics.margin import theta_s_inf, theta_s_sup, theta_s_sup_corrected
-from kaidan.mechanics.plane import contact_count
+from kaidan.mechanics.plane import contact_count, two_contacts_remain
 from kaidan.stairs import Stairs
 
 Array = NDArray[np.float64]
@@ -105,7 +105,8 @@ class MarginCurve(NamedTuple):
                     "name": mark.name,
                     "angle_deg": math.degrees(mark.theta_s),
                     "nosing_spacing_m": mark.p,
-                    "inside_model": not self.outside and 2 * mark.p <= self.L,
+                    "inside_model": not self.outside
+                    and bool(two_contacts_remain(L=self.L, p=mark.p)),
                 }
                 for mark in self.marks
             ],
@@ -138,7 +139,7 @@ def margin_curve(case: Case, p: Array, marks: tuple[Mark, ...] = ()) -> MarginCu
     L, C_N = stance.flat_length, stance.com_height
     C_L = stance.com_from_front if case.nose_up else L - stance.com_from_front
     outside = _outside(case, L)
-    inside = np.where((2 * p <= L) & (not outside), 1.0, np.nan)
+    inside = np.where(two_contacts_remain(L=L, p=p) & (not outside), 1.0, np.nan)
     with np.errstate(invalid="ignore"):
         sup = inside * theta_s_sup(L=L, p=p, C_L=C_L, C_N=C_N, a=case.acceleration)
         inf = inside * theta_s_inf(p=p, C_L=C_L, C_N=C_N, a=case.acceleration)
