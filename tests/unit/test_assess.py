@@ -739,6 +739,9 @@ def test_power_limits_the_traction_at_a_speed():
     unjudged = driven(30, **known)
     assert unjudged.margins_deg["drive"] is None
     assert any("takes the speed" in note for note in unjudged.notes)
+    # what the drive can brake on the way down is another figure, which no sheet gives
+    down = driven(30, "down", speed=1.1, **known)
+    assert (down.verdict, down.margins_deg["drive"]) == ("go", None)
     # the smaller of both counts
     assert driven(30, speed=0.5, **known, max_traction=40.0).verdict == "no-go"
 
@@ -941,6 +944,25 @@ def test_no_area_e_without_control_speed_or_strength():
     # theory: beyond atan((L - p/2 - C_L) / C_N) = 67.8 deg no flight can be taken
     for angle in (68, 75, 80):
         assert assess(controlled(max_speed=9.0), flight(angle, 0.2), **question).verdict == "no-go"
+
+
+def test_no_area_e_by_a_running_start():
+    # hand: at 62 deg it must slow down by up to 0.62 m/s^2 over the first 9.5 mm of every 150 mm,
+    # 2.9 mm^2/s^2 in energy, and may gain 0.001 m/s^2 x 140 mm = 0.14: a run of 0.3 m/s would
+    # last for ten spacings, but not for ever
+    slow_to_gain = controlled(max_speed=3.0, max_acceleration=0.001)
+    answer = assess(slow_to_gain, flight(62, 0.150), friction=GRIP, **BARE)
+    assert answer.a_max == pytest.approx(-0.62, abs=0.005)
+    assert answer.verdict == "no-go"
+    assert assess(controlled(), flight(62, 0.150), friction=GRIP, **BARE).verdict == "caution"
+
+
+def test_no_area_e_for_uncertain_inputs():
+    # a plan holds for one set of figures
+    sheet = controlled().model_dump() | {"uncertainty": {"com_from_front": 1e-4}}
+    doubt = Robot.model_validate(sheet)
+    question = {"friction": GRIP, **BARE}
+    assert assess(doubt, flight(52, 0.200), **question).verdict == "no-go"
 
 
 def test_no_area_e_where_it_slips():

@@ -14,12 +14,13 @@ from kaidan.assessment.pose import Pose, contacts_at, governing_pose, measures_a
 from kaidan.mechanics import drive, tipping
 from kaidan.mechanics.margin import theta_s_inf, theta_s_sup
 from kaidan.mechanics.margins import AccelerationBounds, acceleration_bounds
-from kaidan.mechanics.plane import Area, area
+from kaidan.mechanics.plane import Area, area, two_contacts_remain
 from kaidan.mechanics.slipping import (
     required_friction,
     slip_acceleration_down,
     slip_acceleration_up,
 )
+from kaidan.mechanics.validity import validity
 
 NAMES = {
     "tip_downhill": "tipping over its downhill end",
@@ -135,7 +136,7 @@ def _bounds(case: Case, found: Judgement) -> tuple[AccelerationBounds, Accelerat
 
 def _safe_bounds(case: Case, at: Draws) -> AccelerationBounds:
     """Bounds of the acceleration with the worst reading of the allowances taken off."""
-    inside = np.where(2.0 * at.p <= at.L, 1.0, np.nan)
+    inside = validity(holds=two_contacts_remain(L=at.L, p=at.p))
     centroid: dict[str, Any] = {"C_L": at.C_L, "C_N": at.C_N, "p": at.p}
     tilt = case.theta_d.high + case.theta_M.high
     down = inside * tipping.min_a_r0(L=at.L, theta_s=at.theta_s + tilt, **centroid)
