@@ -111,6 +111,7 @@ def test_swing_of_the_paper():
     assert answer.measures.speed_height_mm == pytest.approx(1e3 * 0.01 / (2 * G), rel=1e-12)
     assert any("expect it to swing" in note for note in answer.notes)
     assert not any("swing" in note for note in kenaf(30, 0.200, speed=0.1).notes)
+    assert not any("swing" in note for note in kenaf(60, 0.200, speed=0.1).notes)  # it falls
 
 
 def test_acceleration_acts_like_inclination():

@@ -290,7 +290,7 @@ def _notes(case: Case, found: Judgement, pose: Pose) -> tuple[str, ...]:
         notes.append(text)
     if case.speed and found.verdict != "outside-model":
         shown = measures_at(pose, case.acceleration, None, case.speed)
-        if shown.speed_height_mm is not None and shown.speed_height_mm > shown.energy_margin_mm:
+        if 0 < shown.energy_margin_mm < (shown.speed_height_mm or 0.0):
             notes.append(
                 f"At {case.speed:g} m/s the kinetic energy could lift the centroid "
                 f"{shown.speed_height_mm:.2f} mm, more than the energy margin of "
