@@ -24,6 +24,10 @@ from kaidan.contact.tables import FloatArray
 
 #: Largest turn between two looks at all gaps [rad]: the ends move by a few millimetres.
 TURN = 0.008
+#: The same where only an energy is asked for and a graze may be missed.
+COARSE_TURN = 0.03
+#: Free gaps beyond this need not be known [m].
+LOOK = 0.05
 
 
 @kernel
@@ -114,13 +118,28 @@ def turn_until(
     if uphill:
         want = -sense
     done = 0.0
+    # a gap of d cannot close within a turn of d / (greatest distance of the body from the pivot)
+    _, _, _, p_x, p_z = gap(ground, body, pivot, x, z, math.cos(phi), math.sin(phi))
+    reach = 0.0
+    for part in range(body.shape[0]):
+        reach = max(
+            reach,
+            math.hypot(body[part, 0], body[part, 1]) + body[part, 2],
+            math.hypot(body[part, 3], body[part, 4]) + body[part, 5],
+        )
+    reach += math.hypot(x - p_x, z - p_z)
+    least = TURN
+    if uphill:
+        least = COARSE_TURN
+    step = least
     for _ in range(2000):
-        ahead = min(done + TURN, end)
+        ahead = min(done + step, end)
         x1, z1 = turned(ground, body, pivot, x, z, phi, sense * ahead)
         phi1 = phi + sense * ahead
         c = math.cos(phi1)
         s = math.sin(phi1)
-        which, distance, hint = nearest(ground, body, x1, z1, c, s, pivot, -1, 0.0, hint)
+        which, distance, hint = nearest(ground, body, x1, z1, c, s, pivot, -1, LOOK, hint)
+        step = max(least, min(distance, LOOK) / reach)
         delta = lever(ground, body, pivot, x1, z1, c, s, kappa)
         over = delta * want <= 0.0
         if over:
