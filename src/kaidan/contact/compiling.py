@@ -28,6 +28,7 @@ KERNEL_MODULES = (
     "traverse",
     "forces",
     "margins",
+    "no_rotation",
     "batch",
 )
 
