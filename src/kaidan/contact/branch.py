@@ -275,6 +275,17 @@ def quantity(
 
 
 @kernel
+def shallow(body: FloatArray, feature: int, distance: float) -> bool:
+    """Whether a penetration is shallow enough to tell which feature is hit.
+
+    A disc that has gone in by less than half its radius still has its centre outside; a thin part
+    that has gone in farther may be nearer to a face it never met.
+    """
+    part = (feature >> 2) & 15
+    return distance > -0.5 * min(body[part, 2], body[part, 5])
+
+
+@kernel
 def advance(
     ground: FloatArray,
     body: FloatArray,
@@ -304,14 +315,21 @@ def advance(
         For the scan; the step actually taken [m].
     """
     good = False
+    third = -1
+    distance = 0.0
     x1, z1, phi1, u_x, u_z, u_w = x, z, phi, t_x, t_z, t_w
     r1, f1 = rear, front
-    for _ in range(40):
+    for _ in range(60):
         good, x1, z1, phi1, u_x, u_z, u_w, r1, f1 = stepped(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, ds
         )
         if good:
-            break
+            third, distance, hint = nearest(
+                ground, body, x1, z1, math.cos(phi1), math.sin(phi1), r1, f1, 0.0, hint
+            )
+            if third < 0 or ds < 1e-8 or shallow(body, third, distance):
+                break
+            good = False
         ds *= 0.4
         if ds < 1e-9:
             break
@@ -319,11 +337,12 @@ def advance(
         return -9, x, z, phi, t_x, t_z, t_w, rear, front, hint, ds, 0
     what = -3
     deep = PENETRATED
-    for _ in range(24):
+    for again in range(24):
         c = math.cos(phi1)
         s = math.sin(phi1)
         kappa = tilt(a, g, u_x, u_z)
-        third, distance, hint = nearest(ground, body, x1, z1, c, s, r1, f1, 0.0, hint)
+        if again > 0:
+            third, distance, hint = nearest(ground, body, x1, z1, c, s, r1, f1, 0.0, hint)
         new = -3
         value1 = 0.0
         if third >= 0 and distance < -deep:
@@ -345,6 +364,8 @@ def advance(
         value0 = quantity(ground, body, what, rear, front, x, z, phi, tilt(a, g, t_x, t_z))
         value1 = quantity(ground, body, what, r1, f1, x1, z1, phi1, kappa)
         if value0 <= 0.0:
+            if what >= 0:
+                what = relabelled(ground, body, what, x, z, math.cos(phi), math.sin(phi))
             return what, x, z, phi, t_x, t_z, t_w, rear, front, hint, 0.0, 1
         found, cut = closing_time(
             ground, body, what, rear, front, x, z, phi, t_x, t_z, t_w, ds, value0, value1, a, g

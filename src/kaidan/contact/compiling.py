@@ -8,11 +8,13 @@ source files a second time under other module names and hands every marked funct
 
 from __future__ import annotations
 
+import hashlib
 import importlib
 import importlib.util
 import sys
 from collections.abc import Callable
 from functools import lru_cache
+from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeVar
 
@@ -33,7 +35,6 @@ KERNEL_MODULES = (
 )
 
 _PACKAGE = "kaidan.contact"
-_ALIAS = "kaidan.contact._compiled_"
 
 
 def kernel(function: _F) -> _F:
@@ -60,11 +61,17 @@ def _compiled_modules() -> dict[str, ModuleType]:
         raise ImportError(
             "the compiled contact kernel needs numba: pip install 'kaidan[fast]'"
         ) from error
+    # numba's cache looks at one file only: name the functions after all sources, so that no
+    # compiled caller outlives a change of what it calls
+    digest = hashlib.sha256()
+    for name in KERNEL_MODULES:
+        digest.update(Path(str(plain(name).__file__)).read_bytes())
+    mark = digest.hexdigest()[:12]
     fast: dict[int, Any] = {}
     modules: dict[str, ModuleType] = {}
     for name in KERNEL_MODULES:
         original = plain(name)
-        alias = _ALIAS + name
+        alias = f"{_PACKAGE}._compiled_{name}"
         spec = importlib.util.spec_from_file_location(alias, original.__file__)
         if spec is None or spec.loader is None:
             raise ImportError(f"cannot load the source of {original.__name__}")
@@ -75,6 +82,7 @@ def _compiled_modules() -> dict[str, ModuleType]:
             if not getattr(value, "_kaidan_kernel", False):
                 continue
             if value.__module__ == alias:
+                value.__qualname__ = f"{key}_{mark}"
                 compiled_function = njit(cache=True)(value)
                 fast[id(vars(original)[key])] = compiled_function
                 setattr(module, key, compiled_function)

@@ -31,6 +31,33 @@ FAR = 1e9
 
 
 @kernel
+def is_above(
+    ground: FloatArray,
+    body: FloatArray,
+    part: int,
+    k: int,
+    x: float,
+    c: float,
+    s: float,
+    below: float,
+) -> bool:
+    """Whether a vertex beyond the axis of a part is outside it, above, and not deep inside.
+
+    The ground reaches down from every vertex, so a vertex just above a thin part has gone through
+    it if the part lies under it; a vertex ahead of a lowered nose, or behind a lowered tail, is
+    simply above.
+    """
+    if below < min(body[part, 2], body[part, 5]) - INSIDE:
+        return True
+    x1 = x + c * body[part, 0] - s * body[part, 1]
+    x2 = x + c * body[part, 3] - s * body[part, 4]
+    v = ground[k, 0]
+    return v <= min(x1 - body[part, 2], x2 - body[part, 5]) or v >= max(
+        x1 + body[part, 2], x2 + body[part, 5]
+    )
+
+
+@kernel
 def gap(
     ground: FloatArray,
     body: FloatArray,
@@ -72,11 +99,9 @@ def gap(
         side = body[part, 12]
         along = a_x * e_x + a_z * e_z
         below = side * (a_x * e_z - a_z * e_x)
-        if below < 0.0:
-            thin = INSIDE - min(body[part, 2], body[part, 5])
-            if below < -thin:
-                below = -below
-                side = -side
+        if below < 0.0 and is_above(ground, body, part, k, x, c, s, below):
+            below = -below
+            side = -side
         w = along * body[part, 10] - below * body[part, 9]
         if w > 0.0 and w < body[part, 11]:
             distance = along * body[part, 9] + below * body[part, 10] - body[part, 2]
@@ -129,7 +154,7 @@ def relabelled(
         a_z = c * d_z - s * d_x - body[part, 1]
         along = a_x * body[part, 6] + a_z * body[part, 7]
         below = body[part, 12] * (a_x * body[part, 7] - a_z * body[part, 6])
-        if below < -INSIDE:
+        if below < 0.0 and is_above(ground, body, part, k, x, c, s, below):
             below = -below
         w = along * body[part, 10] - below * body[part, 9]
         if w > 0.0 and w < body[part, 11]:

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.branch import PENETRATED, TOGETHER
+from kaidan.contact.branch import PENETRATED, TOGETHER, shallow
 from kaidan.contact.compiling import kernel
 from kaidan.contact.gaps import gap, relabelled
 from kaidan.contact.scan import nearest
@@ -134,11 +134,19 @@ def turn_until(
     step = least
     for _ in range(2000):
         ahead = min(done + step, end)
-        x1, z1 = turned(ground, body, pivot, x, z, phi, sense * ahead)
-        phi1 = phi + sense * ahead
-        c = math.cos(phi1)
-        s = math.sin(phi1)
-        which, distance, hint = nearest(ground, body, x1, z1, c, s, pivot, -1, LOOK, hint)
+        x1, z1, phi1 = x, z, phi
+        c, s = 1.0, 0.0
+        which = -1
+        distance = 0.0
+        for _ in range(30):
+            x1, z1 = turned(ground, body, pivot, x, z, phi, sense * ahead)
+            phi1 = phi + sense * ahead
+            c = math.cos(phi1)
+            s = math.sin(phi1)
+            which, distance, hint = nearest(ground, body, x1, z1, c, s, pivot, -1, LOOK, hint)
+            if which < 0 or ahead - done < 1e-8 or shallow(body, which, distance):
+                break
+            ahead = done + 0.4 * (ahead - done)
         step = max(least, min(distance, LOOK) / reach)
         delta = lever(ground, body, pivot, x1, z1, c, s, kappa)
         over = delta * want <= 0.0

@@ -83,8 +83,13 @@ def nearest(
         z2 = z + s * body[part, 3] + c * body[part, 4]
         r1 = body[part, 2]
         r2 = body[part, 5]
-        left = min(x1 - r1, x2 - r2) - best
-        right = max(x1 + r1, x2 + r2) + best
+        from_x = min(x1 - r1, x2 - r2)
+        to_far = max(x1 + r1, x2 + r2)
+        # a small disc may have stepped past a face altogether
+        wide1 = max(best, DEEPEST - r1)
+        wide2 = max(best, DEEPEST - r2)
+        left = from_x - max(wide1, wide2)
+        right = to_far + max(wide1, wide2)
         # axis of the part in the world
         e_x = c * body[part, 6] - s * body[part, 7]
         e_z = s * body[part, 6] + c * body[part, 7]
@@ -93,10 +98,10 @@ def nearest(
         cosine = body[part, 10]
         flat = body[part, 11]
         thin = INSIDE - min(r1, r2)
-        left1 = x1 - r1 - best
-        right1 = x1 + r1 + best
-        left2 = x2 - r2 - best
-        right2 = x2 + r2 + best
+        left1 = x1 - r1 - wide1
+        right1 = x1 + r1 + wide1
+        left2 = x2 - r2 - wide2
+        right2 = x2 + r2 + wide2
         k = first_index(ground, left, hint)
         hint = k
         if k < new_hint:
@@ -109,7 +114,7 @@ def nearest(
                 a_z = g_z - z1
                 along = a_x * e_x + a_z * e_z
                 below = side * (a_x * e_z - a_z * e_x)
-                if below < 0.0 and below < -thin:
+                if below < 0.0 and (below < -thin or g_x <= from_x or g_x >= to_far):
                     below = -below
                 w = along * cosine - below * sine
                 distance = along * sine + below * cosine - r1
