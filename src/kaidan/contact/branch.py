@@ -286,6 +286,33 @@ def shallow(body: FloatArray, feature: int, distance: float) -> bool:
 
 
 @kernel
+def careful(
+    ground: FloatArray,
+    body: FloatArray,
+    rear: int,
+    front: int,
+    x: float,
+    z: float,
+    phi: float,
+    ds: float,
+    hint: int,
+) -> float:
+    """A step that does not jump through a spike: thin parts move no farther than they are clear.
+
+    Parts with end radii above the step need no such care.
+    """
+    thinnest = 1.0
+    for part in range(body.shape[0]):
+        thinnest = min(thinnest, body[part, 2], body[part, 5])
+    if thinnest >= ds:
+        return ds
+    _, clear, _ = nearest(
+        ground, body, x, z, math.cos(phi), math.sin(phi), rear, front, 2.0 * ds, hint
+    )
+    return min(ds, max(0.4 * clear, thinnest, 0.1 * ds))
+
+
+@kernel
 def advance(
     ground: FloatArray,
     body: FloatArray,
@@ -314,6 +341,7 @@ def advance(
     hint, ds, moved
         For the scan; the step actually taken [m].
     """
+    ds = careful(ground, body, rear, front, x, z, phi, ds, hint)
     good = False
     third = -1
     distance = 0.0

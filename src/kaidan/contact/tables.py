@@ -25,9 +25,9 @@ TRACK, FLIPPER, BELLY = 0, 1, 2
 #: Points closer to the line of their neighbours than this are dropped [m]; far below any scan,
 #: far above the rounding of coordinates of some metres.
 COLLINEAR = 1e-11
-#: Discs are never sharper than this [m]: a rounding of a tenth of a millimetre, drawn inside the
-#: part so that its flat stays where it is, gives every contact a normal.
-SHARPEST = 1e-4
+#: Discs are never sharper than this [m]: a rounding of a millimetre, drawn inside the part so that
+#: its flat stays where it is, gives every contact a normal.
+SHARPEST = 1e-3
 #: How far the first and last segments are continued [m].
 BEYOND = 30.0
 

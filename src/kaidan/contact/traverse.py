@@ -142,7 +142,7 @@ def drive(
     n_pose = 1
     idle = 0
     failures = 0
-    while True:
+    for _ in range(30 * poses.shape[0]):
         if n_pose >= poses.shape[0] - 2 or n_event >= events.shape[0] - 4:
             return TOO_LONG, n_pose, n_event, n_release
         what, x1, z1, phi1, t_x, t_z, t_w, rear, front, hint, ds, moved = advance(
@@ -174,16 +174,17 @@ def drive(
         x, z, phi = x1, z1, phi1
         path += ds
         if ds > 1e-10:
-            record_pose(
-                ground, body, poses, n_pose, path, x, z, phi, rear, front, t_x, t_z, t_w, leg
-            )
-            n_pose += 1
             idle = 0
         else:
             idle += 1
             if idle > 20:
                 write_event(events, n_event, 9, path, x, z, phi, rear, front, n_pose - 1)
                 return STUCK_STATUS, n_pose, n_event + 1, n_release
+        if what != -3 or path - poses[n_pose - 1, 0] > 0.7 * step:
+            record_pose(
+                ground, body, poses, n_pose, path, x, z, phi, rear, front, t_x, t_z, t_w, leg
+            )
+            n_pose += 1
         if what == -3:
             continue
         c = math.cos(phi)
@@ -317,6 +318,7 @@ def drive(
                 ):
                     write_event(events, n_event, 9, path, x, z, phi, rear, front, n_pose - 1)
                     return STUCK_STATUS, n_pose, n_event + 1, n_release
+    return TOO_LONG, n_pose, n_event, n_release
 
 
 @kernel
