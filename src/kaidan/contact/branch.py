@@ -208,7 +208,7 @@ def closing_time(
     f1: float,
     a: float,
     g: float,
-) -> tuple[bool, float]:
+) -> tuple[int, float]:
     """Arclength at which one quantity changes sign within a step (regula falsi, bisection).
 
     ``what`` is a feature (its gap) or -1 (centroid over the rear contact) or -2 (over the front).
@@ -216,7 +216,9 @@ def closing_time(
 
     Returns
     -------
-    found, arclength [m] (on the far side of the event, within 1e-9 m or a gap of 1e-12 m)
+    0 not found, 1 found, 2 no event: one of the two contacts takes that name on the way
+    arclength [m]
+        On the far side of the event, within 1e-9 m or a gap of 1e-12 m.
     """
     lo = 0.0
     hi = ds
@@ -232,7 +234,9 @@ def closing_time(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, mid
         )
         if not good:
-            return False, lo
+            return 0, lo
+        if new_rear == what or new_front == what:
+            return 2, mid
         value = quantity(
             ground, body, what, new_rear, new_front, x1, z1, phi1, tilt(a, g, u_x, u_z)
         )
@@ -246,7 +250,7 @@ def closing_time(
             weight0 *= 0.5
             if value > -0.5 * PENETRATED:
                 break
-    return True, hi
+    return 1, hi
 
 
 @kernel
@@ -399,7 +403,10 @@ def advance(
             ground, body, what, rear, front, x, z, phi, t_x, t_z, t_w, ds, value0, value1, a, g
         )
         ds = cut
-        if not found or ds <= 0.0:
+        if found == 2:
+            what = -3
+            deep = PENETRATED
+        if found == 0 or ds <= 0.0:
             return -9, x, z, phi, t_x, t_z, t_w, rear, front, hint, ds, 0
         good, x1, z1, phi1, u_x, u_z, u_w, r1, f1 = stepped(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, ds
