@@ -274,6 +274,8 @@ def quantity(
         return lever(ground, body, front, x, z, c, s, kappa)
     # under the name that holds here: the line of a segment means nothing beyond its end
     what = relabelled(ground, body, what, x, z, c, s)
+    if what == rear or what == front:
+        return 0.5 * PENETRATED
     distance, _, _, _, _ = gap(ground, body, what, x, z, c, s)
     return distance + 0.5 * PENETRATED
 

@@ -69,6 +69,7 @@ class Event(IntEnum):
     FELL_BACKWARD = 7
     ARRIVED = 8
     STUCK = 9
+    RESETTLED = 10
 
 
 class Settled(NamedTuple):
