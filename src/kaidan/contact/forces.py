@@ -21,13 +21,16 @@ from kaidan.contact.scan import first_index, height_of_ground
 from kaidan.contact.tables import FloatArray
 
 NEVER = math.inf
+#: A force below this part of the weight is none: events are located to about 1e-9 m, so a contact
+#: under the centroid may seem to pull by a few 1e-9 of the weight.
+NOTHING = 1e-7
 
 
 @kernel
 def cone_angle(tangential: float, normal: float, scale: float) -> float:
     """Friction coefficient one force needs; 0 for no force, infinite for a pull."""
     if normal <= 0.0:
-        if math.hypot(tangential, normal) <= 1e-12 * scale:
+        if math.hypot(tangential, normal) <= NOTHING * scale:
             return 0.0
         return NEVER
     if abs(tangential) <= 1e-14 * scale:

@@ -245,6 +245,11 @@ def drive(
                 u_w = -u_w
             t_x, t_z, t_w = u_x, u_z, u_w
             if not same_place(ground, body, what, lost, x, z, phi):
+                # the same pose with its new contacts: the forces jump here
+                record_pose(
+                    ground, body, poses, n_pose, path, x, z, phi, rear, front, t_x, t_z, t_w, leg
+                )
+                n_pose += 1
                 code = 0
                 if what & 3 == 1 and what == rear:
                     code = 5
