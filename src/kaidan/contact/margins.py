@@ -60,7 +60,8 @@ def pose_margins(
     margins
         Table to be filled (n, 18):
 
-        0 required friction; 1, 2 N and T of the rear contact, 3, 4 of the front one [N/kg];
+        0 required friction (the active pair where a contact is just being exchanged, else the
+        least over all pairs that straddle the gravity line); 1, 2 N and T of the rear contact, 3, 4 of the front one [N/kg];
         5 traction along the path g sin psi + a [N/kg]; 6, 7 static stability margin to the back
         and to the front [m]; 8, 9 energy margin about the fixed rear and front contact (Hirose)
         [m]; 10 energy margin along the flow, the smaller of both sides [m]; 11 side of column 10
@@ -93,6 +94,8 @@ def pose_margins(
             o_x, o_z, poses[row, 12], poses[row, 13],
             x, z, gravity * kappa / down, gravity / down,
         )  # fmt: skip
+        # the second record of one place: the contact that is about to open carries no more
+        leaving = row > 0 and poses[row, 0] == poses[row - 1, 0]
         many, scan_hint = contacts_at(ground, body, x, z, phi, touch, found, scan_hint)
         back = -(p_x - x + kappa * (z - p_z)) / down
         front = (o_x - x + kappa * (z - o_z)) / down
@@ -117,7 +120,7 @@ def pose_margins(
                     back = -ahead
                     r_x = found[k, 1]
                     r_z = found[k, 2]
-                for j in range(k):
+                for j in range(0 if leaving else k):
                     other = (found[j, 1] - x + kappa * (z - found[j, 2])) / down
                     if ahead * other > 0.0:
                         continue

@@ -129,7 +129,8 @@ def drive(
     n_pose = 0
     n_event = 0
     n_release = 0
-    kappa = 0.0
+    # the path at the start is taken to run along the inclination given
+    kappa = tilt(a, g, math.cos(phi_start), math.sin(phi_start))
     found, z, phi, rear, front = settle(ground, body, x_start, phi_start, kappa)
     if not found or rear == front:
         return NO_START, 0, 0, 0
