@@ -292,6 +292,55 @@ def shallow(body: FloatArray, feature: int, distance: float) -> bool:
 
 
 @kernel
+def lever_rate(
+    ground: FloatArray,
+    body: FloatArray,
+    feature: int,
+    x: float,
+    z: float,
+    phi: float,
+    t_x: float,
+    t_z: float,
+    t_w: float,
+) -> float:
+    """Change of a contact's Delta with arclength (tilt of gravity held)."""
+    kind = feature & 3
+    if kind == 0:
+        return -t_x
+    part = (feature >> 2) & 15
+    k = feature >> 6
+    j = 3 * (kind - 1)
+    o_x = math.cos(phi) * body[part, j] - math.sin(phi) * body[part, j + 1]
+    o_z = math.sin(phi) * body[part, j] + math.cos(phi) * body[part, j + 1]
+    turn = t_w / ARM
+    along = (t_x - turn * o_z) * ground[k, 2] + (t_z + turn * o_x) * ground[k, 3]
+    return along * ground[k, 2] - t_x
+
+
+@kernel
+def may_graze(
+    ground: FloatArray, body: FloatArray, one: int, other: int, sign: float, kappa: float,
+    x0: float, z0: float, phi0: float, t_x: float, t_z: float, t_w: float,
+    x1: float, z1: float, phi1: float, u_x: float, u_z: float, u_w: float, ds: float,
+) -> bool:  # fmt: skip
+    """Whether the centroid may pass a contact and come back within one step.
+
+    ``sign`` +1 for the front contact, -1 for the rear one, ``one`` and ``other`` its names at both
+    ends. The tangents at both ends meet below the true course if that is convex.
+    """
+    v1 = sign * lever(ground, body, other, x1, z1, math.cos(phi1), math.sin(phi1), kappa)
+    if v1 > 3.0 * ds:
+        return False
+    rate1 = sign * lever_rate(ground, body, other, x1, z1, phi1, u_x, u_z, u_w)
+    rate0 = sign * lever_rate(ground, body, one, x0, z0, phi0, t_x, t_z, t_w)
+    if rate0 >= 0.0 or rate1 <= 0.0:
+        return False
+    v0 = sign * lever(ground, body, one, x0, z0, math.cos(phi0), math.sin(phi0), kappa)
+    meet = (v1 - v0 - rate1 * ds) / (rate0 - rate1)
+    return v0 + rate0 * meet <= 0.0
+
+
+@kernel
 def careful(
     ground: FloatArray,
     body: FloatArray,
@@ -362,7 +411,18 @@ def advance(
                 ground, body, x1, z1, math.cos(phi1), math.sin(phi1), r1, f1, 0.0, hint
             )
             if third < 0 or ds < 1e-8 or shallow(body, third, distance):
-                break
+                kappa = tilt(a, g, u_x, u_z)
+                if ds < 2e-5 or not (
+                    may_graze(
+                        ground, body, front, f1, 1.0, kappa,
+                        x, z, phi, t_x, t_z, t_w, x1, z1, phi1, u_x, u_z, u_w, ds,
+                    )
+                    or may_graze(
+                        ground, body, rear, r1, -1.0, kappa,
+                        x, z, phi, t_x, t_z, t_w, x1, z1, phi1, u_x, u_z, u_w, ds,
+                    )
+                ):  # fmt: skip
+                    break
             good = False
         ds *= 0.4
         if ds < 1e-9:

@@ -216,6 +216,14 @@ def drive(
                 ground, body, poses, n_pose, path, x, z, phi, rear, front, t_x, t_z, t_w, leg
             )
             n_pose += 1
+        if abs(phi) > 0.5 * math.pi:
+            status = FELL_BACK
+            code = 7
+            if phi < 0.0:
+                status = FELL_FRONT
+                code = 6
+            write_event(events, n_event, code, path, x, z, phi, rear, front, n_pose - 1)
+            return status, n_pose, n_event + 1, n_release
         if what == -3:
             continue
         c = math.cos(phi)
