@@ -8,9 +8,9 @@ import numpy as np
 
 from kaidan.contact.compiling import kernel
 from kaidan.contact.margins import new_margins, pose_margins
-from kaidan.contact.settle import settle
+from kaidan.contact.settling import settle
 from kaidan.contact.tables import FloatArray, IntArray
-from kaidan.contact.traverse import drive, new_tables
+from kaidan.contact.course import drive, new_tables
 
 SUMMARY_COLUMNS = 14
 

@@ -19,7 +19,7 @@ import math
 from kaidan.contact.compiling import kernel
 from kaidan.contact.gaps import gap, relabelled
 from kaidan.contact.scan import nearest
-from kaidan.contact.settle import lever
+from kaidan.contact.settling import lever
 from kaidan.contact.tables import FloatArray
 
 #: Length by which inclination is counted in the arclength [m]; about half a robot, so that a step

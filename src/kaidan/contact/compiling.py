@@ -24,10 +24,10 @@ _F = TypeVar("_F", bound=Callable[..., Any])
 KERNEL_MODULES = (
     "gaps",
     "scan",
-    "settle",
+    "settling",
     "branch",
     "release",
-    "traverse",
+    "course",
     "forces",
     "margins",
     "no_rotation",

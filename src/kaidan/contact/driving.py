@@ -108,7 +108,7 @@ class Traverse:
     status
         How it ended.
     poses
-        (n, 16), see :func:`kaidan.contact.traverse.drive`.
+        (n, 16), see :func:`kaidan.contact.course.drive`.
     events
         (k, 8).
     releases
@@ -180,7 +180,7 @@ def settle(
     >>> round(pose.z, 6), abs(round(pose.inclination, 12))
     (0.071, 0.0)
     """
-    kernel = kernel_module("settle", compile_kernel=compile_kernel)
+    kernel = kernel_module("settling", compile_kernel=compile_kernel)
     return Settled(
         *kernel.settle(ground_table(terrain), body_table(parts, kinds), x, inclination, 0.0)
     )
@@ -242,7 +242,7 @@ def traverse(
         raise ValueError(f"traverse: step {step} must be positive")
     ground = ground_table(terrain)
     body = body_table(parts, kinds)
-    driver = kernel_module("traverse", compile_kernel=compile_kernel)
+    driver = kernel_module("course", compile_kernel=compile_kernel)
     size = int(min(4.0 * (x_end - x_start) / step + 64 * len(ground) + 4000, 400_000))
     poses, events, releases = driver.new_tables(size)
     status, n_pose, n_event, n_release = driver.drive(

@@ -52,7 +52,7 @@ def pose_margins(
     ground, body
         Tables.
     poses, count
-        Table of :func:`kaidan.contact.traverse.drive` and the number of its rows in use.
+        Table of :func:`kaidan.contact.course.drive` and the number of its rows in use.
     a, g
         Acceleration along the path, gravity [m/s^2].
     touch

@@ -19,7 +19,7 @@ from kaidan.contact.branch import PENETRATED, TOGETHER, shallow
 from kaidan.contact.compiling import kernel
 from kaidan.contact.gaps import gap, relabelled
 from kaidan.contact.scan import nearest
-from kaidan.contact.settle import lever
+from kaidan.contact.settling import lever
 from kaidan.contact.tables import FloatArray
 
 #: Largest turn between two looks at all gaps [rad]: the ends move by a few millimetres.

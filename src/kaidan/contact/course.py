@@ -28,7 +28,7 @@ from kaidan.contact.branch import advance, corrected, gap_rate, tangent, tilt
 from kaidan.contact.compiling import kernel
 from kaidan.contact.gaps import gap, relabelled
 from kaidan.contact.release import barrier, fall, same_place
-from kaidan.contact.settle import lever, settle
+from kaidan.contact.settling import lever, settle
 from kaidan.contact.tables import FloatArray
 
 POSE_COLUMNS = 16
