@@ -38,7 +38,9 @@ class Brute:
         t = self.t[near]
         u, length = self.u[near], self.length[near]
         for x1, z1, r1, x2, z2, r2 in self.parts:
-            centres = np.array([[c * x1 - s * z1, s * x1 + c * z1], [c * x2 - s * z2, s * x2 + c * z2]])
+            centres = np.array(
+                [[c * x1 - s * z1, s * x1 + c * z1], [c * x2 - s * z2, s * x2 + c * z2]]
+            )
             axis = centres[1] - centres[0]
             D = np.hypot(*axis)
             e = axis / D
@@ -133,9 +135,7 @@ def test_random_robots_and_flights():
         rise = R * rng.uniform(0.4, 0.95)
         going = rng.uniform(0.6, 1.6) * rise + 0.02
         terrain = steps(rise, going, 5, 2.5, 2.5)
-        mine, top, brute, most = compare(
-            terrain, stadium(L, C_L, C_N, R), -1.4, 4 * going + 1.0
-        )
+        mine, top, brute, most = compare(terrain, stadium(L, C_L, C_N, R), -1.4, 4 * going + 1.0)
         assert mine == brute, (case, L, C_L, C_N, R, rise, going)
         verdicts[mine] += 1
         if mine == "ok":

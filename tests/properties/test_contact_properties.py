@@ -1,5 +1,7 @@
 """What must hold for any robot and any profile."""
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -64,7 +66,7 @@ def test_settling_mirrors_exactly(seed):
 def test_points_on_existing_lines_change_nothing(seed):
     terrain, parts, _ = case(seed)
     finer = [terrain[0]]
-    for a, b in zip(terrain[:-1], terrain[1:], strict=True):
+    for a, b in itertools.pairwise(terrain):
         finer += [a + f * (b - a) for f in (0.25, 0.5, 0.8)] + [b, b]
     one, other = drive(terrain, parts), drive(np.array(finer), parts)
     assert one.status == other.status

@@ -45,7 +45,6 @@ def applicable(L, C_L, C_N, R):
 def test_largest_height_is_the_cubics():
     rng = np.random.default_rng(4)
     done = 0
-    worst = 0.0
     while done < 500:
         L = rng.uniform(0.3, 1.5)
         C_L = L * rng.uniform(0.2, 0.8)

@@ -7,10 +7,10 @@ import math
 import numpy as np
 
 from kaidan.contact.compiling import kernel
+from kaidan.contact.course import drive, new_tables
 from kaidan.contact.margins import new_margins, pose_margins
 from kaidan.contact.settling import settle
 from kaidan.contact.tables import FloatArray, IntArray
-from kaidan.contact.course import drive, new_tables
 
 SUMMARY_COLUMNS = 14
 

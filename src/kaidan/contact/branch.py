@@ -288,7 +288,7 @@ def shallow(body: FloatArray, feature: int, distance: float) -> bool:
     that has gone in farther may be nearer to a face it never met.
     """
     part = (feature >> 2) & 15
-    return distance > -0.5 * min(body[part, 2], body[part, 5])
+    return bool(distance > -0.5 * min(body[part, 2], body[part, 5]))
 
 
 @kernel
@@ -314,7 +314,7 @@ def lever_rate(
     o_z = math.sin(phi) * body[part, j] + math.cos(phi) * body[part, j + 1]
     turn = t_w / ARM
     along = (t_x - turn * o_z) * ground[k, 2] + (t_z + turn * o_x) * ground[k, 3]
-    return along * ground[k, 2] - t_x
+    return float(along * ground[k, 2] - t_x)
 
 
 @kernel

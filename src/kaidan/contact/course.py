@@ -323,9 +323,7 @@ def drive(
                 _, _, _, p_x, p_z = gap(ground, body, last, x1, z1, c1, s1)
                 arm = (x1 - p_x) * (x1 - p_x) + (z1 - p_z) * (z1 - p_z) + gyration * gyration
                 kinetic = 0.5 * arm * after * after
-                bounded, rise, hint = barrier(
-                    ground, body, last, x1, z1, phi1, sense, kappa, hint
-                )
+                bounded, rise, hint = barrier(ground, body, last, x1, z1, phi1, sense, kappa, hint)
                 releases[row, 12] = kinetic
                 releases[row, 13] = gravity * rise
                 if kinetic > gravity * rise and bounded:

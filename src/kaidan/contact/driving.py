@@ -295,7 +295,7 @@ def grade_one(
     )
     table = table[:rows]
     if rows == 0:
-        return GradeOne(None, False, *(4 * [math.nan]), table)
+        return GradeOne(None, False, math.nan, math.nan, math.nan, math.nan, table)
     outside = bool((table[:, 7] < 2).any())
     worst = []
     for side in (1.0, -1.0):
@@ -305,7 +305,7 @@ def grade_one(
             float(rows_of_side[:, 6].min()) if len(rows_of_side) else math.nan,
         ]
     holds = not outside and not bool((table[:, 5] < 0).any())
-    return GradeOne(holds, outside, *worst, table)
+    return GradeOne(holds, outside, worst[0], worst[1], worst[2], worst[3], table)
 
 
 def traverse_many(

@@ -221,7 +221,13 @@ def contacts_at(
 
 @kernel
 def shared_loads(
-    found: FloatArray, count: int, x: float, z: float, kappa: float, gravity: float, loads: FloatArray
+    found: FloatArray,
+    count: int,
+    x: float,
+    z: float,
+    kappa: float,
+    gravity: float,
+    loads: FloatArray,
 ) -> int:
     """Share of each contact in the effective weight, equal springs [N/kg].
 

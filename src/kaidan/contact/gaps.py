@@ -52,9 +52,9 @@ def is_above(
     x1 = x + c * body[part, 0] - s * body[part, 1]
     x2 = x + c * body[part, 3] - s * body[part, 4]
     v = ground[k, 0]
-    return v <= min(x1 - body[part, 2], x2 - body[part, 5]) or v >= max(
-        x1 + body[part, 2], x2 + body[part, 5]
-    )
+    left = min(x1 - body[part, 2], x2 - body[part, 5])
+    right = max(x1 + body[part, 2], x2 + body[part, 5])
+    return bool(v <= left or v >= right)
 
 
 @kernel
@@ -197,4 +197,4 @@ def on_flat(
     along = a_x * body[part, 6] + a_z * body[part, 7]
     below = body[part, 12] * (a_x * body[part, 7] - a_z * body[part, 6])
     w = along * body[part, 10] - below * body[part, 9]
-    return 0.0 <= w <= body[part, 11]
+    return bool(0.0 <= w <= body[part, 11])

@@ -147,9 +147,7 @@ def pose_margins(
         margins[row, 9] = rise_front if front >= 0.0 else -rise_front
         angle_back = math.atan2(back, (z - r_z + kappa * (x - r_x)) / down)
         angle_front = math.atan2(front, (z - f_z + kappa * (x - f_x)) / down)
-        margins[row, 12] = min(
-            angle_back * abs(back) * gravity, angle_front * abs(front) * gravity
-        )
+        margins[row, 12] = min(angle_back * abs(back) * gravity, angle_front * abs(front) * gravity)
         margins[row, 13] = back / (back + front) if back + front > 0.0 else math.nan
         margins[row, 14] = max(many, 2)
         margins[row, 15] = belly
@@ -171,9 +169,7 @@ def pose_margins(
         bound = rise_front if side > 0.0 else rise_back
         if rise > bound:
             pivot = ahead_contact if side > 0.0 else rear
-            bounded, other_rise, hint = barrier(
-                ground, body, pivot, x, z, phi, -side, kappa, hint
-            )
+            bounded, other_rise, hint = barrier(ground, body, pivot, x, z, phi, -side, kappa, hint)
             if other_rise < rise:
                 rise = other_rise
                 side = -side

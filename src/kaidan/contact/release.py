@@ -69,8 +69,8 @@ def foot_limit(
     c_z = z + math.sin(phi) * body[part, j] + math.cos(phi) * body[part, j + 1]
     foot = (c_x - ground[k, 0]) * ground[k, 2] + (c_z - ground[k, 1]) * ground[k, 3]
     if sense > 0.0:
-        return max(foot, 0.0) / body[part, j + 2]
-    return max(ground[k, 4] - foot, 0.0) / body[part, j + 2]
+        return float(max(foot, 0.0) / body[part, j + 2])
+    return float(max(ground[k, 4] - foot, 0.0) / body[part, j + 2])
 
 
 @kernel

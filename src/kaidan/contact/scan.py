@@ -24,15 +24,15 @@ def height_of_ground(ground: FloatArray, x: float) -> float:
         else:
             hi = mid - 1
     if ground[lo, 2] <= 0.0:
-        return ground[lo + 1, 1]
-    return ground[lo, 1] + (x - ground[lo, 0]) * ground[lo, 3] / ground[lo, 2]
+        return float(ground[lo + 1, 1])
+    return float(ground[lo, 1] + (x - ground[lo, 0]) * ground[lo, 3] / ground[lo, 2])
 
 
 @kernel
 def first_index(ground: FloatArray, x: float, hint: int) -> int:
     """Index of the last point left of x, walked to from a hint."""
     n = ground.shape[0]
-    k = min(max(hint, 0), n - 2)
+    k = int(min(max(hint, 0), n - 2))
     while k > 0 and ground[k, 0] >= x:
         k -= 1
     while k < n - 2 and ground[k + 1, 0] < x:

@@ -90,8 +90,10 @@ def ground_table(terrain: ArrayLike) -> FloatArray:
         across = before[0] * after[1] - before[1] * after[0]
         along = before[0] * after[0] + before[1] * after[1]
         short = min(np.hypot(*before), np.hypot(*after))
-        if along <= 0 or abs(across) > COLLINEAR * max(np.hypot(*before), np.hypot(*after)) or (
-            abs(across) > 1e-7 * short * max(np.hypot(*before), np.hypot(*after))
+        if (
+            along <= 0
+            or abs(across) > COLLINEAR * max(np.hypot(*before), np.hypot(*after))
+            or (abs(across) > 1e-7 * short * max(np.hypot(*before), np.hypot(*after)))
         ):
             corners.append(keep[k])
     corners.append(keep[-1])

@@ -31,7 +31,7 @@ def test_gradient_of_gaps(feature):
     def value(q):
         return gap(ground, body, feature, q[0], q[1], np.cos(q[2]), np.sin(q[2]))
 
-    g, n_x, n_z, p_x, p_z = value((x, z, phi))
+    _, n_x, n_z, p_x, p_z = value((x, z, phi))
     gradient = [n_x, n_z, (p_x - x) * n_z - (p_z - z) * n_x]
     for k in range(3):
         d = np.zeros(3)
@@ -83,9 +83,7 @@ def test_omega_of_a_release():
 
 
 def test_events_of_a_step():
-    run = traverse(
-        steps(0.15, 0.3, 1), stadium(0.6, 0.28, 0.1, 0.08), -1.5, 1.2, with_margins=True
-    )
+    run = traverse(steps(0.15, 0.3, 1), stadium(0.6, 0.28, 0.1, 0.08), -1.5, 1.2, with_margins=True)
     assert run.status is Status.OK
     codes = [Event(int(code)) for code in run.events[:, 0]]
     assert codes[-1] is Event.ARRIVED
@@ -108,7 +106,12 @@ def test_plain_and_compiled_agree(seed):
     terrain = random_terrain(rng)
     runs = [
         traverse(
-            terrain, parts, terrain[0, 0] + 2, terrain[-1, 0] - 2, kinds=kinds, acceleration=0.3,
+            terrain,
+            parts,
+            terrain[0, 0] + 2,
+            terrain[-1, 0] - 2,
+            kinds=kinds,
+            acceleration=0.3,
             compile_kernel=flag,
         )
         for flag in (False, True)
