@@ -12,7 +12,6 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from contact_cases import flight, scanned, stadium
-
 from kaidan.contact import body_table, ground_table, traverse_many
 from kaidan.contact.compiling import kernel_module
 

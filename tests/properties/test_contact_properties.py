@@ -47,7 +47,7 @@ def test_scaling_all_lengths(seed, k):
 @given(seed=seeds)
 def test_settling_mirrors_exactly(seed):
     rng = np.random.default_rng(seed)
-    parts, kinds = random_robot(rng, least_radius=0.01)
+    parts, _ = random_robot(rng, least_radius=0.01)
     terrain = random_terrain(rng)
     x = rng.uniform(terrain[0, 0] + 2, terrain[-1, 0] - 2)
     start = rng.uniform(-0.5, 0.5)

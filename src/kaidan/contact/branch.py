@@ -45,7 +45,7 @@ def tangent(
     c: float,
     s: float,
 ) -> tuple[float, float, float, float]:
-    """Unit tangent (x, z, ARM phi) of the line of poses, and how well it is defined (0: not).
+    """Return the unit tangent (x, z, ARM phi) of the line of poses and its definition (0: none).
 
     Its sign is the forward drive's: the underside moves ahead over the contacts.
     """
@@ -265,7 +265,7 @@ def quantity(
     phi: float,
     kappa: float,
 ) -> float:
-    """A number that is positive as long as nothing happens: a gap, or a contact's lever [m]."""
+    """Return what is positive as long as nothing happens: a gap, or a contact's lever [m]."""
     c = math.cos(phi)
     s = math.sin(phi)
     if what == -1:
@@ -274,7 +274,7 @@ def quantity(
         return lever(ground, body, front, x, z, c, s, kappa)
     # under the name that holds here: the line of a segment means nothing beyond its end
     what = relabelled(ground, body, what, x, z, c, s)
-    if what == rear or what == front:
+    if what == rear or what == front:  # noqa: SIM109
         return 0.5 * PENETRATED
     distance, _, _, _, _ = gap(ground, body, what, x, z, c, s)
     return distance + 0.5 * PENETRATED
@@ -352,7 +352,7 @@ def careful(
     ds: float,
     hint: int,
 ) -> float:
-    """A step that does not jump through a spike: thin parts move no farther than they are clear.
+    """Choose a step that does not jump through a spike: thin parts move no farther than they are clear.
 
     Parts with end radii above the step need no such care.
     """

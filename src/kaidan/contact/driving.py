@@ -279,7 +279,7 @@ def grade_one(
     x_end: float = math.inf,
     compile_kernel: bool | None = None,
 ) -> GradeOne:
-    """The paper's criterion on any profile; see :mod:`kaidan.contact.no_rotation`.
+    """Apply the paper's criterion to any profile; see :mod:`kaidan.contact.no_rotation`.
 
     Parameters
     ----------

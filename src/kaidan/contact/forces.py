@@ -1,11 +1,11 @@
-"""Contact forces at a pose: friction needed by two contacts, sharing among more.
+r"""Contact forces at a pose: friction needed by two contacts, sharing among more.
 
 ::
 
            C   W = -(effective weight)
            |          F1 + F2 = W,  (p2 - p1) x F2 = (C - p1) x W
        F1  v  F2
-        \\     /        One number is left free, the inner force lambda along p1 p2;
+        \     /        One number is left free, the inner force lambda along p1 p2;
         p1---p2        required friction = min over lambda of max |T_i| / N_i.
 
 All forces are per unit mass [N/kg].

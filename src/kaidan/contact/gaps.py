@@ -138,7 +138,7 @@ def gap(
 def relabelled(
     ground: FloatArray, body: FloatArray, feature: int, x: float, z: float, c: float, s: float
 ) -> int:
-    """The same contact under the name that holds at this pose.
+    """Name the same contact as it is called at this pose.
 
     A disc whose foot has run past the end of its segment stands on the vertex there; a vertex
     under an end disc whose centre has come over one of the vertex's segments is a contact with that

@@ -1,9 +1,9 @@
-"""Every margin at every pose of a traverse.
+r"""Every margin at every pose of a traverse.
 
 ::
 
               C
-             /|\\         back: to the rear contact       front: to the front contact
+             /|\         back: to the rear contact       front: to the front contact
         rear  |  front    static stability: distance of the gravity line from each contact
       ----o---+---o----   energy: rise of C before it stands over that contact
 """
@@ -26,7 +26,7 @@ MARGIN_COLUMNS = 18
 def pivot_rise(p_x: float, p_z: float, x: float, z: float, kappa: float) -> float:
     """Rise of the centroid until it stands over a fixed point (Hirose's energy margin) [m].
 
-    alpha [1 - sin(angle of the line from the point to the centroid above the effective horizontal)].
+    alpha [1 - sin(angle)], angle of the line point to centroid above the effective horizontal.
     """
     return math.hypot(x - p_x, z - p_z) - (z - p_z + kappa * (x - p_x)) / math.sqrt(
         1.0 + kappa * kappa
@@ -45,7 +45,7 @@ def pose_margins(
     margins: FloatArray,
     found: FloatArray,
 ) -> None:
-    """Forces and margins at each pose of a table of poses.
+    """Work out forces and margins at each pose of a table of poses.
 
     Parameters
     ----------
@@ -165,7 +165,7 @@ def pose_margins(
             if found[k, 1] == f_x and found[k, 2] == f_z:
                 ahead_contact = int(found[k, 0])
         pivot = rear if side > 0.0 else ahead_contact
-        bounded, rise, hint = barrier(ground, body, pivot, x, z, phi, side, kappa, hint)
+        _, rise, hint = barrier(ground, body, pivot, x, z, phi, side, kappa, hint)
         bound = rise_front if side > 0.0 else rise_back
         if rise > bound:
             pivot = ahead_contact if side > 0.0 else rear

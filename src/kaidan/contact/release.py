@@ -153,17 +153,31 @@ def turn_until(
         if over:
             lo = done
             hi = ahead
-            for _ in range(60):
-                mid = 0.5 * (lo + hi)
+            x0, z0 = turned(ground, body, pivot, x, z, phi, sense * lo)
+            c = math.cos(phi + sense * lo)
+            s = math.sin(phi + sense * lo)
+            g0 = lever(ground, body, pivot, x0, z0, c, s, kappa) * want
+            g1 = delta * want
+            for turn in range(60):
+                if hi - lo < 1e-13:
+                    break
+                mid = (lo * g1 - hi * g0) / (g1 - g0) if g1 != g0 else 0.5 * (lo + hi)
+                if turn % 4 == 3 or not (lo < mid < hi):
+                    mid = 0.5 * (lo + hi)
                 x1, z1 = turned(ground, body, pivot, x, z, phi, sense * mid)
                 c = math.cos(phi + sense * mid)
                 s = math.sin(phi + sense * mid)
-                if lever(ground, body, pivot, x1, z1, c, s, kappa) * want > 0.0:
+                value = lever(ground, body, pivot, x1, z1, c, s, kappa) * want
+                if value > 0.0:
                     lo = mid
+                    g0 = value
+                    g1 *= 0.5
                 else:
                     hi = mid
-                if hi - lo < 1e-13:
-                    break
+                    g1 = value
+                    g0 *= 0.5
+                    if value > -1e-13:
+                        break
             ahead = hi
             x1, z1 = turned(ground, body, pivot, x, z, phi, sense * ahead)
             phi1 = phi + sense * ahead

@@ -5,7 +5,7 @@
     z_C(x, phi) = max over terrain of [h - underside], reached at a vertex under the outline or
     where an end disc is tangent to a segment; Delta = x_contact - x_C.
 
-    Delta > 0: the nose goes up.  Delta < 0: it comes down.  Stable: + before, - after, as phi grows.
+    Delta > 0: the nose goes up.  Delta < 0: it comes down.  Stable: + to - as phi grows.
 """
 
 from __future__ import annotations
