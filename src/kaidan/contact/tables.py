@@ -134,7 +134,7 @@ def body_table(parts: ArrayLike, kinds: ArrayLike | None = None) -> FloatArray:
 
     Examples
     --------
-    >>> body_table([[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]])[0, 11]
+    >>> round(float(body_table([[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]])[0, 11]), 9)
     0.47
     """
     rows = np.array(parts, dtype=np.float64)
