@@ -110,17 +110,25 @@ VERDICT = {
 
 
 def compare(terrain, parts, x_start, x_end):
-    """Both answers; brute force eight times finer where they differ (it lags near a threshold)."""
+    """Both answers; brute force as the range (deg) in which its converged answer must lie.
+
+    Near a graze brute force lags: a step e too early on a flat maximum costs an angle between
+    order e and order sqrt(e). Where it is 0.1 deg off it runs eight times finer; if it still moves
+    by more than that, the range spans the extrapolations of both orders, and the case confirms the
+    kernel only to within that range.
+    """
     run = traverse(terrain, parts, x_start, x_end, with_margins=False, compile_kernel=True)
-    mine, top = VERDICT.get(run.status, run.status.name), run.largest_inclination()
-    verdict, coarse = Brute(terrain, parts).run(x_start, x_end)
-    most = coarse
-    if mine != verdict or (mine == "ok" and np.degrees(abs(top - most)) >= 0.1):
+    mine, top = VERDICT.get(run.status, run.status.name), np.degrees(run.largest_inclination())
+    verdict, most = Brute(terrain, parts).run(x_start, x_end)
+    low = high = np.degrees(most)
+    if mine != verdict or (mine == "ok" and abs(top - low) >= 0.1):
+        coarse = low
         verdict, most = Brute(terrain, parts, 8).run(x_start, x_end)
-        if np.degrees(abs(most - coarse)) > 0.1:
-            # not converged: a step e too early on a flat maximum costs an angle ~ sqrt(e)
-            most += (most - coarse) / (np.sqrt(8) - 1)
-    return mine, top, verdict, most
+        low = high = np.degrees(most)
+        if abs(low - coarse) > 0.1:
+            ends = [low + (low - coarse) / 7, low + (low - coarse) / (np.sqrt(8) - 1)]
+            low, high = min(ends), max(ends)
+    return mine, top, verdict, low, high
 
 
 @pytest.mark.slow
@@ -135,12 +143,14 @@ def test_random_robots_and_flights():
         rise = R * rng.uniform(0.4, 0.95)
         going = rng.uniform(0.6, 1.6) * rise + 0.02
         terrain = steps(rise, going, 5, 2.5, 2.5)
-        mine, top, brute, most = compare(terrain, stadium(L, C_L, C_N, R), -1.4, 4 * going + 1.0)
+        mine, top, brute, low, high = compare(
+            terrain, stadium(L, C_L, C_N, R), -1.4, 4 * going + 1.0
+        )
         assert mine == brute, (case, L, C_L, C_N, R, rise, going)
         verdicts[mine] += 1
         if mine == "ok":
             # 0.1 deg: the brief's; brute force overshoots by up to one turn and lags by one drive
-            assert np.degrees(abs(top - most)) < 0.1, (case, np.degrees([top, most]))
+            assert low - 0.1 < top < high + 0.1, (case, top, low, high)
     assert min(verdicts["ok"], verdicts["back"]) > 15
 
 
@@ -156,7 +166,7 @@ def test_rough_profiles():
         slope = np.clip(rng.normal(0.15, 0.4, 29), -0.8, 0.9)
         z = np.concatenate([[0], np.cumsum(slope * np.diff(x))])
         terrain = np.vstack([[x[0] - 2.5, 0], np.stack([x, z], 1), [x[-1] + 2.5, z[-1]]])
-        mine, top, brute, most = compare(terrain, parts, x[0] - 1.4, x[-1] + 1.2)
+        mine, top, brute, low, high = compare(terrain, parts, x[0] - 1.4, x[-1] + 1.2)
         assert mine == brute, case
         if mine == "ok":
-            assert np.degrees(abs(top - most)) < 0.1, (case, np.degrees([top, most]))
+            assert low - 0.1 < top < high + 0.1, (case, top, low, high)
