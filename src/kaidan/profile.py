@@ -136,7 +136,8 @@ class Profile(NamedTuple):
     @property
     def spacings(self) -> Array:
         """Distances from nosing to nosing [m], one fewer than the nosings."""
-        return np.hypot(*np.diff(self.nosings, axis=0).T)
+        apart = np.diff(self.nosings, axis=0)
+        return np.asarray(np.hypot(apart[:, 0], apart[:, 1]))
 
     @property
     def nosing_spacing(self) -> float:

@@ -15,6 +15,11 @@ LARGEST_ACCELERATION = 9.8
 """Beyond it no tracked robot accelerates, and the limits lose their meaning [m/s^2]."""
 
 
+DEFAULT_MODEL: Literal["contact"] = "contact"
+MODELS = ("contact", "closed-form")
+ACCEPTED = ("no-rotation", "caught")
+
+
 def assess(
     robot: Robot | str,
     stairs: Stairs | str,
@@ -30,7 +35,8 @@ def assess(
     theta_d: Any = None,
     theta_M: Any = None,
     risk: float = 0.01,
-    model: Literal["closed-form"] = "closed-form",
+    model: Literal["contact", "closed-form"] = DEFAULT_MODEL,
+    accept: Literal["no-rotation", "caught"] = "no-rotation",
 ) -> Assessment:
     """Whether a tracked robot can take a flight of stairs, and by how much.
 
@@ -61,8 +67,12 @@ def assess(
         when descending).
     risk : float
         Probability of failure that the operator accepts, (0, 0.5].
-    model : {"closed-form"}
-        Which model judges.
+    model : {"contact", "closed-form"}
+        Which model judges: the contact model the whole way on any profile, the closed form the
+        paper's regular flight.
+    accept : {"no-rotation", "caught"}
+        What counts as holding: no rotation at all, or also a rotation that the next contact
+        catches with the momentum gained.
 
     Returns
     -------
@@ -101,17 +111,27 @@ def assess(
         theta_M=theta_M,
         risk=risk,
     )
-    return answer_to(case, model=model)
+    return answer_to(case, model=model, accept=accept)
 
 
-def answer_to(case: Case, *, model: str = "closed-form") -> Assessment:
+def answer_to(case: Case, *, model: str = DEFAULT_MODEL, accept: str = "no-rotation") -> Assessment:
     """Answer of a model to a case; see `assess`."""
-    from kaidan.assessment.closed_form import judge
-    from kaidan.assessment.wording import put_into_words
+    from kaidan.assessment import closed_form, wording
 
-    if model != "closed-form":
-        raise InputError(f"model = {model!r} is not known; known: closed-form")
-    return put_into_words(case, judge(case))
+    for name, value, known in (("model", model, MODELS), ("accept", accept, ACCEPTED)):
+        if value not in known:
+            raise InputError(f"{name} = {value!r} is not known; known: {', '.join(known)}")
+    flat = wording.put_into_words(case, closed_form.judge(case))
+    if model == "closed-form":
+        return flat
+    from kaidan.assessment import contact_model
+
+    return contact_model.judge(
+        case,
+        contact_model.climb_of(case),
+        flat,
+        accept=accept,  # type: ignore[arg-type]
+    )
 
 
 def case_of(

@@ -1,0 +1,356 @@
+"""The contact model's verdict: entering, traversing and landing on any profile, in three grades.
+
+Grade one, no rotation, is the paper's criterion and alone can give a GO. Grades two (a static pose
+catches the robot) and three (it is caught with the momentum gained) are told beside it and give at
+best a CAUTION, because no experiment confirms such a catch: the paper's rig fell at 55-57 degrees
+where a smooth rigid tail would have caught it up to 62. The user may accept them by name.
+"""
+
+import math
+from dataclasses import replace
+from typing import Any, Literal, NamedTuple
+
+from kaidan.assessment.answer import Assessment, Grades, PhaseShown, Verdict
+from kaidan.assessment.case import Case
+from kaidan.climb import Climb, Phase, climb
+from kaidan.contact import Status
+from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.mechanics.measures import kinetic_energy_height
+from kaidan.outline import Outline
+from kaidan.profile import Profile
+
+MODEL = "contact"
+
+SWING_SPEED = 0.1
+"""Speed whose energy the robot is taken to have where none is stated [m/s]: the paper's test
+speed, at which the rig swung visibly with 0.07 mm of energy margin against 0.51 mm of v^2/2g."""
+
+FALL = math.pi / 2
+"""Turn that a fall counts as where no criterion gives a margin [rad]."""
+
+Accept = Literal["no-rotation", "caught"]
+
+_SOLVER = (Status.NOT_CONVERGED, Status.TOO_LONG, Status.NO_START)
+
+
+class Reading(NamedTuple):
+    """Margins of slope on one reading of what is only known as a range [rad]; NaN: not known."""
+
+    tip_downhill: float
+    tip_uphill: float
+    slip: float
+    drive: float
+
+    @property
+    def worst(self) -> float:
+        """Smallest margin that is known."""
+        return min((value for value in self if not math.isnan(value)), default=math.nan)
+
+    @property
+    def governs(self) -> str:
+        """Name of the smallest margin."""
+        known = {name: value for name, value in self._asdict().items() if not math.isnan(value)}
+        return min(known, key=lambda name: known[name]) if known else "validity"
+
+
+def climb_of(case: Case, *, compiled: bool | None = None) -> Climb:
+    """Traverse of a case's robot over its stairs."""
+    return climb(
+        Profile.of_stairs(case.stairs),
+        Outline.of(case.robot, case.posture, case.payload),
+        descending=case.direction == "down",
+        facing=case.facing,
+        acceleration=case.acceleration,
+        compiled=compiled,
+    )
+
+
+def judge(case: Case, found: Climb, flat: Assessment, *, accept: Accept) -> Assessment:
+    """Answer by the contact model.
+
+    Parameters
+    ----------
+    case : Case
+        The question.
+    found : Climb
+        Its traverse.
+    flat : Assessment
+        The closed form's answer to the same question: its figures stay where it is valid.
+    accept : {"no-rotation", "caught"}
+        What the operator accepts as holding.
+
+    Returns
+    -------
+    Assessment
+        With phases, grades and what governs where.
+    """
+    worst, best = _reading(case, found, kind=False), _reading(case, found, kind=True)
+    threshold = float(kinetic_energy_height(v=case.speed or SWING_SPEED))
+    energy = _energy(found)
+    held, doubts = _held(found, threshold, energy)
+    verdict, governs = _verdict(case, found, worst, best, held, doubts, accept)
+    phase, step = _where(found, governs)
+    margin = worst.worst if verdict != "outside-model" else math.nan
+    if accept == "caught" and held:
+        margin = min(x for x in (worst.slip, worst.drive, math.pi / 2) if not math.isnan(x))
+    angle = math.radians(flat.angle_deg)
+    mass = flat.mass_kg
+    return replace(
+        flat,
+        verdict=verdict,
+        model=MODEL,
+        governs=governs,
+        reason=_reason(case, found, verdict, governs, margin, doubts, phase, step),
+        margin_deg=_degrees(margin),
+        margin_at_best_deg=_degrees(best.worst) if verdict != "outside-model" else None,
+        margins_deg={
+            "tip_downhill": _degrees(worst.tip_downhill),
+            "tip_uphill": _degrees(worst.tip_uphill),
+            "slip_up": _degrees(worst.slip),
+            "slip_down": flat.margins_deg["slip_down"],
+            "drive": _degrees(worst.drive),
+        },
+        margin_force_N=_force(mass, angle, margin),
+        margin_centroid_mm=flat.margin_centroid_mm
+        if flat.margin_centroid_mm is not None
+        else _millimetres(found.centroid_margin),
+        required_friction=max(
+            [flat.required_friction, *(each.required_friction for each in found.phases)]
+        ),
+        falls_over=_falls_over(case, found, flat),
+        phase=phase,  # type: ignore[arg-type]
+        step=step,
+        phases=tuple(
+            PhaseShown(
+                phase=each.phase.value,
+                required_friction=each.required_friction,
+                required_friction_step=each.required_friction_step,
+                energy_margin_mm=_finite(each.energy_margin_mm),
+                energy_margin_step=each.energy_margin_step,
+                static_margin_mm=each.static_margin_mm,
+                traction_over_weight=each.traction_over_weight,
+                largest_swing_deg=each.largest_swing_deg,
+                belly_touches=each.belly_touches,
+            )
+            for each in found.phases
+        ),
+        grades=Grades(
+            no_rotation=_no_rotation(found),
+            caught=found.arrived,
+            caught_with_momentum=found.arrived and found.held_with_momentum,
+            largest_swing_deg=math.degrees(_swing(found)),
+            energy_threshold_mm=1e3 * threshold,
+            accepted=accept,
+        ),
+        what_would_help=flat.what_would_help if flat.verdict == verdict else (),
+        notes=_notes(case, found, flat, doubts),
+    )
+
+
+def _no_rotation(found: Climb) -> bool | None:
+    """Grade one; None where it says nothing: fewer than two contacts stay, or a short flight."""
+    return None if found.criterion.outside else found.criterion.holds
+
+
+def _swing(found: Climb) -> float:
+    """Largest turn in the traverse, a right angle if it falls [rad]."""
+    if found.status in (Status.FELL_BACKWARD, Status.FELL_FORWARD):
+        return FALL
+    return math.radians(
+        max((e.largest_swing_deg for e in found.phases if e.phase is Phase.TRAVERSE), default=0.0)
+    )
+
+
+def _reading(case: Case, found: Climb, *, kind: bool) -> Reading:
+    theta_d = case.theta_d.low if kind else case.theta_d.high
+    theta_M = case.theta_M.low if kind else case.theta_M.high
+    downhill = found.downhill_margin - theta_d - theta_M
+    uphill = found.uphill_margin - theta_d
+    if found.criterion.outside or math.isnan(downhill):
+        swing = _swing(found)
+        downhill, uphill = (-swing if swing > 0 else math.nan), math.nan
+    if not found.arrived and not (min(downhill, uphill) <= 0):
+        downhill = -FALL
+    friction = max((each.required_friction for each in found.phases), default=math.nan)
+    slip = math.nan
+    if case.surface is not None:
+        mu = case.surface.friction_high if kind else case.surface.friction_low
+        slip = math.atan(mu) - math.atan(friction)
+    return Reading(downhill, uphill, slip, _drive(case, found))
+
+
+def _drive(case: Case, found: Climb) -> float:
+    from kaidan.assessment.closed_form import traction_limit
+
+    force, mass = traction_limit(case), found.outline.stance.mass
+    needed = max((each.traction_over_weight for each in found.phases), default=math.nan)
+    if force is None or mass is None or math.isnan(needed):
+        return math.nan
+    spare = force / (mass * STANDARD_GRAVITY) - case.drive.rolling_resistance
+    return math.asin(min(max(spare, -1.0), 1.0)) - math.asin(min(needed, 1.0))
+
+
+def _energy(found: Climb) -> float:
+    """Smallest energy margin against a fall downhill while traversing [m]; infinite: none found."""
+    return min(
+        (e.energy_margin_mm * 1e-3 for e in found.phases if e.phase is Phase.TRAVERSE),
+        default=math.inf,
+    )
+
+
+def _held(found: Climb, threshold: float, energy: float) -> tuple[bool, tuple[str, ...]]:
+    """Whether the robot arrives with momentum counted, and what keeps that from being a GO."""
+    doubts = []
+    if energy <= threshold:
+        doubts.append(
+            f"the energy margin of {1e3 * energy:.2f} mm is less than the "
+            f"{1e3 * threshold:.2f} mm that its speed is worth: expect it to swing"
+        )
+    if any(each.belly_touches for each in found.phases):
+        doubts.append("the belly carries the robot in places (high-centring)")
+    stairs_reach = found.outline.reach[0] + found.outline.reach[1]
+    ends = found.profile.points[[0, 1, -2, -1], 0]
+    if min(ends[1] - ends[0], ends[3] - ends[2]) < stairs_reach:
+        doubts.append(f"a landing is shorter than the robot's {stairs_reach:.2f} m")
+    return found.arrived and found.held_with_momentum, tuple(doubts)
+
+
+def _verdict(
+    case: Case,
+    found: Climb,
+    worst: Reading,
+    best: Reading,
+    held: bool,
+    doubts: tuple[str, ...],
+    accept: Accept,
+) -> tuple[Verdict, str]:
+    if found.status in _SOLVER:
+        return "outside-model", "validity"
+    friction_known = case.surface is not None
+    supply = min((x for x in (worst.slip, worst.drive) if not math.isnan(x)), default=math.inf)
+    supply_best = min((x for x in (best.slip, best.drive) if not math.isnan(x)), default=math.inf)
+    no_rotation = min(worst.tip_downhill, _or_inf(worst.tip_uphill))
+    at_best = min(best.tip_downhill, _or_inf(best.tip_uphill))
+    holds = held and (no_rotation > 0 or accept == "caught")
+    if holds and supply > 0 and not doubts:
+        return ("go", worst.governs) if friction_known else ("caution", "friction_unknown")
+    if found.arrived and supply_best > 0:
+        if no_rotation > 0 and supply > 0 and friction_known:
+            return "caution", "energy" if held else "momentum"
+        if at_best > 0 or no_rotation > 0:
+            return "caution", worst.governs if worst.worst <= 0 else "friction_unknown"
+        return "caution", "catch"
+    return "no-go", "stuck" if found.status is Status.STUCK else worst.governs
+
+
+def _or_inf(value: float) -> float:
+    return math.inf if math.isnan(value) else value
+
+
+def _where(found: Climb, governs: str) -> tuple[str | None, int | None]:
+    """Phase and step number at which the governing failure shows."""
+    if governs in ("slip", "friction_unknown") and found.phases:
+        hardest = max(found.phases, key=lambda each: each.required_friction)
+        return hardest.phase.value, hardest.required_friction_step
+    fell = [h for h in found.happenings if h.what.startswith(("fell", "stuck"))]
+    if fell:
+        return fell[-1].phase.value, fell[-1].step
+    swings = [h for h in found.happenings if h.swing_deg and h.phase is Phase.TRAVERSE]
+    if swings:
+        worst = max(swings, key=lambda h: h.swing_deg or 0.0)
+        return worst.phase.value, worst.step
+    traverse = [each for each in found.phases if each.phase is Phase.TRAVERSE]
+    return ("traverse", traverse[0].energy_margin_step) if traverse else (None, None)
+
+
+def _falls_over(case: Case, found: Climb, flat: Assessment) -> Any:
+    if found.status is Status.FELL_BACKWARD:
+        return "tail" if case.facing == "nose-first" else "nose"
+    if found.status is Status.FELL_FORWARD:
+        return "nose" if case.facing == "nose-first" else "tail"
+    return flat.falls_over
+
+
+def _force(mass: float | None, angle: float, margin: float) -> float | None:
+    """Force along the slope through the centroid that uses the margin up [N]."""
+    if mass is None or math.isnan(margin):
+        return None
+    limit = min(max(angle + margin, -1.5), 1.5)
+    return mass * STANDARD_GRAVITY * math.cos(angle) * (math.tan(limit) - math.tan(angle))
+
+
+def _reason(
+    case: Case,
+    found: Climb,
+    verdict: Verdict,
+    governs: str,
+    margin: float,
+    doubts: tuple[str, ...],
+    phase: str | None,
+    step: int | None,
+) -> str:
+    place = "" if phase is None else f" ({phase}, step {step})"
+    if verdict == "outside-model":
+        return f"The contact model has no answer: {found.status.message}."
+    if verdict == "no-go":
+        if not found.arrived:
+            return f"It does not get there: {found.status.message}{place}."
+        return f"It fails by {_NAMES.get(governs, governs)}{place}."
+    if verdict == "go":
+        return (
+            f"It enters, traverses and lands with {math.degrees(margin):.1f} deg to spare; "
+            f"nearest is {_NAMES.get(governs, governs)}{place}."
+        )
+    if governs == "catch":
+        topples = "" if found.held_with_momentum else ", and with the momentum gained it topples"
+        return (
+            f"Held only by a catch that no experiment confirms: it swings by "
+            f"{math.degrees(_swing(found)):.1f} deg{place}{topples}."
+        )
+    if governs == "momentum":
+        return f"It may topple with the momentum it gains{place}."
+    if doubts:
+        return f"It gets there, but {doubts[0]}."
+    if governs == "friction_unknown":
+        return f"It does not tip, but the friction is not known: it may slip{place}."
+    return (
+        f"In doubt is {_NAMES.get(governs, governs)}{place}: kind or unkind, by the ranges given."
+    )
+
+
+_NAMES = {
+    "tip_downhill": "tipping over its downhill end",
+    "tip_uphill": "tipping over its uphill end",
+    "slip": "lack of friction",
+    "drive": "too little traction of the drive",
+    "stuck": "getting stuck",
+}
+
+
+def _notes(case: Case, found: Climb, flat: Assessment, doubts: tuple[str, ...]) -> tuple[str, ...]:
+    notes = [note for note in flat.notes if not note.startswith("This model judges")]
+    notes[:0] = [f"{doubt[0].upper()}{doubt[1:]}." for doubt in doubts]
+    if found.criterion.outside:
+        notes.append(
+            "Somewhere fewer than two nosings carry the track (p > L/2): the paper's criterion "
+            "says nothing there, so there is no GO."
+        )
+    if found.outline.gyration_estimated:
+        notes.append("The moment of inertia is estimated as that of an even box.")
+    if found.profile.open_risers:
+        notes.append("Open risers: the model gives them faces that are not there.")
+    if found.profile.overhangs:
+        notes.append("Nosings overhang: the model stands on their upper envelope.")
+    return tuple(notes)
+
+
+def _degrees(value: float) -> float | None:
+    return math.degrees(value) if math.isfinite(value) else None
+
+
+def _millimetres(value: float) -> float | None:
+    return 1e3 * value if math.isfinite(value) else None
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
