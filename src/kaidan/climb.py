@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan import contact
+from kaidan.errors import InputError
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.outline import Outline
 from kaidan.profile import Profile
@@ -22,6 +23,10 @@ Array = NDArray[np.float64]
 SLACK = 2e-3
 """How far below the flat a nosing may lie and still count as on it [m], for the criterion of no
 rotation: hand measurement step by step is good to 2.8 mm, rubber tracks yield more."""
+LONG = 20_000
+"""Points and poses above which the plain kernel would take a minute."""
+LONGEST = 400_000
+"""Points and poses above which a traverse is refused: half a minute compiled."""
 _CLEARANCE = 0.05
 _ON = 1e-6
 
@@ -67,6 +72,9 @@ class PhaseFound:
     energy_margin_mm: float
     """Smallest rise of the centroid that a fall towards the downhill end needs [mm]."""
     energy_margin_step: int
+    uphill_energy_margin_mm: float
+    """The same towards the uphill end [mm], as long as the next nosing uphill is still to come:
+    over the last one the robot has to drop onto the landing."""
     static_margin_mm: float
     """Smallest static stability margin towards the downhill end [mm]."""
     traction_over_weight: float
@@ -104,6 +112,11 @@ class Climb:
         return self.run.held_with_momentum
 
     @property
+    def phase_of_pose(self) -> NDArray[np.str_]:
+        """Phase of each pose of the run."""
+        return _phases(self.run, self.profile, self.descending)
+
+    @property
     def downhill_margin(self) -> float:
         """Margin of slope against turning about the lowest contact that stays [rad]; NaN: none."""
         one = self.criterion
@@ -129,6 +142,7 @@ def climb(
     facing: Literal["nose-first", "tail-first"] = "nose-first",
     acceleration: float = 0.0,
     with_margins: bool = True,
+    step: float = contact.STEP,
     compiled: bool | None = None,
 ) -> Climb:
     """Drive a robot from landing to landing.
@@ -147,14 +161,23 @@ def climb(
         Acceleration UP the stairs [m/s^2].
     with_margins : bool
         Work out forces and margins at every pose.
+    step : float
+        Arclength between poses [m]; events are located whatever it is.
     compiled : bool, optional
-        Whether to use the compiled kernel; None: if numba is loaded already.
+        Whether to use the compiled kernel; None: if numba is loaded already, or if the profile is
+        long and numba is there to be loaded.
 
     Returns
     -------
     Climb
         A robot that falls is an answer, not an error.
+
+    Raises
+    ------
+    InputError
+        A profile too long for the kernel at hand.
     """
+    compiled = _kernel_for(profile, step, compiled)
     way = profile.reflected() if descending else profile
     body = outline if facing == "nose-first" else outline.turned_round()
     back, ahead = body.reach
@@ -166,7 +189,7 @@ def climb(
     run = contact.traverse(
         ground, body.parts, first - ahead - _CLEARANCE, last + back + _CLEARANCE,
         kinds=body.kinds, acceleration=along, gyration=body.gyration,
-        with_margins=with_margins, compile_kernel=compiled,
+        step=step, with_margins=with_margins, compile_kernel=compiled,
     )  # fmt: skip
     criterion = contact.grade_one(
         ground, body.parts, kinds=body.kinds, acceleration=along, slack=SLACK,
@@ -185,6 +208,26 @@ def climb(
     )
 
 
+def _kernel_for(profile: Profile, step: float, compiled: bool | None) -> bool | None:
+    """Whether to compile: a long profile is not driven by the plain kernel (seconds a metre)."""
+    work = len(profile.points) + float(np.abs(np.diff(profile.points, axis=0)).sum()) / step
+    if compiled is None and work > LONG and not contact.numba_is_loaded():
+        if not contact.numba_is_installed():
+            raise InputError(
+                f"profile: {len(profile.points)} points over "
+                f"{profile.points[-1, 0] - profile.points[0, 0]:.0f} m are too many without the "
+                "compiled kernel: pip install 'kaidan[fast]', or cut or thin the profile"
+            )
+        compiled = True
+    if work > LONGEST:
+        raise InputError(
+            f"profile: {len(profile.points)} points over "
+            f"{profile.points[-1, 0] - profile.points[0, 0]:.0f} m are more than one traverse "
+            "takes: cut or thin it"
+        )
+    return compiled
+
+
 def _span(way: Profile, descending: bool) -> tuple[float, float]:
     """Where the flight begins and ends along the way: landings lie before and behind."""
     if len(way.nosings) == 0:
@@ -200,8 +243,13 @@ def _phases(run: contact.Traverse, way: Profile, descending: bool) -> NDArray[np
     start_level, end_level = way.points[0, 1], way.points[-1, 1]
     first, last = _span(way, descending)
     rear, front = run.poses[:, 6:8], run.poses[:, 8:10]
-    entering = (np.abs(rear[:, 1] - start_level) < _ON) & (rear[:, 0] <= first + _ON)
-    landing = (np.abs(front[:, 1] - end_level) < _ON) & (front[:, 0] >= last - _ON)
+    # before the edge whatever the height (measured landings are not level), on it by the height
+    entering = (rear[:, 0] < first - _ON) | (
+        (np.abs(rear[:, 1] - start_level) < _ON) & (rear[:, 0] <= first + _ON)
+    )
+    landing = (front[:, 0] > last + _ON) | (
+        (np.abs(front[:, 1] - end_level) < _ON) & (front[:, 0] >= last - _ON)
+    )
     phase = np.full(len(run.poses), Phase.TRAVERSE.value, dtype="<U8")
     phase[entering] = Phase.ENTER.value
     phase[landing] = Phase.LAND.value
@@ -228,8 +276,11 @@ def _found(
         of = table[rows]
         friction = np.where(np.isfinite(of[:, 0]), of[:, 0], np.inf)
         downhill, side = (7, -1.0) if descending else (6, 1.0)
+        # the flow's own barrier on its nearer side, the pivot's rise (never more) on the other
         falls_there = of[:, 11] == side
-        energy = np.where(falls_there, of[:, 10], np.inf)
+        energy = np.where(falls_there, of[:, 10], of[:, 9 if descending else 8])
+        uphill = np.where(falls_there, of[:, 8 if descending else 9], of[:, 10])
+        uphill = uphill[~_over_the_top(run, way, descending)[rows]]
         hardest, nearest = int(np.argmax(friction)), int(np.argmin(energy))
         places = run.poses[rows, 8]
         found.append(
@@ -239,6 +290,7 @@ def _found(
                 required_friction_step=_step(way, float(places[hardest]), descending),
                 energy_margin_mm=1e3 * float(energy[nearest]),
                 energy_margin_step=_step(way, float(places[nearest]), descending),
+                uphill_energy_margin_mm=1e3 * float(uphill.min(initial=np.inf)),
                 static_margin_mm=1e3 * float(np.nanmin(of[:, downhill])),
                 traction_over_weight=float(np.nanmax(np.abs(of[:, 5]))) / STANDARD_GRAVITY,
                 largest_swing_deg=math.degrees(
@@ -248,6 +300,17 @@ def _found(
             )
         )
     return tuple(found)
+
+
+def _over_the_top(
+    run: contact.Traverse, way: Profile, descending: bool
+) -> NDArray[np.bool_]:
+    """Poses whose uppermost contact is the last nosing or lies beyond it: no other will come."""
+    if len(way.nosings) == 0:
+        return np.zeros(len(run.poses), dtype=np.bool_)
+    if descending:
+        return np.asarray(run.poses[:, 6] <= way.nosings[0, 0] + _ON)
+    return np.asarray(run.poses[:, 8] >= way.nosings[-1, 0] - _ON)
 
 
 def _swings(run: contact.Traverse) -> list[tuple[int, float]]:

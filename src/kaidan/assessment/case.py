@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.assessment.allowance import Allowance
+from kaidan.profile import Profile
 from kaidan.robot import Drive, Payload, Posture, Robot, Stance
 from kaidan.stairs import Stairs
 from kaidan.surface import Surface
@@ -34,6 +35,8 @@ class Case(NamedTuple):
     theta_d: Allowance
     theta_M: Allowance
     risk: float
+    profile: Profile | None = None
+    """Terrain of its own, for the contact model; then `stairs` lends its name only."""
 
     @property
     def nose_up(self) -> bool:

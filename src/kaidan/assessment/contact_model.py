@@ -54,14 +54,92 @@ class Reading(NamedTuple):
 
 
 def climb_of(case: Case, *, compiled: bool | None = None) -> Climb:
-    """Traverse of a case's robot over its stairs."""
+    """Traverse of a case's robot over its stairs, or over its own profile."""
     return climb(
-        Profile.of_stairs(case.stairs),
+        Profile.of_stairs(case.stairs) if case.profile is None else case.profile,
         Outline.of(case.robot, case.posture, case.payload),
         descending=case.direction == "down",
         facing=case.facing,
         acceleration=case.acceleration,
         compiled=compiled,
+    )
+
+
+class Ruling(NamedTuple):
+    """Verdict of the contact model alone: what it says of any profile, stairs or not."""
+
+    verdict: Verdict
+    governs: str
+    reason: str
+    margin: float
+    """Smallest margin of slope, allowances off [rad]; NaN: not known."""
+    phase: str | None
+    step: int | None
+    phases: tuple[PhaseShown, ...]
+    grades: Grades
+    doubts: tuple[str, ...]
+    """What keeps it from being a GO."""
+
+
+def ruling(case: Case, found: Climb, *, accept: Accept) -> Ruling:
+    """Verdict on a traverse by the contact model alone.
+
+    Parameters
+    ----------
+    case : Case
+        The question.
+    found : Climb
+        Its traverse.
+    accept : {"no-rotation", "caught"}
+        What the operator accepts as holding.
+
+    Returns
+    -------
+    Ruling
+    """
+    worst, best = _reading(case, found, kind=False), _reading(case, found, kind=True)
+    threshold = float(kinetic_energy_height(v=case.speed or SWING_SPEED))
+    energy = _energy(found)
+    held, doubts = _held(found, threshold, energy)
+    verdict, governs = _verdict(case, found, worst, best, held, doubts, accept)
+    phase, step = _where(found, governs)
+    margin = worst.worst if verdict != "outside-model" else math.nan
+    if accept == "caught" and held:
+        margin = min(x for x in (worst.slip, worst.drive, math.pi / 2) if not math.isnan(x))
+    return Ruling(
+        verdict=verdict,
+        governs=governs,
+        reason=_reason(case, found, verdict, governs, margin, doubts, phase, step),
+        margin=margin,
+        phase=phase,
+        step=step,
+        phases=_phases_shown(found),
+        grades=Grades(
+            no_rotation=_no_rotation(found),
+            caught=found.arrived,
+            caught_with_momentum=found.arrived and found.held_with_momentum,
+            largest_swing_deg=math.degrees(_swing(found)),
+            energy_threshold_mm=1e3 * threshold,
+            accepted=accept,
+        ),
+        doubts=doubts,
+    )
+
+
+def _phases_shown(found: Climb) -> tuple[PhaseShown, ...]:
+    return tuple(
+        PhaseShown(
+            phase=each.phase.value,
+            required_friction=each.required_friction,
+            required_friction_step=each.required_friction_step,
+            energy_margin_mm=_finite(each.energy_margin_mm),
+            energy_margin_step=each.energy_margin_step,
+            static_margin_mm=each.static_margin_mm,
+            traction_over_weight=each.traction_over_weight,
+            largest_swing_deg=each.largest_swing_deg,
+            belly_touches=each.belly_touches,
+        )
+        for each in found.phases
     )
 
 
@@ -85,14 +163,9 @@ def judge(case: Case, found: Climb, flat: Assessment, *, accept: Accept) -> Asse
         With phases, grades and what governs where.
     """
     worst, best = _reading(case, found, kind=False), _reading(case, found, kind=True)
-    threshold = float(kinetic_energy_height(v=case.speed or SWING_SPEED))
-    energy = _energy(found)
-    held, doubts = _held(found, threshold, energy)
-    verdict, governs = _verdict(case, found, worst, best, held, doubts, accept)
-    phase, step = _where(found, governs)
-    margin = worst.worst if verdict != "outside-model" else math.nan
-    if accept == "caught" and held:
-        margin = min(x for x in (worst.slip, worst.drive, math.pi / 2) if not math.isnan(x))
+    verdict, governs, reason, margin, phase, step, phases, grades, doubts = ruling(
+        case, found, accept=accept
+    )
     angle = math.radians(flat.angle_deg)
     mass = flat.mass_kg
     return replace(
@@ -100,7 +173,7 @@ def judge(case: Case, found: Climb, flat: Assessment, *, accept: Accept) -> Asse
         verdict=verdict,
         model=MODEL,
         governs=governs,
-        reason=_reason(case, found, verdict, governs, margin, doubts, phase, step),
+        reason=reason,
         margin_deg=_degrees(margin),
         margin_at_best_deg=_degrees(best.worst) if verdict != "outside-model" else None,
         margins_deg={
@@ -120,28 +193,8 @@ def judge(case: Case, found: Climb, flat: Assessment, *, accept: Accept) -> Asse
         falls_over=_falls_over(case, found, flat),
         phase=phase,  # type: ignore[arg-type]
         step=step,
-        phases=tuple(
-            PhaseShown(
-                phase=each.phase.value,
-                required_friction=each.required_friction,
-                required_friction_step=each.required_friction_step,
-                energy_margin_mm=_finite(each.energy_margin_mm),
-                energy_margin_step=each.energy_margin_step,
-                static_margin_mm=each.static_margin_mm,
-                traction_over_weight=each.traction_over_weight,
-                largest_swing_deg=each.largest_swing_deg,
-                belly_touches=each.belly_touches,
-            )
-            for each in found.phases
-        ),
-        grades=Grades(
-            no_rotation=_no_rotation(found),
-            caught=found.arrived,
-            caught_with_momentum=found.arrived and found.held_with_momentum,
-            largest_swing_deg=math.degrees(_swing(found)),
-            energy_threshold_mm=1e3 * threshold,
-            accepted=accept,
-        ),
+        phases=phases,
+        grades=grades,
         what_would_help=flat.what_would_help if flat.verdict == verdict else (),
         notes=_notes(case, found, flat, doubts),
     )

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from kaidan.cli import assess, catalogs, reports
+from kaidan.cli import assess, catalogs, reports, traverse
 
 _START_LIGHTLY = {
     "OPENBLAS_NUM_THREADS": "1",  # no matrix here is worth the threads numpy would start
@@ -46,6 +46,7 @@ def kaidan(
 assess.register(app)
 catalogs.register(app)
 reports.register(app)
+traverse.register(app)
 
 
 def main() -> None:

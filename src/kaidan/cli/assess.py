@@ -10,7 +10,10 @@ if TYPE_CHECKING:
     from kaidan.assessment.answer import Assessment
 
 Strict = Annotated[bool, typer.Option("--strict", help="Exit with 1 on caution too.")]
-Model = Annotated[str, typer.Option(help="Which model judges: closed-form.")]
+Model = Annotated[str, typer.Option(help="Which model judges: contact or closed-form.")]
+Accept = Annotated[
+    str, typer.Option(help="What counts as holding: no-rotation, or caught (by the next contact).")
+]
 
 
 def register(app: typer.Typer) -> None:
@@ -39,7 +42,8 @@ def assess(
     override: options.Override = None,
     uncertainty: options.UncertaintyText = None,
     risk: options.Risk = 0.01,
-    model: Model = "closed-form",
+    model: Model = "contact",
+    accept: Accept = "no-rotation",
     strict: Strict = False,
     as_json: options.AsJson = False,
 ) -> None:
@@ -68,7 +72,7 @@ def assess(
         uncertainty=uncertainty,
         risk=risk,
     )
-    answer = answer_to(case, model=model)
+    answer = answer_to(case, model=model, accept=accept)
     typer.echo(answer.to_json() if as_json else as_text(answer))
     raise typer.Exit(1 if strict and answer.verdict == "caution" else answer.exit_code)
 
@@ -96,6 +100,7 @@ def as_text(answer: "Assessment") -> str:
         lines += _margin_rows(answer)
     lines.append(_friction_row(answer))
     lines += _force_rows(answer)
+    lines += _phase_rows(answer)
     if answer.what_would_help:
         lines += ["", "  What would help"]
         lines += [f"    {_change(change)}" for change in answer.what_would_help]
@@ -129,8 +134,17 @@ def _margin_rows(answer: "Assessment") -> list[str]:
         _row("governs", answer.governs.replace("_", " ")),
         _row(
             "margin",
-            f"{answer.margin_deg:+.1f} deg{spread}, centroid "
-            f"{answer.margin_centroid_mm:+.0f} mm; tips beyond {answer.margin_angle_deg:.1f} deg"
+            f"{answer.margin_deg:+.1f} deg{spread}"
+            + (
+                ""
+                if answer.margin_centroid_mm is None
+                else f", centroid {answer.margin_centroid_mm:+.0f} mm"
+            )
+            + (
+                ""
+                if answer.margin_angle_deg is None
+                else f"; tips beyond {answer.margin_angle_deg:.1f} deg"
+            )
             + (
                 ""
                 if answer.lower_angle_deg is None
@@ -186,6 +200,38 @@ def _force_rows(answer: "Assessment") -> list[str]:
         each = " / ".join(f"{contact.traction_N:.0f}" for contact in answer.contacts)
         power = "" if answer.power_W is None else f"; {answer.power_W:.0f} W"
         rows.append(_row("traction", f"{answer.traction_N:.0f} N in all, {each} N each{power}"))
+    return rows
+
+
+def _phase_rows(answer: "Assessment") -> list[str]:
+    """What the contact model adds: a line for the grades and one for each phase."""
+    if answer.grades is None:
+        return []
+    grades = answer.grades
+    one = {None: "says nothing", True: "yes", False: "no"}[grades.no_rotation]
+    caught, momentum = (
+        "yes" if held else "no" for held in (grades.caught, grades.caught_with_momentum)
+    )
+    rows = [
+        _row(
+            "holds",
+            f"without rotation: {one}; caught: {caught}; caught with momentum: {momentum}; "
+            f"swings by {grades.largest_swing_deg:.1f} deg",
+        )
+    ]
+    for each in answer.phases:
+        energy = (
+            ""
+            if each.energy_margin_mm is None
+            else f", energy margin {each.energy_margin_mm:.1f} mm (step {each.energy_margin_step})"
+        )
+        rows.append(
+            _row(
+                each.phase,
+                f"friction {each.required_friction:.2f} (step {each.required_friction_step})"
+                f"{energy}" + (", the belly touches" if each.belly_touches else ""),
+            )
+        )
     return rows
 
 
