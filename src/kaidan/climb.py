@@ -302,9 +302,7 @@ def _found(
     return tuple(found)
 
 
-def _over_the_top(
-    run: contact.Traverse, way: Profile, descending: bool
-) -> NDArray[np.bool_]:
+def _over_the_top(run: contact.Traverse, way: Profile, descending: bool) -> NDArray[np.bool_]:
     """Poses whose uppermost contact is the last nosing or lies beyond it: no other will come."""
     if len(way.nosings) == 0:
         return np.zeros(len(run.poses), dtype=np.bool_)

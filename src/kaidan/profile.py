@@ -160,6 +160,14 @@ class Profile(NamedTuple):
         x, z = (self.nosings - self.nosings.mean(axis=0)).T
         return float(np.abs(z * math.cos(self.angle) - x * math.sin(self.angle)).max())
 
+    @property
+    def landings(self) -> tuple[float, float]:
+        """Lengths before the first nosing and behind the last one [m]; without nosings, of all."""
+        first, last = float(self.points[0, 0]), float(self.points[-1, 0])
+        if len(self.nosings) == 0:
+            return last - first, last - first
+        return float(self.nosings[0, 0]) - first, last - float(self.nosings[-1, 0])
+
     def reflected(self) -> Self:
         """Profile seen from the other side: x reversed."""
         mirror = np.array([-1.0, 1.0])

@@ -80,20 +80,9 @@ def draws(case: Case, stance: Stance, *, certain: bool = False) -> Draws:
     """
     steps = np.array(list(dict.fromkeys(case.stairs.regular_steps)))
     theta_s, p = np.arctan2(steps[:, 0], steps[:, 1]), np.hypot(steps[:, 0], steps[:, 1])
-    of_robot, of_stairs = case.robot.uncertainty, case.stairs.uncertainty
-    surface = case.surface
-    spread = np.array(
-        [
-            of_robot.flat_length,
-            of_robot.com_from_front,
-            of_robot.com_height,
-            of_stairs.angle,
-            of_stairs.nosing_spacing,
-            surface.friction_uncertainty if surface else 0.0,
-        ]
-    )
+    surface, spread = case.surface, standard_uncertainties(case)
     if spread.any() and not certain:
-        L, C_L, C_N, d_theta, d_p, d_mu = _unit_draws()[:, :, None] * spread[:, None, None]
+        L, C_L, C_N, d_theta, d_p, d_mu = unit_draws()[:, :, None] * spread[:, None, None]
     else:
         L = C_L = C_N = d_theta = d_p = d_mu = np.zeros((1, 1))
     L = stance.flat_length + L
@@ -109,8 +98,23 @@ def draws(case: Case, stance: Stance, *, certain: bool = False) -> Draws:
     )
 
 
+def standard_uncertainties(case: Case) -> Array:
+    """Of L, C_L, C_N, the angle, the nosing spacing and the friction, in the order of the draws."""
+    of_robot, of_stairs = case.robot.uncertainty, case.stairs.uncertainty
+    return np.array(
+        [
+            of_robot.flat_length,
+            of_robot.com_from_front,
+            of_robot.com_height,
+            of_stairs.angle,
+            of_stairs.nosing_spacing,
+            case.surface.friction_uncertainty if case.surface else 0.0,
+        ]
+    )
+
+
 @cache
-def _unit_draws() -> Array:
+def unit_draws() -> Array:
     """Latin hypercube of six independent standard normals, shape (6, SAMPLES)."""
     from statistics import NormalDist
 

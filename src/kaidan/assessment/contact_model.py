@@ -10,8 +10,12 @@ import math
 from dataclasses import replace
 from typing import Any, Literal, NamedTuple
 
-from kaidan.assessment.answer import Assessment, Grades, PhaseShown, Verdict
-from kaidan.assessment.case import Case
+import numpy as np
+
+from kaidan.assessment.answer import Assessment, Grades, PhaseShown, Probability, Verdict
+from kaidan.assessment.case import Array, Case
+from kaidan.assessment.closed_form import at_risk
+from kaidan.assessment.spread import share_out_of_reach, spread
 from kaidan.climb import Climb, Phase, climb
 from kaidan.contact import Status
 from kaidan.mechanics import STANDARD_GRAVITY
@@ -20,6 +24,8 @@ from kaidan.outline import Outline
 from kaidan.profile import Profile
 
 MODEL = "contact"
+
+MODES = ("tip_downhill", "tip_uphill", "slip", "drive")
 
 SWING_SPEED = 0.1
 """Speed whose energy the robot is taken to have where none is stated [m/s]: the paper's test
@@ -36,21 +42,43 @@ _SOLVER = (Status.NOT_CONVERGED, Status.TOO_LONG, Status.NO_START)
 class Reading(NamedTuple):
     """Margins of slope on one reading of what is only known as a range [rad]; NaN: not known."""
 
-    tip_downhill: float
-    tip_uphill: float
-    slip: float
-    drive: float
+    samples: Array
+    """Margins of `MODES`, shape (4, samples): one sample if every input is taken as exact."""
+    risk: float
+    """Share of samples that may fail."""
+
+    def margin(self, mode: str) -> float:
+        """Margin of a mode at the risk."""
+        return at_risk(self.samples[MODES.index(mode)], self.risk)
+
+    @property
+    def smallest(self) -> Array:
+        """Smallest margin that is known, of each sample."""
+        return np.asarray(np.fmin.reduce(self.samples, axis=0))
 
     @property
     def worst(self) -> float:
-        """Smallest margin that is known."""
-        return min((value for value in self if not math.isnan(value)), default=math.nan)
+        """Smallest margin that is known, at the risk."""
+        return at_risk(self.smallest, self.risk)
+
+    @property
+    def tip(self) -> float:
+        """Margin against tipping over either end, at the risk; NaN where downhill is not known."""
+        down, up = self.samples[:2]
+        return at_risk(np.where(np.isnan(down), np.nan, np.fmin(down, up)), self.risk)
+
+    @property
+    def supply(self) -> float:
+        """Margin of friction and drive, at the risk; infinite where neither is known."""
+        margin = at_risk(np.fmin(self.samples[2], self.samples[3]), self.risk)
+        return math.inf if math.isnan(margin) else margin
 
     @property
     def governs(self) -> str:
-        """Name of the smallest margin."""
-        known = {name: value for name, value in self._asdict().items() if not math.isnan(value)}
-        return min(known, key=lambda name: known[name]) if known else "validity"
+        """Name of the mode with the smallest margin."""
+        known = {mode: self.margin(mode) for mode in MODES}
+        known = {mode: value for mode, value in known.items() if not math.isnan(value)}
+        return min(known, key=lambda mode: known[mode]) if known else "validity"
 
 
 def climb_of(case: Case, *, compiled: bool | None = None) -> Climb:
@@ -100,12 +128,12 @@ def ruling(case: Case, found: Climb, *, accept: Accept) -> Ruling:
     worst, best = _reading(case, found, kind=False), _reading(case, found, kind=True)
     threshold = float(kinetic_energy_height(v=case.speed or SWING_SPEED))
     energy = _energy(found)
-    held, doubts = _held(found, threshold, energy)
+    held, doubts = _held(case, found, threshold, energy)
     verdict, governs = _verdict(case, found, worst, best, held, doubts, accept)
     phase, step = _where(found, governs)
     margin = worst.worst if verdict != "outside-model" else math.nan
     if accept == "caught" and held:
-        margin = min(x for x in (worst.slip, worst.drive, math.pi / 2) if not math.isnan(x))
+        margin = min(worst.supply, FALL)
     return Ruling(
         verdict=verdict,
         governs=governs,
@@ -177,12 +205,14 @@ def judge(case: Case, found: Climb, flat: Assessment, *, accept: Accept) -> Asse
         margin_deg=_degrees(margin),
         margin_at_best_deg=_degrees(best.worst) if verdict != "outside-model" else None,
         margins_deg={
-            "tip_downhill": _degrees(worst.tip_downhill),
-            "tip_uphill": _degrees(worst.tip_uphill),
-            "slip_up": _degrees(worst.slip),
+            "tip_downhill": _degrees(worst.margin("tip_downhill")),
+            "tip_uphill": _degrees(worst.margin("tip_uphill")),
+            "slip_up": _degrees(worst.margin("slip")),
             "slip_down": flat.margins_deg["slip_down"],
-            "drive": _degrees(worst.drive),
+            "drive": _degrees(worst.margin("drive")),
         },
+        margin_interval_deg=_interval(worst),
+        probability=_probability(case, found, worst),
         margin_force_N=_force(mass, angle, margin),
         margin_centroid_mm=flat.margin_centroid_mm
         if flat.margin_centroid_mm is not None
@@ -217,19 +247,43 @@ def _swing(found: Climb) -> float:
 def _reading(case: Case, found: Climb, *, kind: bool) -> Reading:
     theta_d = case.theta_d.low if kind else case.theta_d.high
     theta_M = case.theta_M.low if kind else case.theta_M.high
-    downhill = found.downhill_margin - theta_d - theta_M
-    uphill = found.uphill_margin - theta_d
-    if found.criterion.outside or math.isnan(downhill):
+    one = found.criterion
+    bare = [
+        _angle_or_side(one.back_margin_angle, one.back_margin),
+        _angle_or_side(one.front_margin_angle, one.front_margin),
+    ]
+    downhill, uphill = reversed(bare) if found.descending else bare
+    downhill, uphill = downhill - theta_d - theta_M, uphill - theta_d
+    if one.outside or math.isnan(downhill):
         swing = _swing(found)
         downhill, uphill = (-swing if swing > 0 else math.nan), math.nan
     if not found.arrived and not (min(downhill, uphill) <= 0):
         downhill = -FALL
     friction = max((each.required_friction for each in found.phases), default=math.nan)
-    slip = math.nan
+    mu = math.nan
     if case.surface is not None:
         mu = case.surface.friction_high if kind else case.surface.friction_low
-        slip = math.atan(mu) - math.atan(friction)
-    return Reading(downhill, uphill, slip, _drive(case, found))
+    slip, drive = math.atan(mu) - math.atan(friction), _drive(case, found)
+    apart = spread(case, found)
+    if apart is None:
+        return Reading(np.array([[downhill], [uphill], [slip], [drive]]), case.risk)
+    holding = np.arctan(np.maximum(mu + apart.friction, 0.0))
+    return Reading(
+        np.stack(
+            [
+                downhill + apart.tip_downhill,
+                uphill + apart.tip_uphill,
+                slip + holding - math.atan(mu) - apart.angle,
+                drive - apart.angle,
+            ]
+        ),
+        case.risk,
+    )
+
+
+def _angle_or_side(angle: float, metres: float) -> float:
+    """Margin of slope; where no slope at all is the limit, a right angle to the side that holds."""
+    return math.copysign(FALL, metres) if math.isnan(angle) and metres == metres else angle
 
 
 def _drive(case: Case, found: Climb) -> float:
@@ -244,14 +298,23 @@ def _drive(case: Case, found: Climb) -> float:
 
 
 def _energy(found: Climb) -> float:
-    """Smallest energy margin against a fall downhill while traversing [m]; infinite: none found."""
-    return min(
-        (e.energy_margin_mm * 1e-3 for e in found.phases if e.phase is Phase.TRAVERSE),
-        default=math.inf,
-    )
+    """Smallest energy margin of any pose that nothing obliges to turn [m]; infinite: none.
+
+    Obliged to turn are: going down, the robot over the edge of the upper landing; going up, the
+    same edge; and on the first nosing, where the nose comes down onto the flight.
+    """
+    margins = [math.inf]
+    for each in found.phases:
+        if each.phase is not Phase.ENTER or not found.descending:
+            margins.append(each.energy_margin_mm)
+        if each.phase is Phase.TRAVERSE:
+            margins.append(each.uphill_energy_margin_mm)
+    return 1e-3 * min(margins)
 
 
-def _held(found: Climb, threshold: float, energy: float) -> tuple[bool, tuple[str, ...]]:
+def _held(
+    case: Case, found: Climb, threshold: float, energy: float
+) -> tuple[bool, tuple[str, ...]]:
     """Whether the robot arrives with momentum counted, and what keeps that from being a GO."""
     doubts = []
     if energy <= threshold:
@@ -261,9 +324,13 @@ def _held(found: Climb, threshold: float, energy: float) -> tuple[bool, tuple[st
         )
     if any(each.belly_touches for each in found.phases):
         doubts.append("the belly carries the robot in places (high-centring)")
+    doubtful = share_out_of_reach(case, found)
+    if case.risk < doubtful < 1:
+        doubts.append(
+            f"with a probability of {doubtful:.2g} fewer than two nosings stay on the track (p > L/2)"
+        )
     stairs_reach = found.outline.reach[0] + found.outline.reach[1]
-    ends = found.profile.points[[0, 1, -2, -1], 0]
-    if min(ends[1] - ends[0], ends[3] - ends[2]) < stairs_reach:
+    if min(found.profile.landings) < stairs_reach:
         doubts.append(f"a landing is shorter than the robot's {stairs_reach:.2f} m")
     return found.arrived and found.held_with_momentum, tuple(doubts)
 
@@ -280,10 +347,8 @@ def _verdict(
     if found.status in _SOLVER:
         return "outside-model", "validity"
     friction_known = case.surface is not None
-    supply = min((x for x in (worst.slip, worst.drive) if not math.isnan(x)), default=math.inf)
-    supply_best = min((x for x in (best.slip, best.drive) if not math.isnan(x)), default=math.inf)
-    no_rotation = min(worst.tip_downhill, _or_inf(worst.tip_uphill))
-    at_best = min(best.tip_downhill, _or_inf(best.tip_uphill))
+    supply, supply_best = worst.supply, best.supply
+    no_rotation, at_best = worst.tip, best.tip
     holds = held and (no_rotation > 0 or accept == "caught")
     if holds and supply > 0 and not doubts:
         return ("go", worst.governs) if friction_known else ("caution", "friction_unknown")
@@ -294,10 +359,6 @@ def _verdict(
             return "caution", worst.governs if worst.worst <= 0 else "friction_unknown"
         return "caution", "catch"
     return "no-go", "stuck" if found.status is Status.STUCK else worst.governs
-
-
-def _or_inf(value: float) -> float:
-    return math.inf if math.isnan(value) else value
 
 
 def _where(found: Climb, governs: str) -> tuple[str | None, int | None]:
@@ -354,6 +415,16 @@ def _reason(
             f"It enters, traverses and lands with {math.degrees(margin):.1f} deg to spare; "
             f"nearest is {_NAMES.get(governs, governs)}{place}."
         )
+    if governs == "catch" and _swing(found) == 0.0:
+        if _no_rotation(found):
+            return (
+                "On the sheets' figures it does not turn, but at the risk asked for it does, "
+                f"{-math.degrees(margin):.1f} deg beyond the limit{place}."
+            )
+        return (
+            "It gets there without turning, but where it leaves a nosing no experiment says "
+            f"that what is left holds{place}."
+        )
     if governs == "catch":
         topples = "" if found.held_with_momentum else ", and with the momentum gained it topples"
         return (
@@ -395,6 +466,35 @@ def _notes(case: Case, found: Climb, flat: Assessment, doubts: tuple[str, ...]) 
     if found.profile.overhangs:
         notes.append("Nosings overhang: the model stands on their upper envelope.")
     return tuple(notes)
+
+
+def _interval(worst: Reading) -> tuple[float, float] | None:
+    """95 % interval of the smallest margin [deg]; None if all is certain or nothing known."""
+    if len(worst.smallest) == 1 or np.isnan(worst.smallest).any():
+        return None
+    low, high = np.degrees([at_risk(worst.smallest, share) for share in (0.025, 0.975)])
+    return float(low), float(high)
+
+
+def _probability(case: Case, found: Climb, worst: Reading) -> Probability | None:
+    """Share of samples that fail; None if all is certain."""
+    if len(worst.smallest) == 1:
+        return None
+
+    def share(values: Array) -> float | None:
+        return None if np.isnan(values).all() else float(np.mean(~(values > 0)))
+
+    down, up, slip, drive = (share(mode) for mode in worst.samples)
+    outside = share_out_of_reach(case, found)
+    return Probability(
+        tip_downhill=1.0 if down is None else down,
+        tip_uphill=0.0 if up is None and down is not None else 1.0 if up is None else up,
+        slip_up=slip,
+        slip_down=None,
+        drive=drive,
+        outside_model=outside,
+        any=max(outside, float(np.mean(~(worst.smallest > 0)))),
+    )
 
 
 def _degrees(value: float) -> float | None:

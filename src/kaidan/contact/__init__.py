@@ -1,6 +1,8 @@
 """Quasi-static contact of a tracked robot with any two-dimensional profile, numbers only."""
 
+from kaidan.contact.compiling import numba_is_installed, numba_is_loaded
 from kaidan.contact.driving import (
+    STEP,
     Event,
     GradeOne,
     Settled,
@@ -17,6 +19,7 @@ from kaidan.contact.tables import BELLY, FLIPPER, TRACK, body_table, ground_tabl
 __all__ = [
     "BELLY",
     "FLIPPER",
+    "STEP",
     "TRACK",
     "Event",
     "GradeOne",
@@ -27,6 +30,8 @@ __all__ = [
     "grade_one",
     "ground_table",
     "mirror",
+    "numba_is_installed",
+    "numba_is_loaded",
     "settle",
     "steepest_flight",
     "traverse",

@@ -48,6 +48,11 @@ def numba_is_installed() -> bool:
     return importlib.util.find_spec("numba") is not None
 
 
+def numba_is_loaded() -> bool:
+    """Whether this process has loaded the compiler already."""
+    return "numba" in sys.modules
+
+
 def plain(module: str) -> ModuleType:
     """Return a kernel module as plain Python."""
     return importlib.import_module(f"{_PACKAGE}.{module}")
@@ -115,5 +120,5 @@ def kernel_module(module: str, *, compile_kernel: bool | None = None) -> ModuleT
         process, else plain, so that a single question never waits for a compiler.
     """
     if compile_kernel is None:
-        compile_kernel = "numba" in sys.modules
+        compile_kernel = numba_is_loaded()
     return compiled(module) if compile_kernel else plain(module)
