@@ -281,6 +281,43 @@ def _reading(case: Case, found: Climb, *, kind: bool) -> Reading:
     )
 
 
+class PhaseMargins(NamedTuple):
+    """Margins of one phase alone, allowances off."""
+
+    worst: float
+    """Smallest margin of slope [rad]: friction and drive, on the flight tipping as well."""
+    steady: bool
+    """Whether nothing swings that need not, with more energy margin than the speed is worth."""
+
+
+def phase_margins(case: Case, found: Climb, phase: Phase) -> PhaseMargins:
+    """Margins of a phase that the robot gets through.
+
+    Parameters
+    ----------
+    case : Case
+        The question.
+    found : Climb
+        Its traverse.
+    phase : Phase
+        One that it has.
+
+    Returns
+    -------
+    PhaseMargins
+    """
+    alone = replace(found, phases=tuple(each for each in found.phases if each.phase is phase))
+    reading = _reading(case, alone, kind=False)
+    threshold = float(kinetic_energy_height(v=case.speed or SWING_SPEED))
+    steady = _energy(alone) > threshold and not any(each.belly_touches for each in alone.phases)
+    worst = reading.supply
+    if phase is Phase.TRAVERSE:
+        tip = reading.tip
+        steady = steady and tip > 0
+        worst = min(worst, tip) if tip == tip else worst
+    return PhaseMargins(min(worst, FALL), bool(steady))
+
+
 def _angle_or_side(angle: float, metres: float) -> float:
     """Margin of slope; where no slope at all is the limit, a right angle to the side that holds."""
     return math.copysign(FALL, metres) if math.isnan(angle) and metres == metres else angle
@@ -327,7 +364,8 @@ def _held(
     doubtful = share_out_of_reach(case, found)
     if case.risk < doubtful < 1:
         doubts.append(
-            f"with a probability of {doubtful:.2g} fewer than two nosings stay on the track (p > L/2)"
+            f"with a probability of {doubtful:.2g} fewer than two nosings stay on the track "
+            "(p > L/2)"
         )
     stairs_reach = found.outline.reach[0] + found.outline.reach[1]
     if min(found.profile.landings) < stairs_reach:

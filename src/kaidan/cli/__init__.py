@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from kaidan.cli import assess, catalogs, reports, traverse
+from kaidan.cli import assess, catalogs, posture, reports, traverse
 
 _START_LIGHTLY = {
     "OPENBLAS_NUM_THREADS": "1",  # no matrix here is worth the threads numpy would start
@@ -45,6 +45,7 @@ def kaidan(
 
 assess.register(app)
 catalogs.register(app)
+posture.register(app)
 reports.register(app)
 traverse.register(app)
 
