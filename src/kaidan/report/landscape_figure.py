@@ -33,7 +33,7 @@ def landscape_figure(found: Landscape) -> Figure:
     case, run = journey.case, journey.found.run
     with look.settings():
         figure = look.blank(_HEIGHT)
-        left, right, foot, top = 0.62, 1.0, 0.85, 0.5
+        left, right, foot, top = 0.62, 1.0, 0.72, 0.5
         axes = figure.add_axes(
             (
                 left / look.WIDTH,
@@ -60,7 +60,7 @@ def landscape_figure(found: Landscape) -> Figure:
             (found.stable, look.BLACK, "-"),
         ):
             for line in _lines(found, cells):
-                axes.plot(*line, color=color, linestyle=style, linewidth=1.1, zorder=4)
+                axes.plot(*line, color=color, linestyle=style, linewidth=1.1, zorder=7)
         _path(figure, found)
         box = (1 - (right - 0.12) / look.WIDTH, foot / _HEIGHT, 0.14 / look.WIDTH,
                1 - (foot + top) / _HEIGHT)  # fmt: skip
@@ -80,7 +80,7 @@ def landscape_figure(found: Landscape) -> Figure:
             handles,
             texts,
             loc="lower left",
-            bbox_to_anchor=(left / look.WIDTH, 0.04 / _HEIGHT),
+            bbox_to_anchor=(left / look.WIDTH, 0.08 / _HEIGHT),
             ncols=4,
             frameon=False,
             borderpad=0.0,
@@ -152,7 +152,7 @@ def _lines(found: Landscape, cells: NDArray[np.bool_]) -> list[tuple[look.Array,
             going.append(line)
         done += open_ends
         open_ends = going
-    lines = [np.array(line) for line in (*done, *open_ends) if len(line) > 1]
+    lines = [np.array(line) for line in (*done, *open_ends) if len(line) > 4]
     return [(line[:, 0], line[:, 1]) for line in lines]
 
 
@@ -164,12 +164,12 @@ def _path(figure: Figure, found: Landscape) -> None:
     for start, end in pairwise(cuts):
         axes.plot(x[start:end], phi[start:end], color=look.BLUE, linewidth=2.4, zorder=5, alpha=0.9)
     for release in run.releases:
-        end = (release[6], math.degrees(release[8]))
+        to = (release[6], math.degrees(release[8]))
         if release[15] != 0.0:
-            end = (release[3], math.degrees(release[5]) + 15 * release[0])
+            to = (release[3], math.degrees(release[5]) + 15 * release[0])
         axes.annotate(
             "",
-            xy=end,
+            xy=to,
             xytext=(release[3], math.degrees(release[5])),
             arrowprops={
                 "arrowstyle": "-|>,head_width=0.2,head_length=0.4",

@@ -15,7 +15,7 @@ from kaidan.report.journey import Journey
 from kaidan.report.moves import Move
 from kaidan.report.side_view import Stand
 
-_LEFT, _RIGHT, _FOOT = 0.74, 0.12, 0.42
+_LEFT, _RIGHT, _FOOT = 0.78, 0.12, 0.42
 _STRIP, _GAP = 0.92, 0.12
 _INSET = (2.3, 1.45)
 """Size of the picture of the pose that decides [in]."""
@@ -72,7 +72,7 @@ def traverse_figure(found: Journey, poses: int | None = None) -> Figure:
             strip.set_xlim(view[0], view[1])
             _phases(strip, found, named=index == 0)
             draw(strip, found)
-            strip.yaxis.set_label_coords(-0.5 / width, 0.5)
+            strip.yaxis.set_label_coords(-0.38 / width, 0.5)
             strip.axvline(
                 float(found.found.run.x[found.governing_row]),
                 color=look.BLACK,
@@ -129,7 +129,7 @@ def _view(found: Journey, width: float) -> tuple[float, float, float, float]:
     bottom = min(float(np.min(heights)), float(run.z.min()) - reach / 2) - 0.05 * (right - left)
     per_inch = (right - left) / width
     # the outline never rises above this line of the way
-    bounds = np.concatenate([each for each in ends])
+    bounds = np.concatenate(ends)
     line = np.column_stack([run.x, run.z + 0.55 * (back + ahead) * np.abs(np.sin(run.inclination))])
     line[:, 1] += 0.25 * (back + ahead)
     tops = np.concatenate([bounds, line, seen])
@@ -244,7 +244,7 @@ def _name(axes: Axes, found: Journey, shown: Shown) -> None:
     at = around[int(np.argmax(around @ lean))]
     axes.annotate(
         shown.text,
-        xy=(shown.stand.x if level else float(at[0]), float(at[1])),
+        xy=(shown.stand.x, float(around[:, 1].max())) if level else (float(at[0]), float(at[1])),
         xytext=(0.0 if level else 3.0 if down else -3.0, 3.0),
         textcoords="offset points",
         ha="center" if level else "left" if down else "right",
@@ -382,7 +382,7 @@ def _energy(axes: Axes, found: Journey) -> None:
     if (margins[:, 11] != downhill).any():
         axes.text(
             0.006,
-            0.06,
+            0.3,
             "dotted: over the uphill end",
             transform=axes.transAxes,
             color=look.GREY,
