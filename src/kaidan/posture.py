@@ -17,7 +17,6 @@ from kaidan.assessment.case import Case
 from kaidan.climb import Climb, Phase, climb
 from kaidan.errors import InputError
 from kaidan.outline import Outline
-from kaidan.profile import Profile
 from kaidan.robot import FlipperPair, Posture
 
 RANK: dict[Verdict, int] = {"go": 0, "caution": 1, "no-go": 2, "outside-model": 3}
@@ -257,7 +256,7 @@ def _with(case: Case, angles: Angles) -> Case:
 def _drive(case: Case, angles: Angles, *, step: float, with_margins: bool) -> Climb:
     case = _with(case, angles)
     return climb(
-        Profile.of_stairs(case.stairs) if case.profile is None else case.profile,
+        contact_model.profile_of(case),
         Outline.of(case.robot, case.posture, case.payload),
         descending=case.direction == "down",
         facing=case.facing,

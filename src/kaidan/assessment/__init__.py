@@ -6,6 +6,7 @@ from typing import Any, Literal
 from kaidan.assessment.allowance import Allowance as Allowance
 from kaidan.assessment.answer import Assessment as Assessment
 from kaidan.assessment.case import Case, Direction, Facing
+from kaidan.assessment.yaw import LARGEST_YAW, along_heading, gauge_of
 from kaidan.errors import InputError
 from kaidan.robot import Payload, Posture, Robot
 from kaidan.stairs import Stairs
@@ -34,6 +35,7 @@ def assess(
     payload: Payload | Iterable[Payload] = (),
     theta_d: Any = None,
     theta_M: Any = None,
+    yaw: float = 0.0,
     risk: float = 0.01,
     model: Literal["contact", "closed-form"] = DEFAULT_MODEL,
     accept: Literal["no-rotation", "caught"] = "no-rotation",
@@ -65,6 +67,9 @@ def assess(
     theta_d, theta_M : float, (low, high) or None
         Measured allowances of Eq. (24) [rad]; None takes 0 to 2.6 degrees each (theta_M is zero
         when descending).
+    yaw : float
+        Heading off the line of steepest ascent, to the left positive [rad]; needs the contact model
+        and the robot's gauge.
     risk : float
         Probability of failure that the operator accepts, (0, 0.5].
     model : {"contact", "closed-form"}
@@ -109,6 +114,7 @@ def assess(
         payload=payload,
         theta_d=theta_d,
         theta_M=theta_M,
+        yaw=yaw,
         risk=risk,
     )
     return answer_to(case, model=model, accept=accept)
@@ -121,7 +127,10 @@ def answer_to(case: Case, *, model: str = DEFAULT_MODEL, accept: str = "no-rotat
     for name, value, known in (("model", model, MODELS), ("accept", accept, ACCEPTED)):
         if value not in known:
             raise InputError(f"{name} = {value!r} is not known; known: {', '.join(known)}")
-    flat = wording.put_into_words(case, closed_form.judge(case))
+    if case.yaw and model == "closed-form":
+        raise InputError("the closed form knows no yaw; ask the contact model")
+    along = case.changed(stairs=along_heading(case.stairs, case.yaw)) if case.yaw else case
+    flat = wording.put_into_words(along, closed_form.judge(along))
     if model == "closed-form":
         return flat
     from kaidan.assessment import contact_model
@@ -148,6 +157,7 @@ def case_of(
     payload: Payload | Iterable[Payload] = (),
     theta_d: Any = None,
     theta_M: Any = None,
+    yaw: float = 0.0,
     risk: float = 0.01,
 ) -> Case:
     """Case of the same arguments as `assess`: names resolved, everything checked."""
@@ -168,6 +178,7 @@ def case_of(
             raise InputError(f"{name} = {value!r} is not known; known: {', '.join(allowed)}")
     _within("acceleration", acceleration, -LARGEST_ACCELERATION, LARGEST_ACCELERATION, "m/s^2")
     _within("risk", risk, 1e-4, 0.5, "")
+    _within("yaw", yaw, -LARGEST_YAW, LARGEST_YAW, "rad")
     if speed is not None:
         fastest = robot.drive.max_speed or 30.0
         _within("speed", speed, 0.0, fastest, f"m/s, the most {robot.name} can do")
@@ -184,7 +195,10 @@ def case_of(
         theta_d=Allowance.of(theta_d, name="theta_d"),
         theta_M=Allowance.of(theta_M, name="theta_M", descending=direction == "down"),
         risk=risk,
+        yaw=float(yaw),
     )
+    if case.yaw:
+        gauge_of(case)
     _ = case.stance  # refuses a posture or payload that the robot cannot have
     return case
 

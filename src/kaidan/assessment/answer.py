@@ -91,6 +91,8 @@ class Probability:
     """Null where the drive's traction is unknown."""
     outside_model: float
     """Probability that the model does not apply at all."""
+    tip_sideways: float | None = None
+    """Null without a yaw."""
     any: float
     """Probability of at least one of them."""
 
@@ -255,6 +257,11 @@ class Assessment:
     """Worst figures of each phase, by the contact model."""
     grades: Grades | None = None
     """Three grades of "it holds", by the contact model."""
+    yaw_deg: float = 0.0
+    """Heading off the line of steepest ascent, to the left positive [deg]."""
+    yaw_limit_deg: float | None = None
+    """Yaw from which on the verdict changes, because the robot tips on the flight [deg]; null if it
+    tips without any, holds up to 80 deg, or the distance of its tracks is not known."""
 
     @property
     def exit_code(self) -> int:

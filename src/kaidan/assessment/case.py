@@ -37,6 +37,8 @@ class Case(NamedTuple):
     risk: float
     profile: Profile | None = None
     """Terrain of its own, for the contact model; then `stairs` lends its name only."""
+    yaw: float = 0.0
+    """Heading off the line of steepest ascent [rad], to the left positive."""
 
     @property
     def nose_up(self) -> bool:

@@ -16,20 +16,24 @@ from kaidan.assessment.answer import Assessment, Grades, PhaseShown, Probability
 from kaidan.assessment.case import Array, Case
 from kaidan.assessment.closed_form import at_risk
 from kaidan.assessment.spread import share_out_of_reach, spread
+from kaidan.assessment.yaw import (
+    SWING_SPEED,
+    along_heading,
+    polygon_energy,
+    polygon_margins,
+    yaw_limit,
+)
 from kaidan.climb import Climb, Phase, climb
 from kaidan.contact import Status
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.measures import kinetic_energy_height
+from kaidan.mechanics.oblique import equivalent_slope_across
 from kaidan.outline import Outline
 from kaidan.profile import Profile
 
 MODEL = "contact"
 
-MODES = ("tip_downhill", "tip_uphill", "slip", "drive")
-
-SWING_SPEED = 0.1
-"""Speed whose energy the robot is taken to have where none is stated [m/s]: the paper's test
-speed, at which the rig swung visibly with 0.07 mm of energy margin against 0.51 mm of v^2/2g."""
+MODES = ("tip_downhill", "tip_uphill", "tip_sideways", "slip", "drive")
 
 FALL = math.pi / 2
 """Turn that a fall counts as where no criterion gives a margin [rad]."""
@@ -43,7 +47,7 @@ class Reading(NamedTuple):
     """Margins of slope on one reading of what is only known as a range [rad]; NaN: not known."""
 
     samples: Array
-    """Margins of `MODES`, shape (4, samples): one sample if every input is taken as exact."""
+    """Margins of `MODES`, shape (5, samples): one sample if every input is taken as exact."""
     risk: float
     """Share of samples that may fail."""
 
@@ -63,14 +67,14 @@ class Reading(NamedTuple):
 
     @property
     def tip(self) -> float:
-        """Margin against tipping over either end, at the risk; NaN where downhill is not known."""
-        down, up = self.samples[:2]
-        return at_risk(np.where(np.isnan(down), np.nan, np.fmin(down, up)), self.risk)
+        """Margin against tipping, at the risk; NaN where downhill is not known."""
+        tips = np.where(np.isnan(self.samples[0]), np.nan, np.fmin.reduce(self.samples[:3]))
+        return at_risk(tips, self.risk)
 
     @property
     def supply(self) -> float:
         """Margin of friction and drive, at the risk; infinite where neither is known."""
-        margin = at_risk(np.fmin(self.samples[2], self.samples[3]), self.risk)
+        margin = at_risk(np.fmin(self.samples[3], self.samples[4]), self.risk)
         return math.inf if math.isnan(margin) else margin
 
     @property
@@ -81,10 +85,17 @@ class Reading(NamedTuple):
         return min(known, key=lambda mode: known[mode]) if known else "validity"
 
 
+def profile_of(case: Case) -> Profile:
+    """Terrain along the heading: a profile of its own, or that of the stairs, seen obliquely."""
+    if case.profile is not None:
+        return case.profile
+    return Profile.of_stairs(along_heading(case.stairs, case.yaw) if case.yaw else case.stairs)
+
+
 def climb_of(case: Case, *, compiled: bool | None = None) -> Climb:
     """Traverse of a case's robot over its stairs, or over its own profile."""
     return climb(
-        Profile.of_stairs(case.stairs) if case.profile is None else case.profile,
+        profile_of(case),
         Outline.of(case.robot, case.posture, case.payload),
         descending=case.direction == "down",
         facing=case.facing,
@@ -127,7 +138,7 @@ def ruling(case: Case, found: Climb, *, accept: Accept) -> Ruling:
     """
     worst, best = _reading(case, found, kind=False), _reading(case, found, kind=True)
     threshold = float(kinetic_energy_height(v=case.speed or SWING_SPEED))
-    energy = _energy(found)
+    energy = _energy(case, found)
     held, doubts = _held(case, found, threshold, energy)
     verdict, governs = _verdict(case, found, worst, best, held, doubts, accept)
     phase, step = _where(found, governs)
@@ -143,7 +154,7 @@ def ruling(case: Case, found: Climb, *, accept: Accept) -> Ruling:
         step=step,
         phases=_phases_shown(found),
         grades=Grades(
-            no_rotation=_no_rotation(found),
+            no_rotation=_no_rotation(case, found),
             caught=found.arrived,
             caught_with_momentum=found.arrived and found.held_with_momentum,
             largest_swing_deg=math.degrees(_swing(found)),
@@ -194,6 +205,17 @@ def judge(case: Case, found: Climb, flat: Assessment, *, accept: Accept) -> Asse
     verdict, governs, reason, margin, phase, step, phases, grades, doubts = ruling(
         case, found, accept=accept
     )
+    limit = yaw_limit(case)
+    if case.yaw:
+        flat = replace(
+            flat,
+            angle_deg=math.degrees(case.stairs.angle),
+            nosing_spacing_m=case.stairs.nosing_spacing,
+            margin_centroid_mm=None,
+            margin_angle_deg=None,
+            lower_angle_deg=None,
+            margin_backward_deg=None,
+        )
     angle = math.radians(flat.angle_deg)
     mass = flat.mass_kg
     return replace(
@@ -207,6 +229,7 @@ def judge(case: Case, found: Climb, flat: Assessment, *, accept: Accept) -> Asse
         margins_deg={
             "tip_downhill": _degrees(worst.margin("tip_downhill")),
             "tip_uphill": _degrees(worst.margin("tip_uphill")),
+            **({"tip_sideways": _degrees(worst.margin("tip_sideways"))} if case.yaw else {}),
             "slip_up": _degrees(worst.margin("slip")),
             "slip_down": flat.margins_deg["slip_down"],
             "drive": _degrees(worst.margin("drive")),
@@ -216,22 +239,32 @@ def judge(case: Case, found: Climb, flat: Assessment, *, accept: Accept) -> Asse
         margin_force_N=_force(mass, angle, margin),
         margin_centroid_mm=flat.margin_centroid_mm
         if flat.margin_centroid_mm is not None
+        else None
+        if case.yaw
         else _millimetres(found.centroid_margin),
-        required_friction=max(
-            [flat.required_friction, *(each.required_friction for each in found.phases)]
+        required_friction=math.hypot(
+            max([flat.required_friction, *(each.required_friction for each in found.phases)]),
+            math.tan(angle) * math.sin(case.yaw),
         ),
         falls_over=_falls_over(case, found, flat),
         phase=phase,  # type: ignore[arg-type]
         step=step,
         phases=phases,
         grades=grades,
-        what_would_help=flat.what_would_help if flat.verdict == verdict else (),
+        what_would_help=flat.what_would_help if flat.verdict == verdict and not case.yaw else (),
+        yaw_deg=math.degrees(case.yaw),
+        yaw_limit_deg=None if limit is None else math.degrees(limit),
         notes=_notes(case, found, flat, doubts),
     )
 
 
-def _no_rotation(found: Climb) -> bool | None:
-    """Grade one; None where it says nothing: fewer than two contacts stay, or a short flight."""
+def _no_rotation(case: Case, found: Climb) -> bool | None:
+    """Grade one; None where it says nothing: fewer than two contacts stay, or a short flight.
+
+    At a yaw: whether the polygon of both tracks' contacts keeps the zero moment point.
+    """
+    if case.yaw:
+        return bool((polygon_margins(case, certain=True) > 0).all())
     return None if found.criterion.outside else found.criterion.holds
 
 
@@ -254,7 +287,7 @@ def _reading(case: Case, found: Climb, *, kind: bool) -> Reading:
     ]
     downhill, uphill = reversed(bare) if found.descending else bare
     downhill, uphill = downhill - theta_d - theta_M, uphill - theta_d
-    if one.outside or math.isnan(downhill):
+    if (case.yaw == 0 and one.outside) or math.isnan(downhill):
         swing = _swing(found)
         downhill, uphill = (-swing if swing > 0 else math.nan), math.nan
     if not found.arrived and not (min(downhill, uphill) <= 0):
@@ -263,22 +296,30 @@ def _reading(case: Case, found: Climb, *, kind: bool) -> Reading:
     mu = math.nan
     if case.surface is not None:
         mu = case.surface.friction_high if kind else case.surface.friction_low
+    if case.yaw:  # the load across the track asks for friction too
+        across = equivalent_slope_across(theta_s=case.stairs.angle, psi=case.yaw)
+        friction = math.hypot(friction, float(across))
     slip, drive = math.atan(mu) - math.atan(friction), _drive(case, found)
     apart = spread(case, found)
     if apart is None:
-        return Reading(np.array([[downhill], [uphill], [slip], [drive]]), case.risk)
-    holding = np.arctan(np.maximum(mu + apart.friction, 0.0))
-    return Reading(
-        np.stack(
+        samples = np.array([[downhill], [uphill], [math.nan], [slip], [drive]])
+    else:
+        holding = np.arctan(np.maximum(mu + apart.friction, 0.0))
+        samples = np.stack(
             [
                 downhill + apart.tip_downhill,
                 uphill + apart.tip_uphill,
+                np.full(len(apart.angle), math.nan),
                 slip + holding - math.atan(mu) - apart.angle,
                 drive - apart.angle,
             ]
-        ),
-        case.risk,
-    )
+        )
+    if case.yaw:
+        off = np.array([[theta_d + theta_M], [theta_d], [theta_d]])
+        samples[:3] = polygon_margins(case) - off
+        if not found.arrived:
+            samples[0] = np.minimum(samples[0], -FALL)
+    return Reading(samples, case.risk)
 
 
 class PhaseMargins(NamedTuple):
@@ -309,7 +350,9 @@ def phase_margins(case: Case, found: Climb, phase: Phase) -> PhaseMargins:
     alone = replace(found, phases=tuple(each for each in found.phases if each.phase is phase))
     reading = _reading(case, alone, kind=False)
     threshold = float(kinetic_energy_height(v=case.speed or SWING_SPEED))
-    steady = _energy(alone) > threshold and not any(each.belly_touches for each in alone.phases)
+    steady = _energy(case, alone) > threshold and not any(
+        each.belly_touches for each in alone.phases
+    )
     worst = reading.supply
     if phase is Phase.TRAVERSE:
         tip = reading.tip
@@ -334,11 +377,12 @@ def _drive(case: Case, found: Climb) -> float:
     return math.asin(min(max(spare, -1.0), 1.0)) - math.asin(min(needed, 1.0))
 
 
-def _energy(found: Climb) -> float:
+def _energy(case: Case, found: Climb) -> float:
     """Smallest energy margin of any pose that nothing obliges to turn [m]; infinite: none.
 
     Obliged to turn are: going down, the robot over the edge of the upper landing; going up, the
-    same edge; and on the first nosing, where the nose comes down onto the flight.
+    same edge; and on the first nosing, where the nose comes down onto the flight. At a yaw the
+    polygon's energy counts on the flight.
     """
     margins = [math.inf]
     for each in found.phases:
@@ -346,6 +390,13 @@ def _energy(found: Climb) -> float:
             margins.append(each.energy_margin_mm)
         if each.phase is Phase.TRAVERSE:
             margins.append(each.uphill_energy_margin_mm)
+    if case.yaw and any(each.phase is Phase.TRAVERSE for each in found.phases):
+        margins = [
+            each.energy_margin_mm
+            for each in found.phases
+            if each.phase is (Phase.LAND if found.descending else Phase.ENTER)
+        ]
+        margins.append(1e3 * polygon_energy(case))
     return 1e-3 * min(margins)
 
 
@@ -454,7 +505,7 @@ def _reason(
             f"nearest is {_NAMES.get(governs, governs)}{place}."
         )
     if governs == "catch" and _swing(found) == 0.0:
-        if _no_rotation(found):
+        if _no_rotation(case, found):
             return (
                 "On the sheets' figures it does not turn, but at the risk asked for it does, "
                 f"{-math.degrees(margin):.1f} deg beyond the limit{place}."
@@ -483,6 +534,7 @@ def _reason(
 _NAMES = {
     "tip_downhill": "tipping over its downhill end",
     "tip_uphill": "tipping over its uphill end",
+    "tip_sideways": "tipping over its side",
     "slip": "lack of friction",
     "drive": "too little traction of the drive",
     "stuck": "getting stuck",
@@ -492,7 +544,14 @@ _NAMES = {
 def _notes(case: Case, found: Climb, flat: Assessment, doubts: tuple[str, ...]) -> tuple[str, ...]:
     notes = [note for note in flat.notes if not note.startswith("This model judges")]
     notes[:0] = [f"{doubt[0].upper()}{doubt[1:]}." for doubt in doubts]
-    if found.criterion.outside:
+    if case.yaw:
+        notes.append(
+            "At a yaw: tipping by the polygon of both tracks' contacts on the flight; entering, "
+            "landing and energy as of one track on the flight along the heading, a little too hard."
+        )
+    elif case.robot.track.gauge is None and case.profile is None:
+        notes.append("The tracks' distance (track.gauge) is not known, so no yaw can be judged.")
+    if found.criterion.outside and not case.yaw:
         notes.append(
             "Somewhere fewer than two nosings carry the track (p > L/2): the paper's criterion "
             "says nothing there, so there is no GO."
@@ -522,10 +581,11 @@ def _probability(case: Case, found: Climb, worst: Reading) -> Probability | None
     def share(values: Array) -> float | None:
         return None if np.isnan(values).all() else float(np.mean(~(values > 0)))
 
-    down, up, slip, drive = (share(mode) for mode in worst.samples)
+    down, up, side, slip, drive = (share(mode) for mode in worst.samples)
     outside = share_out_of_reach(case, found)
     return Probability(
         tip_downhill=1.0 if down is None else down,
+        tip_sideways=side,
         tip_uphill=0.0 if up is None and down is not None else 1.0 if up is None else up,
         slip_up=slip,
         slip_down=None,

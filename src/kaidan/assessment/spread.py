@@ -63,10 +63,10 @@ def spread(case: Case, found: Climb) -> Spread | None:
 
 def share_out_of_reach(case: Case, found: Climb) -> float:
     """Probability that fewer than two nosings stay on the track somewhere."""
-    if found.criterion.outside:
+    if found.criterion.outside and not case.yaw:
         return 1.0
     sigma, draws = standard_uncertainties(case), unit_draws()
-    if case.profile is not None or not sigma[[0, 4]].any():
+    if case.yaw or case.profile is not None or not sigma[[0, 4]].any():
         return 0.0
     length = found.outline.stance.flat_length + sigma[0] * draws[0]
     spacing = max(math.hypot(*step) for step in case.stairs.regular_steps) + sigma[4] * draws[4]

@@ -41,6 +41,7 @@ def assess(
     theta_m: options.ThetaM = None,
     override: options.Override = None,
     uncertainty: options.UncertaintyText = None,
+    yaw: options.Yaw = "0deg",
     risk: options.Risk = 0.01,
     model: Model = "contact",
     accept: Accept = "no-rotation",
@@ -70,6 +71,7 @@ def assess(
         theta_m=theta_m,
         override=override,
         uncertainty=uncertainty,
+        yaw=yaw,
         risk=risk,
     )
     answer = answer_to(case, model=model, accept=accept)
@@ -98,6 +100,7 @@ def as_text(answer: "Assessment") -> str:
     ]
     if answer.margin_deg is not None:
         lines += _margin_rows(answer)
+    lines += _yaw_row(answer)
     lines.append(_friction_row(answer))
     lines += _force_rows(answer)
     lines += _phase_rows(answer)
@@ -180,6 +183,15 @@ def _margin_rows(answer: "Assessment") -> list[str]:
 
 def _or_none(value: float | None) -> str:
     return "none" if value is None else f"{value:.2f} m/s2"
+
+
+def _yaw_row(answer: "Assessment") -> list[str]:
+    if answer.yaw_limit_deg is None and answer.yaw_deg == 0:
+        return []
+    asked = f"{answer.yaw_deg:+.1f} deg; " if answer.yaw_deg else ""
+    if answer.yaw_limit_deg is None:
+        return [_row("yaw", f"{asked}none up to 80 deg at which the verdict changes")]
+    return [_row("yaw", f"{asked}verdict changes from {answer.yaw_limit_deg:.1f} deg on (it tips)")]
 
 
 def _friction_row(answer: "Assessment") -> str:

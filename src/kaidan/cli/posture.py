@@ -42,6 +42,7 @@ def posture(
     theta_m: options.ThetaM = None,
     override: options.Override = None,
     uncertainty: options.UncertaintyText = None,
+    yaw: options.Yaw = "0deg",
     risk: options.Risk = 0.01,
     limits: Limits = "-60deg..120deg",
     accept: Accept = "no-rotation",
@@ -74,6 +75,7 @@ def posture(
         theta_m=theta_m,
         override=override,
         uncertainty=uncertainty,
+        yaw=yaw,
         risk=risk,
     )
     if accept not in ACCEPTED:
