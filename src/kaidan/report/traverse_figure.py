@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 from kaidan.contact.release import turned
 from kaidan.report import look, side_view
@@ -134,7 +135,7 @@ def _view(found: Journey, width: float) -> tuple[float, float, float, float]:
     line[:, 1] += 0.25 * (back + ahead)
     tops = np.concatenate([bounds, line, seen])
     top = float(tops[:, 1].max()) + 0.1 * per_inch
-    w, h = (_INSET[0] + 0.15) * per_inch, (_INSET[1] + 0.15) * per_inch
+    w, h = (_INSET[0] + 0.15) * per_inch, (_INSET[1] + 0.32) * per_inch
     near = tops[:, 0] > right - w - 0.1 if found.found.descending else tops[:, 0] < left + w + 0.1
     under = float(tops[near, 1].max()) if near.any() else bottom
     top = max(top, under + h)
@@ -216,11 +217,12 @@ def _draw_side(axes: Axes, found: Journey, poses: int | None) -> None:
     axes.set_axis_off()
     side_view.draw_ground(axes, profile.points, profile.nosings)
     shown = chosen(found, poses)
+    words: list[Text] = []
     for each in [*shown, *_swing_ends(found)]:
         side_view.draw_robot(axes, outline, each.stand, each.style)
         side_view.draw_centroid(axes, each.stand, 3.2)
         if each.text:
-            _name(axes, found, each)
+            _name(axes, found, each, words)
     for start, end in _legs(run.poses[:, 15]):
         axes.plot(run.x[start:end], run.z[start:end], color=look.BLUE, linewidth=1.0, zorder=6)
     for release in run.releases:
@@ -235,14 +237,14 @@ def _draw_side(axes: Axes, found: Journey, poses: int | None) -> None:
             )
 
 
-def _name(axes: Axes, found: Journey, shown: Shown) -> None:
+def _name(axes: Axes, found: Journey, shown: Shown, words: list[Text]) -> None:
     """Word beside a robot, on the side that the way leaves free."""
     around = side_view.around(found.found.outline, shown.stand)
     down = found.found.descending
     level = abs(math.sin(shown.stand.phi)) < 0.2
     lean = np.array([0.55, 0.83]) if down else np.array([-0.55, 0.83])
     at = around[int(np.argmax(around @ lean))]
-    axes.annotate(
+    label = axes.annotate(
         shown.text,
         xy=(shown.stand.x, float(around[:, 1].max())) if level else (float(at[0]), float(at[1])),
         xytext=(0.0 if level else 3.0 if down else -3.0, 3.0),
@@ -255,6 +257,12 @@ def _name(axes: Axes, found: Journey, shown: Shown) -> None:
         zorder=10,
         bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
     )
+    for lift in range(1, 5):  # above the words that stand there already
+        mine = label.get_window_extent()
+        if not any(mine.overlaps(other.get_window_extent()) for other in words):
+            break
+        label.set_position((label.get_position()[0], 3.0 + 11.0 * lift))
+    words.append(label)
 
 
 def _draw_inset(axes: Axes, found: Journey) -> None:
