@@ -201,6 +201,8 @@ class Stance(NamedTuple):
     """Centroid above the underside [m]."""
     mass: float | None
     """Mass with payload [kg]."""
+    front_extension: float
+    """Part of that length that the front flippers add [m]."""
     tips_below: bool
     """Whether a flipper reaches below the underside, which the closed form cannot judge."""
 
@@ -332,6 +334,7 @@ class Robot(Sheet):
             com_from_front=com_from_front,
             com_height=com_height,
             mass=mass,
+            front_extension=extension["front"],
             tips_below=tips_below,
         )
 

@@ -9,6 +9,7 @@ from typing import Any, Literal, TypeVar
 from kaidan.assessment.allowance import Allowance as Allowance
 from kaidan.assessment.answer import Assessment as Assessment
 from kaidan.assessment.case import Case, Direction, Facing
+from kaidan.assessment.yaw import LARGEST_YAW, along_heading, gauge_of
 from kaidan.errors import InputError
 from kaidan.robot import Payload, Posture, Robot
 from kaidan.stairs import Stairs
@@ -22,6 +23,11 @@ FRICTION = (0.0, 5.0)
 
 RISK = (1e-4, 0.5)
 """Probabilities of failure that can be asked for."""
+
+
+DEFAULT_MODEL: Literal["closed-form"] = "closed-form"
+MODELS = ("contact", "closed-form")
+ACCEPTED = ("no-rotation", "caught")
 
 
 def assess(
@@ -38,8 +44,10 @@ def assess(
     payload: Payload | Iterable[Payload] = (),
     theta_d: Any = None,
     theta_M: Any = None,
+    yaw: float = 0.0,
     risk: float = 0.01,
-    model: Literal["closed-form"] = "closed-form",
+    model: Literal["contact", "closed-form"] = DEFAULT_MODEL,
+    accept: Literal["no-rotation", "caught"] = "no-rotation",
 ) -> Assessment:
     """Whether a tracked robot can take a flight of stairs, and by how much.
 
@@ -68,10 +76,17 @@ def assess(
     theta_d, theta_M : float, (low, high) or None
         Measured allowances of Eq. (24) [rad]; None takes 0 to 2.6 degrees each (theta_M is zero
         when descending).
+    yaw : float
+        Heading off the line of steepest ascent, to the left positive [rad]; needs the contact model
+        and the robot's gauge.
     risk : float
         Probability of failure that the operator accepts, (0, 0.5].
-    model : {"closed-form"}
-        Which model judges.
+    model : {"contact", "closed-form"}
+        Which model judges: the contact model the whole way on any profile, the closed form the
+        paper's regular flight.
+    accept : {"no-rotation", "caught"}
+        What counts as holding: no rotation at all, or also a rotation that the next contact
+        catches with the momentum gained.
 
     Returns
     -------
@@ -108,19 +123,33 @@ def assess(
         payload=payload,
         theta_d=theta_d,
         theta_M=theta_M,
+        yaw=yaw,
         risk=risk,
     )
-    return answer_to(case, model=model)
+    return answer_to(case, model=model, accept=accept)
 
 
-def answer_to(case: Case, *, model: str = "closed-form") -> Assessment:
+def answer_to(case: Case, *, model: str = DEFAULT_MODEL, accept: str = "no-rotation") -> Assessment:
     """Answer of a model to a case; see `assess`."""
-    from kaidan.assessment.closed_form import judge
-    from kaidan.assessment.wording import put_into_words
+    from kaidan.assessment import closed_form, wording
 
-    if model != "closed-form":
-        raise InputError(f"model = {_shown(model)} is not known; known: closed-form")
-    return put_into_words(case, judge(case))
+    for name, value, known in (("model", model, MODELS), ("accept", accept, ACCEPTED)):
+        if value not in known:
+            raise InputError(f"{name} = {_shown(value)} is not known; known: {', '.join(known)}")
+    if case.yaw and model == "closed-form":
+        raise InputError("the closed form knows no yaw; ask the contact model")
+    along = case.changed(stairs=along_heading(case.stairs, case.yaw)) if case.yaw else case
+    flat = wording.put_into_words(along, closed_form.judge(along))
+    if model == "closed-form":
+        return flat
+    from kaidan.assessment import contact_model
+
+    return contact_model.judge(
+        case,
+        contact_model.climb_of(case),
+        flat,
+        accept=accept,  # type: ignore[arg-type]
+    )
 
 
 def case_of(
@@ -137,6 +166,7 @@ def case_of(
     payload: Payload | Iterable[Payload] = (),
     theta_d: Any = None,
     theta_M: Any = None,
+    yaw: float = 0.0,
     risk: float = 0.01,
 ) -> Case:
     """Case of the same arguments as `assess`: names resolved, everything checked."""
@@ -157,6 +187,7 @@ def case_of(
     largest = LARGEST_ACCELERATION
     acceleration = _within("acceleration", acceleration, -largest, largest, "m/s^2")
     risk = _within("risk", risk, *RISK, "")
+    yaw = _within("yaw", yaw, -LARGEST_YAW, LARGEST_YAW, "rad")
     if speed is not None:
         fastest, why = 30.0, "m/s"
         if robot.drive.max_speed is not None:
@@ -175,7 +206,10 @@ def case_of(
         theta_d=Allowance.of(theta_d, name="theta_d"),
         theta_M=Allowance.of(theta_M, name="theta_M", descending=direction == "down"),
         risk=risk,
+        yaw=float(yaw),
     )
+    if case.yaw:
+        gauge_of(case)
     _ = case.stance  # refuses a posture or payload that the robot cannot have
     return case
 

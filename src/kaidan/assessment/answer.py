@@ -12,6 +12,11 @@ Governs = Literal[
     "drive",
     "friction_unknown",
     "validity",
+    "slip",
+    "catch",
+    "energy",
+    "momentum",
+    "stuck",
 ]
 AreaName = Literal["A", "B", "C", "DOWNHILL_SLIP", "D", "E"]
 
@@ -101,8 +106,52 @@ class Probability:
     """Null where the drive's traction is unknown."""
     outside_model: float
     """Probability that the model does not apply at all."""
+    tip_sideways: float | None = None
+    """Null without a yaw."""
     any: float
     """Probability of at least one of them."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PhaseShown:
+    """Worst figures of a phase of the way, by the contact model."""
+
+    phase: Literal["enter", "traverse", "land"]
+    required_friction: float
+    """Largest required friction of any pose [1]."""
+    required_friction_step: int
+    """Nosing at which, counted from the bottom."""
+    energy_margin_mm: float | None
+    """Smallest rise of the centroid that a fall downhill needs [mm]; null: it falls nowhere."""
+    energy_margin_step: int
+    """Nosing at which."""
+    static_margin_mm: float
+    """Smallest static stability margin downhill [mm]."""
+    traction_over_weight: float
+    """Largest tractive force over the weight [1]."""
+    largest_swing_deg: float
+    """Largest turn that the next contact catches [deg]."""
+    belly_touches: bool
+    """Whether the belly carries the robot somewhere."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Grades:
+    """The three grades of "it holds", side by side, never mixed."""
+
+    no_rotation: bool | None
+    """Grade one, the paper's criterion, without allowances; null where it says nothing."""
+    caught: bool
+    """Grade two: whatever turns comes to rest on a static pose, and the robot arrives."""
+    caught_with_momentum: bool
+    """Grade three: also with the momentum gained (plastic impacts)."""
+    largest_swing_deg: float
+    """Largest turn while traversing; 90 for a fall [deg]."""
+    energy_threshold_mm: float
+    """Energy margin below which a swing is expected: v^2/2g of the stated speed, else of the
+    paper's 0.1 m/s [mm]."""
+    accepted: Literal["no-rotation", "caught"]
+    """What the operator accepts as holding."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -159,6 +208,9 @@ class Assessment:
     """The same on the kindest reading of what is only known as a range [deg]."""
     margins_deg: dict[str, float | None]
     """Margin of each failure mode, as `margin_deg` [deg]."""
+    margin_force_N: float | None = None
+    """Force along the slope through the centroid that uses up `margin_deg` [N]; null without a
+    mass, or by the closed form."""
     margin_interval_deg: tuple[float, float] | None
     """95 % interval of the smallest margin on the worst reading [deg]; null if all is certain."""
     margin_centroid_mm: float | None
@@ -213,6 +265,19 @@ class Assessment:
     """Changes that raise the margin, the best first."""
     notes: tuple[str, ...]
     """What the reader must know about this answer."""
+    phase: Literal["enter", "traverse", "land"] | None = None
+    """Phase in which the governing failure shows, by the contact model."""
+    step: int | None = None
+    """Nosing at which, counted from the bottom."""
+    phases: tuple[PhaseShown, ...] = ()
+    """Worst figures of each phase, by the contact model."""
+    grades: Grades | None = None
+    """Three grades of "it holds", by the contact model."""
+    yaw_deg: float = 0.0
+    """Heading off the line of steepest ascent, to the left positive [deg]."""
+    yaw_limit_deg: float | None = None
+    """Yaw from which on the verdict changes, because the robot tips on the flight [deg]; null if it
+    tips without any, holds up to 80 deg, or the distance of its tracks is not known."""
 
     @property
     def exit_code(self) -> int:
@@ -236,4 +301,4 @@ class Assessment:
         return TypeAdapter(cls).json_schema(mode="serialization")
 
 
-_PARTS = (AllowanceShown, Paper, Contact, Measures, Change, Probability)
+_PARTS = (AllowanceShown, Paper, Contact, Measures, Change, Probability, PhaseShown, Grades)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.assessment.allowance import Allowance
+from kaidan.profile import Profile
 from kaidan.robot import Drive, Payload, Posture, Robot, Stance
 from kaidan.stairs import Stairs
 from kaidan.surface import Surface
@@ -40,6 +41,10 @@ class Case(NamedTuple):
     theta_d: Allowance
     theta_M: Allowance
     risk: float
+    profile: Profile | None = None
+    """Terrain of its own, for the contact model; then `stairs` lends its name only."""
+    yaw: float = 0.0
+    """Heading off the line of steepest ascent [rad], to the left positive."""
 
     @property
     def nose_up(self) -> bool:
@@ -131,7 +136,7 @@ def draws(case: Case, at: Draws) -> Iterator[Draws]:
     spread = case.spread
     count = max(SAMPLES, math.ceil(BEYOND / case.risk))
     L, C_L, C_N, d_theta, d_p, d_mu = (
-        _unit_draws(count)[:, :, None] * np.array(spread)[:, None, None]
+        unit_draws(count)[:, :, None] * np.array(spread)[:, None, None]
     )
     together = max(1, BLOCK // count)
     for first in range(0, at.p.shape[1], together):
@@ -166,7 +171,7 @@ def _decisive(steps: list[tuple[float, float]]) -> tuple[Array, Array]:
 
 
 @cache
-def _unit_draws(count: int) -> Array:
+def unit_draws(count: int) -> Array:
     """Latin hypercube of six independent standard normals, shape (6, count)."""
     from statistics import NormalDist
 

@@ -10,7 +10,7 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from kaidan.cli import assess, catalogs, reports
+from kaidan.cli import assess, catalogs, posture, reports, traverse
 
 _START_LIGHTLY = {
     "OPENBLAS_NUM_THREADS": "1",  # no matrix here is worth the threads numpy would start
@@ -46,7 +46,9 @@ def kaidan(
 
 assess.register(app)
 catalogs.register(app)
+posture.register(app)
 reports.register(app)
+traverse.register(app)
 
 
 def main() -> None:

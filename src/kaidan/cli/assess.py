@@ -11,7 +11,10 @@ if TYPE_CHECKING:
     from kaidan.assessment.answer import Assessment
 
 Strict = Annotated[bool, typer.Option("--strict", help="Exit with 1 on caution too.")]
-Model = Annotated[str, typer.Option(help="Which model judges: closed-form.")]
+Model = Annotated[str, typer.Option(help="Which model judges: contact or closed-form.")]
+Accept = Annotated[
+    str, typer.Option(help="What counts as holding: no-rotation, or caught (by the next contact).")
+]
 
 
 def register(app: typer.Typer) -> None:
@@ -39,8 +42,10 @@ def assess(
     theta_m: options.ThetaM = None,
     override: options.Override = None,
     uncertainty: options.UncertaintyText = None,
+    yaw: options.Yaw = "0deg",
     risk: options.Risk = 0.01,
     model: Model = "closed-form",
+    accept: Accept = "no-rotation",
     strict: Strict = False,
     as_json: options.AsJson = False,
 ) -> None:
@@ -67,9 +72,10 @@ def assess(
         theta_m=theta_m,
         override=override,
         uncertainty=uncertainty,
+        yaw=yaw,
         risk=risk,
     )
-    answer = answer_to(case, model=model)
+    answer = answer_to(case, model=model, accept=accept)
     echo(answer.to_json() if as_json else as_text(answer))
     raise typer.Exit(1 if strict and answer.verdict == "caution" else answer.exit_code)
 
@@ -96,8 +102,10 @@ def as_text(answer: "Assessment") -> str:
     ]
     if answer.margin_deg is not None:
         lines += _margin_rows(answer)
+    lines += _yaw_row(answer)
     lines.append(_friction_row(answer))
     lines += _force_rows(answer)
+    lines += _phase_rows(answer)
     if answer.what_would_help:
         lines += ["", "  What would help"]
         lines += [f"    {_change(change)}" for change in answer.what_would_help]
@@ -137,7 +145,11 @@ def _margin_rows(answer: "Assessment") -> list[str]:
         _row(
             "margin",
             f"{answer.margin_deg:+.1f} deg{spread}, {centroid}"
-            f"tips beyond {answer.margin_angle_deg:.1f} deg"
+            + (
+                ""
+                if answer.margin_angle_deg is None
+                else f"tips beyond {answer.margin_angle_deg:.1f} deg"
+            )
             + (
                 ""
                 if answer.lower_angle_deg is None
@@ -175,6 +187,15 @@ def _or_none(value: float | None) -> str:
     return "none" if value is None else f"{value:.2f} m/s2"
 
 
+def _yaw_row(answer: "Assessment") -> list[str]:
+    if answer.yaw_limit_deg is None and answer.yaw_deg == 0:
+        return []
+    asked = f"{answer.yaw_deg:+.1f} deg; " if answer.yaw_deg else ""
+    if answer.yaw_limit_deg is None:
+        return [_row("yaw", f"{asked}none up to 80 deg at which the verdict changes")]
+    return [_row("yaw", f"{asked}verdict changes from {answer.yaw_limit_deg:.1f} deg on (it tips)")]
+
+
 def _friction_row(answer: "Assessment") -> str:
     text = f"{answer.required_friction:.2f} required"
     if answer.friction is None:
@@ -193,6 +214,38 @@ def _force_rows(answer: "Assessment") -> list[str]:
         each = " / ".join(f"{contact.traction_N:.0f}" for contact in answer.contacts)
         power = "" if answer.power_W is None else f"; {answer.power_W:.0f} W"
         rows.append(_row("traction", f"{answer.traction_N:.0f} N in all, {each} N each{power}"))
+    return rows
+
+
+def _phase_rows(answer: "Assessment") -> list[str]:
+    """What the contact model adds: a line for the grades and one for each phase."""
+    if answer.grades is None:
+        return []
+    grades = answer.grades
+    one = {None: "says nothing", True: "yes", False: "no"}[grades.no_rotation]
+    caught, momentum = (
+        "yes" if held else "no" for held in (grades.caught, grades.caught_with_momentum)
+    )
+    rows = [
+        _row(
+            "holds",
+            f"without rotation: {one}; caught: {caught}; caught with momentum: {momentum}; "
+            f"swings by {grades.largest_swing_deg:.1f} deg",
+        )
+    ]
+    for each in answer.phases:
+        energy = (
+            ""
+            if each.energy_margin_mm is None
+            else f", energy margin {each.energy_margin_mm:.1f} mm (step {each.energy_margin_step})"
+        )
+        rows.append(
+            _row(
+                each.phase,
+                f"friction {each.required_friction:.2f} (step {each.required_friction_step})"
+                f"{energy}" + (", the belly touches" if each.belly_touches else ""),
+            )
+        )
     return rows
 
 

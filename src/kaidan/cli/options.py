@@ -63,7 +63,7 @@ Override = Annotated[
     typer.Option(
         "--set",
         help="Own figure for the robot: com_from_front=200mm, com_height=, flat_length=, "
-        "mass=20kg.",
+        "gauge=, mass=20kg.",
     ),
 ]
 UncertaintyText = Annotated[
@@ -74,6 +74,9 @@ UncertaintyText = Annotated[
         "nosing_spacing=, friction=0.05; may be given again.",
     ),
 ]
+Yaw = Annotated[
+    str, typer.Option(help="Heading off the line of steepest ascent, to the left positive: 10deg.")
+]
 Risk = Annotated[float, typer.Option(help="Probability of failure that is accepted.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 
@@ -81,6 +84,7 @@ _OVERRIDES = {
     "com_from_front": "length",
     "com_height": "length",
     "flat_length": "length",
+    "gauge": "length",
     "mass": "mass",
 }
 _UNCERTAINTIES = {
@@ -150,8 +154,9 @@ def robot_of(name: str, overrides: list[str] | None) -> "Robot":
     if not own:
         return robot
     sheet = robot.model_dump()
-    if "flat_length" in own:
-        sheet["track"]["flat_length"] = own.pop("flat_length")
+    for name in ("flat_length", "gauge"):
+        if name in own:
+            sheet["track"][name] = own.pop(name)
     return Robot.model_validate(sheet | own)
 
 
@@ -171,6 +176,7 @@ def case_from(
     theta_m: str | None = None,
     override: list[str] | None = None,
     uncertainty: list[str] | None = None,
+    yaw: str = "0deg",
     risk: float = 0.01,
 ) -> "Case":
     """Case from the texts of the shared options."""
@@ -220,6 +226,7 @@ def case_from(
         payload=[_payload(text) for text in payload or ()],
         theta_d=allowance(theta_d, "--theta-d"),
         theta_M=allowance(theta_m, "--theta-m"),
+        yaw=parse(yaw, "angle", option="--yaw"),
         risk=risk,
     )
 

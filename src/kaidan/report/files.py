@@ -79,6 +79,48 @@ def csv_text(columns: Mapping[str, Iterable[Any]]) -> str:
     return buffer.getvalue()
 
 
+LARGEST_TABLE = 100_000_000
+"""Largest file of points that is read [bytes]."""
+
+
+def points_of(path: Path) -> list[tuple[float, float]]:
+    """Points x, z [m] of a CSV file, with or without a head.
+
+    Raises
+    ------
+    InputError
+        A file that cannot be read, or a row that is not two numbers.
+    """
+    try:
+        if path.stat().st_size > LARGEST_TABLE:
+            raise InputError(f"{path}: more than {LARGEST_TABLE // 1_000_000} MB of points")
+        text = path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError:
+        raise InputError(f"{path}: cannot be read: not a text file") from None
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise InputError(f"{path}: cannot be read: {reason}") from None
+    columns = (0, 1)
+    points: list[tuple[float, float]] = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        cells = [cell.strip().strip('"') for cell in line.split(",")]
+        if not any(cells) or line.lstrip().startswith("#"):
+            continue
+        if not points and "x" in cells and "z" in cells:
+            columns = (cells.index("x"), cells.index("z"))
+            continue
+        try:
+            points.append((float(cells[columns[0]]), float(cells[columns[1]])))
+        except (ValueError, IndexError):
+            shown = line if len(line) <= 40 else line[:39] + "…"
+            raise InputError(
+                f"{path}, line {number}: {shown!r} is not two numbers x,z in metres"
+            ) from None
+    if not points:
+        raise InputError(f"{path}: holds no points; write rows x,z in metres")
+    return points
+
+
 def write_all(contents: Mapping[Path, bytes | str]) -> None:
     """Write files one by one, each under a passing name in its folder until it is whole.
 

@@ -1,0 +1,113 @@
+"""The robot seen from the side: the convex parts of its underside, in a posture, under a load.
+
+The body frame has its origin at the centroid, x towards the nose, z normal to the track, up. Every
+part is the convex hull of two discs: the main track (a stadium), a flipper (a tapered capsule),
+the belly (a line).
+"""
+
+import math
+from collections.abc import Iterable
+from typing import NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan.contact import BELLY, FLIPPER, TRACK
+from kaidan.robot import FlipperPair, Payload, Posture, Robot, Stance
+
+Array = NDArray[np.float64]
+
+
+class Outline(NamedTuple):
+    """Underside of a robot in a posture."""
+
+    parts: Array
+    """Shape (m, 6): x, z, radius of the one disc, x, z, radius of the other [m]."""
+    kinds: NDArray[np.int64]
+    """Shape (m,): `kaidan.contact.TRACK`, FLIPPER or BELLY."""
+    stance: Stance
+    """Flat length, centroid and mass that go with it."""
+    gyration: float
+    """Radius of gyration about the lateral axis through the centroid [m]."""
+    gyration_estimated: bool
+    """Whether it was estimated, because the sheet gives no moment of inertia."""
+
+    @classmethod
+    def of(
+        cls, robot: Robot, posture: Posture | None = None, payload: Iterable[Payload] = ()
+    ) -> Self:
+        """Outline of a robot in a posture under its payload.
+
+        A moment of inertia that the sheet does not give is estimated as that of an even box as
+        long as the robot and twice as high as its centroid.
+        """
+        posture = posture or Posture()
+        stance = robot.stance(posture, payload)
+        front_tip = stance.com_from_front - stance.front_extension
+        rear_tip = front_tip - robot.track.flat_length
+        bottom = -stance.com_height
+        discs = _main_track(robot, rear_tip, front_tip, bottom)
+        kinds = [TRACK] * len(discs)
+        ends = (
+            ("rear", robot.rear_flippers, rear_tip, -1.0),
+            ("front", robot.front_flippers, front_tip, 1.0),
+        )
+        for end, pair, tip, outward in ends:
+            if pair is not None:
+                discs.append(_flipper(pair, getattr(posture, end), tip, outward, bottom))
+                kinds.append(FLIPPER)
+        if robot.track.belly_clearance is not None:
+            height = bottom + robot.track.belly_clearance
+            discs.append((rear_tip, height, 0.0, front_tip, height, 0.0))
+            kinds.append(BELLY)
+        parts = np.array(discs)
+        gyration, estimated = _gyration(robot, stance, parts)
+        return cls(parts, np.array(kinds, dtype=np.int64), stance, gyration, estimated)
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Distances from the centroid to the ends of the robot behind it and ahead of it [m]."""
+        left = np.minimum(self.parts[:, 0] - self.parts[:, 2], self.parts[:, 3] - self.parts[:, 5])
+        right = np.maximum(self.parts[:, 0] + self.parts[:, 2], self.parts[:, 3] + self.parts[:, 5])
+        return float(-left.min()), float(right.max())
+
+    def turned_round(self) -> Self:
+        """Outline with nose and tail swapped, x counting towards the tail."""
+        swapped = self.parts[:, [3, 4, 5, 0, 1, 2]] * np.array([-1.0, 1.0, 1.0, -1.0, 1.0, 1.0])
+        return self._replace(parts=swapped)
+
+
+def _main_track(robot: Robot, rear: float, front: float, bottom: float) -> list[tuple[float, ...]]:
+    r_rear, r_front = robot.track.rear_radius, robot.track.front_radius
+    whole = (rear, bottom + r_rear, r_rear, front, bottom + r_front, r_front)
+    gap = robot.track.gap
+    if gap == 0:
+        return [whole]
+    half = (front - rear - gap) / 2
+    return [
+        (rear, bottom + r_rear, r_rear, rear + half, bottom + r_rear, r_rear),
+        (front - half, bottom + r_front, r_front, front, bottom + r_front, r_front),
+    ]
+
+
+def _flipper(
+    pair: FlipperPair, wanted: float | str | None, tip: float, outward: float, bottom: float
+) -> tuple[float, ...]:
+    if wanted is None:
+        angle = pair.stowed_angle
+    else:
+        angle = pair.flat_angle if isinstance(wanted, str) else wanted
+    x, z = tip - outward * pair.pivot_inset, bottom + pair.pivot_height
+    end = (x + outward * pair.length * math.cos(angle), z + pair.length * math.sin(angle))
+    root = (x, z, pair.root_radius)
+    if outward > 0:
+        return (*root, *end, pair.tip_radius)
+    return (*end, pair.tip_radius, *root)
+
+
+def _gyration(robot: Robot, stance: Stance, parts: Array) -> tuple[float, bool]:
+    if robot.inertia is not None and robot.mass is not None:
+        return math.sqrt(robot.inertia / robot.mass), False
+    left = np.minimum(parts[:, 0] - parts[:, 2], parts[:, 3] - parts[:, 5]).min()
+    right = np.maximum(parts[:, 0] + parts[:, 2], parts[:, 3] + parts[:, 5]).max()
+    return math.hypot(float(right - left), 2 * stance.com_height) / math.sqrt(12.0), True

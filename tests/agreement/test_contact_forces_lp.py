@@ -1,0 +1,98 @@
+"""Equilibrium of every accepted pose, asked of a linear programme with friction cones.
+
+The programme is written here from the definition: unilateral forces inside Coulomb cones, sum of
+forces and moments equal to the effective weight. It shares nothing with the kernel but the points
+and normals, and those are recomputed from the geometry in another test.
+"""
+
+import numpy as np
+import pytest
+from scipy.optimize import linprog
+
+from contact_cases import random_robot, random_terrain, stadium, steps
+from kaidan.contact import traverse
+
+G = 9.80665
+
+
+def feasible(points, normals, com, weight, mu):
+    """Whether cones of coefficient mu at the points can hold the weight (a vector, upward)."""
+    columns = []
+    for p, n in zip(points, normals, strict=True):
+        t = np.array([n[1], -n[0]])
+        for edge in (n + mu * t, n - mu * t):
+            edge = edge / np.linalg.norm(edge)
+            r = p - com
+            columns.append([edge[0], edge[1], (r[0] * edge[1] - r[1] * edge[0]) / 0.3])
+    result = linprog(
+        np.zeros(len(columns)), A_eq=np.array(columns).T, b_eq=[weight[0], weight[1], 0.0],
+        bounds=(0, None), method="highs",
+    )  # fmt: skip
+    return result.status == 0
+
+
+def poses(seed, a):
+    rng = np.random.default_rng(seed)
+    parts, kinds = random_robot(rng)
+    terrain = random_terrain(rng)
+    run = traverse(
+        terrain, parts, terrain[0, 0] + 2, terrain[-1, 0] - 2, kinds=kinds, acceleration=a,
+        compile_kernel=True,
+    )  # fmt: skip
+    return run, rng
+
+
+@pytest.mark.slow
+def test_every_accepted_pose_is_in_equilibrium():
+    """5,000 poses on random profiles, walls included; required friction is the programme's."""
+    checked = walls = 0
+    seed = 0
+    while checked < 5000:
+        a = 0.0 if seed % 2 else float(np.random.default_rng(seed).uniform(-1, 1))
+        run, rng = poses(seed, a)
+        seed += 1
+        if len(run.poses) == 0:
+            continue
+        for row in rng.choice(len(run.poses), min(60, len(run.poses)), replace=False):
+            q, m = run.poses[row], run.margins[row]
+            if m[14] != 2:  # only the two-contact solution claims to be the least friction
+                continue
+            com = q[1:3]
+            points = [q[6:8], q[8:10]]
+            normals = [q[10:12], q[12:14]]
+            kappa = m[17]
+            psi = q[14]
+            weight = np.array([a * np.cos(psi), G + a * np.sin(psi)])
+            assert kappa == pytest.approx(weight[0] / weight[1], abs=1e-12)
+            mu = m[0]
+            walls += abs(np.arctan2(q[10], q[11])) > 1.4 or abs(np.arctan2(q[12], q[13])) > 1.4
+            checked += 1
+            # the programme's own tolerance is 1e-7 of the forces: 1e-4 either side is resolved
+            assert feasible(points, normals, com, weight, mu * (1 + 1e-4) + 1e-4), (seed, row)
+            if mu > 2e-3:
+                assert not feasible(points, normals, com, weight, mu * (1 - 1e-3) - 1e-4), (
+                    seed, row, mu,
+                )  # fmt: skip
+    assert walls > 50
+
+
+def test_forces_balance():
+    """The forces named with the friction do balance the weight, wherever they are finite."""
+    run = traverse(steps(0.17, 0.28, 5), stadium(0.7, 0.3, 0.12, 0.09), -1.5, 1.8)
+    q, m = run.poses, run.margins
+    n1, n2 = q[:, 10:12], q[:, 12:14]
+    t1 = np.stack([n1[:, 1], -n1[:, 0]], 1)
+    t2 = np.stack([n2[:, 1], -n2[:, 0]], 1)
+    two = (m[:, 14] == 2) & np.isfinite(m[:, 1])
+    force1 = m[:, [1]] * n1 + m[:, [2]] * t1
+    force2 = m[:, [3]] * n2 + m[:, [4]] * t2
+    total = force1 + force2
+    r1, r2 = q[:, 6:8] - q[:, 1:3], q[:, 8:10] - q[:, 1:3]
+    moment = (
+        r1[:, 0] * force1[:, 1] - r1[:, 1] * force1[:, 0]
+        + r2[:, 0] * force2[:, 1] - r2[:, 1] * force2[:, 0]
+    )  # fmt: skip
+    assert two.sum() > 100
+    # N/kg and N m/kg; rounding of sums of order 10, divided by contact distances of order 0.1
+    np.testing.assert_allclose(total[two], [[0, G]] * two.sum(), atol=1e-9)
+    np.testing.assert_allclose(moment[two], 0, atol=1e-9)
