@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kaidan.assessment.case import Array, Case, Draws, nominal
+from kaidan.assessment.case import Array, Case, Draws, draws, nominal
 from kaidan.errors import InputError
 from kaidan.mechanics.measures import kinetic_energy_height
 from kaidan.mechanics.oblique import (
@@ -60,7 +60,9 @@ def polygon_margins(case: Case, *, yaw: float | None = None, certain: bool = Fal
     """
     psi = abs(case.yaw if yaw is None else yaw)
     gauge = gauge_of(case)
-    at = draws(case, case.stance, certain=certain)
+    at = nominal(case, case.stance)
+    if not certain:
+        at = next(draws(case, at))  # one flight has few steps: one block
     each = [(edge.end, _margin(at, case, gauge, psi, edge)) for edge in _edges(at, gauge, psi)]
     down, up = ([margin for end, margin in each if end == which] for which in (1.0, -1.0))
     side = sideways_limit(gauge=gauge, C_N=at.C_N, psi=psi) - at.theta_s
