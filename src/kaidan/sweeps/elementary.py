@@ -39,7 +39,11 @@ def fmax(x: float, y: float) -> float:
 
 
 def tan(x: float) -> float:
-    """Tangent for |x| up to about 1e5 [rad]."""
+    """Tangent of an angle [rad].
+
+    To a few units of rounding for |x| < 3.9, which holds every angle of a robot; further out as if
+    x were known to its own unit of rounding only, up to about 1e5.
+    """
     j = np.rint(x * (2.0 / math.pi))
     r = (x - j * _PI_2_HIGH) - j * _PI_2_LOW
     z = r * r

@@ -157,8 +157,9 @@ def sweep(
     drive = steepest_for_drive(base, stance, plain["acceleration"]) - plain["angle"]
     answer, drive = _beyond_the_formulas(base, flight, plain, answer, drive)
     table = _dataset(answer, drive, arrays[0].dims)
-    coordinates = {name: value for name, value in given.items() if value.dims == (name,)}
-    table = table.assign_coords(coordinates)
+    labels = {k: v for value in given.values() for k, v in value.coords.items() if v.dims}
+    swept = {name: value for name, value in given.items() if value.dims == (name,)}
+    table = table.assign_coords(labels | swept)
     table.attrs |= {
         "robot": base.robot.name,
         "direction": base.direction,

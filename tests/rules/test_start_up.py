@@ -1,0 +1,86 @@
+"""Short commands import no heavy library: what is not needed is not paid for."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+HEAVY = ("scipy", "xarray", "matplotlib", "pandas", "numba", "llvmlite", "PIL")
+"""scipy.optimize alone costs four times what `import numpy, pydantic` does."""
+
+RUN = """
+import json, sys
+from kaidan.cli import main
+try:
+    main()
+except SystemExit as ended:
+    code = ended.code
+print(json.dumps([code, sorted(sys.modules)]), file=sys.stderr)
+"""
+
+ASSESS = ["assess", "absolem", "ibc", "--flippers", "flat", "--surface", "concrete-dry"]
+
+
+def imported(code, *words):
+    """Exit code and modules of a new process."""
+    done = subprocess.run(
+        [sys.executable, "-c", code, *words], capture_output=True, text=True, timeout=60, check=True
+    )
+    return json.loads(done.stderr.splitlines()[-1])
+
+
+def heavy(modules):
+    return sorted({name.partition(".")[0] for name in modules} & set(HEAVY))
+
+
+@pytest.mark.parametrize(
+    ("words", "code"),
+    [
+        (["--help"], 0),
+        (["--version"], 0),
+        (["assess", "--help"], 0),
+        ([*ASSESS, "--model", "closed-form"], 0),
+        ([*ASSESS, "--json", "--uncertainty", "com_height=5mm"], 0),
+        (["assess", "kenaf", "ibc"], 3),
+        (["assess", "kenaf", "nowhere"], 2),
+        (["schema", "answer"], 0),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+)
+def test_short_commands_import_nothing_heavy(words, code):
+    ended, modules = imported(RUN, *words)
+    assert ended == code
+    assert heavy(modules) == []
+
+
+def test_help_does_not_even_need_numpy():
+    modules = imported(RUN, "--help")[1]
+    assert "numpy" not in modules
+    assert "pydantic" not in modules
+
+
+def test_importing_kaidan_imports_no_more_than_its_names():
+    code = "import json, sys, kaidan; print(json.dumps([0, sorted(sys.modules)]), file=sys.stderr)"
+    modules = imported(code)[1]
+    assert [name for name in modules if name.startswith("kaidan")] == ["kaidan"]
+    assert "numpy" not in modules
+
+
+def test_a_question_from_python_imports_nothing_heavy():
+    code = (
+        "import json, sys, kaidan\n"
+        "kaidan.assess('kenaf', 'ibc', friction=1.0)\n"
+        "print(json.dumps([0, sorted(sys.modules)]), file=sys.stderr)"
+    )
+    assert heavy(imported(code)[1]) == []
+
+
+def test_every_public_name_is_there():
+    import kaidan
+
+    for name in kaidan.__all__:
+        assert getattr(kaidan, name) is not None
+    assert dir(kaidan) == sorted(kaidan.__all__)
+    with pytest.raises(AttributeError, match="module 'kaidan' has no attribute 'luck'"):
+        _ = kaidan.luck
