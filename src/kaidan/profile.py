@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 STEEP = math.radians(45.0)
 """Slope from which a part of the terrain is a riser and no tread [rad]: stairs have risers near
 90 degrees and treads near 0, and no code allows a flight steeper than 70 degrees."""
+MOST_PAIRS = 10_000_000
+"""Pairs of segments that are checked for crossings: about a second's work."""
 LARGEST_EXTENT = 1e4
 """Largest coordinate taken for metres [m]."""
 
@@ -205,12 +207,18 @@ def _upper_envelope(line: Array) -> tuple[Array, bool]:
     ends = np.searchsorted(farthest, farthest[back], side="right")
     begins, ends = np.maximum(begins, 0), np.minimum(ends, len(line) - 1)
     pieces, done = [], 0
-    at = 0
+    at, pairs = 0, 0
     while at < len(back):
         begin, end = int(begins[at]), int(ends[at])
         while at + 1 < len(back) and begins[at + 1] <= end:
             at += 1
             begin, end = min(begin, int(begins[at])), max(end, int(ends[at]))
+        pairs += (end - begin) ** 2
+        if pairs > MOST_PAIRS:
+            raise InputError(
+                f"profile: it runs back on itself over too many points (from x = "
+                f"{line[begin, 0]:g} m on) to be checked for crossings; smooth or thin it"
+            )
         pieces += [line[done:begin], _window_envelope(line[begin : end + 1])]
         done = end + 1
         at += 1
@@ -241,9 +249,6 @@ def _window_envelope(line: Array) -> Array:
 
 
 def _refuse_crossings(a: Array, b: Array) -> None:
-    if len(a) > 2000:
-        raise InputError("profile: it runs back on itself over more than 2000 points")
-
     def side(p: Array, q: Array, r: Array) -> Array:
         ahead = q - p
         return np.asarray(

@@ -35,6 +35,10 @@ MODEL = "contact"
 
 MODES = ("tip_downhill", "tip_uphill", "tip_sideways", "slip", "drive")
 
+LONG_FLIGHT = 60
+"""Risers of a uniform flight that stand for any more: twice the nosings under the longest robot,
+so that every pose recurs and the arrival is like that of the whole flight."""
+
 FALL = math.pi / 2
 """Turn that a fall counts as where no criterion gives a margin [rad]."""
 
@@ -89,7 +93,19 @@ def profile_of(case: Case) -> Profile:
     """Terrain along the heading: a profile of its own, or that of the stairs, seen obliquely."""
     if case.profile is not None:
         return case.profile
-    return Profile.of_stairs(along_heading(case.stairs, case.yaw) if case.yaw else case.stairs)
+    stairs = case.stairs
+    if repeats(case):
+        stairs = stairs.model_copy(update={"steps": LONG_FLIGHT})
+    return Profile.of_stairs(along_heading(stairs, case.yaw) if case.yaw else stairs)
+
+
+def repeats(case: Case) -> bool:
+    """Whether the flight is uniform and so long that the robot's way along it repeats itself."""
+    stairs = case.stairs
+    if case.profile is not None or stairs.rise is None or stairs.steps <= LONG_FLIGHT:
+        return False
+    reach = sum(Outline.of(case.robot, case.posture, case.payload).reach)
+    return reach < LONG_FLIGHT / 2 * stairs.nosing_spacing
 
 
 def climb_of(case: Case, *, compiled: bool | None = None) -> Climb:
@@ -544,6 +560,11 @@ _NAMES = {
 def _notes(case: Case, found: Climb, flat: Assessment, doubts: tuple[str, ...]) -> tuple[str, ...]:
     notes = [note for note in flat.notes if not note.startswith("This model judges")]
     notes[:0] = [f"{doubt[0].upper()}{doubt[1:]}." for doubt in doubts]
+    if repeats(case):
+        notes.append(
+            f"The {case.stairs.steps} risers are alike, so the way repeats itself: it is driven on "
+            f"{LONG_FLIGHT} of them, and steps are counted on those."
+        )
     if case.yaw:
         notes.append(
             "At a yaw: tipping by the polygon of both tracks' contacts on the flight; entering, "
