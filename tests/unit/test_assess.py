@@ -1160,7 +1160,7 @@ REFUSED = {
         {"theta_d": (0.01, 0.02, 0.03)},
         "theta_d is not an angle or a pair (low, high) [rad]",
     ),
-    "model": ({"model": "wishful"}, "model = 'wishful' is not known; known: closed-form"),
+    "model": ({"model": "wishful"}, "model = 'wishful' is not known; known: contact, closed-form"),
 }
 
 

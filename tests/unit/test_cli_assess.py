@@ -344,7 +344,7 @@ REFUSALS = {
     "set": (
         [*KENAF_40, "--set", "height=5mm"],
         "--set 'height=5mm': write NAME=VALUE with a name of com_from_front, com_height, "
-        "flat_length, mass",
+        "flat_length, gauge, mass",
     ),
     "set twice": (
         [*KENAF_40, "--set", "mass=5kg", "--set", "mass=6kg"],
@@ -382,7 +382,7 @@ REFUSALS = {
         [*KENAF_40, "--facing", "sideways"],
         "facing = 'sideways' is not known; known: nose-first, tail-first",
     ),
-    "model": ([*KENAF_40, "--model", "luck"], "model = 'luck' is not known; known: closed-form"),
+    "model": ([*KENAF_40, "--model", "luck"], "model = 'luck' is not known; known: contact, closed-form"),
     "risk": ([*KENAF_40, "--risk", "0"], "risk = 0 is not within 0.0001 to 0.5"),
     "risk nan": ([*KENAF_40, "--risk", "nan"], "risk = nan is not within 0.0001 to 0.5"),
     "acceleration": (

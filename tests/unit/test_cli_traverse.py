@@ -52,7 +52,7 @@ def test_json_agrees_with_assess():
     result = run("marmotte", *SHORT, "--friction", "1.0", "--json")
     found = json.loads(result.stdout)
     asked = Stairs(name="178mm x 279mm", rise=0.178, going=0.279, steps=4)
-    answer = assess("marmotte", asked, friction=1.0)
+    answer = assess("marmotte", asked, friction=1.0, model="contact")
     for name in ("verdict", "governs", "reason", "phase", "step", "margin_deg"):
         assert found[name] == getattr(answer, name)
     assert result.exit_code == answer.exit_code

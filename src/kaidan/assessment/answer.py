@@ -208,7 +208,7 @@ class Assessment:
     """The same on the kindest reading of what is only known as a range [deg]."""
     margins_deg: dict[str, float | None]
     """Margin of each failure mode, as `margin_deg` [deg]."""
-    margin_force_N: float | None = None
+    margin_force_N: float | None
     """Force along the slope through the centroid that uses up `margin_deg` [N]; null without a
     mass, or by the closed form."""
     margin_interval_deg: tuple[float, float] | None
@@ -265,17 +265,17 @@ class Assessment:
     """Changes that raise the margin, the best first."""
     notes: tuple[str, ...]
     """What the reader must know about this answer."""
-    phase: Literal["enter", "traverse", "land"] | None = None
+    phase: Literal["enter", "traverse", "land"] | None
     """Phase in which the governing failure shows, by the contact model."""
-    step: int | None = None
+    step: int | None
     """Nosing at which, counted from the bottom."""
-    phases: tuple[PhaseShown, ...] = ()
+    phases: tuple[PhaseShown, ...]
     """Worst figures of each phase, by the contact model."""
-    grades: Grades | None = None
+    grades: Grades | None
     """Three grades of "it holds", by the contact model."""
-    yaw_deg: float = 0.0
+    yaw_deg: float
     """Heading off the line of steepest ascent, to the left positive [deg]."""
-    yaw_limit_deg: float | None = None
+    yaw_limit_deg: float | None
     """Yaw from which on the verdict changes, because the robot tips on the flight [deg]; null if it
     tips without any, holds up to 80 deg, or the distance of its tracks is not known."""
 

@@ -115,6 +115,13 @@ def put_into_words(case: Case, found: Judgement) -> Assessment:
         measures=measures_at(pose, a, mass, case.speed) if inside else None,
         probability=_probability(found) if uncertain else None,
         risk=case.risk,
+        margin_force_N=None,
+        phase=None,
+        step=None,
+        phases=(),
+        grades=None,
+        yaw_deg=math.degrees(case.yaw),
+        yaw_limit_deg=None,
         what_would_help=what_would_help(case, found),
         notes=_notes(case, found, pose),
     )
