@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from kaidan import contact
 from kaidan.errors import InputError
 from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.mechanics.oblique import edge_energy
 from kaidan.outline import Outline
 from kaidan.profile import Profile
 
@@ -70,7 +71,8 @@ class PhaseFound:
     """Largest required friction of any pose [1]."""
     required_friction_step: int
     energy_margin_mm: float
-    """Smallest rise of the centroid that a fall towards the downhill end needs [mm]."""
+    """Smallest rise of the centroid that a fall towards the downhill end needs [mm]; traversing,
+    that any turn needs: about the contact that stays, as in the paper, whatever may catch it."""
     energy_margin_step: int
     uphill_energy_margin_mm: float
     """The same towards the uphill end [mm], as long as the next nosing uphill is still to come:
@@ -203,7 +205,9 @@ def climb(
         outline=body,
         run=run,
         criterion=criterion,
-        phases=_found(run, way, phase, descending) if run.margins is not None else (),
+        phases=_found(run, way, phase, descending, _turns(criterion, body, along))
+        if run.margins is not None
+        else (),
         happenings=_happenings(run, way, phase, descending),
     )
 
@@ -234,7 +238,10 @@ def _span(way: Profile, descending: bool) -> tuple[float, float]:
         return float(way.points[0, 0]), float(way.points[-1, 0])
     first, last = float(way.nosings[0, 0]), float(way.nosings[-1, 0])
     if descending:  # the foot of the last riser
-        last = max(last, float(way.points[way.points[:, 1] > way.points[-1, 1] + 1e-9, 0].max()))
+        last = max(
+            last,
+            float(way.points[way.points[:, 1] > way.points[-1, 1] + 1e-9, 0].max(initial=last)),
+        )
     return first, last
 
 
@@ -263,7 +270,11 @@ def _step(way: Profile, x: float, descending: bool) -> int:
 
 
 def _found(
-    run: contact.Traverse, way: Profile, phase: NDArray[np.str_], descending: bool
+    run: contact.Traverse,
+    way: Profile,
+    phase: NDArray[np.str_],
+    descending: bool,
+    least: tuple[Array, Array],
 ) -> tuple[PhaseFound, ...]:
     table = run.margins
     assert table is not None
@@ -281,6 +292,11 @@ def _found(
         energy = np.where(falls_there, of[:, 10], of[:, 9 if descending else 8])
         uphill = np.where(falls_there, of[:, 8 if descending else 9], of[:, 10])
         uphill = uphill[~_over_the_top(run, way, descending)[rows]]
+        if name is Phase.TRAVERSE:
+            sides = least if not descending else least[::-1]
+            nearer = sides[0].min(initial=np.inf)
+            energy = np.where(energy == energy.min(), np.minimum(energy, nearer), energy)
+            uphill = np.append(uphill, sides[1])
         hardest, nearest = int(np.argmax(friction)), int(np.argmin(energy))
         places = run.poses[rows, 8]
         found.append(
@@ -300,6 +316,17 @@ def _found(
             )
         )
     return tuple(found)
+
+
+def _turns(one: contact.GradeOne, body: Outline, along: float) -> tuple[Array, Array]:
+    """Rises of the centroid for a turn about the contact that stays, of each loss and each gain."""
+    C_N, table = body.stance.com_height, one.table
+    table = table[table[:, 7] >= 2]
+    side, theta, lever = table[:, 0], table[:, 4], table[:, 5]
+    x = side * lever + C_N * (np.tan(theta) + along / (STANDARD_GRAVITY * np.cos(theta)))
+    rise = edge_energy(x=x, slope=0.0, C_N=C_N, theta_s=theta, psi=0.0, a=along)
+    rise = np.where(lever > 0, rise, 0.0)
+    return np.asarray(rise[side > 0]), np.asarray(rise[side < 0])
 
 
 def _over_the_top(run: contact.Traverse, way: Profile, descending: bool) -> NDArray[np.bool_]:

@@ -1,0 +1,111 @@
+"""The polygon of both tracks in closed form against contacts laid out in space, pose by pose."""
+
+import math
+
+import numpy as np
+import pytest
+
+from kaidan.assessment import case_of
+from kaidan.assessment.yaw import polygon_energy, polygon_margins
+from kaidan.robot import Robot, Track
+from kaidan.stairs import Stairs
+
+G = 9.80665
+
+
+def corners(L, C_L, gauge, p, psi, shift):
+    """Contacts in the underside, the centroid's foot at the origin: from nosing lines in space."""
+    along = np.array([math.cos(psi), -math.sin(psi)])  # steepest ascent seen from the robot
+    points = []
+    for y in (-gauge / 2, gauge / 2):
+        for k in range(-200, 200):
+            s = (k * p + shift - along[1] * y) / along[0]
+            if -(L - C_L) - 1e-12 <= s <= C_L + 1e-12:
+                points.append((s, y))
+    return np.array(points)
+
+
+def inside(points, z):
+    """Smallest distance of a point from the hull's edges, negative outside (by half planes)."""
+    worst = math.inf
+    for i, a in enumerate(points):
+        for b in points[i + 1 :]:
+            t = (b - a) / np.linalg.norm(b - a)
+            side = t[0] * (points[:, 1] - a[1]) - t[1] * (points[:, 0] - a[0])
+            at = t[0] * (z[1] - a[1]) - t[1] * (z[0] - a[0])
+            if (side >= -1e-9).all():
+                worst = min(worst, at)
+            elif (side <= 1e-9).all():
+                worst = min(worst, -at)
+    return worst
+
+
+def test_the_sign_of_the_margin_is_the_polygons():
+    """150 random robots, slopes, yaws and accelerations, each at 61 progresses."""
+    rng = np.random.default_rng(5)
+    seen = {True: 0, False: 0}
+    for _ in range(150):
+        L = rng.uniform(0.4, 1.2)
+        C_L, C_N = L * rng.uniform(0.3, 0.7), L * rng.uniform(0.08, 0.35)
+        gauge, p = rng.uniform(0.3, 0.8) * L, L / rng.uniform(2.2, 5.0)
+        theta, psi = rng.uniform(0.3, 0.9), rng.uniform(-0.9, 0.9)
+        a = rng.choice([0.0, rng.uniform(-1.0, 1.0)])
+        if p * math.sin(theta) < 0.021 or p / math.cos(psi) > L:
+            continue
+        robot = Robot(
+            name="r",
+            com_from_front=C_L,
+            com_height=C_N,
+            track=Track(flat_length=L, front_radius=0.05, rear_radius=0.05, gauge=gauge),
+        )
+        case = case_of(
+            robot, Stairs.inclined(angle=theta, nosing_spacing=p), friction=1.0, acceleration=a,
+            yaw=psi,
+        )  # fmt: skip
+        margin = float(polygon_margins(case).min())
+        load = C_N * math.tan(theta)
+        z = np.array(
+            [
+                -load * math.cos(psi) - C_N * a / (G * math.cos(theta)),
+                load * math.sin(psi),
+            ]
+        )
+        # every event lies within the sixty-first part of a spacing of one of these, or on it
+        events = [(k * p / 60) for k in range(60)]
+        for y in (-gauge / 2, gauge / 2):
+            for tip, past in ((-(L - C_L), -1e-9), (C_L, 1e-9)):
+                events.append((tip + past) * math.cos(psi) - math.sin(psi) * y)
+        found = min(inside(corners(L, C_L, gauge, p, psi, at), z) for at in events)
+        if abs(margin) > 1e-6:  # rad: on the very edge rounding decides
+            assert (margin > 0) == (found > 0), (L, C_L, C_N, gauge, p, theta, psi, a)
+            seen[margin > 0] += 1
+    assert min(seen.values()) > 20
+
+
+def test_energy_is_that_of_a_turn_about_the_edge():
+    """Height of the centroid turned about the edge in small steps, against the formula."""
+    robot = Robot(
+        name="r",
+        com_from_front=0.3,
+        com_height=0.1,
+        track=Track(flat_length=0.7, front_radius=0.05, rear_radius=0.05, gauge=0.4),
+    )
+    theta, psi, p = 0.6, 0.4, 0.2
+    case = case_of(robot, Stairs.inclined(angle=theta, nosing_spacing=p), friction=1.0, yaw=psi)
+    up = np.array(
+        [math.sin(theta) * math.cos(psi), -math.sin(theta) * math.sin(psi), math.cos(theta)]
+    )
+    rises = []
+    q, lag = p / math.cos(psi), 0.4 * math.tan(psi)
+    for r, l in ((q, q - (-lag) % q), (q - lag % q, q)):
+        a, b = np.array([r - 0.4, -0.2, -0.1]), np.array([l - 0.4, 0.2, -0.1])
+        t = (b - a) / np.linalg.norm(b - a)
+        heights = []
+        for turn in np.linspace(-1.5, 1.5, 30_001):
+            v = -a
+            v = v * math.cos(turn) + np.cross(t, v) * math.sin(turn)
+            v = v + t * (t @ -a) * (1 - math.cos(turn))
+            heights.append(float((a + v) @ up))
+        rises.append(max(heights))
+    # m: the turn is found to 1e-4 rad, the height to its square
+    assert polygon_energy(case) == pytest.approx(min(rises), abs=1e-8)

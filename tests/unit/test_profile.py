@@ -1,0 +1,143 @@
+"""Terrain: numbers by hand from drawings in the comments, unless a line says otherwise."""
+
+import time
+
+import numpy as np
+import pytest
+
+from kaidan.errors import InputError
+from kaidan.profile import Profile
+from kaidan.stairs import Stairs
+
+ROUNDING = 1e-12  # m: sums of a few numbers of about a metre
+
+
+def test_a_uniform_flight():
+    """By hand: three risers of 0.2, goings 0.3, landings 2 and 1.5."""
+    flight = Stairs(rise=0.2, going=0.3, steps=3, lower_landing=2.0, upper_landing=1.5)
+    profile = Profile.of_stairs(flight)
+    by_hand = [
+        (-2, 0),
+        (0, 0),
+        (0, 0.2),
+        (0.3, 0.2),
+        (0.3, 0.4),
+        (0.6, 0.4),
+        (0.6, 0.6),
+        (2.1, 0.6),
+    ]
+    np.testing.assert_allclose(profile.points, by_hand, atol=ROUNDING)
+    np.testing.assert_allclose(profile.nosings, [(0, 0.2), (0.3, 0.4), (0.6, 0.6)], atol=ROUNDING)
+    assert profile.nosing_spacing == pytest.approx(np.hypot(0.2, 0.3), abs=ROUNDING)
+    assert profile.angle == pytest.approx(np.arctan2(0.2, 0.3), abs=ROUNDING)
+    assert profile.irregularity == pytest.approx(0.0, abs=ROUNDING)
+    assert profile.landings == pytest.approx((2.0, 1.5), abs=ROUNDING)
+    assert not profile.overhangs
+    assert not profile.open_risers
+
+
+def test_an_irregular_flight():
+    """By hand: nosings at (0, .1), (.3, .3), (.6, .5), (.9, .74): the last stands off the line."""
+    profile = Profile.of_stairs(Stairs(rises=(0.1, 0.2, 0.2, 0.24), goings=(0.3, 0.3, 0.3)))
+    np.testing.assert_allclose(profile.nosings[:, 1], [0.1, 0.3, 0.5, 0.74], atol=ROUNDING)
+    np.testing.assert_allclose(
+        profile.spacings, [np.hypot(0.2, 0.3)] * 2 + [np.hypot(0.24, 0.3)], atol=ROUNDING
+    )
+    assert profile.irregularity > 0.005
+
+
+def test_two_flights_with_a_landing_between():
+    """By hand: the upper landing of the lower flight, 1.2 m, lies between them."""
+    flight = Stairs(rise=0.2, going=0.3, steps=2, upper_landing=1.2)
+    profile = Profile.of_flights([flight, flight])
+    np.testing.assert_allclose(
+        profile.nosings, [(0, 0.2), (0.3, 0.4), (1.5, 0.6), (1.8, 0.8)], atol=ROUNDING
+    )
+    assert profile.points[-1].tolist() == pytest.approx([3.0, 0.8], abs=ROUNDING)
+    with pytest.raises(InputError, match="no flight"):
+        Profile.of_flights([])
+
+
+def test_points_of_stairs_are_the_stairs():
+    flight = Profile.of_stairs(Stairs(rise=0.18, going=0.28, steps=4))
+    again = Profile.of_points(flight.points)
+    np.testing.assert_array_equal(again.points, flight.points)
+    np.testing.assert_array_equal(again.nosings, flight.nosings)
+
+
+def test_an_overhang_becomes_its_upper_envelope():
+    """By hand: a nosing 20 mm over the tread below hides the recess under it."""
+    profile = Profile.of_points([(-1, 0), (0, 0), (0, 0.15), (-0.02, 0.15), (-0.02, 0.2), (1, 0.2)])
+    assert profile.overhangs
+    np.testing.assert_allclose(
+        profile.points, [(-1, 0), (-0.02, 0), (-0.02, 0.2), (0, 0.2), (1, 0.2)], atol=ROUNDING
+    )
+    np.testing.assert_allclose(profile.nosings, [(-0.02, 0.2)], atol=ROUNDING)
+
+
+def test_reflected_twice_is_the_same():
+    profile = Profile.of_stairs(Stairs(rise=0.2, going=0.3, steps=3))
+    np.testing.assert_array_equal(profile.reflected().reflected().points, profile.points)
+    assert profile.reflected().landings == profile.landings[::-1]
+
+
+def test_steps_count_from_the_bottom():
+    profile = Profile.of_stairs(Stairs(rise=0.2, going=0.3, steps=3))
+    assert [profile.step_of(x) for x in (-0.1, 0.0, 0.29, 0.3, 5.0)] == [0, 1, 1, 2, 3]
+
+
+def test_nothing_can_be_written_into_it():
+    profile = Profile.of_stairs(Stairs(rise=0.2, going=0.3, steps=3))
+    with pytest.raises(ValueError, match="read-only"):
+        profile.points[0, 0] = 1.0
+
+
+@pytest.mark.parametrize(
+    ("points", "text"),
+    [
+        ([(0, 0), (1, 0), (1, 1), (0.5, -0.5), (2, 2)], "crosses itself"),
+        ([(0, 0), (np.nan, 1)], r"point 1 is \[nan, 1.0\], not two finite numbers"),
+        ([(0, 0), (np.inf, 1)], "point 1"),
+        ("abc", "must be numbers"),
+        ([(0, 0, 0)], r"shape \(1, 3\), not \(n, 2\)"),
+        ([], "shape"),
+        ([(0, 0), (0, 0)], "two different points"),
+        ([(0, 0), (-1, 0)], "lead ahead in x"),
+        ([(0, 0), (300_000, 0)], "in millimetres"),
+    ],
+)
+def test_what_is_refused(points, text):
+    with pytest.raises(InputError, match=text):
+        Profile.of_points(points)
+
+
+def test_zero_length_steps_are_dropped():
+    profile = Profile.of_points([(0, 0), (0, 0), (1, 0), (1, 0), (1, 0.2), (1, 0.2), (2, 0.2)])
+    assert len(profile.points) == 4
+
+
+def windows(n):
+    """Points that run back and forth, 950 of them each way, all the way up."""
+    k = np.arange(n)
+    x = np.where(k % 1900 < 950, k % 1900, 1900 - k % 1900) * 1e-3 + k // 1900 * 2
+    return np.column_stack([x, k * 1e-6])
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        np.column_stack([np.linspace(0, 1000, 10**6), np.zeros(10**6)]),
+        np.column_stack(
+            [np.linspace(0, 1000, 10**6) - 1.9 * (np.arange(10**6) % 2), np.zeros(10**6)]
+        ),
+        windows(10**6),
+    ],
+    ids=["level", "zigzag", "many loops"],
+)
+def test_a_million_points_are_an_answer_or_an_error_in_bounded_time(points):
+    start = time.process_time()
+    try:
+        assert len(Profile.of_points(points).points) > 0
+    except InputError as error:
+        assert "thin it" in str(error)
+    assert time.process_time() - start < 15.0  # s: takes 2 here; ten times slower machines pass
