@@ -83,7 +83,7 @@ def _compiled_modules() -> dict[str, ModuleType]:
                 continue
             if value.__module__ == alias:
                 value.__qualname__ = f"{key}_{mark}"
-                compiled_function = njit(cache=True)(value)
+                compiled_function = njit(cache=True, error_model="numpy")(value)
                 fast[id(vars(original)[key])] = compiled_function
                 setattr(module, key, compiled_function)
             else:
