@@ -6,16 +6,15 @@ import math
 
 import numpy as np
 
-from kaidan.contact.compiling import kernel
+from kaidan.contact.compiling import entry, kernel
 from kaidan.contact.course import drive, new_tables
 from kaidan.contact.margins import new_margins, pose_margins
 from kaidan.contact.settling import settle
-from kaidan.contact.tables import FloatArray, IntArray
+from kaidan.contact.tables import FloatArray, FloatRow, IntArray
 
 SUMMARY_COLUMNS = 14
 
 
-@kernel
 def traverse_many(
     grounds: FloatArray,
     ground_ends: IntArray,
@@ -116,9 +115,9 @@ def traverse_many(
     return out
 
 
-@kernel
+@entry
 def settle_many(
-    ground: FloatArray, body: FloatArray, x: FloatArray, phi: FloatArray, kappa: float
+    ground: FloatArray, body: FloatArray, x: FloatRow, phi: FloatRow, kappa: float
 ) -> FloatArray:
     """Settled poses at many x from given inclinations: (n, 5) found, z, phi, rear, front."""
     out = np.empty((x.shape[0], 5))
