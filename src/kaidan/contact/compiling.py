@@ -28,6 +28,7 @@ KERNEL_MODULES = (
     "scan",
     "settling",
     "branch",
+    "turning",
     "release",
     "course",
     "forces",
