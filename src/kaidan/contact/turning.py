@@ -29,6 +29,9 @@ RESTING = 1e-9
 #: A vertex beyond the line of a flat, or a disc below the line of a segment, by more than this [m]
 #: at the start is not on its way to meet it: it has passed beside it.
 BESIDE = 0.01
+#: A piece of a gap that falls at one end of a turn this small and grows at the other is convex in
+#: between [rad]: its curvature changes sign a right angle away from a minimum if nothing rolls.
+CONVEX = 0.4
 
 
 @kernel
@@ -188,6 +191,34 @@ def separation(
 
 
 @kernel
+def crossing_angle(
+    level: float, swing: float, rate: float, cosine: float, sine: float, deep: float
+) -> float:
+    """Angle at which level + swing cos + rate sin goes down through zero, 1e9 if not soon.
+
+    ``cosine`` and ``sine`` of the turn looked at: it crosses within it if it is negative at the
+    end, or falls at the start, grows at the end and its least value, level - hypot(swing, rate), is
+    negative. Values above ``-deep`` are not.
+    """
+    if level + swing * cosine + rate * sine >= -deep and (
+        rate >= -RESTING
+        or rate * cosine - swing * sine <= 0.0
+        or level + deep >= 0.0
+        and (level + deep) * (level + deep) >= swing * swing + rate * rate
+    ):
+        return NEVER
+    if level + swing <= -0.5 * deep and rate < -RESTING:
+        return 0.0
+    rho = math.sqrt(swing * swing + rate * rate)
+    if rho < 1e-12:
+        return NEVER
+    angle = math.atan2(-rate, -swing) - math.acos(max(-1.0, min(1.0, level / rho)))
+    if angle < -1e-6:
+        angle += 2.0 * math.pi
+    return max(angle, 0.0)
+
+
+@kernel
 def closing_angle(
     ground: FloatArray,
     body: FloatArray,
@@ -210,7 +241,7 @@ def closing_angle(
 ) -> float:
     """First angle within ``end`` at which a piece of a gap closes, 1e9 if it does not.
 
-    Values and rates at both ends are given, and a bound on the rate. A minimum inside is looked
+    For a pivot that rolls. Values and rates at both ends are given, and a bound on the rate. A minimum inside is looked
     for until it is negative or the bound rules that out; then Newton within the bracket.
     """
     floor = -0.5 * PENETRATED
@@ -230,6 +261,10 @@ def closing_angle(
         high = g1
         for turn in range(60):
             if 0.5 * (low + high - steepest * (hi - lo)) > 0.0 or hi - lo < 1e-9:
+                return NEVER
+            # near a minimum it is convex: the tangents at both ends meet below it
+            meet = (high - low - rate1 * (hi - lo)) / (rate0 - rate1)
+            if hi - lo < CONVEX and low + rate0 * meet > 0.0:
                 return NEVER
             meet = (lo * rate1 - hi * rate0) / (rate1 - rate0)
             if turn % 3 == 2 or not (lo < meet < hi):
@@ -345,6 +380,8 @@ def first_closing(
         f_x -= sense * rolled * ground[at_k, 2]
         f_z -= sense * rolled * ground[at_k, 3]
     bend = 0.125 * end * end
+    ce = math.cos(end)
+    se = math.sin(end)
     n = ground.shape[0]
     which = -1
     best = end
@@ -354,6 +391,13 @@ def first_closing(
         a_z = z + s0 * body[part, 0] + c0 * body[part, 1]
         b_x = x + c0 * body[part, 3] - s0 * body[part, 4]
         b_z = z + s0 * body[part, 3] + c0 * body[part, 4]
+        e_x = body[part, 6]
+        e_z = body[part, 7] * body[part, 12]
+        n_x = body[part, 9] * e_x + body[part, 10] * e_z
+        e_z = body[part, 9] * body[part, 7] - body[part, 10] * e_x * body[part, 12]
+        n_z = s0 * n_x + c0 * e_z
+        n_x = c0 * n_x - s0 * e_z
+        flat_level = (o_x - a_x) * n_x + (o_z - a_z) * n_z - body[part, 2]
         # x range swept: chord of each disc, plus the sagitta of its arc
         e_x = x1 + c1 * body[part, 0] - s1 * body[part, 1]
         sag = bend * (abs(a_x - o_x) + abs(a_z - o_z)) + body[part, 2]
@@ -387,10 +431,99 @@ def first_closing(
                 ):
                     k += 1
                     continue
+            if not rolls:
+                v_x = ground[k, 0] - o_x
+                v_z = ground[k, 1] - o_z
+                if not free and ground[k, 5] == 1.0 and not (k == at_k and part == own):
+                    swing = v_x * n_x + v_z * n_z
+                    at = NEVER
+                    if swing + flat_level > -BESIDE:
+                        at = crossing_angle(
+                            flat_level, swing, sense * (v_z * n_x - v_x * n_z), ce, se, PENETRATED
+                        )
+                    if at < best:
+                        y_x, y_z = turned(ground, body, pivot, x, z, phi, sense * at)
+                        angle = phi + sense * at
+                        if on_flat(
+                            ground, body, 64 * k + 4 * part, y_x, y_z,
+                            math.cos(angle), math.sin(angle),
+                        ):  # fmt: skip
+                            best = at
+                            which = 64 * k + 4 * part
+                    square = v_x * v_x + v_z * v_z
+                    for disc in range(2):
+                        r_x = a_x - o_x
+                        r_z = a_z - o_z
+                        if disc == 1:
+                            r_x = b_x - o_x
+                            r_z = b_z - o_z
+                        radius = body[part, 3 * disc + 2]
+                        away = r_x * r_x + r_z * r_z
+                        level = square + away - radius * radius
+                        if level > 0.0 and level * level >= 4.0 * square * away:
+                            continue
+                        # law of cosines: |V - C|^2 - r^2
+                        at = crossing_angle(
+                            level, -2.0 * (r_x * v_x + r_z * v_z),
+                            -2.0 * sense * (r_x * v_z - r_z * v_x), ce, se,
+                            2.0 * radius * PENETRATED,
+                        )  # fmt: skip
+                        if at < best:
+                            best = at
+                            which = 64 * k + 4 * part
+                for disc in range(2):
+                    r_x = a_x - o_x
+                    r_z = a_z - o_z
+                    if disc == 0:
+                        if ground[k + 1, 0] < left1 or ground[k, 0] > right1:
+                            continue
+                    else:
+                        if ground[k + 1, 0] < left2 or ground[k, 0] > right2:
+                            continue
+                        r_x = b_x - o_x
+                        r_z = b_z - o_z
+                    radius = body[part, 3 * disc + 2]
+                    if (k == at_k or k == at_k - 1) and abs(
+                        math.sqrt(r_x * r_x + r_z * r_z) - radius
+                    ) < 1e-9:
+                        # the pivot is this segment's end and lies under the disc: it rolls on
+                        # along the segment ahead as soon as its centre stands over the end
+                        if (k == at_k) == (sense > 0.0):
+                            continue
+                        at = sense * (
+                            math.atan2(ground[k, 2], -ground[k, 3]) - math.atan2(r_z, r_x)
+                        )
+                        if at < -1e-9:
+                            at += 2.0 * math.pi
+                        if at < best:
+                            best = max(at, 0.0)
+                            which = 64 * k + 4 * part + disc + 1
+                        continue
+                    u_x = ground[k, 2]
+                    u_z = ground[k, 3]
+                    swing = u_x * r_z - u_z * r_x
+                    level = u_z * v_x - u_x * v_z - radius
+                    if swing + level < -BESIDE:
+                        continue
+                    rate = sense * (r_x * u_x + r_z * u_z)
+                    at = crossing_angle(level, swing, rate, ce, se, PENETRATED)
+                    if at < best:
+                        # along the segment: the centre, turned
+                        foot = (
+                            math.cos(at) * (r_x * u_x + r_z * u_z)
+                            - sense * math.sin(at) * swing
+                            - v_x * u_x
+                            - v_z * u_z
+                        )
+                        if foot >= 0.0 and foot <= ground[k, 4]:
+                            best = at
+                            which = 64 * k + 4 * part + disc + 1
+                k += 1
+                continue
             reach = math.sqrt(v_x * v_x + v_z * v_z) + rolled
             for piece in range(5):
                 if piece < 3:
-                    if free or ground[k, 5] != 1.0 or (k == at_k and part == own and not rolls):
+                    if free or ground[k, 5] != 1.0:
                         continue
                     if piece == 1 and (ground[k, 0] < left1 or ground[k, 0] > right1):
                         continue
@@ -412,39 +545,24 @@ def first_closing(
                         r_x = b_x - o_x
                         r_z = b_z - o_z
                     reach = math.sqrt(r_x * r_x + r_z * r_z) + rolled
-                    if (
-                        not rolls
-                        and k == at_k - (1 if sense > 0.0 else 0)
-                        and abs(reach - body[part, 3 * piece - 7]) < 1e-9
-                    ):
-                        # the pivot is this segment's end and lies under the disc: it rolls on
-                        # along the segment as soon as its centre stands over the end
-                        at = sense * (
-                            math.atan2(ground[k, 2], -ground[k, 3]) - math.atan2(r_z, r_x)
-                        )
-                        if at < -1e-9:
-                            at += 2.0 * math.pi
-                        if at < best:
-                            best = max(at, 0.0)
-                            which = feature
-                        continue
                 g0, rate0 = separation(ground, body, k, part, piece, x, z, c0, s0, o_x, o_z, sense)
                 if g0 > reach * best or g0 < -BESIDE:
                     continue
                 g1, rate1 = separation(
                     ground, body, k, part, piece, x1, z1, c1, s1, f_x, f_z, sense
                 )
-                if g1 < -PENETRATED or rate0 < -RESTING:
-                    at = closing_angle(
-                        ground, body, k, part, piece, pivot, x, z, phi, o_x, o_z, sense, end,
-                        g0, rate0, g1, rate1, reach,
-                    )  # fmt: skip
-                    if at < best:
-                        y_x, y_z = turned(ground, body, pivot, x, z, phi, sense * at)
-                        c = math.cos(phi + sense * at)
-                        s = math.sin(phi + sense * at)
-                        if on_piece(ground, body, k, part, piece, y_x, y_z, c, s):
-                            best = at
-                            which = feature
+                if g1 >= -PENETRATED and rate0 >= -RESTING:
+                    continue
+                at = closing_angle(
+                    ground, body, k, part, piece, pivot, x, z, phi, o_x, o_z, sense, end,
+                    g0, rate0, g1, rate1, reach,
+                )  # fmt: skip
+                if at < best:
+                    y_x, y_z = turned(ground, body, pivot, x, z, phi, sense * at)
+                    c = math.cos(phi + sense * at)
+                    s = math.sin(phi + sense * at)
+                    if on_piece(ground, body, k, part, piece, y_x, y_z, c, s):
+                        best = at
+                        which = feature
             k += 1
     return which, best, new_hint
