@@ -6,16 +6,50 @@ import math
 
 import numpy as np
 
-from kaidan.contact.compiling import kernel
+from kaidan.contact.compiling import entry, kernel
 from kaidan.contact.course import drive, new_tables
 from kaidan.contact.margins import new_margins, pose_margins
 from kaidan.contact.settling import settle
-from kaidan.contact.tables import FloatArray, IntArray
+from kaidan.contact.tables import FloatArray, FloatRow, IntArray
 
 SUMMARY_COLUMNS = 14
 
 
-@kernel
+@entry
+def extremes(
+    poses: FloatArray, n_pose: int, releases: FloatArray, n_release: int
+) -> tuple[float, float, float, float]:
+    """Largest and smallest inclination, largest turn of a release [rad], any with momentum."""
+    top = -math.inf
+    low = math.inf
+    for row in range(n_pose):
+        top = max(top, poses[row, 3])
+        low = min(low, poses[row, 3])
+    turn = 0.0
+    momentum = 0.0
+    for row in range(n_release):
+        top = max(top, releases[row, 8])
+        low = min(low, releases[row, 8])
+        turn = max(turn, releases[row, 9])
+        momentum = max(momentum, releases[row, 14])
+    return top, low, turn, momentum
+
+
+@entry
+def worst_margins(margins: FloatArray, count: int) -> tuple[float, float, float, float]:
+    """Largest required friction, smallest static stability and energy margin [m], belly (0, 1)."""
+    mu = 0.0
+    stable = math.inf
+    energy = math.inf
+    belly = 0.0
+    for row in range(count):
+        mu = max(mu, margins[row, 0])
+        stable = min(stable, margins[row, 6], margins[row, 7])
+        energy = min(energy, margins[row, 10])
+        belly = max(belly, margins[row, 15])
+    return mu, stable, energy, belly
+
+
 def traverse_many(
     grounds: FloatArray,
     ground_ends: IntArray,
@@ -80,18 +114,7 @@ def traverse_many(
         out[job, 3] = n_release
         if n_pose == 0:
             continue
-        top = -math.inf
-        low = math.inf
-        for row in range(n_pose):
-            top = max(top, poses[row, 3])
-            low = min(low, poses[row, 3])
-        turn = 0.0
-        momentum = 0.0
-        for row in range(n_release):
-            top = max(top, releases[row, 8])
-            low = min(low, releases[row, 8])
-            turn = max(turn, releases[row, 9])
-            momentum = max(momentum, releases[row, 14])
+        top, low, turn, momentum = extremes(poses, n_pose, releases, n_release)
         out[job, 4] = top
         out[job, 5] = low
         out[job, 6] = top - jobs[job, 7]
@@ -100,25 +123,13 @@ def traverse_many(
         out[job, 9] = poses[n_pose - 1, 1]
         if with_margins:
             pose_margins(ground, body, poses, n_pose, a, g, touch, margins, found)
-            mu = 0.0
-            stable = math.inf
-            energy = math.inf
-            belly = 0.0
-            for row in range(n_pose):
-                mu = max(mu, margins[row, 0])
-                stable = min(stable, margins[row, 6], margins[row, 7])
-                energy = min(energy, margins[row, 10])
-                belly = max(belly, margins[row, 15])
-            out[job, 10] = mu
-            out[job, 11] = stable
-            out[job, 12] = energy
-            out[job, 13] = belly
+            out[job, 10:14] = worst_margins(margins, n_pose)
     return out
 
 
-@kernel
+@entry
 def settle_many(
-    ground: FloatArray, body: FloatArray, x: FloatArray, phi: FloatArray, kappa: float
+    ground: FloatArray, body: FloatArray, x: FloatRow, phi: FloatRow, kappa: float
 ) -> FloatArray:
     """Settled poses at many x from given inclinations: (n, 5) found, z, phi, rear, front."""
     out = np.empty((x.shape[0], 5))

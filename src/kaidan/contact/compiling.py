@@ -16,7 +16,9 @@ from collections.abc import Callable
 from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_args, get_origin, get_type_hints
+
+from kaidan.contact.tables import FloatArray, FloatRow, IntArray
 
 _F = TypeVar("_F", bound=Callable[..., Any])
 
@@ -26,6 +28,7 @@ KERNEL_MODULES = (
     "scan",
     "settling",
     "branch",
+    "turning",
     "release",
     "course",
     "forces",
@@ -41,6 +44,56 @@ def kernel(function: _F) -> _F:
     """Mark a function as part of the compilable kernel; it is returned unchanged."""
     function.__dict__["_kaidan_kernel"] = True
     return function
+
+
+def entry(function: _F) -> _F:
+    """Mark a kernel function that is also called from Python (the rest is for the kernel only)."""
+    function.__dict__["_kaidan_entry"] = True
+    return kernel(function)
+
+
+def _signature(function: Callable[..., Any]) -> Any:
+    """Numba's signature from the annotations.
+
+    Without it every literal 0 or -1 in an argument compiles the callee once more, and all that it
+    calls; 90 versions of 45 functions.
+    """
+    from numba import boolean, float64, int64, void
+    from numba.types import Tuple
+
+    simple = {
+        float: float64,
+        int: int64,
+        bool: boolean,
+        type(None): void,
+        FloatArray: float64[:, ::1],
+        FloatRow: float64[::1],
+        IntArray: int64[::1],
+    }
+    hints = get_type_hints(function)
+    answer = hints.pop("return")
+    if get_origin(answer) is tuple:
+        result = Tuple([simple[part] for part in get_args(answer)])
+    else:
+        result = simple[answer]
+    return result(*(simple[hint] for hint in hints.values()))
+
+
+def _callees_first(functions: dict[str, Any]) -> list[str]:
+    """Names of functions of one module, each after those that it calls."""
+    order: list[str] = []
+
+    def visit(name: str) -> None:
+        if name in order:
+            return
+        for callee in functions[name].__code__.co_names:
+            if callee in functions and callee != name:
+                visit(callee)
+        order.append(name)
+
+    for name in functions:
+        visit(name)
+    return order
 
 
 def numba_is_installed() -> bool:
@@ -83,16 +136,27 @@ def _compiled_modules() -> dict[str, ModuleType]:
         module = importlib.util.module_from_spec(spec)
         sys.modules[alias] = module
         spec.loader.exec_module(module)
+        own: dict[str, Any] = {}
         for key, value in list(vars(module).items()):
-            if not getattr(value, "_kaidan_kernel", False):
+            if not hasattr(value, "_kaidan_kernel"):
                 continue
             if value.__module__ == alias:
-                value.__qualname__ = f"{key}_{mark}"
-                compiled_function = njit(cache=True)(value)
-                fast[id(vars(original)[key])] = compiled_function
-                setattr(module, key, compiled_function)
+                own[key] = value
             else:
                 setattr(module, key, fast[id(value)])
+        for key in _callees_first(own):
+            value = own[key]
+            value.__qualname__ = f"{key}_{mark}"
+            # numpy's division: no branch to an exception behind every "/"
+            compiled_function = njit(
+                _signature(value),
+                cache=True,
+                error_model="numpy",
+                no_cpython_wrapper=not hasattr(value, "_kaidan_entry"),
+                no_cfunc_wrapper=True,
+            )(value)
+            fast[id(vars(original)[key])] = compiled_function
+            setattr(module, key, compiled_function)
         modules[name] = module
     return modules
 

@@ -25,7 +25,7 @@ import math
 import numpy as np
 
 from kaidan.contact.branch import advance, corrected, gap_rate, tangent, tilt
-from kaidan.contact.compiling import kernel
+from kaidan.contact.compiling import entry, kernel
 from kaidan.contact.gaps import gap, relabelled
 from kaidan.contact.release import barrier, fall, same_place
 from kaidan.contact.settling import lever, settle
@@ -79,7 +79,7 @@ def record_pose(
     poses[row, 15] = leg
 
 
-@kernel
+@entry
 def drive(
     ground: FloatArray,
     body: FloatArray,
@@ -392,7 +392,7 @@ def write_event(
     events[row, 7] = pose
 
 
-@kernel
+@entry
 def new_tables(size: int) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Empty tables for :func:`drive`."""
     return (

@@ -18,7 +18,7 @@ import math
 from kaidan.contact.compiling import kernel
 from kaidan.contact.gaps import gap
 from kaidan.contact.scan import first_index, height_of_ground
-from kaidan.contact.tables import FloatArray
+from kaidan.contact.tables import FloatArray, FloatRow
 
 NEVER = math.inf
 #: A force below this part of the weight is none: events are located to about 1e-9 m, so a contact
@@ -227,7 +227,7 @@ def shared_loads(
     z: float,
     kappa: float,
     gravity: float,
-    loads: FloatArray,
+    loads: FloatRow,
 ) -> int:
     """Share of each contact in the effective weight, equal springs [N/kg].
 

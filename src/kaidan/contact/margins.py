@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 
-from kaidan.contact.compiling import kernel
+from kaidan.contact.compiling import entry, kernel
 from kaidan.contact.forces import contacts_at, two_contact_forces
 from kaidan.contact.release import barrier
 from kaidan.contact.tables import FloatArray
@@ -33,7 +33,7 @@ def pivot_rise(p_x: float, p_z: float, x: float, z: float, kappa: float) -> floa
     )
 
 
-@kernel
+@entry
 def pose_margins(
     ground: FloatArray,
     body: FloatArray,
@@ -177,7 +177,7 @@ def pose_margins(
         margins[row, 11] = side
 
 
-@kernel
+@entry
 def new_margins(size: int) -> tuple[FloatArray, FloatArray]:
     """Empty tables for :func:`pose_margins`."""
     return np.empty((size, MARGIN_COLUMNS)), np.empty((32, 7))

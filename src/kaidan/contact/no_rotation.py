@@ -27,13 +27,13 @@ import math
 
 import numpy as np
 
-from kaidan.contact.compiling import kernel
+from kaidan.contact.compiling import entry
 from kaidan.contact.tables import FloatArray
 
 CRITERION_COLUMNS = 9
 
 
-@kernel
+@entry
 def flat_of(body: FloatArray) -> tuple[float, float, float, float]:
     """Straight underside: length, centroid from its front tip, centroid above it, tilt in the body.
 
@@ -80,7 +80,7 @@ def flat_of(body: FloatArray) -> tuple[float, float, float, float]:
     return front - rear, front, depth, math.atan2(u_z, u_x)
 
 
-@kernel
+@entry
 def limit_angle(x: float, C_N: float, a: float, g: float) -> float:
     """Slope at which the gravity line passes a contact x behind the centroid's foot [rad].
 
@@ -97,7 +97,7 @@ def limit_angle(x: float, C_N: float, a: float, g: float) -> float:
     return math.acos(ratio) - math.atan2(C_N, x)
 
 
-@kernel
+@entry
 def no_rotation(
     ground: FloatArray,
     body: FloatArray,

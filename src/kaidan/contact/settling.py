@@ -12,13 +12,13 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.compiling import kernel
+from kaidan.contact.compiling import entry, kernel
 from kaidan.contact.gaps import FAR, gap
 from kaidan.contact.scan import first_index
 from kaidan.contact.tables import FloatArray
 
 
-@kernel
+@entry
 def touching(
     ground: FloatArray, body: FloatArray, x: float, c: float, s: float
 ) -> tuple[float, int]:
@@ -122,7 +122,7 @@ def lever(
     return p_x - x + kappa * (z - p_z)
 
 
-@kernel
+@entry
 def settle(
     ground: FloatArray, body: FloatArray, x: float, phi: float, kappa: float
 ) -> tuple[bool, float, float, int, int]:

@@ -16,7 +16,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+#: In the kernel: a table (rows, columns), a list of numbers, a list of indices, contiguous all.
+#: The three are told apart by type, for the compiler's signatures are read from the annotations.
 FloatArray = NDArray[np.float64]
+FloatRow = np.ndarray[tuple[int], np.dtype[np.float64]]
 IntArray = NDArray[np.int64]
 
 #: Kinds of parts.

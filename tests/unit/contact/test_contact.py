@@ -6,7 +6,7 @@ import pytest
 from contact_cases import random_robot, random_terrain, stadium, steps
 from kaidan.contact import Event, Status, body_table, ground_table, settle, traverse
 from kaidan.contact.gaps import gap, relabelled
-from kaidan.contact.release import turned
+from kaidan.contact.turning import turned
 
 
 def test_flat_ground():
