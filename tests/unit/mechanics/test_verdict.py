@@ -97,7 +97,12 @@ def test_a_margin_of_exactly_zero_is_no_go():
     found = judged(**KENAF, p=0.150, theta_s=slope, mu_s=9.0)
     assert found.tip_downhill == found.margin == 0.0
     assert Verdict(int(found.verdict)) is Verdict.NO_GO
-    spared = judged(**KENAF, p=0.150, theta_s=slope, mu_s=9.0, theta_M=0.1, spare_M=0.1)
+    # -0.125 + 0.125: numbers that subtract exactly
+    level = judged(L=0.5, C_L=0.3, C_N=0.1, p=0.2, theta_s=0.0, mu_s=9.0, theta_M=0.125)
+    assert level.tip_downhill == -0.125
+    spared = judged(
+        L=0.5, C_L=0.3, C_N=0.1, p=0.2, theta_s=0.0, mu_s=9.0, theta_M=0.125, spare_M=0.125
+    )
     assert Verdict(int(spared.verdict)) is Verdict.NO_GO
 
 
