@@ -113,7 +113,7 @@ class Sheet(BaseModel):
             return f"{where} is not a known field; known: {', '.join(cls.model_fields)}"
         of_unit = f" {unit}" if unit and unit != "1" else ""
         within = f"{low:g} to {high:g}{of_unit}"
-        if value == PLACEHOLDER and field is not None:
+        if isinstance(value, str) and value == PLACEHOLDER and field is not None:
             allowed = f", {within}" if unit else ""
             return f"{where} is still to be filled in: {field.description}{allowed}"
         if kind == "model_type":

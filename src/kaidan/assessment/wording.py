@@ -142,12 +142,23 @@ def _bounds(case: Case, found: Judgement) -> tuple[AccelerationBounds, Accelerat
 
 
 def _safe_bounds(case: Case, at: Draws) -> AccelerationBounds:
-    """Bounds of the acceleration with the worst reading of the allowances taken off."""
+    """Bounds of the acceleration with the worst reading of the allowances taken off.
+
+    Far beyond what any robot does a steeper slope widens a tip limit: the allowances never do.
+    """
     inside = validity(holds=two_contacts_remain(L=at.L, p=at.p))
     centroid: dict[str, Any] = {"C_L": at.C_L, "C_N": at.C_N, "p": at.p}
+
+    def tips(down: Array, up: Array) -> tuple[Array, Array]:
+        return (
+            inside * tipping.min_a_r0(L=at.L, theta_s=down, **centroid),
+            inside * tipping.max_a_rn(theta_s=up, **centroid),
+        )
+
     tilt = case.theta_d.high + case.theta_M.high
-    down = inside * tipping.min_a_r0(L=at.L, theta_s=at.theta_s + tilt, **centroid)
-    up = inside * tipping.max_a_rn(theta_s=at.theta_s - case.theta_d.high, **centroid)
+    down, up = tips(at.theta_s, at.theta_s)
+    tilted_down, sunk_up = tips(at.theta_s + tilt, at.theta_s - case.theta_d.high)
+    down, up = np.minimum(down, tilted_down), np.maximum(up, sunk_up)
     slip_up = inside * slip_acceleration_up(mu_s=at.mu_low, theta_s=at.theta_s)
     slip_down = inside * slip_acceleration_down(mu_s=at.mu_low, theta_s=at.theta_s)
     return AccelerationBounds(

@@ -1,7 +1,13 @@
 import numpy as np
 import pytest
 
-from kaidan.mechanics.plane import State, contact_count, lowest_contact, state
+from kaidan.mechanics.plane import (
+    State,
+    contact_count,
+    lowest_contact,
+    state,
+    two_contacts_remain,
+)
 
 UNIT = 2.0**-51  # spacing of the doubles between 2 and 4
 
@@ -29,3 +35,14 @@ def test_lowest_contact_by_counting(p):
     for d in np.linspace(0.0, p, 37, endpoint=False) + 1e-6:
         behind = d + p * np.arange(20)
         assert lowest_contact(d=d, L=L, p=p) == pytest.approx(behind[behind < L][-1], abs=1e-12)
+
+
+def test_two_contacts_remain_up_to_rounding():
+    # limit: p = L/2, and the four units of rounding beyond it that contact_count allows
+    assert two_contacts_remain(L=2.0, p=1.0)
+    assert two_contacts_remain(L=2.0, p=1.0 + 4 * 2.0**-52)
+    assert not two_contacts_remain(L=2.0, p=1.0 + 5 * 2.0**-52)
+
+
+def test_states_are_whole_numbers():
+    assert np.asarray(state(d=np.array([0.0, 0.1]), L=0.5, p=0.2)).dtype.kind == "i"

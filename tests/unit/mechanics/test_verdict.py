@@ -89,3 +89,34 @@ def test_outside_the_model():
     found = judged(**KENAF, p=0.236, theta_s=0.3, mu_s=2.0)
     assert Verdict(int(found.verdict)) is Verdict.OUTSIDE_MODEL
     assert all(np.isnan([found.margin, found.a_max, found.a_min, found.centroid]))
+
+
+def test_a_margin_of_exactly_zero_is_no_go():
+    # the paper: equality is in none of its areas; here it is never GO, nor CAUTION
+    slope = judged(**KENAF, p=0.150, theta_s=0.5, mu_s=9.0).theta_s_sup
+    found = judged(**KENAF, p=0.150, theta_s=slope, mu_s=9.0)
+    assert found.tip_downhill == found.margin == 0.0
+    assert Verdict(int(found.verdict)) is Verdict.NO_GO
+    # -0.125 + 0.125: numbers that subtract exactly
+    level = judged(L=0.5, C_L=0.3, C_N=0.1, p=0.2, theta_s=0.0, mu_s=9.0, theta_M=0.125)
+    assert level.tip_downhill == -0.125
+    spared = judged(
+        L=0.5, C_L=0.3, C_N=0.1, p=0.2, theta_s=0.0, mu_s=9.0, theta_M=0.125, spare_M=0.125
+    )
+    assert Verdict(int(spared.verdict)) is Verdict.NO_GO
+
+
+def test_nothing_is_taken_off_or_given_back_unasked():
+    bare = judged(**KENAF, p=0.150, theta_s=1.0, mu_s=9.0)
+    asked = judged(
+        **KENAF, p=0.150, theta_s=1.0, mu_s=9.0, a=0.0, theta_d=0.0, theta_M=0.0, spare_d=0.0,
+        spare_M=0.0,
+    )  # fmt: skip
+    assert bare == asked
+    beyond = judged(**KENAF, p=0.150, theta_s=1.2, mu_s=9.0)
+    assert Verdict(int(beyond.verdict)) is Verdict.NO_GO
+
+
+def test_codes_are_whole_numbers():
+    found = judged(**KENAF, p=np.array([0.15, 0.236]), theta_s=0.3, mu_s=2.0)
+    assert found.verdict.dtype.kind == found.governs.dtype.kind == "i"
