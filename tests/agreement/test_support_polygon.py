@@ -97,8 +97,8 @@ def test_energy_is_that_of_a_turn_about_the_edge():
     )
     rises = []
     q, lag = p / math.cos(psi), 0.4 * math.tan(psi)
-    for r, l in ((q, q - (-lag) % q), (q - lag % q, q)):
-        a, b = np.array([r - 0.4, -0.2, -0.1]), np.array([l - 0.4, 0.2, -0.1])
+    for right, left in ((q, q - (-lag) % q), (q - lag % q, q)):
+        a, b = np.array([right - 0.4, -0.2, -0.1]), np.array([left - 0.4, 0.2, -0.1])
         t = (b - a) / np.linalg.norm(b - a)
         heights = []
         for turn in np.linspace(-1.5, 1.5, 30_001):

@@ -189,7 +189,7 @@ def test_json_holds_no_nan():
 
 
 def test_a_yaw_needs_the_gauge_and_the_contact_model():
-    with pytest.raises(InputError, match="'kenaf': track.gauge is not known"):
+    with pytest.raises(InputError, match=r"'kenaf': track\.gauge is not known"):
         assess(KENAF, at(50), **sure(), yaw=0.1)
     with pytest.raises(InputError, match="closed form knows no yaw"):
         assess(WITH_GAUGE, at(50), **sure(), yaw=0.1, model="closed-form")
