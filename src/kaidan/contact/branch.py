@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.compiling import kernel
+from kaidan.contact.compiling import kernel, leaf
 from kaidan.contact.gaps import gap, relabelled
 from kaidan.contact.scan import nearest
 from kaidan.contact.settling import lever
@@ -179,7 +179,7 @@ def stepped(
     return good, x1, z1, phi1, u_x, u_z, u_w, rear, front
 
 
-@kernel
+@leaf
 def tilt(a: float, g: float, t_x: float, t_z: float) -> float:
     """Tilt kappa of effective gravity for acceleration ``a`` along the path of the centroid."""
     if a == 0.0:
@@ -227,7 +227,8 @@ def closing_time(
     for turn in range(90):
         if hi - lo < 1e-10:
             break
-        mid = (lo * weight1 - hi * weight0) / (weight1 - weight0)
+        # aimed a hair beyond the zero, so that a straight course ends with the first look
+        mid = lo + (hi - lo) * (weight0 + 0.2 * PENETRATED) / (weight0 - weight1)
         if turn % 4 == 3 or not (lo < mid < hi):
             mid = 0.5 * (lo + hi)
         good, x1, z1, phi1, u_x, u_z, _, new_rear, new_front = stepped(
@@ -402,6 +403,9 @@ def advance(
     distance = 0.0
     x1, z1, phi1, u_x, u_z, u_w = x, z, phi, t_x, t_z, t_w
     r1, f1 = rear, front
+    behind = 0.0
+    ahead = 0.0
+    kappa = 0.0
     for _ in range(60):
         good, x1, z1, phi1, u_x, u_z, u_w, r1, f1 = stepped(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, ds
@@ -411,15 +415,25 @@ def advance(
                 ground, body, x1, z1, math.cos(phi1), math.sin(phi1), r1, f1, 0.0, hint
             )
             if third < 0 or ds < 1e-8 or shallow(body, third, distance):
+                c = math.cos(phi1)
+                s = math.sin(phi1)
                 kappa = tilt(a, g, u_x, u_z)
+                behind = -lever(ground, body, r1, x1, z1, c, s, kappa)
+                ahead = lever(ground, body, f1, x1, z1, c, s, kappa)
                 if ds < 2e-5 or not (
-                    may_graze(
-                        ground, body, front, f1, 1.0, kappa,
-                        x, z, phi, t_x, t_z, t_w, x1, z1, phi1, u_x, u_z, u_w, ds,
+                    (
+                        ahead <= 3.0 * ds
+                        and may_graze(
+                            ground, body, front, f1, 1.0, kappa,
+                            x, z, phi, t_x, t_z, t_w, x1, z1, phi1, u_x, u_z, u_w, ds,
+                        )
                     )
-                    or may_graze(
-                        ground, body, rear, r1, -1.0, kappa,
-                        x, z, phi, t_x, t_z, t_w, x1, z1, phi1, u_x, u_z, u_w, ds,
+                    or (
+                        behind <= 3.0 * ds
+                        and may_graze(
+                            ground, body, rear, r1, -1.0, kappa,
+                            x, z, phi, t_x, t_z, t_w, x1, z1, phi1, u_x, u_z, u_w, ds,
+                        )
                     )
                 ):  # fmt: skip
                     break
@@ -432,23 +446,20 @@ def advance(
     what = -3
     deep = PENETRATED
     for again in range(24):
-        c = math.cos(phi1)
-        s = math.sin(phi1)
-        kappa = tilt(a, g, u_x, u_z)
         if again > 0:
+            c = math.cos(phi1)
+            s = math.sin(phi1)
+            kappa = tilt(a, g, u_x, u_z)
+            behind = -lever(ground, body, r1, x1, z1, c, s, kappa)
+            ahead = lever(ground, body, f1, x1, z1, c, s, kappa)
             third, distance, hint = nearest(ground, body, x1, z1, c, s, r1, f1, 0.0, hint)
         new = -3
-        value1 = 0.0
         if third >= 0 and distance < -deep:
             new = third
-        else:
-            value1 = -lever(ground, body, r1, x1, z1, c, s, kappa)
-            if value1 <= 0.0:
-                new = -1
-            else:
-                value1 = lever(ground, body, f1, x1, z1, c, s, kappa)
-                if value1 <= 0.0:
-                    new = -2
+        elif behind <= 0.0:
+            new = -1
+        elif ahead <= 0.0:
+            new = -2
         if new == -3 or new == what:
             if what >= 0:
                 what = relabelled(ground, body, what, x1, z1, c, s)

@@ -46,6 +46,15 @@ def kernel(function: _F) -> _F:
     return function
 
 
+def leaf(function: _F) -> _F:
+    """Mark a small kernel function to be pasted into its callers.
+
+    A call hands over fourteen words for the two tables; that costs as much as a gap.
+    """
+    function.__dict__["_kaidan_leaf"] = True
+    return kernel(function)
+
+
 def entry(function: _F) -> _F:
     """Mark a kernel function that is also called from Python (the rest is for the kernel only)."""
     function.__dict__["_kaidan_entry"] = True
@@ -154,6 +163,7 @@ def _compiled_modules() -> dict[str, ModuleType]:
                 error_model="numpy",
                 no_cpython_wrapper=not hasattr(value, "_kaidan_entry"),
                 no_cfunc_wrapper=True,
+                forceinline=hasattr(value, "_kaidan_leaf"),
             )(value)
             fast[id(vars(original)[key])] = compiled_function
             setattr(module, key, compiled_function)

@@ -87,6 +87,19 @@ def two_contact_forces(
     at2 = -(e_x * n2_z - e_z * n2_x)
     bn2 = across2 * (-e_z * n2_x + e_x * n2_z) - along * an2
     bt2 = across2 * (-e_z * n2_z - e_x * n2_x) - along * at2
+    if abs(n1_x - n2_x) + abs(n1_z - n2_z) < 1e-12:
+        # one plane: the friction is its slope, and least where all forces are parallel
+        normal = w_x * n1_x + w_z * n1_z
+        tangential = w_x * n1_z - w_z * n1_x
+        split = d_x * w_z - d_z * w_x
+        if abs(split) > 1e-9 * d * size:
+            share = ((x - p1_x) * w_z - (z - p1_z) * w_x) / split
+            if 0.0 <= share <= 1.0:
+                return (
+                    cone_angle(tangential, normal, size),
+                    (1.0 - share) * normal, (1.0 - share) * tangential,
+                    share * normal, share * tangential,
+                )  # fmt: skip
     best = NEVER
     at = math.nan
     # at infinity

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.compiling import kernel
+from kaidan.contact.compiling import kernel, leaf
 from kaidan.contact.tables import FloatArray
 
 #: Parts thinner than this are given that much inside below their axis [m], so that a step of some
@@ -30,7 +30,7 @@ INSIDE = 0.01
 FAR = 1e9
 
 
-@kernel
+@leaf
 def is_above(
     ground: FloatArray,
     body: FloatArray,
@@ -57,7 +57,7 @@ def is_above(
     return bool(v <= left or v >= right)
 
 
-@kernel
+@leaf
 def gap(
     ground: FloatArray,
     body: FloatArray,
@@ -134,7 +134,7 @@ def gap(
     return distance, n_x, n_z, c_x - reach * n_x, c_z - reach * n_z
 
 
-@kernel
+@leaf
 def relabelled(
     ground: FloatArray, body: FloatArray, feature: int, x: float, z: float, c: float, s: float
 ) -> int:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.compiling import entry, kernel
+from kaidan.contact.compiling import entry, leaf
 from kaidan.contact.gaps import FAR, gap
 from kaidan.contact.scan import first_index
 from kaidan.contact.tables import FloatArray
@@ -103,7 +103,7 @@ def touching(
     return best, which
 
 
-@kernel
+@leaf
 def lever(
     ground: FloatArray,
     body: FloatArray,
