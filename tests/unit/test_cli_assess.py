@@ -382,7 +382,10 @@ REFUSALS = {
         [*KENAF_40, "--facing", "sideways"],
         "facing = 'sideways' is not known; known: nose-first, tail-first",
     ),
-    "model": ([*KENAF_40, "--model", "luck"], "model = 'luck' is not known; known: contact, closed-form"),
+    "model": (
+        [*KENAF_40, "--model", "luck"],
+        "model = 'luck' is not known; known: contact, closed-form",
+    ),
     "risk": ([*KENAF_40, "--risk", "0"], "risk = 0 is not within 0.0001 to 0.5"),
     "risk nan": ([*KENAF_40, "--risk", "nan"], "risk = nan is not within 0.0001 to 0.5"),
     "acceleration": (

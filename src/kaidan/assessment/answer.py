@@ -117,6 +117,7 @@ class PhaseShown:
     """Worst figures of a phase of the way, by the contact model."""
 
     phase: Literal["enter", "traverse", "land"]
+    """Part of the way."""
     required_friction: float
     """Largest required friction of any pose [1]."""
     required_friction_step: int

@@ -170,7 +170,7 @@ def separation(
             sense * ((ground[k, 1] - o_z) * n_x - (ground[k, 0] - o_x) * n_z),
         )
     j = 3
-    if piece == 1 or piece == 3:  # noqa: PLR1714
+    if piece == 1 or piece == 3:
         j = 0
     r_x = x + c * body[part, j] - s * body[part, j + 1]
     r_z = z + s * body[part, j] + c * body[part, j + 1]
@@ -203,8 +203,7 @@ def crossing_angle(
     if level + swing * cosine + rate * sine >= -deep and (
         rate >= -RESTING
         or rate * cosine - swing * sine <= 0.0
-        or level + deep >= 0.0
-        and (level + deep) * (level + deep) >= swing * swing + rate * rate
+        or (level + deep >= 0.0 and (level + deep) * (level + deep) >= swing * swing + rate * rate)
     ):
         return NEVER
     if level + swing <= -0.5 * deep and rate < -RESTING:

@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outlined
 
-from kaidan.contact.release import turned
+from kaidan.contact.turning import turned
 from kaidan.errors import InputError, MissingExtraError
 from kaidan.report import look, side_view
 from kaidan.report.journey import Journey

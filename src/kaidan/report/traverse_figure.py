@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-from kaidan.contact.release import turned
+from kaidan.contact.turning import turned
 from kaidan.report import look, side_view
 from kaidan.report.journey import Journey
 from kaidan.report.moves import Move
