@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable
+from contextlib import suppress
 from numbers import Real
 from os import PathLike, fspath
 from typing import Any, Literal, TypeVar
@@ -118,7 +119,7 @@ def answer_to(case: Case, *, model: str = "closed-form") -> Assessment:
     from kaidan.assessment.closed_form import judge
     from kaidan.assessment.wording import put_into_words
 
-    if model != "closed-form":
+    if not isinstance(model, str) or model != "closed-form":
         raise InputError(f"model = {_shown(model)} is not known; known: closed-form")
     return put_into_words(case, judge(case))
 
@@ -200,9 +201,9 @@ def _sheet(given: Any, kind: type[T]) -> T:
 def _payloads(given: Any) -> tuple[Payload, ...]:
     if isinstance(given, Payload):
         return (given,)
-    if isinstance(given, Iterable) and not isinstance(given, str):
+    with suppress(TypeError):
         each = tuple(given)
-        if all(isinstance(one, Payload) for one in each):
+        if not isinstance(given, str | bytes) and all(isinstance(one, Payload) for one in each):
             return each
     raise InputError(f"payload = {_shown(given)} is not a Payload or a list of them")
 
