@@ -188,6 +188,32 @@ def test_the_margin_never_disagrees_with_the_verdict(p, direction, facing):
             assert answer.margin_at_best_deg >= answer.margin_deg
 
 
+@pytest.mark.parametrize(
+    ("question", "reason"),
+    [
+        ({}, "Stable with 15.0 deg to spare; nearest is tipping over its downhill end."),
+        (
+            {"direction": "down"},
+            "It fails by tipping over its downhill end, 9.7 deg beyond the limit.",
+        ),
+        (
+            {"friction": 0.5},
+            "It fails by sliding down for lack of friction, 13.4 deg beyond the limit.",
+        ),
+        ({"friction": None}, "It does not tip, but the friction is not known: it may slip."),
+        (
+            {"angle": 57},
+            "Between -2.0 and +3.2 deg, depending on what is only known as a range; in doubt is "
+            "tipping over its downhill end.",
+        ),
+    ],
+)
+def test_the_reason_in_one_sentence(question, reason):
+    # hand: 60.205 - 45.2; 32.939 - 42.6; atan 0.5 - 40; 60.205 - 62.2 and 60.205 - 57
+    question = {"angle": 40} | question
+    assert kenaf(question.pop("angle"), 0.150, **question).reason == reason
+
+
 def test_on_the_limit_it_is_no_go():
     # hand: tan(45 deg) = 1 = (0.5 - 0.15 - 0.25) / 0.1, and a friction of 1 slips there too
     for friction in (GRIP, 1.0):
@@ -634,6 +660,19 @@ def test_bounds_hold_on_every_step():
     assert answer.margin_deg == pytest.approx(min(each.margin_deg for each in alone), rel=1e-12)
 
 
+def test_the_worst_step_may_be_neither_the_longest_nor_the_steepest():
+    # the gentle step is shorter too, but its slope lets the nose drop
+    steep, gentle = (0.100, 0.195), (0.092, 0.1985)
+    assert hypot(*steep) > hypot(*gentle)
+    flights = Stairs(rises=(0.1, steep[0], gentle[0], 0.1), goings=(steep[1], gentle[1], 0.19))
+    answer = assess("kenaf", flights, friction=GRIP)
+    alone = [assess("kenaf", Stairs(rise=r, going=g), friction=GRIP) for r, g in (steep, gentle)]
+    uphill = [each.margins_deg["tip_uphill"] for each in alone]
+    assert uphill[1] < uphill[0] - 1
+    assert answer.margins_deg["tip_uphill"] == pytest.approx(uphill[1], **ANGLE)
+    assert answer.a_tip_uphill == pytest.approx(alone[1].a_tip_uphill, rel=1e-12)
+
+
 def test_too_irregular_is_outside():
     # IBC 1011.5.4 allows 9.5 mm
     def spread(by):
@@ -896,6 +935,9 @@ def test_probably_outside_the_model():
     assert answer.verdict == "outside-model"
     assert "with a probability of 0.25" in answer.reason
     assert answer.probability.outside_model == pytest.approx(0.2525, abs=0.001)
+    surely = assess(doubtful(com_from_front=0.005), "ibc").probability
+    assert surely.tip_downhill == surely.tip_uphill == surely.any == surely.outside_model == 1.0
+    assert surely.slip_up is surely.drive is None
 
 
 # Area E
@@ -998,6 +1040,13 @@ def test_no_area_e_by_running_faster_and_faster():
     assert assess(controlled(), flight(10, 0.220), friction=GRIP, **BARE).verdict == "caution"
 
 
+def test_no_area_e_at_a_creep():
+    # a plan keeps to 5 % of the largest speed: at rest nothing follows a position
+    asked = {"friction": GRIP, **BARE}
+    for speed, verdict in ((0.02, "no-go"), (0.05, "caution"), (0.3, "caution")):
+        assert assess(controlled(), flight(48, 0.200), speed=speed, **asked).verdict == verdict
+
+
 def test_no_area_e_for_uncertain_inputs():
     # a plan holds for one set of figures
     sheet = controlled().model_dump() | {"uncertainty": {"com_from_front": 1e-4}}
@@ -1095,6 +1144,17 @@ def test_no_advice_for_a_go_and_only_better_advice_else():
             for change in answer.what_would_help:
                 worse = rank.index(change.verdict) - rank.index(answer.verdict)
                 assert worse < 0 or (worse == 0 and change.margin_deg > answer.margin_deg)
+
+
+def test_laying_the_flippers_flat_helps():
+    answer = assess("absolem", "ibc", friction=1.5)
+    assert answer.verdict == "outside-model"
+    told = answer.what_would_help[0]
+    assert (told.change, told.verdict) == ("Lay the flippers flat, in line with the track", "go")
+    flat = assess("absolem", "ibc", friction=1.5, flippers="flat")
+    assert told.margin_deg == pytest.approx(flat.margin_deg, **ANGLE)
+    steep = assess("absolem", flight(60, 0.3), friction=5.0, flippers="flat")
+    assert not any("flippers" in change.change for change in steep.what_would_help)
 
 
 def test_measuring_the_allowances_helps():
