@@ -50,6 +50,7 @@ ELSEWHERE = {
     "python benchmarks/startup.py": "by hand",
     "python benchmarks/assess.py": "by hand",
     "python benchmarks/pairs.py": "by hand",
+    "python benchmarks/stream.py": "by hand",
     "sphinx-build -W -n -b html docs docs/_build/html": "test_site.py",
     "mutmut run --max-children 1   # about four minutes on one core": "by hand",
     "mutmut results": "by hand",

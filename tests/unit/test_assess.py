@@ -188,6 +188,32 @@ def test_the_margin_never_disagrees_with_the_verdict(p, direction, facing):
             assert answer.margin_at_best_deg >= answer.margin_deg
 
 
+@pytest.mark.parametrize(
+    ("question", "reason"),
+    [
+        ({}, "Stable with 15.0 deg to spare; nearest is tipping over its downhill end."),
+        (
+            {"direction": "down"},
+            "It fails by tipping over its downhill end, 9.7 deg beyond the limit.",
+        ),
+        (
+            {"friction": 0.5},
+            "It fails by sliding down for lack of friction, 13.4 deg beyond the limit.",
+        ),
+        ({"friction": None}, "It does not tip, but the friction is not known: it may slip."),
+        (
+            {"angle": 57},
+            "Between -2.0 and +3.2 deg, depending on what is only known as a range; in doubt is "
+            "tipping over its downhill end.",
+        ),
+    ],
+)
+def test_the_reason_in_one_sentence(question, reason):
+    # hand: 60.205 - 45.2; 32.939 - 42.6; atan 0.5 - 40; 60.205 - 62.2 and 60.205 - 57
+    question = {"angle": 40} | question
+    assert kenaf(question.pop("angle"), 0.150, **question).reason == reason
+
+
 def test_on_the_limit_it_is_no_go():
     # hand: tan(45 deg) = 1 = (0.5 - 0.15 - 0.25) / 0.1, and a friction of 1 slips there too
     for friction in (GRIP, 1.0):
@@ -634,6 +660,19 @@ def test_bounds_hold_on_every_step():
     assert answer.margin_deg == pytest.approx(min(each.margin_deg for each in alone), rel=1e-12)
 
 
+def test_the_worst_step_may_be_neither_the_longest_nor_the_steepest():
+    # the gentle step is shorter too, but its slope lets the nose drop
+    steep, gentle = (0.100, 0.195), (0.092, 0.1985)
+    assert hypot(*steep) > hypot(*gentle)
+    flights = Stairs(rises=(0.1, steep[0], gentle[0], 0.1), goings=(steep[1], gentle[1], 0.19))
+    answer = assess("kenaf", flights, friction=GRIP)
+    alone = [assess("kenaf", Stairs(rise=r, going=g), friction=GRIP) for r, g in (steep, gentle)]
+    uphill = [each.margins_deg["tip_uphill"] for each in alone]
+    assert uphill[1] < uphill[0] - 1
+    assert answer.margins_deg["tip_uphill"] == pytest.approx(uphill[1], **ANGLE)
+    assert answer.a_tip_uphill == pytest.approx(alone[1].a_tip_uphill, rel=1e-12)
+
+
 def test_too_irregular_is_outside():
     # IBC 1011.5.4 allows 9.5 mm
     def spread(by):
@@ -673,6 +712,28 @@ def test_worst_step_among_hundreds():
         for r, g in list(zip(rises[1:], goings, strict=True))[:-1]
     ]
     assert answer.margin_deg == pytest.approx(degrees(min(margins)), **ANGLE)
+
+
+def test_blocks_of_steps_are_judged_like_one(monkeypatch):
+    # longer is gentler, so that no step outdoes another and all are judged
+    more = np.linspace(0, 0.009, 60)
+    rises = (0.1 - more).tolist()
+    goings = (0.12 + 0.9 * more).tolist()[:-1]
+    doubt = doubtful(**SPREAD)
+    question = {"surface": Surface.of_friction(0.9, 0.02)}
+    stairs = Stairs(rises=rises, goings=goings)
+    at_once = assess(doubt, stairs, **question)
+    steps = list(zip(rises[1:], goings, strict=True))[:-1]
+    for block in (2048 * 7, 1):
+        monkeypatch.setattr("kaidan.assessment.case.BLOCK", block)
+        assert assess(doubt, stairs, **question).to_json() == at_once.to_json()
+    alone = [assess(doubt, Stairs(rise=r, going=g), **question) for r, g in steps]
+    # the same samples for all steps, but the worst step is not the same in all of them
+    assert at_once.margin_deg <= min(answer.margin_deg for answer in alone)
+    assert at_once.margin_deg == pytest.approx(min(answer.margin_deg for answer in alone), abs=0.3)
+    assert at_once.probability.any >= max(answer.probability.any for answer in alone)
+    assert at_once.a_max_safe <= min(answer.a_max_safe for answer in alone)
+    assert at_once.a_min_safe >= max(answer.a_min_safe for answer in alone)
 
 
 # The drive
@@ -874,6 +935,9 @@ def test_probably_outside_the_model():
     assert answer.verdict == "outside-model"
     assert "with a probability of 0.25" in answer.reason
     assert answer.probability.outside_model == pytest.approx(0.2525, abs=0.001)
+    surely = assess(doubtful(com_from_front=0.005), "ibc").probability
+    assert surely.tip_downhill == surely.tip_uphill == surely.any == surely.outside_model == 1.0
+    assert surely.slip_up is surely.drive is None
 
 
 # Area E
@@ -895,6 +959,7 @@ def test_area_e_is_caution_with_a_plan_that_holds(angle, direction):
     answer = assess(controlled(), stairs, **question)
     assert (answer.verdict, answer.area) == ("caution", "E")
     assert answer.margin_deg <= 0
+    assert answer.falls_over == "tail"  # if it does not follow the plan
     assert "controlling the acceleration" in answer.reason
     # the plan, followed step by step with limits written out again
     case = case_of(controlled(), stairs, **question)
@@ -931,6 +996,14 @@ def _edges(p, direction):
     return edges if direction == "up" else p - edges[::-1]
 
 
+def test_area_e_at_the_other_end():
+    # at 220 mm and 18 deg the nose drops between two nosings unless it speeds up there
+    assert kenaf(18, 0.220, **BARE).verdict == "no-go"
+    answer = assess(controlled(), flight(18, 0.220), friction=GRIP, **BARE)
+    assert (answer.verdict, answer.governs, answer.area) == ("caution", "tip_uphill", "E")
+    assert answer.falls_over == "nose"
+
+
 def test_no_area_e_without_control_speed_or_strength():
     question = {"friction": GRIP, **BARE}
     stairs = flight(52, 0.200)
@@ -956,6 +1029,22 @@ def test_no_area_e_by_a_running_start():
     assert answer.a_max == pytest.approx(-0.62, abs=0.005)
     assert answer.verdict == "no-go"
     assert assess(controlled(), flight(62, 0.150), friction=GRIP, **BARE).verdict == "caution"
+
+
+def test_no_area_e_by_running_faster_and_faster():
+    # likewise at 220 mm and 10 deg, where it must speed up at the end of every spacing
+    slow_to_lose = controlled(max_speed=3.0, max_deceleration=0.001)
+    answer = assess(slow_to_lose, flight(10, 0.220), friction=GRIP, **BARE)
+    assert answer.a_min == pytest.approx(1.56, abs=0.005)
+    assert answer.verdict == "no-go"
+    assert assess(controlled(), flight(10, 0.220), friction=GRIP, **BARE).verdict == "caution"
+
+
+def test_no_area_e_at_a_creep():
+    # a plan keeps to 5 % of the largest speed: at rest nothing follows a position
+    asked = {"friction": GRIP, **BARE}
+    for speed, verdict in ((0.02, "no-go"), (0.05, "caution"), (0.3, "caution")):
+        assert assess(controlled(), flight(48, 0.200), speed=speed, **asked).verdict == verdict
 
 
 def test_no_area_e_for_uncertain_inputs():
@@ -992,21 +1081,33 @@ def test_go_down_in_reverse():
     assert best.margin_deg == pytest.approx(degrees(atan(124 / 71)) - 47.6, **ANGLE)
 
 
-def test_advice_is_the_same_question_asked_again():
-    asked = {"friction": 0.8, "acceleration": 1.5, "direction": "down"}
-    answer = kenaf(42, 0.150, **asked)
-    changes = {change.change: change for change in answer.what_would_help}
-    again = {
-        "Go down tail first": {"facing": "tail-first"},
-        "Keep the speed constant": {"acceleration": 0.0},
-        "A surface with a friction of 1.12 or more": {"friction": 1.12},
-    }
-    for text, change in changes.items():
-        if text in again:
-            found = kenaf(42, 0.150, **(asked | again[text]))
-            assert found.verdict == change.verdict
-            assert found.margin_deg == pytest.approx(change.margin_deg, **ANGLE)
-    assert set(again) & set(changes)
+@pytest.mark.parametrize(
+    ("asked", "again"),
+    [
+        (
+            {"friction": 1.5, "acceleration": 1.5, "direction": "down"},
+            {
+                "Go down tail first": {"facing": "tail-first"},
+                "Keep the speed constant": {"acceleration": 0.0},
+            },
+        ),
+        # hand: tan 42 deg + 1.5 / (g cos 42 deg) = 1.106
+        (
+            {"friction": 0.8, "acceleration": 1.5},
+            {
+                "Keep the speed constant": {"acceleration": 0.0},
+                "A surface with a friction of 1.12 or more": {"friction": 1.12},
+            },
+        ),
+    ],
+)
+def test_advice_is_the_same_question_asked_again(asked, again):
+    changes = {each.change: each for each in kenaf(42, 0.150, **asked).what_would_help}
+    assert set(again) <= set(changes)
+    for text, changed in again.items():
+        found = kenaf(42, 0.150, **(asked | changed))
+        assert found.verdict == changes[text].verdict
+        assert found.margin_deg == pytest.approx(changes[text].margin_deg, **ANGLE)
 
 
 @pytest.mark.parametrize("facing", ["nose-first", "tail-first"])
@@ -1043,6 +1144,17 @@ def test_no_advice_for_a_go_and_only_better_advice_else():
             for change in answer.what_would_help:
                 worse = rank.index(change.verdict) - rank.index(answer.verdict)
                 assert worse < 0 or (worse == 0 and change.margin_deg > answer.margin_deg)
+
+
+def test_laying_the_flippers_flat_helps():
+    answer = assess("absolem", "ibc", friction=1.5)
+    assert answer.verdict == "outside-model"
+    told = answer.what_would_help[0]
+    assert (told.change, told.verdict) == ("Lay the flippers flat, in line with the track", "go")
+    flat = assess("absolem", "ibc", friction=1.5, flippers="flat")
+    assert told.margin_deg == pytest.approx(flat.margin_deg, **ANGLE)
+    steep = assess("absolem", flight(60, 0.3), friction=5.0, flippers="flat")
+    assert not any("flippers" in change.change for change in steep.what_would_help)
 
 
 def test_measuring_the_allowances_helps():
@@ -1142,6 +1254,15 @@ REFUSED = {
     ),
     "no flippers": ({"flippers": "flat"}, "robot 'kenaf' has no flippers"),
     "payload": ({"payload": 5}, "payload = 5 is not a Payload or a list of them"),
+    "payload text": ({"payload": ""}, "payload = '' is not a Payload or a list of them"),
+    "payload array": (
+        {"payload": np.array(0.5)},
+        "payload = array(0.5) is not a Payload or a list of them",
+    ),
+    "model array": (
+        {"model": np.array([0.5, 0.6])},
+        "model = array([0.5, 0.6]) is not known; known: closed-form",
+    ),
     "payload mass": (
         {"payload": Payload(mass=1, from_front=0, height=0)},
         "robot 'kenaf': mass is not published, so a payload cannot be placed; give the robot's "

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable
+from contextlib import suppress
 from numbers import Real
 from os import PathLike, fspath
 from typing import Any, Literal, TypeVar
@@ -134,7 +135,7 @@ def answer_to(case: Case, *, model: str = DEFAULT_MODEL, accept: str = "no-rotat
     from kaidan.assessment import closed_form, wording
 
     for name, value, known in (("model", model, MODELS), ("accept", accept, ACCEPTED)):
-        if value not in known:
+        if not isinstance(value, str) or value not in known:
             raise InputError(f"{name} = {_shown(value)} is not known; known: {', '.join(known)}")
     if case.yaw and model == "closed-form":
         raise InputError("the closed form knows no yaw; ask the contact model")
@@ -234,9 +235,9 @@ def _sheet(given: Any, kind: type[T]) -> T:
 def _payloads(given: Any) -> tuple[Payload, ...]:
     if isinstance(given, Payload):
         return (given,)
-    if isinstance(given, Iterable) and not isinstance(given, str):
+    with suppress(TypeError):
         each = tuple(given)
-        if all(isinstance(one, Payload) for one in each):
+        if not isinstance(given, str | bytes) and all(isinstance(one, Payload) for one in each):
             return each
     raise InputError(f"payload = {_shown(given)} is not a Payload or a list of them")
 

@@ -37,7 +37,12 @@ CODES = ("verdict", "governs")
 _DEFAULTS = {"friction": np.nan} | dict.fromkeys(
     ("acceleration", "theta_d", "theta_M", "theta_d_spare", "theta_M_spare"), 0.0
 )
-_CHUNK = {"numpy": 1 << 13, "compiled": 1 << 16}
+_CHUNK = {"numpy": 3 << 13, "compiled": 1 << 16}
+_HINT = 1 << 24
+"""Size of a block that is mapped and freed to make the allocator keep what it gets back [bytes]."""
+_BLOCK = 1 << 10
+"""Pairs that the compiled loops take at once, so that what both read stays in the cache."""
+
 _RANGES = {
     "flat_length": (0.05, 5.0, "m"),
     "com_from_uphill": (-0.6, 5.6, "m"),  # the largest end radius beyond either end of the flat
@@ -118,6 +123,9 @@ def verdicts(
         stop = min(start + step, size)
         kernel([take(start, stop) for take in flat_in], [o[start:stop] for o in flat_out])
 
+    # glibc keeps freed memory up to twice the largest block it has mapped and freed: without this
+    # hint it would hand the formulas' intermediate arrays back to the system after every operation
+    np.empty(_HINT, np.uint8)
     starts = range(0, size, step)
     if len(starts) <= 2:
         for start in starts:
@@ -335,8 +343,28 @@ def _compiled_kernel() -> Any:
             centroid[i] = answer.centroid
             required_friction[i] = answer.required_friction
 
+    @njit
+    def blocks(inputs, outputs):  # type: ignore[no-untyped-def]
+        (L, C_L, C_N, theta_s, p, mu_s, a, theta_d, theta_M, spare_d, spare_M) = inputs
+        (
+            verdict, governs, margin, theta_s_sup, tip_downhill, tip_uphill, slip_up, slip_down,
+            a_max, a_min, centroid, required_friction,
+        ) = outputs  # fmt: skip
+        for i in range(0, L.size, _BLOCK):
+            j = min(i + _BLOCK, L.size)
+            angles(
+                L[i:j], C_L[i:j], C_N[i:j], theta_s[i:j], p[i:j], mu_s[i:j], a[i:j],
+                theta_d[i:j], theta_M[i:j], spare_d[i:j], spare_M[i:j],
+                verdict[i:j], governs[i:j], margin[i:j], theta_s_sup[i:j], tip_downhill[i:j],
+                tip_uphill[i:j], slip_up[i:j], slip_down[i:j],
+            )  # fmt: skip
+            others(
+                L[i:j], C_L[i:j], C_N[i:j], theta_s[i:j], p[i:j], mu_s[i:j], a[i:j],
+                theta_d[i:j], theta_M[i:j], spare_d[i:j], spare_M[i:j],
+                a_max[i:j], a_min[i:j], centroid[i:j], required_friction[i:j],
+            )  # fmt: skip
+
     def kernel(inputs: list[Array], outputs: list[Array]) -> None:
-        angles(*inputs, *outputs[:8])
-        others(*inputs, *outputs[8:])
+        blocks(tuple(inputs), tuple(outputs))
 
     return kernel
