@@ -1,6 +1,7 @@
 """Quasi-static contact of a tracked robot with any two-dimensional profile, numbers only."""
 
 from kaidan.contact.driving import (
+    Demand,
     Event,
     GradeOne,
     Settled,
@@ -18,6 +19,7 @@ __all__ = [
     "BELLY",
     "FLIPPER",
     "TRACK",
+    "Demand",
     "Event",
     "GradeOne",
     "Settled",

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from kaidan.contact.compiling import entry, kernel
+from kaidan.contact.compiling import entry
 from kaidan.contact.course import drive, new_tables
 from kaidan.contact.margins import new_margins, pose_margins
 from kaidan.contact.settling import settle

@@ -173,7 +173,7 @@ def separation(
             sense * ((ground[k, 1] - o_z) * n_x - (ground[k, 0] - o_x) * n_z),
         )
     j = 3
-    if piece == 1 or piece == 3:  # noqa: PLR1714
+    if piece == 1 or piece == 3:
         j = 0
     r_x = x + c * body[part, j] - s * body[part, j + 1]
     r_z = z + s * body[part, j] + c * body[part, j + 1]
@@ -206,15 +206,14 @@ def crossing_angle(
     if level + swing * cosine + rate * sine >= -deep and (
         rate >= -RESTING
         or rate * cosine - swing * sine <= 0.0
-        or level + deep >= 0.0
-        and (level + deep) * (level + deep) >= swing * swing + rate * rate
+        or (level + deep >= 0.0 and (level + deep) * (level + deep) >= swing * swing + rate * rate)
     ):
         return NEVER
     start = level + swing
     if start <= -0.5 * deep and rate < -RESTING:
         return 0.0 if start > -deep * (BESIDE / PENETRATED) else NEVER
     rho = math.sqrt(swing * swing + rate * rate)
-    if rho < 1e-12:
+    if level <= -rho:  # never positive; a feature through the pivot itself is one of these
         return NEVER
     angle = math.atan2(-rate, -swing) - math.acos(max(-1.0, min(1.0, level / rho)))
     if angle < -1e-6:
@@ -245,8 +244,8 @@ def closing_angle(
 ) -> float:
     """First angle within ``end`` at which a piece of a gap closes, 1e9 if it does not.
 
-    For a pivot that rolls. Values and rates at both ends are given, and a bound on the rate. A minimum inside is looked
-    for until it is negative or the bound rules that out; then Newton within the bracket.
+    For a pivot that rolls. Values and rates at both ends are given, and a bound on the
+    rate. A minimum inside is looked for until it is negative or the bound rules that out; then Newton within the bracket.
     """
     floor = -0.5 * PENETRATED
     roll = 0.0
