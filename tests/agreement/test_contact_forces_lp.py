@@ -11,6 +11,7 @@ from scipy.optimize import linprog
 
 from contact_cases import random_robot, random_terrain, stadium, steps
 from kaidan.contact import traverse
+from kaidan.contact.forces import contacts_at
 
 G = 9.80665
 
@@ -96,3 +97,30 @@ def test_forces_balance():
     # N/kg and N m/kg; rounding of sums of order 10, divided by contact distances of order 0.1
     np.testing.assert_allclose(total[two], [[0, G]] * two.sum(), atol=1e-9)
     np.testing.assert_allclose(moment[two], 0, atol=1e-9)
+
+
+@pytest.mark.slow
+def test_three_contacts_and_more_need_no_less():
+    """The least friction of all contacts together, not only of the pair that is followed."""
+    checked = seed = 0
+    while checked < 300 and seed < 3000:
+        run, rng = poses(seed, 0.0)
+        seed += 1
+        if len(run.poses) == 0:
+            continue
+        many = np.flatnonzero((run.margins[:, 14] > 2) & np.isfinite(run.margins[:, 0]))
+        leaving = np.append(False, np.diff(run.poses[:, 0]) == 0)
+        many = many[~leaving[many]]
+        for row in rng.choice(many, min(6, len(many)), replace=False) if len(many) else []:
+            q, mu = run.poses[row], run.margins[row, 0]
+            found = np.zeros((32, 7))
+            count, _ = contacts_at(run.ground, run.body, q[1], q[2], q[3], 1e-9, found, 0)
+            points, normals = found[:count, 1:3], found[:count, 3:5]
+            weight = np.array([0.0, G])
+            checked += 1
+            assert feasible(points, normals, q[1:3], weight, mu * (1 + 1e-4) + 1e-4), (seed, row)
+            if mu > 2e-3:
+                assert not feasible(points, normals, q[1:3], weight, mu * (1 - 1e-3) - 1e-4), (
+                    seed, row, mu,
+                )  # fmt: skip
+    assert checked >= 300

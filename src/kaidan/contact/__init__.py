@@ -3,6 +3,7 @@
 from kaidan.contact.compiling import numba_is_installed, numba_is_loaded
 from kaidan.contact.driving import (
     STEP,
+    Demand,
     Event,
     GradeOne,
     Settled,
@@ -21,6 +22,7 @@ __all__ = [
     "FLIPPER",
     "STEP",
     "TRACK",
+    "Demand",
     "Event",
     "GradeOne",
     "Settled",

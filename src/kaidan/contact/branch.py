@@ -353,7 +353,9 @@ def careful(
     ds: float,
     hint: int,
 ) -> float:
-    """Choose a step that does not jump through a spike: thin parts move no farther than they are clear.
+    """Choose a step that does not jump through a spike.
+
+    Thin parts move no farther than they are clear.
 
     Parts with end radii above the step need no such care.
     """

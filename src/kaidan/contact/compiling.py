@@ -67,8 +67,7 @@ def _signature(function: Callable[..., Any]) -> Any:
     Without it every literal 0 or -1 in an argument compiles the callee once more, and all that it
     calls; 90 versions of 45 functions.
     """
-    from numba import boolean, float64, int64, void
-    from numba.types import Tuple
+    from numba import boolean, float64, int64, types, void
 
     simple = {
         float: float64,
@@ -82,9 +81,9 @@ def _signature(function: Callable[..., Any]) -> Any:
     hints = get_type_hints(function)
     answer = hints.pop("return")
     if get_origin(answer) is tuple:
-        result = Tuple([simple[part] for part in get_args(answer)])
+        result = types.Tuple([simple[part] for part in get_args(answer)])  # type: ignore[no-untyped-call]
     else:
-        result = simple[answer]
+        result = simple[answer]  # type: ignore[assignment]
     return result(*(simple[hint] for hint in hints.values()))
 
 
@@ -157,14 +156,14 @@ def _compiled_modules() -> dict[str, ModuleType]:
             value = own[key]
             value.__qualname__ = f"{key}_{mark}"
             # numpy's division: no branch to an exception behind every "/"
-            compiled_function = njit(
-                _signature(value),
-                cache=True,
-                error_model="numpy",
-                no_cpython_wrapper=not hasattr(value, "_kaidan_entry"),
-                no_cfunc_wrapper=True,
-                forceinline=hasattr(value, "_kaidan_leaf"),
-            )(value)
+            options: dict[str, Any] = {
+                "cache": True,
+                "error_model": "numpy",
+                "no_cpython_wrapper": not hasattr(value, "_kaidan_entry"),
+                "no_cfunc_wrapper": True,
+                "forceinline": hasattr(value, "_kaidan_leaf"),
+            }
+            compiled_function = njit(_signature(value), **options)(value)
             fast[id(vars(original)[key])] = compiled_function
             setattr(module, key, compiled_function)
         modules[name] = module

@@ -149,7 +149,7 @@ def drive(
         if n_pose >= poses.shape[0] - 2 or n_event >= events.shape[0] - 4:
             return TOO_LONG, n_pose, n_event, n_release
         o_x, o_z, o_w, old_rear, old_front = t_x, t_z, t_w, rear, front
-        what, x1, z1, phi1, t_x, t_z, t_w, rear, front, hint, ds, moved = advance(
+        what, x1, z1, phi1, t_x, t_z, t_w, rear, front, hint, ds, _ = advance(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, step, a, g, hint
         )
         if what == -9:
@@ -185,7 +185,7 @@ def drive(
             # cut the last step at x_end (linear in the step: the pose itself stays on the line)
             part = (x_end - x) / (x1 - x)
             if part < 1.0 and ds > 1e-9:
-                what, x1, z1, phi1, t_x, t_z, t_w, rear, front, hint, ds, moved = advance(
+                what, x1, z1, phi1, t_x, t_z, t_w, rear, front, hint, ds, _moved = advance(
                     ground, body, old_rear, old_front, x, z, phi, o_x, o_z, o_w, ds * part, a, g,
                     hint,
                 )  # fmt: skip

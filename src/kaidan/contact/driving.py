@@ -82,6 +82,16 @@ class Settled(NamedTuple):
     front: int
 
 
+class Demand(NamedTuple):
+    """Required friction at one pose: coefficient, row, arclength [m], centroid [m], inclination."""
+
+    mu: float
+    row: int
+    s: float
+    x: float
+    inclination: float
+
+
 class GradeOne(NamedTuple):
     """No rotation at all: the worst margins to either side.
 
@@ -114,7 +124,7 @@ class Traverse:
     releases
         (r, 18).
     margins
-        (n, 18), see :func:`kaidan.contact.margins.pose_margins`, or None.
+        (n, 19), see :func:`kaidan.contact.margins.pose_margins`, or None.
     ground, body
         The tables the traverse was driven on, to read features by.
     """
@@ -157,6 +167,64 @@ class Traverse:
     def held_with_momentum(self) -> bool:
         """Grade three: it arrived and no release topples with the momentum gained."""
         return self.status is Status.OK and not bool((self.releases[:, 14] > 0).any())
+
+    def first_beyond(self, mu: float) -> int | None:
+        """Row of the first pose whose required friction exceeds mu; None if there is none.
+
+        With friction mu the traverse as computed holds up to that pose: below the friction of a
+        riser start, for example, the robot does not climb.
+
+        Examples
+        --------
+        >>> step = [[-4, 0], [0, 0], [0, 0.1], [4, 0.1]]
+        >>> robot = [[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]]
+        >>> run = traverse(step, robot, -1.0, 0.5)
+        >>> row = run.first_beyond(0.6)
+        >>> round(float(run.x[row] + 0.196 + 0.06), 6)  # the nose meets the face
+        0.0
+        >>> run.first_beyond(5.0) is None
+        True
+        """
+        if self.margins is None:
+            raise ValueError("traverse: friction needs with_margins=True")
+        rows = np.flatnonzero(~(self.margins[:, 0] <= mu))
+        return int(rows[0]) if len(rows) else None
+
+    def friction_demand(
+        self, x_low: float | None = None, x_high: float | None = None
+    ) -> dict[str, Demand]:
+        """Largest required friction while entering, traversing and landing, and where.
+
+        Parameters
+        ----------
+        x_low, x_high
+            End of the lower landing and start of the upper one [m]; the first and the last corner
+            of the terrain if not given. Entering: a contact on or before the one; landing: a
+            contact on or after the other, and none before the one.
+
+        Returns
+        -------
+        dict
+            "enter", "traverse", "land" to the largest demand there; phases without a pose are left
+            out.
+        """
+        if self.margins is None:
+            raise ValueError("traverse: friction needs with_margins=True")
+        low = float(self.ground[1, 0]) if x_low is None else x_low
+        high = float(self.ground[-2, 0]) if x_high is None else x_high
+        edge = 1e-9  # m, rounding of a corner's coordinate
+        enters = self.poses[:, 6] <= low + edge
+        lands = ~enters & (self.poses[:, 8] >= high - edge)
+        phases = {"enter": enters, "traverse": ~enters & ~lands, "land": lands}
+        demands = {}
+        for phase, rows in phases.items():
+            if rows.any():
+                row = int(np.where(rows, self.margins[:, 0], -1.0).argmax())
+                q = self.poses[row]
+                demands[phase] = Demand(
+                    float(self.margins[row, 0]), row, float(q[0]), float(q[1]), float(q[3])
+                )
+        return demands
 
     def largest_inclination(self) -> float:
         """Largest inclination reached, ends of releases included [rad]."""

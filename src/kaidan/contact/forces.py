@@ -247,7 +247,8 @@ def shared_loads(
     Every contact is a spring along effective gravity; contacts that would pull are dropped and the
     rest solved again.  On a straight underside this is the formula of theory section 3,
     ``N_i = W cos(theta) [1/m + (x_z - mean)(x_i - mean) / sum (x_j - mean)^2]`` with
-    ``N_i = load cos(theta)``.  Contacts on faces cannot be carried so: see the two-contact solution.
+    ``N_i = load cos(theta)``.  Contacts on faces cannot be carried so: see the
+    two-contact solution.
 
     Returns
     -------

@@ -19,7 +19,7 @@ from kaidan.contact.forces import contacts_at, two_contact_forces
 from kaidan.contact.release import barrier
 from kaidan.contact.tables import FloatArray
 
-MARGIN_COLUMNS = 18
+MARGIN_COLUMNS = 19
 
 
 @kernel
@@ -58,17 +58,20 @@ def pose_margins(
     touch
         Gap up to which a feature counts as a contact [m].
     margins
-        Table to be filled (n, 18):
+        Table to be filled (n, 19):
 
         0 required friction (the active pair where a contact is just being exchanged, else the
-        least over all pairs that straddle the gravity line); 1, 2 N and T of the rear contact, 3, 4 of the front one [N/kg];
+        least over all pairs of contacts: at the least coefficient the load lies on the surface of
+        the cone of all contact forces, on a facet between two edges, so two contacts carry it);
+        1, 2 N and T of the rear contact, 3, 4 of the front one [N/kg];
         5 traction along the path g sin psi + a [N/kg]; 6, 7 static stability margin to the back
         and to the front [m]; 8, 9 energy margin about the fixed rear and front contact (Hirose)
         [m]; 10 energy margin along the flow, the smaller of both sides [m]; 11 side of column 10
         (+1 back, -1 front); 12 force-angle measure (Papadopoulos & Rey) [rad m N/kg]; 13 ZMP:
         where the gravity line meets the line of the contacts, 0 rear to 1 front; 14 number of
         contacts; 15 belly touches (0, 1); 16 steepest face touched: largest angle of a contact
-        normal from the vertical [rad]; 17 tilt kappa of effective gravity.
+        normal from the vertical [rad]; 17 tilt kappa of effective gravity; 18 whether column 10 is
+        bounded (1), or only a lower bound: wedged, or not over the contact within 90 degrees (0).
     found
         Scratch (k, 7).
     """
@@ -105,7 +108,11 @@ def pose_margins(
             abs(math.atan2(poses[row, 12], poses[row, 13])),
         )
         r_x, r_z, f_x, f_z = p_x, p_z, o_x, o_z
+        # all contacts press one way: the active pair's friction, the slope, is the least already
+        one_plane = abs(poses[row, 10] - poses[row, 12]) < 1e-12
         for k in range(many):
+            if abs(found[k, 3] - poses[row, 10]) > 1e-12:
+                one_plane = False
             if found[k, 6] == 2.0:
                 belly = 1.0
             if many > 2:
@@ -120,10 +127,8 @@ def pose_margins(
                     back = -ahead
                     r_x = found[k, 1]
                     r_z = found[k, 2]
-                for j in range(0 if leaving else k):
+                for j in range(0 if leaving or one_plane else k):
                     other = (found[j, 1] - x + kappa * (z - found[j, 2])) / down
-                    if ahead * other > 0.0:
-                        continue
                     mu2, m1, u1, m2, u2 = two_contact_forces(
                         found[j, 1], found[j, 2], found[j, 3], found[j, 4],
                         found[k, 1], found[k, 2], found[k, 3], found[k, 4],
@@ -165,16 +170,20 @@ def pose_margins(
             if found[k, 1] == f_x and found[k, 2] == f_z:
                 ahead_contact = int(found[k, 0])
         pivot = rear if side > 0.0 else ahead_contact
-        _, rise, hint = barrier(ground, body, pivot, x, z, phi, side, kappa, hint)
+        bounded, rise, hint = barrier(ground, body, pivot, x, z, phi, side, kappa, hint)
         bound = rise_front if side > 0.0 else rise_back
         if rise > bound:
             pivot = ahead_contact if side > 0.0 else rear
-            bounded, other_rise, hint = barrier(ground, body, pivot, x, z, phi, -side, kappa, hint)
+            other_bounded, other_rise, hint = barrier(
+                ground, body, pivot, x, z, phi, -side, kappa, hint
+            )
             if other_rise < rise:
                 rise = other_rise
+                bounded = other_bounded
                 side = -side
         margins[row, 10] = rise
         margins[row, 11] = side
+        margins[row, 18] = 1.0 if bounded else 0.0
 
 
 @entry

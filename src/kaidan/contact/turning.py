@@ -29,6 +29,9 @@ RESTING = 1e-9
 #: A vertex beyond the line of a flat, or a disc below the line of a segment, by more than this [m]
 #: at the start is not on its way to meet it: it has passed beside it.
 BESIDE = 0.01
+#: A pivot this close to an end disc [m] lies on it: five times the gap at which a turn ends. One
+#: that lies farther off closes with the segment sqrt(2 off / R) later, at a gap of zero.
+SAME_ARC = 1e-11
 #: A piece of a gap that falls at one end of a turn this small and grows at the other is convex in
 #: between [rad]: its curvature changes sign a right angle away from a minimum if nothing rolls.
 CONVEX = 0.4
@@ -206,10 +209,11 @@ def crossing_angle(
         or (level + deep >= 0.0 and (level + deep) * (level + deep) >= swing * swing + rate * rate)
     ):
         return NEVER
-    if level + swing <= -0.5 * deep and rate < -RESTING:
-        return 0.0
+    start = level + swing
+    if start <= -0.5 * deep and rate < -RESTING:
+        return 0.0 if start > -deep * (BESIDE / PENETRATED) else NEVER
     rho = math.sqrt(swing * swing + rate * rate)
-    if rho < 1e-12:
+    if level <= -rho:  # never positive; a feature through the pivot itself is one of these
         return NEVER
     angle = math.atan2(-rate, -swing) - math.acos(max(-1.0, min(1.0, level / rho)))
     if angle < -1e-6:
@@ -240,8 +244,9 @@ def closing_angle(
 ) -> float:
     """First angle within ``end`` at which a piece of a gap closes, 1e9 if it does not.
 
-    For a pivot that rolls. Values and rates at both ends are given, and a bound on the rate. A minimum inside is looked
-    for until it is negative or the bound rules that out; then Newton within the bracket.
+    For a pivot that rolls. Values and rates at both ends are given, and a bound on the
+    rate. A minimum inside is looked for until it is negative or the bound rules that out; then Newton
+    within the bracket.
     """
     floor = -0.5 * PENETRATED
     roll = 0.0
@@ -326,7 +331,7 @@ def on_piece(
     c: float,
     s: float,
 ) -> bool:
-    """Whether the foot lies on the flat (piece 0) or on the segment (pieces 3, 4) and not beyond."""
+    """Whether the foot lies on the flat (piece 0) or the segment (pieces 3, 4), not beyond."""
     if piece == 0:
         return on_flat(ground, body, 64 * k + 4 * part, x, z, c, s)
     if piece < 3:
@@ -435,11 +440,9 @@ def first_closing(
                 v_z = ground[k, 1] - o_z
                 if not free and ground[k, 5] == 1.0 and not (k == at_k and part == own):
                     swing = v_x * n_x + v_z * n_z
-                    at = NEVER
-                    if swing + flat_level > -BESIDE:
-                        at = crossing_angle(
-                            flat_level, swing, sense * (v_z * n_x - v_x * n_z), ce, se, PENETRATED
-                        )
+                    at = crossing_angle(
+                        flat_level, swing, sense * (v_z * n_x - v_x * n_z), ce, se, PENETRATED
+                    )
                     if at < best:
                         y_x, y_z = turned(ground, body, pivot, x, z, phi, sense * at)
                         angle = phi + sense * at
@@ -484,7 +487,7 @@ def first_closing(
                     radius = body[part, 3 * disc + 2]
                     if (k == at_k or k == at_k - 1) and abs(
                         math.sqrt(r_x * r_x + r_z * r_z) - radius
-                    ) < 1e-9:
+                    ) < SAME_ARC:
                         # the pivot is this segment's end and lies under the disc: it rolls on
                         # along the segment ahead as soon as its centre stands over the end
                         if (k == at_k) == (sense > 0.0):
@@ -502,8 +505,6 @@ def first_closing(
                     u_z = ground[k, 3]
                     swing = u_x * r_z - u_z * r_x
                     level = u_z * v_x - u_x * v_z - radius
-                    if swing + level < -BESIDE:
-                        continue
                     rate = sense * (r_x * u_x + r_z * u_z)
                     at = crossing_angle(level, swing, rate, ce, se, PENETRATED)
                     if at < best:

@@ -1,0 +1,258 @@
+"""Margins, loads and friction of poses against formulas written out here by hand."""
+
+import math
+
+import numpy as np
+import pytest
+
+from contact_cases import flight, random_robot, random_terrain, stadium, steps
+from kaidan.contact import BELLY, Status, mirror, settle, traverse
+from kaidan.contact.compiling import kernel_module
+from kaidan.contact.forces import contacts_at, shared_loads
+from kaidan.contact.release import barrier
+from kaidan.contact.scan import nearest
+from kaidan.contact.settling import lever
+from kaidan.contact.turning import first_closing, next_pivot, turned
+
+G = 9.80665
+ANGLE, SPACING = np.radians(35), 0.15
+L, C_L, C_N, R = 0.47, 0.196, 0.071, 0.06
+
+
+def on_the_flight():
+    run = traverse(flight(ANGLE, SPACING), stadium(L, C_L, C_N, R), -1.0, 1.9, compile_kernel=False)
+    on = (np.abs(run.inclination - ANGLE) < 1e-9) & (run.margins[:, 14] >= 2)
+    assert on.sum() > 100
+    return run, on
+
+
+def test_regular_flight_by_hand():
+    """Static stability, Hirose's energy, force-angle and ZMP along the nosing line."""
+    run, on = on_the_flight()
+    for q, m in zip(run.poses[on], run.margins[on], strict=True):
+        # the nosings under the flat: s from the foot of the centroid, along the flat
+        foot = q[1:3] - C_N * np.array([-np.sin(ANGLE), np.cos(ANGLE)])
+        u = np.array([np.cos(ANGLE), np.sin(ANGLE)])
+        nosings = np.array(
+            [[k * SPACING * u[0], k * SPACING * u[1] + SPACING * u[1]] for k in range(12)]
+        )
+        along = (nosings - foot) @ u
+        edge = np.abs(along - C_L) < 1e-6
+        edge |= np.abs(along + L - C_L) < 1e-6
+        if edge.any() or not 3 <= m[14] <= 4:
+            continue
+        under = along[(along < C_L) & (along > C_L - L)]
+        s_z = -C_N * np.tan(ANGLE)  # the gravity line meets the flat behind the foot
+        back, front = s_z - under.min(), under.max() - s_z
+        assert m[6] == pytest.approx(back * np.cos(ANGLE), abs=1e-9)  # m, rounding
+        assert m[7] == pytest.approx(front * np.cos(ANGLE), abs=1e-9)
+        rises = []
+        for s in (under.min(), under.max()):
+            arm = np.hypot(s, C_N)
+            height = C_N * np.cos(ANGLE) - s * np.sin(ANGLE)
+            rises.append(arm - height)
+        assert m[8:10] == pytest.approx(rises, abs=1e-9)
+        angles = [
+            math.atan2(d * np.cos(ANGLE), C_N * np.cos(ANGLE) - s * np.sin(ANGLE))
+            for d, s in ((back, under.min()), (front, under.max()))
+        ]
+        levers = np.array([back, front]) * np.cos(ANGLE)
+        assert m[12] == pytest.approx(min(np.array(angles) * levers * G), abs=1e-8)
+        assert m[13] == pytest.approx(back / (back + front), abs=1e-9)
+        # one plane: the friction is its slope
+        assert m[0] == pytest.approx(np.tan(ANGLE), abs=1e-9)
+
+
+def test_shared_loads_are_the_equal_springs():
+    run, on = on_the_flight()
+    row = np.flatnonzero(on & (run.margins[:, 14] == 4))[3]
+    q = run.poses[row]
+    found, loads = np.zeros((32, 7)), np.zeros(32)
+    count, _ = contacts_at(run.ground, run.body, q[1], q[2], q[3], 1e-9, found, 0)
+    assert count == 4
+    carry = shared_loads(found, count, q[1], q[2], 0.0, G, loads)
+    x = found[:count, 1] - q[1]
+    spread = ((x - x.mean()) ** 2).sum()
+    expected = G * (1 / 4 - x.mean() * (x - x.mean()) / spread)
+    if (expected > 0).all():
+        assert carry == 4
+        np.testing.assert_allclose(loads[:4], expected, rtol=1e-12)
+    assert loads[:count].sum() == pytest.approx(G, rel=1e-12)
+    assert loads[:count] @ x == pytest.approx(0, abs=1e-12)
+
+
+def test_belly_is_flagged():
+    """A thin belly just above the ground strands on a step's edge; the track alone is not belly."""
+    parts = [[-0.25, 0, 0.10, 0.25, 0, 0.10], [-0.2, -0.099, 0.0, 0.2, -0.099, 0.0]]
+    hung = traverse(steps(0.15, 0.3, 1), parts, -1.0, 0.8, kinds=[0, BELLY])
+    assert hung.margins[:, 15].max() == 0.0  # the track's flat lies lower
+    parts = [
+        [-0.3, 0, 0.10, -0.28, 0, 0.10],
+        [0.28, 0, 0.10, 0.3, 0, 0.10],
+        [-0.25, 0.03, 0.0, 0.25, 0.03, 0.0],
+    ]  # two short tracks, ends only, and a belly between them
+    hung = traverse(steps(0.15, 0.3, 1), parts, -1.0, 0.8, kinds=[0, 0, BELLY])
+    assert hung.margins[:, 15].max() == 1.0
+
+
+def fine_rise(ground, body, pivot, x, z, phi, sense, kappa):
+    """Rise before the centroid stands over the contact it turns about, by small turns."""
+    down = math.sqrt(1 + kappa**2)
+    start = (z + kappa * x) / down
+    best, total, step = 0.0, 0.0, 5e-4
+    while total < math.pi / 2:
+        if lever(ground, body, pivot, x, z, math.cos(phi), math.sin(phi), kappa) * sense >= 0:
+            return True, best
+        x1, z1 = turned(ground, body, pivot, x, z, phi, sense * step)
+        c, s = math.cos(phi + sense * step), math.sin(phi + sense * step)
+        which, gap, _ = nearest(ground, body, x1, z1, c, s, pivot, -1, 0.0, 0)
+        if which >= 0 and gap < -1e-7:
+            pivot = which  # the old contact is left by at most one small turn
+        x, z, phi, total = x1, z1, phi + sense * step, total + step
+        best = max(best, (z + kappa * x) / down - start)
+    return False, best
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_rise_along_the_flow(seed):
+    """The closed form against small turns: the same rise to within the small turns' own error."""
+    rng = np.random.default_rng(seed)
+    parts, kinds = random_robot(rng, flippers=False, least_radius=0.04)
+    terrain = steps(rng.uniform(0.05, 0.2), rng.uniform(0.15, 0.4), 5)
+    run = traverse(terrain, parts, -1.0, 1.2, kinds=kinds, compile_kernel=True)
+    for row in rng.choice(len(run.poses), min(4, len(run.poses)), replace=False):
+        q = run.poses[row]
+        for sense, pivot in ((1.0, int(q[4])), (-1.0, int(q[5]))):
+            start = (run.ground, run.body, pivot, q[1], q[2], q[3], sense, 0.0)
+            bounded, rise, _ = barrier(*start, 0)
+            fine_bounded, fine = fine_rise(*start)
+            if bounded and fine_bounded:
+                # m: each change of contact sinks in by up to one turn's path, 0.5 mrad x 0.5 m
+                assert rise == pytest.approx(fine, abs=1e-3), (seed, row, sense)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_nothing_is_hit_before_the_first_closing(seed):
+    """At no angle before it is any gap negative; just behind it, that one is."""
+    rng = np.random.default_rng(1000 + seed)
+    parts, kinds = random_robot(rng)
+    terrain = random_terrain(rng)
+    run = traverse(
+        terrain, parts, terrain[0, 0] + 2, terrain[-1, 0] - 2, kinds=kinds, compile_kernel=True
+    )
+    for row in rng.choice(len(run.poses), min(6, len(run.poses)), replace=False):
+        q = run.poses[row]
+        for sense, pivot in ((1.0, int(q[4])), (-1.0, int(q[5]))):
+            x, z, phi = q[1:4]
+            closed, angle, _ = first_closing(run.ground, run.body, pivot, x, z, phi, sense, 0.5, 0)
+            for part in (0.02, 0.3, 0.6, 0.9, 0.99):
+                x1, z1 = turned(run.ground, run.body, pivot, x, z, phi, sense * part * angle)
+                at = phi + sense * part * angle
+                which, gap, _ = nearest(
+                    run.ground, run.body, x1, z1, math.cos(at), math.sin(at), pivot, -1, 0.0, 0
+                )
+                rolls_on = which >= 0 and abs((which >> 6) - (pivot >> 6)) <= 1
+                assert which < 0 or gap > -1e-9 or rolls_on, (seed, row, sense, part, which, gap)
+            assert closed == -1 or angle <= 0.5
+
+
+def test_energy_not_bounded_is_flagged():
+    """A robot whose tail meets a wall cannot turn over it: the rise is only a lower bound."""
+    terrain = flight(ANGLE, SPACING)
+    run = traverse(terrain, stadium(L, C_L, C_N, R), -1.0, 1.9)
+    assert set(np.unique(run.margins[:, 18])) <= {0.0, 1.0}
+    low = traverse(terrain, stadium(0.47, 0.2, 0.01, 0.2), -1.0, 1.9)
+    assert low.margins.shape[1] == 19
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_every_pose_is_stable_in_the_mirror(seed):
+    """Reflect the profile, swap the ends: let go from each pose's image, it stays there."""
+    rng = np.random.default_rng(seed)
+    parts, _ = random_robot(rng, flippers=False, least_radius=0.03)
+    terrain = steps(rng.uniform(0.05, 0.2), rng.uniform(0.15, 0.4), 4)
+    run = traverse(terrain, parts, -1.5, 1.0, with_margins=False)
+    reflected, swapped = mirror(terrain, parts)
+    for row in rng.choice(len(run.poses), 25):
+        q = run.poses[row]
+        if min(q[1] - q[6], q[8] - q[1]) < 1e-3:
+            continue  # about to be let go
+        steep = max(abs(math.atan2(q[10], q[11])), abs(math.atan2(q[12], q[13])))
+        if steep > 1.2:
+            continue  # on a face: letting down from above passes over it
+        image = settle(reflected, swapped, -q[1], -q[3])
+        assert image.found
+        assert image.inclination == pytest.approx(-q[3], abs=1e-7)
+        assert image.z == pytest.approx(q[2], abs=1e-8)
+
+
+def test_riser_start_needs_its_friction():
+    """The first pose beyond mu is the nose on the face, for any mu below the riser start's."""
+    h, robot = 0.1, stadium(L, C_L, C_N, R)
+    l_c = L - C_L
+    needed = (-R + math.sqrt(R**2 + 4 * l_c * (C_L + R))) / (2 * (C_L + R))
+    run = traverse(steps(h, 1.0, 1, 4.0, 4.0), robot, -1.0, 0.5)
+    row = run.first_beyond(0.99 * needed)
+    assert run.x[row] + C_L + R == pytest.approx(0.0, abs=1e-6)
+    assert run.margins[row, 0] == pytest.approx(needed, rel=1e-6)
+    beyond = run.first_beyond(1.01 * needed)
+    assert beyond is None or beyond > row
+    demand = run.friction_demand()
+    assert demand["enter"].mu >= needed * (1 - 1e-6)
+
+
+def test_friction_by_phase_on_a_regular_flight():
+    run, _ = on_the_flight()
+    demand = run.friction_demand()
+    assert set(demand) == {"enter", "traverse", "land"}
+    assert demand["traverse"].mu == pytest.approx(np.tan(ANGLE), rel=1e-6)
+
+
+def test_momentum_over_several_releases():
+    """Grade three, each release again by small steps of energy and a plastic impact by hand."""
+    k, done = 0.2, 0
+    for rise, going in ((0.15, 0.3), (0.12, 0.22), (0.17, 0.28)):
+        run = traverse(steps(rise, going, 4), stadium(0.6, 0.28, 0.1, 0.08), -1.5, 1.5, gyration=k)
+        kernel = kernel_module("turning", compile_kernel=False)
+        for row in run.releases:
+            if row[15] != 0:
+                continue
+            sense, pivot, x, z, phi = row[0], int(row[2]), *row[3:6]
+            omega, after = 0.0, 0.0
+            while phi * sense < row[8] * sense - 1e-9:
+                end = min(
+                    abs(row[8] - phi) + 1e-9,
+                    kernel.foot_limit(run.ground, run.body, pivot, x, z, phi, sense),
+                )
+                closed, angle, _ = first_closing(
+                    run.ground, run.body, pivot, x, z, phi, sense, end, 0
+                )
+                # (k^2 + r^2) omega' = g Delta - rolling terms: integrated as energy, trapezoid free
+                x1, z1 = turned(run.ground, run.body, pivot, x, z, phi, sense * angle)
+                a = contact_arm(run, pivot, x1, z1, phi + sense * angle)
+                a0 = contact_arm(run, pivot, x, z, phi)
+                energy = 0.5 * omega**2 * (k**2 + a0 @ a0) + G * (z - z1)
+                omega = math.sqrt(max(2 * energy / (k**2 + a @ a), 0))
+                x, z, phi = x1, z1, phi + sense * angle
+                if closed < 0:
+                    if phi * sense >= row[8] * sense - 1e-8:
+                        break
+                    pivot = next_pivot(run.ground, run.body, pivot, x, z, phi, sense)
+                    continue
+                before = omega
+                b = contact_arm(run, closed, x, z, phi)
+                # angular momentum about the new contact is kept by the impact
+                after = max(omega * (k**2 + a @ b) / (k**2 + b @ b), 0.0)
+                omega, pivot = after, closed
+                done += 1
+            assert row[10] == pytest.approx(before, rel=1e-6)
+            assert row[11] == pytest.approx(after, rel=1e-6, abs=1e-9)
+        assert run.status is Status.OK
+    assert done >= 3
+
+
+def contact_arm(run, feature, x, z, phi):
+    from kaidan.contact.gaps import gap
+
+    _, _, _, p_x, p_z = gap(run.ground, run.body, feature, x, z, math.cos(phi), math.sin(phi))
+    return np.array([x - p_x, z - p_z])
