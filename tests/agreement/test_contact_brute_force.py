@@ -13,6 +13,8 @@ import pytest
 from contact_cases import stadium, steps
 from kaidan.contact import Status, traverse
 
+pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+
 DRIVE = 1e-3  # m
 TURN = np.radians(0.03)
 #: Within this distance of a contact [m] the steps shrink in proportion, at most so many times.

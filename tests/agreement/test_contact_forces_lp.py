@@ -13,6 +13,8 @@ from contact_cases import random_robot, random_terrain, stadium, steps
 from kaidan.contact import traverse
 from kaidan.contact.forces import contacts_at
 
+pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+
 G = 9.80665
 
 

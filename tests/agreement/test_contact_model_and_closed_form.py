@@ -9,6 +9,8 @@ from kaidan.assessment import answer_to, case_of
 from kaidan.robot import Robot, Track
 from kaidan.stairs import Stairs
 
+pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+
 pytest.importorskip("numba")  # a hundred whole flights take minutes without the compiled kernel
 
 RANK = {"go": 0, "caution": 1, "no-go": 2, "outside-model": 3}

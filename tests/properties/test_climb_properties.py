@@ -15,6 +15,8 @@ from kaidan.profile import Profile
 from kaidan.robot import Robot, Track
 from kaidan.stairs import Stairs
 
+pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+
 STEP = 0.03  # m between poses; events are located whatever it is
 SETTINGS = settings(
     max_examples=12,

@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 from contact_cases import random_robot, random_terrain, stadium, steps
 from kaidan.contact import Status, grade_one, ground_table, mirror, settle, traverse
 
+pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+
 seeds = st.integers(0, 10_000)
 
 

@@ -10,6 +10,8 @@ from kaidan.cli import app
 from kaidan.errors import InputError
 from kaidan.stairs import Stairs
 
+pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+
 SHORT = ("--rise", "178mm", "--going", "279mm", "--steps", "4")
 POINTS = "x,z\n-2,0\n0,0\n0,0.178\n0.279,0.178\n0.279,0.356\n0.558,0.356\n0.558,0.534\n3,0.534\n"
 

@@ -13,6 +13,8 @@ from kaidan.profile import Profile
 from kaidan.robot import Robot, Track
 from kaidan.stairs import Stairs
 
+pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+
 STEP = 0.02  # m between poses; events are located whatever it is
 KENAF = Outline.of(Robot.named("kenaf"))
 FLIGHT = Stairs.inclined(angle=math.radians(50), nosing_spacing=0.150, steps=8)

@@ -16,6 +16,8 @@ from kaidan.robot import Robot, Track, Uncertainty
 from kaidan.stairs import Stairs, StairsUncertainty
 from kaidan.surface import Surface
 
+pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+
 KENAF = Robot.named("kenaf")
 WITH_GAUGE = KENAF.model_copy(
     update={"track": KENAF.track.model_copy(update={"gauge": 0.3, "width": 0.05})}

@@ -9,6 +9,8 @@ import pytest
 from contact_cases import flight, stadium
 from kaidan.contact import steepest_flight
 
+pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+
 KENAF = (0.470, 0.196, 0.071)
 
 

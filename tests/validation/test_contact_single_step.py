@@ -11,6 +11,8 @@ from scipy.optimize import brentq
 from contact_cases import stadium, steps
 from kaidan.contact import Status, traverse
 
+pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+
 
 def highest_step(L, C_L, C_N, R):
     """Best height over theta of R (1 - cos) + l_c sin - C_N sin tan, from the cubic in tan."""

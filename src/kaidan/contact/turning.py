@@ -245,8 +245,8 @@ def closing_angle(
     """First angle within ``end`` at which a piece of a gap closes, 1e9 if it does not.
 
     For a pivot that rolls. Values and rates at both ends are given, and a bound on the
-    rate. A minimum inside is looked for until it is negative or the bound rules that out; then Newton
-    within the bracket.
+    rate. A minimum inside is looked for until it is negative or the bound rules that out; then
+    Newton within the bracket.
     """
     floor = -0.5 * PENETRATED
     roll = 0.0

@@ -8,6 +8,8 @@ from kaidan.contact import Event, Status, body_table, ground_table, settle, trav
 from kaidan.contact.gaps import gap, relabelled
 from kaidan.contact.turning import turned
 
+pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+
 
 def test_flat_ground():
     pose = settle([[0, 0], [4, 0]], stadium(0.47, 0.196, 0.071, 0.06), 2.0, 0.3)

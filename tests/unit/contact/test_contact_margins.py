@@ -14,6 +14,8 @@ from kaidan.contact.scan import nearest
 from kaidan.contact.settling import lever
 from kaidan.contact.turning import first_closing, next_pivot, turned
 
+pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+
 G = 9.80665
 ANGLE, SPACING = np.radians(35), 0.15
 L, C_L, C_N, R = 0.47, 0.196, 0.071, 0.06
