@@ -1261,7 +1261,7 @@ REFUSED = {
     ),
     "model array": (
         {"model": np.array([0.5, 0.6])},
-        "model = array([0.5, 0.6]) is not known; known: closed-form",
+        "model = array([0.5, 0.6]) is not known; known: contact, closed-form",
     ),
     "payload mass": (
         {"payload": Payload(mass=1, from_front=0, height=0)},

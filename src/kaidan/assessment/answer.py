@@ -106,7 +106,7 @@ class Probability:
     """Null where the drive's traction is unknown."""
     outside_model: float
     """Probability that the model does not apply at all."""
-    tip_sideways: float | None = None
+    tip_sideways: float | None
     """Null without a yaw."""
     any: float
     """Probability of at least one of them."""

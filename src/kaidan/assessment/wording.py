@@ -257,6 +257,7 @@ def _probability(found: Judgement) -> Probability:
         slip_up=each[2],
         slip_down=each[3],
         drive=each[4],
+        tip_sideways=None,
         outside_model=float(np.mean(np.isneginf(found.worst.worst))),
         any=float(np.mean(~(found.worst.worst > 0))),
     )
