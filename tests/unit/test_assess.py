@@ -933,7 +933,10 @@ def test_probably_outside_the_model():
     )
     answer = assess("kenaf", stairs, friction=GRIP)
     assert answer.verdict == "outside-model"
-    assert "with a probability of 0.25" in answer.reason
+    assert answer.reason == (
+        "Outside the closed form: the nosing spacing of 233 mm is more than half the flat length "
+        "of 470 mm (p > L/2) with a probability of 0.25, more than the accepted 0.01."
+    )
     assert answer.probability.outside_model == pytest.approx(0.2525, abs=0.001)
     surely = assess(doubtful(com_from_front=0.005), "ibc").probability
     assert surely.tip_downhill == surely.tip_uphill == surely.any == surely.outside_model == 1.0
