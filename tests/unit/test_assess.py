@@ -651,7 +651,8 @@ def test_bounds_hold_on_every_step():
     flights = Stairs(rises=(0.09, steep[0], gentle[0], 0.09), goings=(steep[1], gentle[1], 0.19))
     answer = assess("kenaf", flights, friction=0.9)
     alone = [assess("kenaf", Stairs(rise=r, going=g), friction=0.9) for r, g in (steep, gentle)]
-    for name, choose in (("a_tip_downhill", min), ("a_tip_uphill", max), ("a_slip_up", min)):
+    tightest = {"a_tip_downhill": min, "a_tip_uphill": max, "a_slip_up": min, "a_slip_down": max}
+    for name, choose in tightest.items():
         values = [getattr(each, name) for each in alone]
         assert values[0] != pytest.approx(values[1], abs=0.01)
         assert getattr(answer, name) == pytest.approx(choose(values), rel=1e-12)
@@ -933,7 +934,10 @@ def test_probably_outside_the_model():
     )
     answer = assess("kenaf", stairs, friction=GRIP)
     assert answer.verdict == "outside-model"
-    assert "with a probability of 0.25" in answer.reason
+    assert answer.reason == (
+        "Outside the closed form: the nosing spacing of 233 mm is more than half the flat length "
+        "of 470 mm (p > L/2) with a probability of 0.25, more than the accepted 0.01."
+    )
     assert answer.probability.outside_model == pytest.approx(0.2525, abs=0.001)
     surely = assess(doubtful(com_from_front=0.005), "ibc").probability
     assert surely.tip_downhill == surely.tip_uphill == surely.any == surely.outside_model == 1.0
