@@ -1065,6 +1065,18 @@ def test_no_area_e_where_it_slips():
     assert (answer.verdict, answer.governs, answer.area) == ("no-go", "slip_up", "A")
 
 
+def test_area_e_takes_a_drive_that_can_follow_the_plan():
+    # hand: 20 kg at 52 deg take 154.6 N to hold; what is left of 155.5 N gives 0.05 m/s^2, over
+    # 183 mm 0.0086 m^2/s^2 a spacing; the braking from 1.43 m/s^2 to none over 17 mm costs 0.0121
+    def pulling(force):
+        sheet = controlled(max_traction=force).model_dump() | {"mass": 20.0}
+        robot = Robot.model_validate(sheet)
+        return assess(robot, flight(52, 0.2), friction=GRIP, **BARE).verdict
+
+    assert 20 * G * sin(radians(52)) == pytest.approx(154.6, abs=0.05)
+    assert [pulling(force) for force in (400.0, 157.0, 155.5)] == ["caution", "caution", "no-go"]
+
+
 def test_no_area_e_past_the_drives_traction():
     tracks = {"mass": 20.0, "drive": {"max_traction": 100.0, "max_speed": 2.0}}
     tracks["drive"]["acceleration_control"] = True
