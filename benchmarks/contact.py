@@ -72,6 +72,7 @@ def main():
 
     def every_margin():
         margins_of.pose_margins(ground, body, tables[0], count, 0.0, G, 1e-9, table, found)
+        margins_of.flow_energy(ground, body, tables[0], table, np.arange(count))
 
     every_margin()
     x = np.linspace(-0.5, 1.2, 2000 if COMPILE else 50)

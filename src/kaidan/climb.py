@@ -5,9 +5,10 @@ drives towards +x; going down, the profile is reflected so that the way still le
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +29,8 @@ LONG = 20_000
 """Points and poses above which the plain kernel would take a minute."""
 LONGEST = 400_000
 """Points and poses above which a traverse is refused: half a minute compiled."""
+_AT_ONCE = 8
+_TIE = 1e-9
 _CLEARANCE = 0.05
 _ON = 1e-6
 
@@ -136,6 +139,17 @@ class Climb:
         return float(np.fmin(self.criterion.back_margin, self.criterion.front_margin))
 
 
+class _Turn(NamedTuple):
+    """Turn about the contact that stays, as one is lost or made."""
+
+    side: float
+    """+1 to the back, -1 to the front."""
+    rise: float
+    """Of the centroid [m]."""
+    x: float
+    """Of the leading end of the flat [m]."""
+
+
 def climb(
     profile: Profile,
     outline: Outline,
@@ -144,6 +158,7 @@ def climb(
     facing: Literal["nose-first", "tail-first"] = "nose-first",
     acceleration: float = 0.0,
     with_margins: bool = True,
+    with_energy: bool = False,
     step: float = contact.STEP,
     compiled: bool | None = None,
 ) -> Climb:
@@ -163,6 +178,8 @@ def climb(
         Acceleration UP the stairs [m/s^2].
     with_margins : bool
         Work out forces and margins at every pose.
+    with_energy : bool
+        The energy margin along the flow too at every pose, not only the least of each phase.
     step : float
         Arclength between poses [m]; events are located whatever it is.
     compiled : bool, optional
@@ -191,7 +208,7 @@ def climb(
     run = contact.traverse(
         ground, body.parts, first - ahead - _CLEARANCE, last + back + _CLEARANCE,
         kinds=body.kinds, acceleration=along, gyration=body.gyration,
-        step=step, with_margins=with_margins, compile_kernel=compiled,
+        step=step, with_margins=with_margins, with_energy=with_energy, compile_kernel=compiled,
     )  # fmt: skip
     criterion = contact.grade_one(
         ground, body.parts, kinds=body.kinds, acceleration=along, slack=SLACK,
@@ -205,7 +222,7 @@ def climb(
         outline=body,
         run=run,
         criterion=criterion,
-        phases=_found(run, way, phase, descending, _turns(criterion, body, along))
+        phases=_found(run, way, phase, descending, _turns(criterion, body, along), compiled)
         if run.margins is not None
         else (),
         happenings=_happenings(run, way, phase, descending),
@@ -274,11 +291,12 @@ def _found(
     way: Profile,
     phase: NDArray[np.str_],
     descending: bool,
-    least: tuple[Array, Array],
+    turns: tuple[_Turn, ...],
+    compiled: bool | None,
 ) -> tuple[PhaseFound, ...]:
     table = run.margins
     assert table is not None
-    turns = _swings(run)
+    swings = _swings(run)
     found = []
     for name in Phase:
         rows = np.flatnonzero(phase == name.value)
@@ -287,30 +305,24 @@ def _found(
         of = table[rows]
         friction = np.where(np.isfinite(of[:, 0]), of[:, 0], np.inf)
         downhill, side = (7, -1.0) if descending else (6, 1.0)
-        # the flow's own barrier on its nearer side, the pivot's rise (never more) on the other
-        falls_there = of[:, 11] == side
-        energy = np.where(falls_there, of[:, 10], of[:, 9 if descending else 8])
-        uphill = np.where(falls_there, of[:, 8 if descending else 9], of[:, 10])
-        uphill = uphill[~_over_the_top(run, way, descending)[rows]]
-        if name is Phase.TRAVERSE:
-            sides = least if not descending else least[::-1]
-            nearer = sides[0].min(initial=np.inf)
-            energy = np.where(energy == energy.min(), np.minimum(energy, nearer), energy)
-            uphill = np.append(uphill, sides[1])
-        hardest, nearest = int(np.argmax(friction)), int(np.argmin(energy))
-        places = run.poses[rows, 8]
+        below = rows[~_over_the_top(run, way, descending)[rows]]
+        of_turns = turns if name is Phase.TRAVERSE else ()
+        energy, at = _least_energy(run, rows, side, of_turns, compiled)
+        uphill, _ = _least_energy(run, below, -side, of_turns, compiled)
+        hardest = int(np.argmax(friction))
+        places = run.poses[:, 8]
         found.append(
             PhaseFound(
                 phase=name,
                 required_friction=float(friction[hardest]),
-                required_friction_step=_step(way, float(places[hardest]), descending),
-                energy_margin_mm=1e3 * float(energy[nearest]),
-                energy_margin_step=_step(way, float(places[nearest]), descending),
-                uphill_energy_margin_mm=1e3 * float(uphill.min(initial=np.inf)),
+                required_friction_step=_step(way, float(places[rows[hardest]]), descending),
+                energy_margin_mm=1e3 * energy,
+                energy_margin_step=_step(way, at, descending),
+                uphill_energy_margin_mm=1e3 * uphill,
                 static_margin_mm=1e3 * float(np.nanmin(of[:, downhill])),
                 traction_over_weight=float(np.nanmax(np.abs(of[:, 5]))) / STANDARD_GRAVITY,
                 largest_swing_deg=math.degrees(
-                    max((turn for at, turn in turns if phase[at] == name.value), default=0.0)
+                    max((turn for at, turn in swings if phase[at] == name.value), default=0.0)
                 ),
                 belly_touches=bool((of[:, 15] > 0).any()),
             )
@@ -318,15 +330,50 @@ def _found(
     return tuple(found)
 
 
-def _turns(one: contact.GradeOne, body: Outline, along: float) -> tuple[Array, Array]:
-    """Rises of the centroid for a turn about the contact that stays, of each loss and each gain."""
+def _least_energy(
+    run: contact.Traverse,
+    rows: NDArray[np.int64],
+    side: float,
+    turns: Sequence[_Turn],
+    compiled: bool | None,
+) -> tuple[float, float]:
+    """Smallest rise of the centroid that a fall to one side needs, and at which contact [m].
+
+    Of a pose the flow's own barrier where that side is the nearer, else the pivot's rise, which is
+    never more: so only poses whose pivot's rise is below the least found are worked out.
+    """
+    assert run.margins is not None
+    of_turns = [(turn.rise, turn.x) for turn in turns if turn.side == side]
+    least, place = min(of_turns, default=(math.inf, math.nan))
+    if len(rows) == 0:
+        return least, place
+    bound = run.margins[rows, 8 if side > 0 else 9]
+    order = np.argsort(bound, kind="stable")
+    values = np.full(len(rows), np.inf)
+    done = 0
+    while done < len(order) and bound[order[done]] < min(least, values.min() + _TIE):
+        some = order[done : done + _AT_ONCE]
+        done += len(some)
+        rise, nearer = run.energy(rows[some], compile_kernel=compiled).T
+        values[some] = np.where(nearer == side, rise, bound[some])
+    if values.min() < least:
+        least = float(values.min())
+        place = float(run.poses[rows[np.flatnonzero(values <= least + _TIE)[0]], 8])
+    return least, place
+
+
+def _turns(one: contact.GradeOne, body: Outline, along: float) -> tuple[_Turn, ...]:
+    """Turn about the contact that stays, of each loss and each gain."""
     C_N, table = body.stance.com_height, one.table
     table = table[table[:, 7] >= 2]
     side, theta, lever = table[:, 0], table[:, 4], table[:, 5]
     x = side * lever + C_N * (np.tan(theta) + along / (STANDARD_GRAVITY * np.cos(theta)))
     rise = edge_energy(x=x, slope=0.0, C_N=C_N, theta_s=theta, psi=0.0, a=along)
     rise = np.where(lever > 0, rise, 0.0)
-    return np.asarray(rise[side > 0]), np.asarray(rise[side < 0])
+    return tuple(
+        _Turn(*(float(value) for value in turn))
+        for turn in zip(side, rise, table[:, 2], strict=True)
+    )
 
 
 def _over_the_top(run: contact.Traverse, way: Profile, descending: bool) -> NDArray[np.bool_]:

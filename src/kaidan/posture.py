@@ -11,9 +11,11 @@ from dataclasses import asdict, dataclass
 from itertools import product
 from typing import Literal, NamedTuple
 
-from kaidan.assessment import contact_model
 from kaidan.assessment.answer import Verdict
 from kaidan.assessment.case import Case
+from kaidan.assessment.contact_model import profile_of
+from kaidan.assessment.readings import phase_margins
+from kaidan.assessment.ruling import Accept, Ruling, ruling
 from kaidan.climb import Climb, Phase, climb
 from kaidan.errors import InputError
 from kaidan.outline import Outline
@@ -38,7 +40,6 @@ TEST_SPEED = 0.1
 
 Angles = tuple[float | None, float | None]
 """Front and rear [rad]; None for a pair the robot does not have."""
-Accept = Literal["no-rotation", "caught"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,7 +126,7 @@ class _Judged(NamedTuple):
     angles: Angles
     case: Case
     found: Climb
-    ruling: contact_model.Ruling
+    ruling: Ruling
 
     @property
     def merit(self) -> tuple[int, float]:
@@ -256,7 +257,7 @@ def _with(case: Case, angles: Angles) -> Case:
 def _drive(case: Case, angles: Angles, *, step: float, with_margins: bool) -> Climb:
     case = _with(case, angles)
     return climb(
-        contact_model.profile_of(case),
+        profile_of(case),
         Outline.of(case.robot, case.posture, case.payload),
         descending=case.direction == "down",
         facing=case.facing,
@@ -269,7 +270,7 @@ def _drive(case: Case, angles: Angles, *, step: float, with_margins: bool) -> Cl
 def _judge(case: Case, angles: Angles, accept: Accept) -> _Judged:
     found = _drive(case, angles, step=FINE, with_margins=True)
     then = _with(case, angles)
-    return _Judged(angles, then, found, contact_model.ruling(then, found, accept=accept))
+    return _Judged(angles, then, found, ruling(then, found, accept=accept))
 
 
 def _promise(case: Case, found: Climb) -> tuple[int, float]:
@@ -336,7 +337,7 @@ def _phase_merit(each: _Judged, phase: Phase) -> tuple[int, float, float]:
     seen = next((p for p in each.found.phases if p.phase is phase), None)
     if seen is None or not _passes(each.found, phase):
         return -2, -math.inf, -math.inf
-    margins = contact_model.phase_margins(each.case, each.found, phase)
+    margins = phase_margins(each.case, each.found, phase)
     certain = margins.steady and margins.worst > 0 and each.case.surface is not None
     return (0 if certain else -1), round(margins.worst, 6), -seen.largest_swing_deg
 

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable
 from contextlib import suppress
+from dataclasses import replace
 from numbers import Real
 from os import PathLike, fspath
 from typing import Any, Literal, TypeVar
@@ -26,7 +27,7 @@ RISK = (1e-4, 0.5)
 """Probabilities of failure that can be asked for."""
 
 
-DEFAULT_MODEL: Literal["closed-form"] = "closed-form"
+DEFAULT_MODEL: Literal["contact"] = "contact"
 MODELS = ("contact", "closed-form")
 ACCEPTED = ("no-rotation", "caught")
 
@@ -132,7 +133,7 @@ def assess(
 
 def answer_to(case: Case, *, model: str = DEFAULT_MODEL, accept: str = "no-rotation") -> Assessment:
     """Answer of a model to a case; see `assess`."""
-    from kaidan.assessment import closed_form, wording
+    from kaidan.assessment import advice, closed_form, wording
 
     for name, value, known in (("model", model, MODELS), ("accept", accept, ACCEPTED)):
         if not isinstance(value, str) or value not in known:
@@ -140,17 +141,13 @@ def answer_to(case: Case, *, model: str = DEFAULT_MODEL, accept: str = "no-rotat
     if case.yaw and model == "closed-form":
         raise InputError("the closed form knows no yaw; ask the contact model")
     along = case.changed(stairs=along_heading(case.stairs, case.yaw)) if case.yaw else case
-    flat = wording.put_into_words(along, closed_form.judge(along))
+    judged = closed_form.judge(along)
+    flat = wording.put_into_words(along, judged)
     if model == "closed-form":
-        return flat
+        return replace(flat, what_would_help=advice.by_closed_form(along, judged))
     from kaidan.assessment import contact_model
 
-    return contact_model.judge(
-        case,
-        contact_model.climb_of(case),
-        flat,
-        accept=accept,  # type: ignore[arg-type]
-    )
+    return contact_model.answer(case, judged, flat, accept=accept)  # type: ignore[arg-type]
 
 
 def case_of(

@@ -1,48 +1,67 @@
 """What would help: the same question with something changed, asked again."""
 
 import math
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
 
 import numpy as np
 
 from kaidan.assessment.allowance import Allowance
-from kaidan.assessment.answer import Change
+from kaidan.assessment.answer import Change, Verdict
 from kaidan.assessment.case import Case
 from kaidan.assessment.closed_form import Judgement, at_risk, judge
 from kaidan.errors import InputError
+from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.slipping import required_friction
 from kaidan.robot import Posture
 from kaidan.sheet import bounds
 from kaidan.surface import Surface
 
-_RANK = {"go": 0, "caution": 1, "no-go": 2, "outside-model": 3}
+RAISED = math.radians(45.0)
+"""Angle of leading flippers that reach for a first riser: half-way between flat and upright."""
+SLOWEST = 0.01
+"""Slowest speed that is worth telling an operator [m/s]."""
 LARGEST_FRICTION = bounds(Surface.model_fields["friction_low"])[2]
 """Beyond it no surface is known."""
+_RANK = {"go": 0, "caution": 1, "no-go": 2, "outside-model": 3}
 _MARGIN_WORTH_TELLING = math.radians(0.05)
 
+Candidate = tuple[str, Case]
 
-def what_would_help(case: Case, found: Judgement) -> tuple[Change, ...]:
-    """Changes that raise the margin, the best verdict first; nothing for a plain GO.
 
-    Each is the same question asked anew: turned round, flippers laid flat, no acceleration, a
-    surface with enough friction, measured allowances, the centroid moved.
+class Outcome(NamedTuple):
+    """What a model says of a case."""
+
+    verdict: Verdict
+    margin: float
+    """[rad]; NaN: not known."""
+
+
+def improvements(
+    candidates: Iterable[Candidate], now: Outcome, ask: Callable[[Case], Outcome]
+) -> tuple[Change, ...]:
+    """Candidates that raise the verdict or the margin, the best first.
+
+    Parameters
+    ----------
+    candidates : iterable of (str, Case)
+        What to do, and the question with it.
+    now : Outcome
+        As asked.
+    ask : callable
+        The model.
+
+    Returns
+    -------
+    tuple of Change
     """
-    if found.verdict == "go":
-        return ()
-    candidates = [
-        *_turned_round(case),
-        *_flippers_flat(case),
-        *_gentler(case),
-        *_more_friction(case, found),
-        *_measured(case, found),
-        *_centroid_moved(case, found),
-    ]
     better = []
     for text, changed in candidates:
         try:
-            then = judge(changed)
+            then = ask(changed)
         except InputError:  # a posture or place of the centroid that the robot cannot have
             continue
-        if _better(then, found):
+        if _better(then, now):
             margin = math.degrees(then.margin) if math.isfinite(then.margin) else None
             better.append(Change(change=text, verdict=then.verdict, margin_deg=margin))
     return tuple(
@@ -50,13 +69,92 @@ def what_would_help(case: Case, found: Judgement) -> tuple[Change, ...]:
     )
 
 
-def _better(then: Judgement, now: Judgement) -> bool:
+def _better(then: Outcome, now: Outcome) -> bool:
     if _RANK[then.verdict] != _RANK[now.verdict]:
         return _RANK[then.verdict] < _RANK[now.verdict]
     return then.margin > now.margin + _MARGIN_WORTH_TELLING
 
 
-Candidate = tuple[str, Case]
+def by_closed_form(case: Case, found: Judgement) -> tuple[Change, ...]:
+    """Changes that would help, by the closed form; nothing for a plain GO."""
+    if found.verdict == "go":
+        return ()
+    candidates = [*_turned_round(case), *_flippers_flat(case), *_gentler(case)]
+    if found.governs in ("slip_up", "slip_down", "friction_unknown"):
+        needed = required_friction(theta_s=found.nominal.theta_s, a=case.acceleration)
+        candidates += _more_friction(case, float(needed.max()))
+    if found.governs in ("tip_downhill", "tip_uphill"):
+        if found.margin_at_best > 0:
+            candidates += _measured(case)
+        candidates += _centroid_moved(case, found, found.governs)
+
+    def ask(changed: Case) -> Outcome:
+        then = judge(changed)
+        return Outcome(then.verdict, then.margin)
+
+    return improvements(candidates, Outcome(found.verdict, found.margin), ask)
+
+
+class WholeWay(NamedTuple):
+    """What the contact model's advice goes by."""
+
+    governs: str
+    entering_or_landing: bool
+    """Whether it governs there, not on the flight."""
+    friction: float
+    """Required friction [1]."""
+    energy: float
+    """Energy margin [m]."""
+    kind: bool
+    """Whether the kindest reading holds."""
+
+
+def by_contact_model(
+    case: Case, found: WholeWay, flat: Judgement, now: Outcome, ask: Callable[[Case], Outcome]
+) -> tuple[Change, ...]:
+    """Changes that would help, by the contact model; nothing for a plain GO.
+
+    Only what can change the governing failure is asked, because each way is driven anew.
+
+    Parameters
+    ----------
+    case : Case
+        The question.
+    found : WholeWay
+        What governs.
+    flat : Judgement
+        The closed form's, which knows where the centroid should be.
+    now : Outcome
+        As asked.
+    ask : callable
+        The contact model.
+
+    Returns
+    -------
+    tuple of Change
+    """
+    if now.verdict == "go":
+        return ()
+    slips = found.governs in ("slip", "friction_unknown", "drive")
+    candidates: list[Candidate] = []
+    if case.yaw:
+        candidates.append(("Head straight along the stairs", case.changed(yaw=0.0)))
+    if found.governs != "friction_unknown":
+        candidates += _gentler(case)
+        if not slips:
+            candidates += _flippers_flat(case)
+        if not slips or found.entering_or_landing:
+            candidates += [*_turned_round(case), *_flippers_raised(case)]
+    if found.governs in ("slip", "friction_unknown"):
+        candidates += _more_friction(case, found.friction)
+    if found.governs == "energy":
+        candidates += _slower(case, found.energy)
+    if found.governs in ("tip_downhill", "tip_uphill"):
+        if found.kind:
+            candidates += _measured(case)
+        if case.profile is None and not case.yaw:
+            candidates += _centroid_moved(case, flat, found.governs)
+    return improvements(candidates, now, ask)
 
 
 def _turned_round(case: Case) -> list[Candidate]:
@@ -75,17 +173,37 @@ def _flippers_flat(case: Case) -> list[Candidate]:
     return [("Lay the flippers flat, in line with the track", case.changed(posture=flat))]
 
 
+def _flippers_raised(case: Case) -> list[Candidate]:
+    """Leading flippers raised to meet the first riser from above; going up only."""
+    end = "front" if case.facing == "nose-first" else "rear"
+    pair = getattr(case.robot, f"{end}_flippers")
+    if pair is None or case.direction == "down" or getattr(case.posture, end) == RAISED:
+        return []
+    posture = case.posture.model_copy(update={end: RAISED})
+    text = f"Raise the {end} flippers to {math.degrees(RAISED):.0f} deg"
+    return [(text, case.changed(posture=posture))]
+
+
 def _gentler(case: Case) -> list[Candidate]:
     if case.acceleration == 0:
         return []
     return [("Keep the speed constant", case.changed(acceleration=0.0))]
 
 
-def _more_friction(case: Case, found: Judgement) -> list[Candidate]:
-    if found.governs not in ("slip_up", "slip_down", "friction_unknown"):
+def _slower(case: Case, energy: float) -> list[Candidate]:
+    """Speed whose kinetic energy the energy margin outdoes."""
+    if not energy > 0:
         return []
-    required = required_friction(theta_s=found.nominal.theta_s, a=case.acceleration)
-    needed = math.ceil(100 * float(required.max()) + 1)
+    speed = math.ceil(1e2 * math.sqrt(2 * STANDARD_GRAVITY * energy)) / 1e2 - 0.01
+    if speed < SLOWEST:
+        return []
+    return [(f"Drive at {speed:.2f} m/s or less", case.changed(speed=speed))]
+
+
+def _more_friction(case: Case, required: float) -> list[Candidate]:
+    if not math.isfinite(required):
+        return []
+    needed = math.ceil(100 * required + 1)
     if needed / 100 > LARGEST_FRICTION:
         return []
     surface = Surface.of_friction(needed / 100)
@@ -96,23 +214,19 @@ def _more_friction(case: Case, found: Judgement) -> list[Candidate]:
     return [(text, case.changed(surface=surface))]
 
 
-def _measured(case: Case, found: Judgement) -> list[Candidate]:
+def _measured(case: Case) -> list[Candidate]:
     unmeasured = [
         name for name in ("theta_d", "theta_M") if getattr(case, name).source == "default"
     ]
-    if not unmeasured or found.governs not in ("tip_downhill", "tip_uphill"):
+    if not unmeasured:
         return []
     zero = Allowance(low=0.0, high=0.0)
-    if found.margin_at_best <= 0:
-        return []
     text = f"Measure {' and '.join(unmeasured)}: at best, if they are zero"
     return [(text, case.changed(**dict.fromkeys(unmeasured, zero)))]
 
 
-def _centroid_moved(case: Case, found: Judgement) -> list[Candidate]:
+def _centroid_moved(case: Case, found: Judgement, governs: str) -> list[Candidate]:
     """Shift of the centroid that would give a tip margin of zero, if the track is long enough."""
-    if found.governs not in ("tip_downhill", "tip_uphill"):
-        return []
     short = -at_risk(found.worst.centroid, case.risk)
     at, step, tilt = found.nominal, found.step, case.theta_d.high + case.theta_M.high
     L, p, C_N = float(at.L[0, 0]), float(at.p[0, step]), float(at.C_N[0, 0])
@@ -121,7 +235,7 @@ def _centroid_moved(case: Case, found: Judgement) -> list[Candidate]:
     if not np.isfinite(short) or short <= 0 or room < 0:
         return []
     shift = math.ceil(1e3 * short + 1) / 1e3
-    uphill = found.governs == "tip_downhill"
+    uphill = governs == "tip_downhill"
     end = "front" if uphill == case.nose_up else "rear"
     sign = -1.0 if end == "front" else 1.0
     robot = case.robot

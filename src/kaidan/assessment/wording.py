@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from kaidan.assessment.advice import what_would_help
 from kaidan.assessment.answer import AllowanceShown, Assessment, Paper, Probability
 from kaidan.assessment.case import Array, Case, Draws, draws
 from kaidan.assessment.closed_form import MODEL, MODES, Judgement, at_risk, traction_limit
@@ -33,7 +32,7 @@ NAMES = {
 
 
 def put_into_words(case: Case, found: Judgement) -> Assessment:
-    """Answer of a case from what the closed form found."""
+    """Answer of a case from what the closed form found, advice not yet in it."""
     stance, pose = found.stance, governing_pose(case, found)
     inside = found.verdict != "outside-model"
     angle, p, a, mass = pose.theta_s, pose.p, case.acceleration, stance.mass
@@ -122,7 +121,7 @@ def put_into_words(case: Case, found: Judgement) -> Assessment:
         grades=None,
         yaw_deg=math.degrees(case.yaw),
         yaw_limit_deg=None,
-        what_would_help=what_would_help(case, found),
+        what_would_help=(),
         notes=_notes(case, found, pose),
     )
 

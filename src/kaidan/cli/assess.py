@@ -44,7 +44,7 @@ def assess(
     uncertainty: options.UncertaintyText = None,
     yaw: options.Yaw = "0deg",
     risk: options.Risk = 0.01,
-    model: Model = "closed-form",
+    model: Model = "contact",
     accept: Accept = "no-rotation",
     strict: Strict = False,
     as_json: options.AsJson = False,

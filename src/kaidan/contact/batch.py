@@ -8,7 +8,7 @@ import numpy as np
 
 from kaidan.contact.compiling import entry
 from kaidan.contact.course import drive, new_tables
-from kaidan.contact.margins import new_margins, pose_margins
+from kaidan.contact.margins import flow_energy, new_margins, pose_margins
 from kaidan.contact.settling import settle
 from kaidan.contact.tables import FloatArray, FloatRow, IntArray
 
@@ -123,6 +123,7 @@ def traverse_many(
         out[job, 9] = poses[n_pose - 1, 1]
         if with_margins:
             pose_margins(ground, body, poses, n_pose, a, g, touch, margins, found)
+            flow_energy(ground, body, poses, margins, np.arange(n_pose))
             out[job, 10:14] = worst_margins(margins, n_pose)
     return out
 

@@ -124,7 +124,7 @@ class Traverse:
     releases
         (r, 18).
     margins
-        (n, 19), see :func:`kaidan.contact.margins.pose_margins`, or None.
+        (n, 21), see :func:`kaidan.contact.margins.pose_margins`, or None.
     ground, body
         The tables the traverse was driven on, to read features by.
     """
@@ -226,6 +226,30 @@ class Traverse:
                 )
         return demands
 
+    def energy(self, rows: ArrayLike, *, compile_kernel: bool | None = None) -> FloatArray:
+        """Energy margin along the flow at some poses.
+
+        Parameters
+        ----------
+        rows
+            Shape (k,): rows of the poses.
+        compile_kernel
+            See :func:`kaidan.contact.compiling.kernel_module`.
+
+        Returns
+        -------
+        ndarray (k, 2)
+            Rise of the centroid [m], the smaller of both sides; that side, +1 back, -1 front.
+        """
+        if self.margins is None:
+            raise ValueError("traverse: energy needs with_margins=True")
+        wanted = np.atleast_1d(np.asarray(rows, dtype=np.int64))
+        missing = wanted[np.isnan(self.margins[wanted, 10])]
+        if len(missing):
+            judge = kernel_module("margins", compile_kernel=compile_kernel)
+            judge.flow_energy(self.ground, self.body, self.poses, self.margins, missing)
+        return self.margins[wanted, 10:12]
+
     def largest_inclination(self) -> float:
         """Largest inclination reached, ends of releases included [rad]."""
         return float(max(self.poses[:, 3].max(), *self.releases[:, 8], -math.inf))
@@ -267,6 +291,7 @@ def traverse(
     gravity: float = GRAVITY,
     step: float = STEP,
     with_margins: bool = True,
+    with_energy: bool = True,
     compile_kernel: bool | None = None,
 ) -> Traverse:
     """Drive the robot from one place to another, uphill end first in +x.
@@ -291,6 +316,8 @@ def traverse(
         Arclength between poses [m].
     with_margins
         Work out forces and margins at every pose.
+    with_energy
+        The energy margin along the flow too; else :meth:`Traverse.energy` has it for single poses.
     compile_kernel
         See :func:`kaidan.contact.compiling.kernel_module`.
 
@@ -324,6 +351,8 @@ def traverse(
         judge.pose_margins(
             ground, body, poses, n_pose, acceleration, gravity, TOUCH, margins, found
         )
+        if with_energy:
+            judge.flow_energy(ground, body, poses, margins, np.arange(n_pose))
     return Traverse(
         Status(status),
         poses[:n_pose].copy(),

@@ -17,9 +17,9 @@ import numpy as np
 from kaidan.contact.compiling import entry, kernel
 from kaidan.contact.forces import contacts_at, two_contact_forces
 from kaidan.contact.release import barrier
-from kaidan.contact.tables import FloatArray
+from kaidan.contact.tables import FloatArray, IntArray
 
-MARGIN_COLUMNS = 19
+MARGIN_COLUMNS = 21
 
 
 @kernel
@@ -47,6 +47,9 @@ def pose_margins(
 ) -> None:
     """Work out forces and margins at each pose of a table of poses.
 
+    All but the energy margin along the flow, which takes as long as the rest and of which often the
+    least value alone is wanted: that is :func:`flow_energy`'s.
+
     Parameters
     ----------
     ground, body
@@ -58,7 +61,7 @@ def pose_margins(
     touch
         Gap up to which a feature counts as a contact [m].
     margins
-        Table to be filled (n, 19):
+        Table to be filled (n, 21):
 
         0 required friction (the active pair where a contact is just being exchanged, else the
         least over all pairs of contacts: at the least coefficient the load lies on the surface of
@@ -66,16 +69,16 @@ def pose_margins(
         1, 2 N and T of the rear contact, 3, 4 of the front one [N/kg];
         5 traction along the path g sin psi + a [N/kg]; 6, 7 static stability margin to the back
         and to the front [m]; 8, 9 energy margin about the fixed rear and front contact (Hirose)
-        [m]; 10 energy margin along the flow, the smaller of both sides [m]; 11 side of column 10
-        (+1 back, -1 front); 12 force-angle measure (Papadopoulos & Rey) [rad m N/kg]; 13 ZMP:
-        where the gravity line meets the line of the contacts, 0 rear to 1 front; 14 number of
-        contacts; 15 belly touches (0, 1); 16 steepest face touched: largest angle of a contact
-        normal from the vertical [rad]; 17 tilt kappa of effective gravity; 18 whether column 10 is
-        bounded (1), or only a lower bound: wedged, or not over the contact within 90 degrees (0).
+        [m]; 10 energy margin along the flow, the smaller of both sides [m], NaN until worked out;
+        11 side of column 10 (+1 back, -1 front); 12 force-angle measure (Papadopoulos & Rey)
+        [rad m N/kg]; 13 ZMP: where the gravity line meets the line of the contacts, 0 rear to 1
+        front; 14 number of contacts; 15 belly touches (0, 1); 16 steepest face touched: largest
+        angle of a contact normal from the vertical [rad]; 17 tilt kappa of effective gravity; 18
+        whether column 10 is bounded (1), or only a lower bound: wedged, or not over the contact
+        within 90 degrees (0); 19, 20 features of the outermost contacts, rear and front.
     found
         Scratch (k, 7).
     """
-    hint = 0
     scan_hint = 0
     for row in range(count):
         x = poses[row, 1]
@@ -158,22 +161,54 @@ def pose_margins(
         margins[row, 15] = belly
         margins[row, 16] = steepest
         margins[row, 17] = kappa
-        # along the flow: the side with the smaller bound first, the other only if it can be less
-        side = 1.0
-        if rise_front < rise_back:
-            side = -1.0
-        rear = int(poses[row, 4])
-        ahead_contact = int(poses[row, 5])
+        margins[row, 19] = poses[row, 4]
+        margins[row, 20] = poses[row, 5]
         for k in range(many if many > 2 else 0):
             if found[k, 1] == r_x and found[k, 2] == r_z:
-                rear = int(found[k, 0])
+                margins[row, 19] = found[k, 0]
             if found[k, 1] == f_x and found[k, 2] == f_z:
-                ahead_contact = int(found[k, 0])
-        pivot = rear if side > 0.0 else ahead_contact
+                margins[row, 20] = found[k, 0]
+        margins[row, 10] = math.nan
+        margins[row, 11] = math.nan
+        margins[row, 18] = 0.0
+
+
+@entry
+def flow_energy(
+    ground: FloatArray, body: FloatArray, poses: FloatArray, margins: FloatArray, rows: IntArray
+) -> None:
+    """Work out the energy margin along the flow, columns 10, 11 and 18, at some poses.
+
+    Parameters
+    ----------
+    ground, body, poses
+        As for :func:`pose_margins`.
+    margins
+        Table that it has filled.
+    rows
+        Which poses.
+    """
+    hint = 0
+    for row in rows:
+        x = poses[row, 1]
+        z = poses[row, 2]
+        phi = poses[row, 3]
+        kappa = margins[row, 17]
+        rise_back = abs(margins[row, 8])
+        rise_front = abs(margins[row, 9])
+        rear = int(margins[row, 19])
+        ahead = int(margins[row, 20])
+        # the side with the smaller bound first, the other only if it can be less
+        side = 1.0
+        pivot = rear
+        bound = rise_front
+        if rise_front < rise_back:
+            side = -1.0
+            pivot = ahead
+            bound = rise_back
         bounded, rise, hint = barrier(ground, body, pivot, x, z, phi, side, kappa, hint)
-        bound = rise_front if side > 0.0 else rise_back
         if rise > bound:
-            pivot = ahead_contact if side > 0.0 else rear
+            pivot = ahead if side > 0.0 else rear
             other_bounded, other_rise, hint = barrier(
                 ground, body, pivot, x, z, phi, -side, kappa, hint
             )

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from kaidan.assessment import ACCEPTED
 from kaidan.assessment.case import Case
-from kaidan.assessment.contact_model import Ruling, climb_of, ruling
+from kaidan.assessment.contact_model import climb_of
+from kaidan.assessment.ruling import Ruling, ruling
 from kaidan.climb import Climb, Phase
 from kaidan.contact.forces import contacts_at, two_contact_forces
 from kaidan.errors import InputError
@@ -279,5 +280,5 @@ def journey(case: Case, *, accept: str = "no-rotation", compiled: bool | None = 
     """
     if accept not in ACCEPTED:
         raise InputError(f"accept = {accept!r} is not known; known: {', '.join(ACCEPTED)}")
-    found = climb_of(case, compiled=compiled)
+    found = climb_of(case, with_energy=True, compiled=compiled)
     return Journey(case, found, ruling(case, found, accept=accept))  # type: ignore[arg-type]
