@@ -1,0 +1,53 @@
+"""MuJoCo, imported when a trial or a model is asked for and not before."""
+
+import os
+import sys
+from ctypes.util import find_library
+from functools import cache
+from importlib import import_module
+from typing import Any
+
+from kaidan.errors import MissingExtraError
+
+OLDEST = (3, 13)
+"""Oldest MuJoCo with what the models need: geom/surfacevel (3.11), integrator "discrete" (3.13)."""
+
+
+@cache
+def engine() -> Any:
+    """The module `mujoco`.
+
+    Raises
+    ------
+    MissingExtraError
+        MuJoCo is not installed, or is older than `OLDEST`.
+    """
+    if "mujoco" not in sys.modules and "MUJOCO_GL" not in os.environ and not _has_a_display():
+        # MuJoCo settles how it draws when it is imported; nothing needs a display here
+        for name, library in (("egl", "EGL"), ("osmesa", "OSMesa")):
+            if find_library(library):
+                os.environ["MUJOCO_GL"] = name
+                break
+    try:
+        mujoco = import_module("mujoco")
+    except ImportError:
+        raise MissingExtraError("the physics model", "physics") from None
+    found = tuple(int(part) for part in mujoco.__version__.split(".")[:2])
+    if found < OLDEST:
+        raise MissingExtraError(
+            f"the physics model with MuJoCo {mujoco.__version__} (older than "
+            f"{'.'.join(map(str, OLDEST))})",
+            "physics",
+        )
+    return mujoco
+
+
+def _has_a_display() -> bool:
+    return sys.platform != "linux" or any(
+        os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
+    )
+
+
+def engine_version() -> str:
+    """Version of MuJoCo."""
+    return str(engine().__version__)

@@ -1,0 +1,55 @@
+"""Forces between the robot and the stairs, read from the engine after a step."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan.physics.model import Model
+
+Array = NDArray[np.float64]
+
+
+class Forces:
+    """Reader of a model's contact forces."""
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        along = model.course.along
+        self.along = np.array([along[0], 0.0, along[1]])
+        self.normal = np.array([-along[1], 0.0, along[0]])
+        self.count = len(model.course.profile.nosings)
+
+    def read(self, data: object) -> tuple[Array, float, float, int]:
+        """Forces at this moment.
+
+        Returns
+        -------
+        force on the robot from each nosing along the way and normal to it [N], shape (nosings, 2)
+        sum of the magnitudes of all normal forces [N]
+        traction [N]: what drives the robot along the surface of its track
+        number of contacts
+        """
+        by_nosing = np.zeros((self.count, 2))
+        contact = data.contact  # type: ignore[attr-defined]
+        row = contact.efc_address
+        geoms = contact.geom
+        number = self.model.number_of[geoms]
+        # stairs against robot, and nothing within the robot
+        real = (row >= 0) & ((number == -2).sum(axis=1) == 1)
+        if not real.any():
+            return by_nosing, 0.0, 0.0, 0
+        row, number, frame = row[real], number[real], contact.frame[real].reshape(-1, 3, 3)
+        first_is_stairs = number[:, 0] != -2
+        own = np.where(first_is_stairs, geoms[real, 1], geoms[real, 0])
+        number = np.where(first_is_stairs, number[:, 0], number[:, 1])
+        in_frame = data.efc_force[row[:, None] + np.arange(3)]  # type: ignore[attr-defined]
+        # the contact's x axis points from its first geom to its second
+        sign = np.where(first_is_stairs, 1.0, -1.0)[:, None]
+        force = sign * np.einsum("ik,ikj->ij", in_frame, frame)
+        outward = sign * frame[:, 0]  # from the stairs into the robot
+        forward = np.column_stack([outward[:, 2], np.zeros(len(row)), -outward[:, 0]])
+        driven = self.model.driven[own]
+        traction = float((force * forward).sum(axis=1) @ driven)
+        on = number >= 0
+        np.add.at(by_nosing[:, 0], number[on], force[on] @ self.along)
+        np.add.at(by_nosing[:, 1], number[on], force[on] @ self.normal)
+        return by_nosing, float(in_frame[:, 0].sum()), traction, len(row)

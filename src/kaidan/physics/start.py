@@ -1,0 +1,165 @@
+"""Where a trial begins and where it ends: the pose on the flight, and the course to drive."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan import contact
+from kaidan.outline import Outline
+from kaidan.physics.spec import TrialSpec
+from kaidan.physics.terrain import with_landings
+from kaidan.profile import Profile
+
+Array = NDArray[np.float64]
+
+AFTER = 0.9
+"""Spacings to go on after the last release going up: the next one comes at 1."""
+AFTER_GAIN = 0.3
+"""The same after the last nosing was reached going down."""
+BEFORE = 0.05
+"""Distance from the stairs at which a robot on the landing starts [m]."""
+BEYOND = 0.02
+"""Distance by which the whole flat is past the stairs at the end of the way [m]."""
+
+
+class Course(NamedTuple):
+    """Start and end of a trial, along the way: x ahead, z up."""
+
+    profile: Profile
+    """Terrain, with landings long enough."""
+    outline: Outline
+    x: float
+    z: float
+    phi: float
+    """Start: centroid [m] and inclination [rad]."""
+    held: bool
+    """Whether the contact model finds a stable pose there."""
+    slope: float
+    """Slope of the way [rad]: negative going down."""
+    spacing: float
+    """Nosing spacing [m]."""
+    rear: float
+    front: float
+    """Ends of the flat, along the track from the centroid [m]."""
+    goal: float
+    """Way of the downhill end at which the trial is done [m]; infinite: by `goal_x` alone."""
+    goal_x: float
+    """x at which the rear end of the flat is on the other landing [m]."""
+    distance: float
+    """About how far it has to drive [m]."""
+    window: tuple[float, float]
+    """x between which the robot can be [m]."""
+
+    @property
+    def along(self) -> Array:
+        """Unit vector along the line of the nosings."""
+        return np.array([math.cos(self.slope), math.sin(self.slope)])
+
+    @property
+    def down(self) -> bool:
+        """Whether the way goes down."""
+        return self.slope < 0
+
+    @property
+    def nosings(self) -> Array:
+        """Way of each nosing along that line [m], increasing."""
+        return np.asarray(self.profile.nosings @ self.along)
+
+    @property
+    def downhill_end(self) -> float:
+        """Downhill end of the flat, along the track from the centroid [m]."""
+        return self.front if self.down else self.rear
+
+
+def course_of(spec: TrialSpec) -> Course:
+    """Start and end of a trial."""
+    outline = spec.outline()
+    back, ahead = outline.reach
+    profile = with_landings(spec.profile(), back + ahead + 1.0)
+    stance, flat = outline.stance, outline.stance.flat_length
+    front = stance.com_from_front if spec.facing == "nose-first" else flat - stance.com_from_front
+    rear = front - flat
+    slope, spacing = profile.angle, profile.nosing_spacing
+    ways = profile.nosings @ np.array([math.cos(slope), math.sin(slope)])
+    goal, goal_x = math.inf, _past(profile, spec.downhill)
+    if spec.begin == "landing":
+        first = float(profile.nosings[0, 0])
+        x, phi = first - BEFORE - ahead, 0.0
+        end = goal_x
+    else:
+        x, phi, goal = _on_the_flight(spec, profile, ways, rear, front)
+        end = min(goal_x, goal * math.cos(slope) - rear + spacing)
+    pose = contact.settle(profile.points, outline.parts, x, phi, kinds=outline.kinds)
+    held = pose.found and abs(pose.inclination - phi) < math.radians(20.0)
+    if held:
+        z, phi = pose.z, pose.inclination
+    else:
+        z = _above(profile, x, phi, stance.com_height)
+    distance = max(spacing, (end + back - x)) / max(0.3, math.cos(slope))
+    if spec.begin == "flight" and math.isfinite(goal):
+        tip = rear if not spec.downhill else front
+        now = x * math.cos(slope) + z * math.sin(slope) + tip
+        distance = min(distance, max(spacing, goal - now))
+    return Course(
+        profile=profile,
+        outline=outline,
+        x=x,
+        z=z,
+        phi=phi,
+        held=held,
+        slope=slope,
+        spacing=spacing,
+        rear=rear,
+        front=front,
+        goal=goal,
+        goal_x=goal_x,
+        distance=distance,
+        window=(x - back - 2 * spacing - 0.2, end + back + ahead + 2 * spacing + 0.2),
+    )
+
+
+def _on_the_flight(
+    spec: TrialSpec, profile: Profile, ways: Array, rear: float, front: float
+) -> tuple[float, float, float]:
+    """Centroid x [m] and inclination [rad] at the start, and the goal of the downhill end [m]."""
+    slope, spacing, last = profile.angle, profile.nosing_spacing, len(ways) - 1
+    offset = spec.drawn()[0] * spacing
+    if spec.downhill:  # the uphill end, which trails, is on the flight too
+        first = min(math.ceil((front - rear) / spacing), last)
+        way = ways[first] + offset
+        reached = first + spec.releases
+        goal = ways[reached] + AFTER_GAIN * spacing if reached <= last else math.inf
+        tip = front
+    else:
+        first = 1 if last > 1 else 0
+        way = ways[first] - offset
+        lost = first + spec.releases - 1
+        goal = ways[lost] + AFTER * spacing if lost <= last else math.inf
+        tip = rear
+    # the flat on the line through the nosings
+    nosing = profile.nosings[first]
+    on = nosing + (way - ways[first] - tip) * np.array([math.cos(slope), math.sin(slope)])
+    centroid = on + spec.outline().stance.com_height * np.array([-math.sin(slope), math.cos(slope)])
+    return float(centroid[0]), slope, float(goal)
+
+
+def _past(profile: Profile, down: bool) -> float:
+    """Where in x the other landing begins [m]."""
+    if not down:
+        return float(profile.nosings[-1, 0]) + BEYOND
+    end = profile.points[-1, 1]
+    return (
+        float(
+            profile.points[profile.points[:, 1] > end + 1e-9, 0].max(initial=profile.nosings[-1, 0])
+        )
+        + BEYOND
+    )
+
+
+def _above(profile: Profile, x: float, phi: float, height: float) -> float:
+    """Height of the centroid of a robot whose flat lies on the line through the nosings [m]."""
+    nearest = profile.nosings[int(np.abs(profile.nosings[:, 0] - x).argmin())]
+    away = (x - nearest[0]) * math.tan(phi)
+    return float(nearest[1] + away + height / math.cos(phi))
