@@ -11,6 +11,7 @@ _UNITS: dict[str, dict[str, float]] = {
     "mass": {"g": 1e-3, "kg": 1.0, "lb": 0.45359237},
     "acceleration": {"m/s2": 1.0, "m/s^2": 1.0, "g0": 9.80665},
     "speed": {"mm/s": 1e-3, "cm/s": 1e-2, "m/s": 1.0, "km/h": 1 / 3.6, "ft/s": 0.3048},
+    "time": {"s": 1.0, "ms": 1e-3},
 }
 _EXAMPLE = {
     "length": "180mm",
@@ -18,6 +19,7 @@ _EXAMPLE = {
     "mass": "5kg",
     "acceleration": "0.3m/s2",
     "speed": "0.1m/s",
+    "time": "0.5s",
 }
 _QUANTITY = re.compile(
     r"\s*([+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s]\S*)?\s*", re.ASCII
@@ -31,7 +33,7 @@ def parse(text: str, kind: str, *, option: str) -> float:
     ----------
     text : str
         For example "180mm", "7 in", "50deg".
-    kind : {"length", "angle", "mass", "acceleration", "speed"}
+    kind : {"length", "angle", "mass", "acceleration", "speed", "time"}
         What it measures.
     option : str
         What errors call it, for example "--rise".
@@ -39,7 +41,7 @@ def parse(text: str, kind: str, *, option: str) -> float:
     Returns
     -------
     float
-        Value in m, rad, kg, m/s^2 or m/s; always finite.
+        Value in m, rad, kg, m/s^2, m/s or s; always finite.
 
     Raises
     ------

@@ -30,6 +30,8 @@ from kaidan.units import parse
         ("0.1m/s", "speed", 0.1),
         ("3.6km/h", "speed", 1.0),
         ("1ft/s", "speed", 0.3048),
+        ("2s", "time", 2.0),
+        ("500ms", "time", 0.5),
         # ways to write the same
         ("180 mm", "length", 0.18),
         ("  180mm ", "length", 0.18),
@@ -70,6 +72,7 @@ def test_a_bare_number_is_refused_with_the_fix(text, kind, fix):
         ("50mm", "angle", "'mm' is no unit of angle; known: deg, °, rad"),
         ("5m", "mass", "'m' is no unit of mass; known: g, kg, lb"),
         ("3m/s", "acceleration", "'m/s' is no unit of acceleration; known: m/s2, m/s^2, g0"),
+        ("1min", "time", "'min' is no unit of time; known: s, ms"),
         ("3m/s2", "speed", "'m/s2' is no unit of speed; known: mm/s, cm/s, m/s, km/h, ft/s"),
         ("180MM", "length", "'MM' is no unit of length; known: mm, cm, m, in, ft"),
         ("1,8m", "length", "',8m' is no unit of length; known: mm, cm, m, in, ft"),

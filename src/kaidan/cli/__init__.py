@@ -10,7 +10,7 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from kaidan.cli import assess, catalogs, posture, reports, traverse
+from kaidan.cli import assess, catalogs, monitor, posture, reports, traverse
 
 _START_LIGHTLY = {
     "OPENBLAS_NUM_THREADS": "1",  # no matrix here is worth the threads numpy would start
@@ -46,6 +46,7 @@ def kaidan(
 
 assess.register(app)
 catalogs.register(app)
+monitor.register(app)
 posture.register(app)
 reports.register(app)
 traverse.register(app)

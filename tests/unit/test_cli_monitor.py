@@ -1,0 +1,164 @@
+"""`kaidan monitor`: lines for people, JSON lines, a stream, exit codes and refusals."""
+
+import json
+import math
+import subprocess
+import sys
+
+import pytest
+from typer.testing import CliRunner
+
+from kaidan.cli import app
+from kaidan.errors import InputError
+from kaidan.neighbours.samples import samples_of
+from kaidan.neighbours.tipover_monitor import readings
+from kaidan.robot import Robot
+from kaidan.stairs import Stairs
+
+SHAPE = ("--angle", "50deg", "--nosing-spacing", "150mm")
+HEAD = "t,inclination,inclination_rate,acceleration\n"
+CALM = HEAD + "0,0.8,0,0\n0.1,0.81,0.01,0\n"
+SWING = HEAD + "0,0.8,0,0\n0.1,0.9,1.0,0\n0.2,,1,0\n0.3,1.0,0.5,0\n0.4,0.8,-0.5,0\n"
+
+
+def run(*arguments, text=None):
+    return CliRunner().invoke(app, ["monitor", *map(str, arguments)], input=text)
+
+
+def refusal(*arguments, text=None):
+    result = run(*arguments, text=text)
+    assert isinstance(result.exception, InputError)
+    return str(result.exception)
+
+
+@pytest.fixture
+def swing(tmp_path):
+    file = tmp_path / "swing.csv"
+    file.write_text(SWING)
+    return file
+
+
+def test_lines_for_people(swing):
+    # hand: 60.205 degrees less 45.84, 51.57, 57.30, 45.84; (60.205 - 51.566) / 57.3 s
+    result = run("kenaf", *SHAPE, swing)
+    assert result.exit_code == 1
+    assert result.stdout.splitlines() == [
+        "     t [s]  margin [deg]  over its  tips in [s]  alarm",
+        "     0.000         +14.4  downhill            -  no",
+        "     0.100          +8.6  downhill         0.15  ALARM",
+        "     0.200             -  -                   -  ALARM  not-finite: inclination is nan",
+        "     0.300          +2.9  downhill         0.10  ALARM",
+        "     0.400         +14.4  downhill            -  no",
+        "",
+        "5 samples, 1 not judged; least margin +2.9 deg at t = 0.300 s; alarm raised once, first "
+        "at t = 0.100 s",
+    ]
+
+
+def test_no_alarm(tmp_path):
+    result = run("kenaf", *SHAPE, "-", text=CALM)
+    assert result.exit_code == 0
+    assert result.stdout.endswith("least margin +13.8 deg at t = 0.100 s; alarm never raised\n")
+
+
+def test_json_lines_are_the_readings(swing):
+    result = run("kenaf", *SHAPE, swing, "--json")
+    assert result.exit_code == 1
+    lines = [json.loads(line) for line in result.stdout.splitlines()]
+    stairs = Stairs.inclined(angle=math.radians(50), nosing_spacing=0.15)
+    expected = list(
+        readings(samples_of(SWING.splitlines(), origin="x"), Robot.named("kenaf"), stairs)
+    )
+    assert [line["alarm"] for line in lines] == [reading.alarm for reading in expected]
+    assert lines[1]["margin_deg"] == pytest.approx(math.degrees(expected[1].margin))
+    assert lines[1]["time_to_tip_s"] == expected[1].time_to_tip
+    assert lines[1]["row"] == 3
+    assert lines[0]["time_to_tip_s"] is None
+    assert (lines[2]["status"], lines[2]["margin_deg"]) == ("not-finite", None)
+
+
+def test_only_changes(swing):
+    result = run("kenaf", *SHAPE, swing, "--changes", "--json")
+    rows = [json.loads(line)["row"] for line in result.stdout.splitlines()]
+    assert rows == [2, 3, 4, 5, 6]
+    calm = run("kenaf", *SHAPE, "-", "--changes", "--json", text=CALM)
+    assert len(calm.stdout.splitlines()) == 1
+
+
+def test_outside_the_model():
+    result = run("kenaf", "ibc", "-", text=HEAD + "0,,0,0\n1,0.5,0,0\n2,,0,0\n")
+    assert result.exit_code == 3
+    assert result.stdout.splitlines()[-1] == (
+        "OUTSIDE THE MODEL  p = 0.3309 m is more than L / 2 = 0.235 m"
+    )
+    assert run("kenaf", "ibc", "-", "--json", text=CALM).exit_code == 3
+
+
+def test_flippers_payload_and_facing_count():
+    at = ("absolem", "ibc", "-", "--flippers", "flat", "--json")
+    text = HEAD + "0,0.5,0,0\n"
+
+    def margin(*more, text=text):
+        result = run(*at, *more, text=text)
+        return json.loads(result.stdout.splitlines()[0])["margin_downhill_deg"]
+
+    # hand: 50.5 degrees as the README's example says, less 0.5 rad
+    assert margin() == pytest.approx(50.5 - math.degrees(0.5), abs=0.05)
+    assert margin("--payload", "5kg@500mm,300mm") < margin()
+    nose_down = margin("--direction", "down", text=HEAD + "0,-0.5,0,0\n")
+    assert nose_down != pytest.approx(margin())
+    assert nose_down > 0
+
+
+def test_own_limits():
+    keen = run(
+        "kenaf", *SHAPE, "-", "--alarm-margin", "15deg", "--clear-margin", "16deg", text=CALM
+    )
+    assert keen.exit_code == 1
+    blind = run(
+        "kenaf", *SHAPE, "-", "--alarm-margin", "0deg", "--alarm-time", "0s", "--clear-time",
+        "100ms", "--horizon", "0.1s", text=SWING,
+    )  # fmt: skip
+    assert blind.exit_code == 0
+
+
+def test_refusals(swing, tmp_path):
+    assert refusal("kenaf", *SHAPE, tmp_path / "nope.csv").endswith(
+        "nope.csv: cannot be read: No such file or directory"
+    )
+    (tmp_path / "photo.csv").write_bytes(b"\xff\xd8\xff")
+    assert refusal("kenaf", *SHAPE, tmp_path / "photo.csv").endswith(
+        "photo.csv: cannot be read: not a text file"
+    )
+    assert refusal("kenaf", *SHAPE, "-", text=HEAD) == "-: holds no samples"
+    assert refusal("kenaf", *SHAPE, "-", text=HEAD + "0,nan,0,0\n") == (
+        "-: no sample could be judged; the first: inclination is nan"
+    )
+    assert refusal("kenaf", *SHAPE, swing, "--strict") == "samples, row 4: inclination is nan"
+    assert refusal("kenaf", *SHAPE, "-", text="0,1,2,3\n").startswith(
+        "standard input, line 1: columns t, inclination, inclination_rate, acceleration are missing"
+    )
+    assert refusal("kenaf", "ibc", swing, swing).startswith("too many arguments: ibc ")
+    assert refusal("kenaf", *SHAPE, swing, "--alarm-time", "1") == (
+        "--alarm-time '1' has no unit; write 1s or 1ms"
+    )
+    assert refusal("kenaf", "ibc", *SHAPE, swing).startswith("give either the stairs 'ibc' or ")
+
+
+def test_a_stream_is_answered_line_by_line():
+    """A live sensor: the first answer comes before the second sample is sent."""
+    with subprocess.Popen(
+        [sys.executable, "-c", "from kaidan.cli import main; main()", "monitor", "kenaf", *SHAPE,
+         "-", "--json"],
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8",
+    ) as process:  # fmt: skip
+        assert process.stdin is not None
+        assert process.stdout is not None
+        process.stdin.write(HEAD + "0,0.8,0,0\n")
+        process.stdin.flush()
+        assert json.loads(process.stdout.readline())["alarm"] is False
+        process.stdin.write("1,1.05,0,0\n")
+        process.stdin.flush()
+        assert json.loads(process.stdout.readline())["alarm"] is True
+        process.stdin.close()
+        assert process.wait(timeout=20) == 1
