@@ -7,3 +7,52 @@ the formulas are derived anew from the mechanics of this package, and no equatio
 ``entering`` (after Guo et al. 2010), ``climbing_ability`` (after Liu J. et al. 2005),
 ``tipover_monitor`` (after Liu & Liu 2009), ``heading`` (after Martens & Newman 1994).
 """
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from kaidan.neighbours.climbing_ability import climbing_conditions
+    from kaidan.neighbours.entering import first_step
+    from kaidan.neighbours.heading_loop import HeadingLoop, heading_run, losing_start
+    from kaidan.neighbours.samples import Sample, samples_of
+    from kaidan.neighbours.tipover_monitor import AlarmLimits, Monitor, readings
+
+_HOME = {
+    "AlarmLimits": "tipover_monitor",
+    "HeadingLoop": "heading_loop",
+    "Monitor": "tipover_monitor",
+    "Sample": "samples",
+    "climbing_conditions": "climbing_ability",
+    "first_step": "entering",
+    "heading_run": "heading_loop",
+    "losing_start": "heading_loop",
+    "readings": "tipover_monitor",
+    "samples_of": "samples",
+}
+"""Public names and the module of each, imported when first used."""
+
+__all__ = [  # noqa: RUF022 - in the order of the systems
+    "first_step",
+    "climbing_conditions",
+    "Sample",
+    "samples_of",
+    "AlarmLimits",
+    "Monitor",
+    "readings",
+    "HeadingLoop",
+    "heading_run",
+    "losing_start",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Public names, imported when first used."""
+    if name not in _HOME:
+        raise AttributeError(f"module 'kaidan.neighbours' has no attribute {name!r}")
+    from importlib import import_module
+
+    return getattr(import_module(f"kaidan.neighbours.{_HOME[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

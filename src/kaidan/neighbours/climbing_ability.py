@@ -24,7 +24,7 @@ from kaidan.mechanics.margins import margins
 from kaidan.mechanics.plane import two_contacts_remain
 from kaidan.mechanics.slipping import equivalent_slope
 from kaidan.mechanics.transitions import crest_progress
-from kaidan.neighbours.entering import Ends, ends_of, entering, start_friction
+from kaidan.neighbours.entering import Ends, ends_of, first_step, start_friction
 from kaidan.robot import Payload, Posture, Robot
 from kaidan.stairs import Stairs
 
@@ -36,7 +36,7 @@ class Name(StrEnum):
     """Friction lifts the nose off the floor, up the first riser or over its edge; margin: friction
     left over [1]."""
     FIRST_STEP = "first-step"
-    """The centroid gets over the first edge (`kaidan.neighbours.entering`); margin: height by
+    """The centroid gets over the first edge (`kaidan.neighbours.entering.first_step`); margin: height by
     which the riser might be higher [m]."""
     TWO_NOSINGS = "two-nosings"
     """Two nosings carry the robot even just after one has left it; margin: L - 2 p [m]."""
@@ -109,7 +109,7 @@ class ClimbingAbility:
         raise InputError(f"condition {str(name)!r} is not known; known: {', '.join(Name)}")
 
 
-def climbing_ability(
+def climbing_conditions(
     robot: Robot,
     stairs: Stairs,
     *,
@@ -165,7 +165,7 @@ def climbing_ability(
     payload = tuple(payload)
     stance = robot.stance(posture, payload)
     at = ends_of(robot, stance, facing)
-    step = entering(robot, stairs, posture=posture, payload=payload, facing=facing)
+    step = first_step(robot, stairs, posture=posture, payload=payload, facing=facing)
     mu = math.nan if friction is None else friction
     no_friction = "" if friction is not None else "friction is not given"
     found = [

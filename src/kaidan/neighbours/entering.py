@@ -284,7 +284,7 @@ class Entering:
         return None if unknown else self.centroid_margin >= 0
 
 
-def entering(
+def first_step(
     robot: Robot,
     stairs: Stairs,
     *,

@@ -19,7 +19,7 @@ from kaidan.neighbours.entering import (
     balance_inclination,
     edge_start_friction,
     ends_of,
-    entering,
+    first_step,
     least_lever,
     tail_gap,
 )
@@ -114,7 +114,7 @@ def test_scaling(body, k, h):
 def test_the_contact_model_agrees(name, aside):
     # agreement: half a millimetre lower is climbed, half a millimetre higher is not
     robot = Robot.named(name)
-    asked = entering(robot, Stairs(rise=0.17, going=0.3))
+    asked = first_step(robot, Stairs(rise=0.17, going=0.3))
     assert asked.largest_rise > 0.05
     h = asked.largest_rise + aside
     step = Profile.of_points([(-1, 0), (0, 0), (0, h), (1, h)])
@@ -122,7 +122,7 @@ def test_the_contact_model_agrees(name, aside):
 
 
 def test_kenaf_does_not_get_over_the_ibcs_first_step():
-    found = entering(Robot.named("kenaf"), Stairs.named("ibc"))
+    found = first_step(Robot.named("kenaf"), Stairs.named("ibc"))
     assert found.holds is False
     assert found.rise == 0.178
     assert found.rise_margin < 0
@@ -134,18 +134,18 @@ def test_kenaf_does_not_get_over_the_ibcs_first_step():
 
 def test_only_the_first_riser_counts():
     robot = Robot.named("kenaf")
-    low = entering(robot, Stairs(rise=0.3, going=0.3, first_rise=0.1))
+    low = first_step(robot, Stairs(rise=0.3, going=0.3, first_rise=0.1))
     assert low.holds is True
-    assert low == entering(robot, Stairs(rise=0.1, going=0.2))
+    assert low == first_step(robot, Stairs(rise=0.1, going=0.2))
 
 
 def test_a_payload_behind_is_bad_and_in_front_is_good():
     robot = Robot.named("marmotte")
     stairs = Stairs.named("ibc")
-    before = entering(robot, stairs).centroid_margin
+    before = first_step(robot, stairs).centroid_margin
     at = {"mass": 5.0, "height": robot.com_height}
-    behind = entering(robot, stairs, payload=[Payload(from_front=0.7, **at)]).centroid_margin
-    ahead = entering(robot, stairs, payload=[Payload(from_front=0.0, **at)]).centroid_margin
+    behind = first_step(robot, stairs, payload=[Payload(from_front=0.7, **at)]).centroid_margin
+    ahead = first_step(robot, stairs, payload=[Payload(from_front=0.0, **at)]).centroid_margin
     assert behind < before < ahead
 
 
@@ -176,7 +176,7 @@ def test_mirror():
     swapped = robot(
         com_from_front=0.3, track=Track(flat_length=0.5, front_radius=0.07, rear_radius=0.06)
     )
-    one, other = entering(robot(), stairs, facing="tail-first"), entering(swapped, stairs)
+    one, other = first_step(robot(), stairs, facing="tail-first"), first_step(swapped, stairs)
     assert one.ends == pytest.approx(other.ends)
     assert one.largest_rise == pytest.approx(other.largest_rise)
     assert one.com_limit == pytest.approx(other.com_limit)
@@ -194,14 +194,14 @@ def test_flippers_in_line_lend_their_ends():
 
 
 def test_outside_is_told_and_an_unknown_facing_refused():
-    outside = entering(
+    outside = first_step(
         robot(track=Track(flat_length=0.5, rear_radius=0.12)), Stairs(rise=0.15, going=0.3)
     )
     assert outside.holds is None
     assert math.isnan(outside.largest_rise)
     assert math.isnan(outside.com_limit)
     with pytest.raises(InputError) as refused:
-        entering(robot(), Stairs(rise=0.15, going=0.3), facing="sideways")
+        first_step(robot(), Stairs(rise=0.15, going=0.3), facing="sideways")
     assert str(refused.value) == "facing = 'sideways' is not known; known: nose-first, tail-first"
 
 
@@ -210,6 +210,6 @@ def test_a_tail_that_meets_the_riser_is_outside():
     theta = best_inclination(l_c=0.12, C_N=0.1, R=0.1)
     assert tail_gap(theta=theta, l_c=0.12, C_N=0.1, R=0.1) == pytest.approx(-0.0045, abs=2e-4)
     short = robot(com_from_front=0.38, track=Track(flat_length=0.5, rear_radius=0.1))
-    found = entering(short, Stairs(rise=0.15, going=0.3))
+    found = first_step(short, Stairs(rise=0.15, going=0.3))
     assert found.holds is None
     assert math.isnan(found.largest_rise)
