@@ -12,6 +12,7 @@ _UNITS: dict[str, dict[str, float]] = {
     "acceleration": {"m/s2": 1.0, "m/s^2": 1.0, "g0": 9.80665},
     "speed": {"mm/s": 1e-3, "cm/s": 1e-2, "m/s": 1.0, "km/h": 1 / 3.6, "ft/s": 0.3048},
     "time": {"s": 1.0, "ms": 1e-3},
+    "stiffness": {"N/m": 1.0, "kN/m": 1e3, "N/mm": 1e3},
 }
 _EXAMPLE = {
     "length": "180mm",
@@ -20,6 +21,7 @@ _EXAMPLE = {
     "acceleration": "0.3m/s2",
     "speed": "0.1m/s",
     "time": "0.5s",
+    "stiffness": "30kN/m",
 }
 _QUANTITY = re.compile(
     r"\s*([+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s]\S*)?\s*", re.ASCII
@@ -33,7 +35,7 @@ def parse(text: str, kind: str, *, option: str) -> float:
     ----------
     text : str
         For example "180mm", "7 in", "50deg".
-    kind : {"length", "angle", "mass", "acceleration", "speed", "time"}
+    kind : {"length", "angle", "mass", "acceleration", "speed", "time", "stiffness"}
         What it measures.
     option : str
         What errors call it, for example "--rise".
@@ -41,7 +43,7 @@ def parse(text: str, kind: str, *, option: str) -> float:
     Returns
     -------
     float
-        Value in m, rad, kg, m/s^2, m/s or s; always finite.
+        Value in m, rad, kg, m/s^2, m/s, s or N/m; always finite.
 
     Raises
     ------

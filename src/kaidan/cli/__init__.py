@@ -10,7 +10,7 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from kaidan.cli import assess, catalogs, monitor, posture, reports, traverse
+from kaidan.cli import assess, catalogs, monitor, physics, posture, reports, traverse
 
 _START_LIGHTLY = {
     "OPENBLAS_NUM_THREADS": "1",  # no matrix here is worth the threads numpy would start
@@ -47,6 +47,7 @@ def kaidan(
 assess.register(app)
 catalogs.register(app)
 monitor.register(app)
+physics.register(app)
 posture.register(app)
 reports.register(app)
 traverse.register(app)

@@ -2,6 +2,8 @@
 
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from ctypes.util import find_library
 from functools import cache
 from importlib import import_module
@@ -46,6 +48,25 @@ def _has_a_display() -> bool:
     return sys.platform != "linux" or any(
         os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
     )
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Context in which MuJoCo's warnings are counted by its data and written nowhere.
+
+    Otherwise it prints them and leaves a MUJOCO_LOG.TXT in whatever folder it runs in.
+    """
+    mujoco = engine()
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(_unheard)
+    try:
+        yield
+    finally:
+        mujoco.set_mju_user_warning(before)
+
+
+def _unheard(_: object) -> None:
+    """Take a warning and say nothing."""
 
 
 def engine_version() -> str:

@@ -16,6 +16,7 @@ class Forces:
         along = model.course.along
         self.along = np.array([along[0], 0.0, along[1]])
         self.normal = np.array([-along[1], 0.0, along[0]])
+        self.elliptic = bool(model.compiled.opt.cone)
         self.count = len(model.course.profile.nosings)
 
     def read(self, data: object) -> tuple[Array, float, float, int]:
@@ -41,7 +42,7 @@ class Forces:
         first_is_stairs = number[:, 0] != -2
         own = np.where(first_is_stairs, geoms[real, 1], geoms[real, 0])
         number = np.where(first_is_stairs, number[:, 0], number[:, 1])
-        in_frame = data.efc_force[row[:, None] + np.arange(3)]  # type: ignore[attr-defined]
+        in_frame = self._in_frame(data, row, contact.friction[real, 0])
         # the contact's x axis points from its first geom to its second
         sign = np.where(first_is_stairs, 1.0, -1.0)[:, None]
         force = sign * np.einsum("ik,ikj->ij", in_frame, frame)
@@ -53,3 +54,17 @@ class Forces:
         np.add.at(by_nosing[:, 0], number[on], force[on] @ self.along)
         np.add.at(by_nosing[:, 1], number[on], force[on] @ self.normal)
         return by_nosing, float(in_frame[:, 0].sum()), traction, len(row)
+
+    def _in_frame(self, data: object, row: NDArray[np.int32], friction: Array) -> Array:
+        """Normal and two tangential forces of contacts [N], shape (contacts, 3)."""
+        force: Array = data.efc_force  # type: ignore[attr-defined]
+        if self.elliptic:
+            return np.asarray(force[row[:, None] + np.arange(3)])
+        edges = force[row[:, None] + np.arange(4)]
+        return np.column_stack(
+            [
+                edges.sum(axis=1),
+                friction * (edges[:, 0] - edges[:, 1]),
+                friction * (edges[:, 2] - edges[:, 3]),
+            ]
+        )

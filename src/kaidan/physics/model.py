@@ -24,8 +24,6 @@ Array = NDArray[np.float64]
 
 CLEARANCE = 1e-4
 """Height above the resting pose at which the robot is let go [m]."""
-SOFT_STEPS = 2.0
-"""Time constant of contacts, in time steps: the stiffest that the engine resolves."""
 _SOLIMP = [0.95, 0.99, 0.001, 0.5, 2.0]
 _IMPRATIO = 10.0
 """Friction is this much stiffer than the normal direction: less creep under load."""
@@ -81,7 +79,7 @@ def model_of(spec: TrialSpec) -> Model:
         driven = list(motion.geoms)
     for geom in scene.geoms:
         geom.friction = [spec.friction, 0.0, 0.0] if geom.priority == 0 else geom.friction
-        geom.solref, geom.solimp = [SOFT_STEPS * spec.step, 1.0], _SOLIMP
+        geom.solref, geom.solimp = [spec.softness, 1.0], _SOLIMP
     _add_view(scene, course)
     compiled = scene.compile()
     whole = np.zeros((compiled.ngeom, 6))
@@ -113,7 +111,9 @@ def _set_options(scene: Any, spec: TrialSpec) -> None:
     option.gravity = [0.0, 0.0, -STANDARD_GRAVITY]
     option.integrator = mujoco.mjtIntegrator.mjINT_DISCRETE
     option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE  # 4.0.0 is wrong with sparse ones
-    option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    cones = mujoco.mjtCone
+    chain = spec.track.kind == "shoe-chain"  # with elliptic cones its line search fails at times
+    option.cone = cones.mjCONE_PYRAMIDAL if chain else cones.mjCONE_ELLIPTIC
     option.impratio = _IMPRATIO
     option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     scene.compiler.degree = False
@@ -139,7 +139,7 @@ def _robot(scene: Any, spec: TrialSpec, course: Course) -> Any:
         half = spec.yaw / 2
         yaw, rise = np.array([math.cos(half), 0.0, 0.0, math.sin(half)]), turned(course.phi)
         whole = np.zeros(4)
-        mujoco.mju_mulQuat(whole, yaw, np.array(rise))
+        mujoco.mju_mulQuat(whole, np.array(rise), yaw)  # turned in the plane it stands on
         body.quat = whole
         body.add_freejoint(name="free")
         return body

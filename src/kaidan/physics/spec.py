@@ -90,7 +90,10 @@ KINDS: dict[str, type[SmoothBelt | SprungNoses | DrivenGrousers | ShoeChain]] = 
     "driven-grousers": DrivenGrousers,
     "shoe-chain": ShoeChain,
 }
-_STEPS = {"smooth-belt": 1e-3, "sprung-noses": 1e-3, "driven-grousers": 1e-3, "shoe-chain": 5e-4}
+FROM_THE_LANDING = 0.02
+"""Contact time of a trial that drives against the first riser [s]: a rigid belt that never slows
+down and a rigid riser throw each other about; rubber does not."""
+_STEPS = {"smooth-belt": 1e-3, "sprung-noses": 1e-3, "driven-grousers": 1e-3, "shoe-chain": 2.5e-4}
 
 
 class TrialSpec(Sheet):
@@ -146,7 +149,15 @@ class TrialSpec(Sheet):
     )
     seed: int = Field(default=0, ge=0, le=2**63 - 1, description="of what is random")
     timestep: float | None = quantity(
-        "s", 1e-5, 5e-3, "of the simulation; 1 ms, 0.5 ms for the chain, without", default=None
+        "s", 1e-5, 5e-3, "of the simulation; 1 ms, 0.25 ms for the chain, without", default=None
+    )
+    contact_time: float | None = quantity(
+        "s",
+        2e-5,
+        0.1,
+        "time in which a contact pushes back what has sunk in; the stiffest that the time step "
+        "resolves on the flight, 20 ms from the landing, without",
+        default=None,
     )
     log_interval: float = quantity("s", 1e-3, 1.0, "between rows of the log", default=0.02)
 
@@ -194,6 +205,12 @@ class TrialSpec(Sheet):
     def step(self) -> float:
         """Time step [s]."""
         return self.timestep or _STEPS[self.track.kind]
+
+    @property
+    def softness(self) -> float:
+        """Contact time [s], never less than two time steps."""
+        usual = FROM_THE_LANDING if self.begin == "landing" else 0.0
+        return max(2 * self.step, usual if self.contact_time is None else self.contact_time)
 
     @property
     def downhill(self) -> bool:

@@ -13,8 +13,8 @@ from kaidan.profile import Profile
 
 Array = NDArray[np.float64]
 
-NOSE = 0.01
-"""Width and height of a nosing that stands alone [m]."""
+NOSE = (0.001, 0.02)
+"""Width and height of a nosing that stands alone [m]: a blade, on which no tail can rest."""
 _THICK = 0.05
 _OVERLAP = 0.01
 _COLOURS = ((0.78, 0.76, 0.72, 1.0), (0.70, 0.68, 0.64, 1.0))
@@ -42,14 +42,14 @@ def blocks_of(profile: Profile, *, down: bool, noses_only: bool) -> list[Block]:
     down : bool
         Whether the way goes down, so that nosings are the far corners of their treads.
     noses_only : bool
-        Bars of `NOSE` at the nosings, and nothing else.
+        Blades of `NOSE` at the nosings, and nothing else.
     """
     nosings = profile.nosings
     if noses_only:
-        half = NOSE / 2
+        half, deep = NOSE[0] / 2, NOSE[1] / 2
         inward = -half if down else half
         return [
-            Block(float(x) + inward, float(z) - half, half, half, 0.0, number)
+            Block(float(x) + inward, float(z) - deep, half, deep, 0.0, number)
             for number, (x, z) in enumerate(nosings)
         ]
     points = profile.points

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.mechanics import STANDARD_GRAVITY
-from kaidan.physics.engine import engine, engine_version
+from kaidan.physics.engine import engine, engine_version, quiet
 from kaidan.physics.forces import Forces
 from kaidan.physics.model import ROBOT, Model, model_of
 from kaidan.physics.outcome import Outcome, TrialLog, TrialResult
@@ -29,6 +29,8 @@ FALLEN = math.radians(45.0)
 """Turn beyond the line of the nosings, or beyond level, from which it has fallen [rad]."""
 STARTED_TO_FALL = math.radians(15.0)
 """Turn before the track moves that counts as a fall at the start [rad]."""
+TURNING = math.radians(15.0)
+"""Turn beyond which slipping is first of all a part of the fall [rad]."""
 PATIENCE = 2.0
 """Times the time it takes, after which it is given up, and `GRACE` more."""
 GRACE = 2.0
@@ -102,7 +104,8 @@ def run(spec: TrialSpec, *, log: bool = False) -> TrialResult:
         MuJoCo is not installed.
     """
     began = perf_counter()
-    return Simulation(model_of(spec), keep=log).result(began)
+    with quiet():
+        return Simulation(model_of(spec), keep=log).result(began)
 
 
 class Simulation:
@@ -119,6 +122,7 @@ class Simulation:
         self.joints = None if not self.flat else self._addresses()
         self.belt = Belt(model)
         self.forces = Forces(model)
+        self.heading_slope = math.asin(math.sin(self.course.slope) * math.cos(self.spec.yaw))
         self.rows: list[tuple[float, ...]] = []
         self.by_nosing: list[Array] = []
         self.poses: list[Array] = []
@@ -137,12 +141,26 @@ class Simulation:
         if self.joints is not None:
             x, z, phi = self.data.qpos[self.joints[0]].tolist()
             return x, z, phi
-        x, _, z, w, i, j, k = self.data.qpos[:7].tolist()
-        ahead_z, up_z = 2 * (i * k - w * j), 1 - 2 * (i * i + j * j)
-        ahead_x = 1 - 2 * (j * j + k * k)
-        level = math.hypot(ahead_x, 2 * (i * j + w * k))
-        phi = math.atan2(ahead_z, level if up_z >= 0 else -level)
-        return x, z, phi
+        ahead, up = self._turn[:, 0], self._turn[:, 2]
+        level = math.hypot(ahead[0], ahead[1])
+        phi = math.atan2(ahead[2], level if up[2] >= 0 else -level)
+        return float(self.data.qpos[0]), float(self.data.qpos[2]), phi
+
+    @property
+    def _turn(self) -> Array:
+        """Axes of the body as columns, in space."""
+        whole = np.zeros(9)
+        self.mujoco.mju_quat2Mat(whole, self.data.qpos[3:7])
+        return whole.reshape(3, 3)
+
+    def point(self, along: float, up: float) -> tuple[float, float]:
+        """Place x, z [m] of a point of the robot, from the centroid along the track and up."""
+        x, z, phi = self.pose()
+        if self.joints is not None:
+            c, s = math.cos(phi), math.sin(phi)
+            return x + c * along - s * up, z + s * along + c * up
+        away = self._turn @ np.array([along, 0.0, up])
+        return x + float(away[0]), z + float(away[2])
 
     def velocity(self) -> float:
         """Speed of the centroid along the track [m/s]."""
@@ -150,13 +168,11 @@ class Simulation:
             v_x, v_z, _ = self.data.qvel[self.joints[1]]
             phi = self.data.qpos[self.joints[0][2]]
             return float(v_x * math.cos(phi) + v_z * math.sin(phi))
-        ahead = np.zeros(3)
-        self.mujoco.mju_rotVecQuat(ahead, np.array([1.0, 0.0, 0.0]), self.data.qpos[3:7])
-        return float(self.data.qvel[:3] @ ahead)
+        return float(self.data.qvel[:3] @ self._turn[:, 0])
 
     def extra(self, phi: float) -> float:
         """Turn beyond the line of the nosings towards the downhill end [rad]."""
-        turn = phi - self.course.slope
+        turn = phi - self.heading_slope
         return -turn if self.course.down else turn
 
     def fallen(self, phi: float) -> bool:
@@ -224,9 +240,7 @@ class Simulation:
         if self.joints is not None:
             self.data.qvel[self.joints[1]] += (speed * math.cos(phi), speed * math.sin(phi), 0.0)
             return
-        ahead = np.zeros(3)
-        self.mujoco.mju_rotVecQuat(ahead, np.array([1.0, 0.0, 0.0]), self.data.qpos[3:7])
-        self.data.qvel[:3] += speed * ahead
+        self.data.qvel[:3] += speed * self._turn[:, 0]
 
     def result(self, began: float) -> TrialResult:
         """Run it and tell."""
@@ -279,16 +293,15 @@ class Simulation:
             return Outcome.UNSTABLE if self.diverged() else Outcome.START_FALL
         self.set_going()
         course, spec = self.course, self.spec
-        x, z, phi = self.pose()
         ways = course.nosings
-        self.way_at_start = self._end_way(x, z, phi)
+        self.way_at_start = self._end_way()
         ahead_at_start = int((ways <= self.way_at_start).sum())
         expected = self.belt.duration(course.distance)
         limit = PATIENCE * expected + GRACE
         steps = max(1, round(min(spec.log_interval, CHUNK) / spec.step))
         every = max(1, round(spec.log_interval / (steps * spec.step)))
         time, turn = 0.0, 0
-        tether_slip = self._allowed_slip()
+        allowed = self._allowed_slip()
         while time < limit:
             before = self.velocity()
             self.drive(time, steps, on=True)
@@ -298,7 +311,7 @@ class Simulation:
                 return Outcome.UNSTABLE
             self.progress += 0.5 * (before + self.velocity()) * steps * spec.step
             x, z, phi = self.pose()
-            way = self._end_way(x, z, phi)
+            way = self._end_way()
             self.passed = max(self.passed, int((ways <= way).sum()) - ahead_at_start)
             extra = self.extra(phi)
             self.largest = max(self.largest, extra)
@@ -310,10 +323,10 @@ class Simulation:
             if self.fallen(phi):
                 nose_up = (phi > course.slope) == (spec.facing == "nose-first")
                 return Outcome.FELL_BACKWARD if nose_up else Outcome.FELL_FORWARD
-            if abs(slip) > tether_slip:
+            if abs(slip) > allowed * (1.0 if extra < TURNING else 4.0):
                 return Outcome.SLID
-            rear_x = x + course.rear * math.cos(phi)
-            if way >= course.goal or rear_x >= course.goal_x:
+            done = way >= course.goal or self.point(course.rear, 0.0)[0] >= course.goal_x
+            if done and extra < TURNING:
                 return Outcome.CLIMBED
         return Outcome.TIMED_OUT
 
@@ -324,12 +337,10 @@ class Simulation:
         back, ahead = self.course.outline.reach
         return back + ahead
 
-    def _end_way(self, x: float, z: float, phi: float) -> float:
+    def _end_way(self) -> float:
         """Way of the downhill end of the flat along the line of the nosings [m]."""
-        c, s = math.cos(phi), math.sin(phi)
-        along, up = self.course.downhill_end, -self.course.outline.stance.com_height
-        point = np.array([x + c * along - s * up, z + s * along + c * up])
-        return float(point @ self.course.along)
+        end = self.point(self.course.downhill_end, -self.course.outline.stance.com_height)
+        return float(np.array(end) @ self.course.along)
 
     def _note(self, time: float, x: float, z: float, phi: float, way: float, slip: float) -> None:
         """Add a row to the log."""
@@ -343,9 +354,9 @@ class Simulation:
             traction * speed, float(contacts),
         ]  # fmt: skip
         if not self.flat:
-            w, i, j, k = self.data.qpos[3:7].tolist()
-            yaw = math.atan2(2 * (i * j + w * k), 1 - 2 * (j * j + k * k))
-            roll = math.atan2(2 * (j * k + w * i), 1 - 2 * (i * i + j * j))
+            turn = self._turn
+            yaw = math.atan2(turn[1, 0], turn[0, 0])
+            roll = math.atan2(turn[2, 1], turn[2, 2])
             row += [float(self.data.qpos[1]), math.degrees(yaw), math.degrees(roll)]
         self.rows.append(tuple(row))
         self.by_nosing.append(by_nosing)
