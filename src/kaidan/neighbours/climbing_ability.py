@@ -36,8 +36,8 @@ class Name(StrEnum):
     """Friction lifts the nose off the floor, up the first riser or over its edge; margin: friction
     left over [1]."""
     FIRST_STEP = "first-step"
-    """The centroid gets over the first edge (`kaidan.neighbours.entering.first_step`); margin: height by
-    which the riser might be higher [m]."""
+    """The centroid gets over the first edge, as `kaidan.neighbours.entering.first_step` asks;
+    margin: height by which the riser might be higher [m]."""
     TWO_NOSINGS = "two-nosings"
     """Two nosings carry the robot even just after one has left it; margin: L - 2 p [m]."""
     NO_TIP_DOWNHILL = "no-tip-downhill"

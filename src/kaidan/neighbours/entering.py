@@ -296,7 +296,7 @@ def first_step(
 
     A single step: the tail stands on the lower floor, the flat bears on the edge, nothing else
     carries. On a flight the second nosing may carry a robot whose centroid does not get over the
-    first one; `kaidan.climb` follows that.
+    first one; ``kaidan traverse`` follows that.
 
     Parameters
     ----------
