@@ -5,16 +5,16 @@ from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import replace
 from numbers import Real
-from os import PathLike, fspath
-from typing import Any, Literal, TypeVar
+from os import PathLike
+from typing import Any, Literal
 
 from kaidan.assessment.allowance import Allowance as Allowance
 from kaidan.assessment.answer import Assessment as Assessment
 from kaidan.assessment.case import Case, Direction, Facing
+from kaidan.assessment.terrain import Terrain, sheet_of, shown, terrain_of
 from kaidan.assessment.yaw import LARGEST_YAW, along_heading, gauge_of
 from kaidan.errors import InputError
 from kaidan.robot import Payload, Posture, Robot
-from kaidan.stairs import Stairs
 from kaidan.surface import Surface
 
 LARGEST_ACCELERATION = 9.8
@@ -34,7 +34,7 @@ ACCEPTED = ("no-rotation", "caught")
 
 def assess(
     robot: Robot | str | PathLike[str],
-    stairs: Stairs | str | PathLike[str],
+    stairs: Terrain,
     *,
     surface: Surface | str | PathLike[str] | None = None,
     friction: float | None = None,
@@ -57,8 +57,9 @@ def assess(
     ----------
     robot : Robot, str or path
         Robot, or its name in the catalogue, or a TOML file.
-    stairs : Stairs, str or path
-        Stairs, or their name in the catalogue, or a TOML file.
+    stairs : Stairs, str, path, a sequence of them, or Profile
+        Stairs, or their name in the catalogue, or a TOML file; several flights from bottom to top,
+        the upper landing of each below the next (also as one text, joined by "+"); or any profile.
     surface : Surface, str or path, optional
         Surface under the tracks; without one (and without `friction`) no GO is given.
     friction : float, optional
@@ -103,6 +104,7 @@ def assess(
     Examples
     --------
     >>> from math import radians
+    >>> from kaidan.stairs import Stairs
     >>> answer = assess("kenaf", Stairs.inclined(angle=radians(50), nosing_spacing=0.150),
     ...                 friction=2.0)
     >>> answer.verdict, round(answer.margin_angle_deg, 3), round(answer.margin_deg, 2)
@@ -137,7 +139,7 @@ def answer_to(case: Case, *, model: str = DEFAULT_MODEL, accept: str = "no-rotat
 
     for name, value, known in (("model", model, MODELS), ("accept", accept, ACCEPTED)):
         if not isinstance(value, str) or value not in known:
-            raise InputError(f"{name} = {_shown(value)} is not known; known: {', '.join(known)}")
+            raise InputError(f"{name} = {shown(value)} is not known; known: {', '.join(known)}")
     if case.yaw and model == "closed-form":
         raise InputError("the closed form knows no yaw; ask the contact model")
     along = case.changed(stairs=along_heading(case.stairs, case.yaw)) if case.yaw else case
@@ -152,7 +154,7 @@ def answer_to(case: Case, *, model: str = DEFAULT_MODEL, accept: str = "no-rotat
 
 def case_of(
     robot: Robot | str | PathLike[str],
-    stairs: Stairs | str | PathLike[str],
+    stairs: Terrain,
     *,
     surface: Surface | str | PathLike[str] | None = None,
     friction: float | None = None,
@@ -168,20 +170,21 @@ def case_of(
     risk: float = 0.01,
 ) -> Case:
     """Case of the same arguments as `assess`: names resolved, everything checked."""
-    robot, stairs = _sheet(robot, Robot), _sheet(stairs, Stairs)
+    robot = sheet_of(robot, Robot)
+    stairs, profile, steps_known = terrain_of(stairs)
     if surface is not None and friction is not None:
         raise InputError("give either a surface or a friction, not both")
     if friction is not None:
         surface = Surface.of_friction(_within("friction", friction, *FRICTION, ""))
     elif surface is not None:
-        surface = _sheet(surface, Surface)
+        surface = sheet_of(surface, Surface)
     direction = stairs.direction if direction is None else direction
     for name, value, allowed in (
         ("direction", direction, ("up", "down")),
         ("facing", facing, ("nose-first", "tail-first")),
     ):
         if not isinstance(value, str) or value not in allowed:
-            raise InputError(f"{name} = {_shown(value)} is not known; known: {', '.join(allowed)}")
+            raise InputError(f"{name} = {shown(value)} is not known; known: {', '.join(allowed)}")
     largest = LARGEST_ACCELERATION
     acceleration = _within("acceleration", acceleration, -largest, largest, "m/s^2")
     risk = _within("risk", risk, *RISK, "")
@@ -204,29 +207,16 @@ def case_of(
         theta_d=Allowance.of(theta_d, name="theta_d"),
         theta_M=Allowance.of(theta_M, name="theta_M", descending=direction == "down"),
         risk=risk,
+        profile=profile,
+        steps_known=steps_known,
         yaw=float(yaw),
     )
     if case.yaw:
+        if profile is not None:
+            raise InputError("a profile lies along the heading already: leave the yaw out")
         gauge_of(case)
     _ = case.stance  # refuses a posture or payload that the robot cannot have
     return case
-
-
-T = TypeVar("T", Robot, Stairs, Surface)
-
-
-def _sheet(given: Any, kind: type[T]) -> T:
-    """Sheet as given, or by its name or path."""
-    if isinstance(given, kind):
-        return given
-    if isinstance(given, PathLike):
-        given = fspath(given)
-    if isinstance(given, str):
-        return kind.named(given)
-    raise InputError(
-        f"{kind.label} = {_shown(given)} is not a {kind.__name__}, a name of the catalogue or a "
-        "TOML file"
-    )
 
 
 def _payloads(given: Any) -> tuple[Payload, ...]:
@@ -236,13 +226,13 @@ def _payloads(given: Any) -> tuple[Payload, ...]:
         each = tuple(given)
         if not isinstance(given, str | bytes) and all(isinstance(one, Payload) for one in each):
             return each
-    raise InputError(f"payload = {_shown(given)} is not a Payload or a list of them")
+    raise InputError(f"payload = {shown(given)} is not a Payload or a list of them")
 
 
 def _within(name: str, value: Any, low: float, high: float, unit: str) -> float:
     """Number that is within its range; numpy's numbers are numbers, truth values are not."""
     if isinstance(value, bool) or not isinstance(value, Real):
-        raise InputError(f"{name} = {_shown(value)} is not a number")
+        raise InputError(f"{name} = {shown(value)} is not a number")
     try:
         number = float(value)
     except OverflowError:
@@ -252,18 +242,12 @@ def _within(name: str, value: Any, low: float, high: float, unit: str) -> float:
     return number
 
 
-def _shown(value: Any) -> str:
-    """Text of any value in one short line."""
-    text = " ".join(repr(value).split())
-    return text if len(text) <= 60 else f"{text[:57]}..."
-
-
 def _posture(robot: Robot, flippers: Posture | str) -> Posture:
     if isinstance(flippers, Posture):
         return flippers
     if not isinstance(flippers, str) or flippers not in ("flat", "stowed"):
         raise InputError(
-            f"flippers = {_shown(flippers)} is not known; known: flat, stowed, or angles"
+            f"flippers = {shown(flippers)} is not known; known: flat, stowed, or angles"
         )
     if flippers == "stowed":
         return Posture()

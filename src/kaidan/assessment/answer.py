@@ -182,10 +182,10 @@ class Assessment:
     area: AreaName | None
     """Area of the paper's d-a plane the asked acceleration reaches on the worst reading: A to E,
     or DOWNHILL_SLIP. E where only an acceleration that follows the position holds it."""
-    angle_deg: float
-    """Slope of the stairs, of the governing step [deg]."""
-    nosing_spacing_m: float
-    """Nosing to nosing, of the governing step [m]."""
+    angle_deg: float | None
+    """Slope of the stairs, of the governing step [deg]; null for a terrain that is no flight."""
+    nosing_spacing_m: float | None
+    """Nosing to nosing, of the governing step [m]; null likewise."""
     contacts_n: int
     """n = floor(L / p): nosings that carry the robot after one has left."""
     flat_length_m: float
@@ -246,8 +246,9 @@ class Assessment:
     """Hardest safe stop from travel in that direction, a positive number [m/s^2]."""
     paper: Paper | None
     """The paper's own quantities."""
-    required_friction: float
-    """Static friction below which the robot slips at the asked acceleration [1]."""
+    required_friction: float | None
+    """Static friction below which the robot slips at the asked acceleration [1]; null if no
+    friction holds it somewhere, or nothing is known."""
     friction: tuple[float, float] | None
     """Static friction of the surface, from the worst to the kindest reading [1]."""
     contacts: tuple[Contact, ...]

@@ -42,7 +42,9 @@ class Case(NamedTuple):
     theta_M: Allowance
     risk: float
     profile: Profile | None = None
-    """Terrain of its own, for the contact model; then `stairs` lends its name only."""
+    """Terrain of its own, for the contact model; `stairs` then holds the steps found in it."""
+    steps_known: bool = True
+    """False for a terrain without such steps: `stairs` then lends its name only."""
     yaw: float = 0.0
     """Heading off the line of steepest ascent [rad], to the left positive."""
 

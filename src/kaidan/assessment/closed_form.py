@@ -243,6 +243,8 @@ def gap_below(case: Case, stance: Stance) -> str:
 
 
 def _outside(case: Case, stance: Stance, share_outside: float) -> str:
+    if not case.steps_known:
+        return "the terrain is no flight of stairs"
     if share_outside > case.risk:
         p = max(math.hypot(rise, going) for rise, going in case.stairs.regular_steps)
         spacing, half = f"the nosing spacing of {p * 1e3:.0f} mm", "more than half the flat length"

@@ -13,6 +13,7 @@ from kaidan.assessment.closed_form import Judgement, at_risk
 from kaidan.assessment.readings import Reading, energy_margin, reading_of
 from kaidan.assessment.ruling import Accept, Ruling, ruling
 from kaidan.assessment.spread import share_out_of_reach
+from kaidan.assessment.wording import notes_of_any_model
 from kaidan.assessment.yaw import along_heading, yaw_limit
 from kaidan.climb import Climb, climb
 from kaidan.contact import Status
@@ -92,7 +93,10 @@ def answer(case: Case, judged: Judgement, flat: Assessment, *, accept: Accept) -
             lower_angle_deg=None,
             margin_backward_deg=None,
         )
-    angle = math.radians(flat.angle_deg)
+    angle = 0.0 if flat.angle_deg is None else math.radians(flat.angle_deg)
+    needed = [each.required_friction for each in told.phases]
+    if case.steps_known and flat.required_friction is not None:
+        needed.append(flat.required_friction)
     mass = flat.mass_kg
     return replace(
         flat,
@@ -118,9 +122,8 @@ def answer(case: Case, judged: Judgement, flat: Assessment, *, accept: Accept) -
         else None
         if case.yaw
         else _millimetres(found.centroid_margin),
-        required_friction=math.hypot(
-            max([flat.required_friction, *(each.required_friction for each in found.phases)]),
-            math.tan(angle) * math.sin(case.yaw),
+        required_friction=_finite(
+            math.hypot(max(needed), math.tan(angle) * math.sin(case.yaw)) if needed else math.nan
         ),
         falls_over=_falls_over(case, found, flat),
         phase=told.phase,  # type: ignore[arg-type]
@@ -130,7 +133,7 @@ def answer(case: Case, judged: Judgement, flat: Assessment, *, accept: Accept) -
         what_would_help=_advice(case, found, judged, told, best.worst > 0, accept),
         yaw_deg=math.degrees(case.yaw),
         yaw_limit_deg=None if limit is None else math.degrees(limit),
-        notes=_notes(case, found, flat, told.doubts),
+        notes=_notes(case, found, told.doubts),
     )
 
 
@@ -178,9 +181,9 @@ def _force(mass: float | None, angle: float, margin: float) -> float | None:
     return mass * STANDARD_GRAVITY * math.cos(angle) * (math.tan(limit) - math.tan(angle))
 
 
-def _notes(case: Case, found: Climb, flat: Assessment, doubts: tuple[str, ...]) -> tuple[str, ...]:
-    notes = [note for note in flat.notes if not note.startswith("This model judges")]
-    notes[:0] = [f"{doubt[0].upper()}{doubt[1:]}." for doubt in doubts]
+def _notes(case: Case, found: Climb, doubts: tuple[str, ...]) -> tuple[str, ...]:
+    notes = [f"{doubt[0].upper()}{doubt[1:]}." for doubt in doubts]
+    notes += notes_of_any_model(case)
     if repeats(case):
         notes.append(
             f"The {case.stairs.steps} risers are alike, so the way repeats itself: it is driven on "
@@ -239,6 +242,10 @@ def _probability(case: Case, found: Climb, worst: Reading) -> Probability | None
 
 def _degrees(value: float) -> float | None:
     return math.degrees(value) if math.isfinite(value) else None
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
 
 
 def _millimetres(value: float) -> float | None:

@@ -95,7 +95,9 @@ def reading_of(case: Case, found: Climb, *, kind: bool) -> Reading:
     ]
     downhill, uphill = reversed(bare) if found.descending else bare
     downhill, uphill = downhill - theta_d - theta_M, uphill - theta_d
-    if (case.yaw == 0 and one.outside) or math.isnan(downhill):
+    if found.phases and all(each.phase is not Phase.TRAVERSE for each in found.phases):
+        downhill = uphill = FALL  # it only enters and lands: the energy margin alone judges
+    elif (case.yaw == 0 and one.outside) or math.isnan(downhill):
         swing = largest_swing(found)
         downhill, uphill = (-swing if swing > 0 else math.nan), math.nan
     if not found.arrived and not (min(downhill, uphill) <= 0):

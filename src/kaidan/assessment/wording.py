@@ -57,8 +57,8 @@ def put_into_words(case: Case, found: Judgement) -> Assessment:
         direction=case.direction,
         facing=case.facing,
         area=_area(case, found, safe) if inside else None,
-        angle_deg=math.degrees(angle),
-        nosing_spacing_m=p,
+        angle_deg=math.degrees(angle) if case.steps_known else None,
+        nosing_spacing_m=p if case.steps_known else None,
         contacts_n=pose.n,
         flat_length_m=stance.flat_length,
         com_from_front_m=stance.com_from_front,
@@ -287,25 +287,11 @@ def _reason(case: Case, found: Judgement) -> str:
 
 def _notes(case: Case, found: Judgement, pose: Pose) -> tuple[str, ...]:
     notes = ["This model judges the traverse of the regular flight, not entering or landing."]
-    for name, value in (("theta_d", case.theta_d), ("theta_M", case.theta_M)):
-        if value.source == "default":
-            notes.append(
-                f"{name} is not measured: 0 to {math.degrees(value.high):.1f} deg assumed; "
-                "measure it to settle the doubt."
-            )
-    if case.surface is None:
-        notes.append("No friction was stated, so no GO can be given.")
     if case.stairs.irregularity > 0:
         notes.append(
             f"The steps differ by {1e3 * case.stairs.irregularity:.1f} mm; the worst of them is "
             "judged as if the whole flight were like it."
         )
-    if traction_limit(case) is None or found.stance.mass is None:
-        text = "The drive's traction is not known and not judged."
-        if case.drive.max_traction is not None or case.drive.max_power is not None:
-            missing = "mass" if found.stance.mass is None else "speed"
-            text = f"The drive is not judged: that takes the {missing}, which is not stated."
-        notes.append(text)
     if case.speed and found.verdict != "outside-model":
         shown = measures_at(pose, case.acceleration, None, case.speed)
         if 0 < shown.energy_margin_mm < (shown.speed_height_mm or 0.0):
@@ -314,6 +300,26 @@ def _notes(case: Case, found: Judgement, pose: Pose) -> tuple[str, ...]:
                 f"{shown.speed_height_mm:.2f} mm, more than the energy margin of "
                 f"{shown.energy_margin_mm:.2f} mm: expect it to swing."
             )
+    return (*notes, *notes_of_any_model(case))
+
+
+def notes_of_any_model(case: Case) -> tuple[str, ...]:
+    """What was assumed or not stated, whichever model judges; the robot's own notes last."""
+    notes = []
+    for name, value in (("theta_d", case.theta_d), ("theta_M", case.theta_M)):
+        if value.source == "default":
+            notes.append(
+                f"{name} is not measured: 0 to {math.degrees(value.high):.1f} deg assumed; "
+                "measure it to settle the doubt."
+            )
+    if case.surface is None:
+        notes.append("No friction was stated, so no GO can be given.")
+    if traction_limit(case) is None or case.stance.mass is None:
+        text = "The drive's traction is not known and not judged."
+        if case.drive.max_traction is not None or case.drive.max_power is not None:
+            missing = "mass" if case.stance.mass is None else "speed"
+            text = f"The drive is not judged: that takes the {missing}, which is not stated."
+        notes.append(text)
     if case.robot.notes:
         notes.append(" ".join(case.robot.notes.split()))
     return tuple(notes)

@@ -24,7 +24,8 @@ def register(app: typer.Typer) -> None:
 
 def assess(
     robot: options.RobotName,
-    stairs: options.StairsName = None,
+    stairs: options.TerrainName = None,
+    points: options.PointsFile = None,
     rise: options.Rise = None,
     going: options.Going = None,
     angle: options.Angle = None,
@@ -57,9 +58,16 @@ def assess(
 
     case = options.case_from(
         robot,
-        options.stairs_of(
-            stairs, rise=rise, going=going, angle=angle, nosing_spacing=nosing_spacing, steps=steps
+        options.terrain_of(
+            stairs,
+            points,
+            rise=rise,
+            going=going,
+            angle=angle,
+            nosing_spacing=nosing_spacing,
+            steps=steps,
         ),
+        points=points,
         surface=surface,
         friction=friction,
         acceleration=acceleration,
@@ -90,7 +98,9 @@ def as_text(answer: "Assessment") -> str:
         "",
         _row(
             "stairs",
-            f"{answer.angle_deg:.1f} deg, {1e3 * answer.nosing_spacing_m:.0f} mm "
+            "no flight of steps"
+            if answer.angle_deg is None or answer.nosing_spacing_m is None
+            else f"{answer.angle_deg:.1f} deg, {1e3 * answer.nosing_spacing_m:.0f} mm "
             "from nosing to nosing",
         ),
         _row(
@@ -134,7 +144,7 @@ def _margin_rows(answer: "Assessment") -> list[str]:
     centroid = (
         ""
         if answer.margin_centroid_mm is None
-        else f"centroid {answer.margin_centroid_mm:+.0f} mm; "
+        else f", centroid {answer.margin_centroid_mm:+.0f} mm"
     )
     shown = ", ".join(
         f"{name} {value.low_deg:.1f} to {value.high_deg:.1f} deg ({value.source})"
@@ -144,11 +154,11 @@ def _margin_rows(answer: "Assessment") -> list[str]:
         _row("governs", answer.governs.replace("_", " ")),
         _row(
             "margin",
-            f"{answer.margin_deg:+.1f} deg{spread}, {centroid}"
+            f"{answer.margin_deg:+.1f} deg{spread}{centroid}"
             + (
                 ""
                 if answer.margin_angle_deg is None
-                else f"tips beyond {answer.margin_angle_deg:.1f} deg"
+                else f"; tips beyond {answer.margin_angle_deg:.1f} deg"
             )
             + (
                 ""
@@ -168,7 +178,9 @@ def _margin_rows(answer: "Assessment") -> list[str]:
                 f"(accepted: {answer.risk:g})",
             )
         )
-    if answer.a_min_safe is None or answer.a_max_safe is None:
+    if answer.area is None:
+        rows.append(_row("acceleration", "the band that is safe is not known off a regular flight"))
+    elif answer.a_min_safe is None or answer.a_max_safe is None:
         rows.append(_row("acceleration", "no constant acceleration is safe"))
     else:
         rows.append(
@@ -197,7 +209,8 @@ def _yaw_row(answer: "Assessment") -> list[str]:
 
 
 def _friction_row(answer: "Assessment") -> str:
-    text = f"{answer.required_friction:.2f} required"
+    needed = answer.required_friction
+    text = "no friction is enough" if needed is None else f"{needed:.2f} required"
     if answer.friction is None:
         return _row("friction", f"{text}, not stated")
     low, high = answer.friction

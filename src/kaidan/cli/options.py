@@ -2,12 +2,14 @@
 
 import re
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 if TYPE_CHECKING:
     from kaidan.assessment.case import Case
+    from kaidan.assessment.terrain import Terrain
     from kaidan.robot import Payload, Posture, Robot
     from kaidan.stairs import Stairs
 
@@ -17,6 +19,22 @@ RobotName = Annotated[
 StairsName = Annotated[
     str | None,
     typer.Argument(metavar="[STAIRS]", help="Catalogue name (kaidan stairs) or TOML file."),
+]
+TerrainName = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="[STAIRS]",
+        help="Catalogue name (kaidan stairs) or TOML file; several flights, from bottom to top, "
+        "joined by +.",
+    ),
+]
+PointsFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--points",
+        metavar="FILE",
+        help="Own profile instead of STAIRS: CSV with columns x,z in metres, from bottom to top.",
+    ),
 ]
 Rise = Annotated[str | None, typer.Option(help="Rise of uniform stairs, for example 180mm or 7in.")]
 Going = Annotated[str | None, typer.Option(help="Going of uniform stairs, for example 280mm.")]
@@ -145,6 +163,24 @@ def stairs_of(
     )
 
 
+def terrain_of(name: str | None, points: Path | None, **shape: Any) -> "Terrain":
+    """Stairs, several flights by name, or a profile through points; one of these ways."""
+    from kaidan.assessment.terrain import JOINT
+    from kaidan.errors import InputError
+    from kaidan.profile import Profile
+    from kaidan.report.files import points_of
+
+    if points is not None:
+        if name is not None or any(value is not None for value in shape.values()):
+            raise InputError("give either --points or stairs, not both")
+        return Profile.of_points(points_of(points))
+    if name is not None and JOINT in name and not Path(name).exists():
+        if any(value is not None for value in shape.values()):
+            raise InputError(f"give either the stairs {name!r} or a shape, not both")
+        return name.split(JOINT)
+    return stairs_of(name, **shape)
+
+
 def robot_of(name: str, overrides: list[str] | None) -> "Robot":
     """Robot by name with the user's own figures in place of the sheet's."""
     from kaidan.robot import Robot
@@ -162,7 +198,7 @@ def robot_of(name: str, overrides: list[str] | None) -> "Robot":
 
 def case_from(
     robot: str,
-    stairs: "Stairs",
+    stairs: "Terrain",
     *,
     surface: str | None = None,
     friction: str | None = None,
@@ -178,8 +214,9 @@ def case_from(
     uncertainty: list[str] | None = None,
     yaw: str = "0deg",
     risk: float = 0.01,
+    points: Path | None = None,
 ) -> "Case":
-    """Case from the texts of the shared options."""
+    """Case from the texts of the shared options; a profile is called after its file of points."""
     from kaidan.assessment import case_of
     from kaidan.errors import InputError
     from kaidan.surface import Surface
@@ -196,11 +233,6 @@ def case_from(
     if "friction" in doubts and ground is None:
         raise InputError("--uncertainty friction needs --friction or --surface")
     ground = _doubted(ground, {"friction_uncertainty": doubts.get("friction")})
-    stairs = stairs.model_copy(
-        update={
-            "uncertainty": _doubted(stairs.uncertainty, _only(doubts, "angle", "nosing_spacing"))
-        }
-    )
     sheet = sheet.model_copy(
         update={
             "uncertainty": _doubted(
@@ -214,7 +246,7 @@ def case_from(
             return None
         return _range(text, option, lambda part: parse(part, "angle", option=option))
 
-    return case_of(
+    case = case_of(
         sheet,
         stairs,
         surface=ground,
@@ -229,6 +261,11 @@ def case_from(
         yaw=parse(yaw, "angle", option="--yaw"),
         risk=risk,
     )
+    of_steps = _doubted(case.stairs.uncertainty, _only(doubts, "angle", "nosing_spacing"))
+    own: dict[str, Any] = {"uncertainty": of_steps}
+    if points is not None:
+        own["name"] = points.name
+    return case.changed(stairs=case.stairs.model_copy(update=own))
 
 
 def _pairs(texts: list[str] | None, kinds: dict[str, str], option: str) -> dict[str, float]:

@@ -24,7 +24,8 @@ def register(app: typer.Typer) -> None:
 
 def posture(
     robot: options.RobotName,
-    stairs: options.StairsName = None,
+    stairs: options.TerrainName = None,
+    points: options.PointsFile = None,
     rise: options.Rise = None,
     going: options.Going = None,
     angle: options.Angle = None,
@@ -60,9 +61,16 @@ def posture(
 
     case = options.case_from(
         robot,
-        options.stairs_of(
-            stairs, rise=rise, going=going, angle=angle, nosing_spacing=nosing_spacing, steps=steps
+        options.terrain_of(
+            stairs,
+            points,
+            rise=rise,
+            going=going,
+            angle=angle,
+            nosing_spacing=nosing_spacing,
+            steps=steps,
         ),
+        points=points,
         surface=surface,
         friction=friction,
         acceleration=acceleration,

@@ -11,14 +11,6 @@ from kaidan.cli.tables import echo, echo_table
 if TYPE_CHECKING:
     from kaidan.report.journey import Journey
 
-PointsFile = Annotated[
-    Path | None,
-    typer.Option(
-        "--points",
-        metavar="FILE",
-        help="Own profile instead of STAIRS: CSV with columns x,z in metres, from bottom to top.",
-    ),
-]
 Accept = Annotated[
     str,
     typer.Option(help="What counts as holding: no-rotation, or caught (by the next contact)."),
@@ -48,8 +40,8 @@ def register(app: typer.Typer) -> None:
 
 def traverse(
     robot: options.RobotName,
-    stairs: options.StairsName = None,
-    points: PointsFile = None,
+    stairs: options.TerrainName = None,
+    points: options.PointsFile = None,
     rise: options.Rise = None,
     going: options.Going = None,
     angle: options.Angle = None,
@@ -78,27 +70,24 @@ def traverse(
     Exit code: 0 go or caution, 1 no-go, 2 bad input, 3 outside the model.
     """
     from kaidan.errors import InputError
-    from kaidan.profile import Profile
     from kaidan.report import files
     from kaidan.report.journey import journey
-    from kaidan.stairs import Stairs
 
     forms = [None if path is None else files.figure_format(path) for path in (figure, landscape)]
     if poses is not None and figure is None:
         raise InputError("--poses needs --figure")
-    shape = (stairs, rise, going, angle, nosing_spacing, steps)
-    if points is not None and any(value is not None for value in shape):
-        raise InputError("give either --points or stairs, not both")
-    if points is None:
-        flight = options.stairs_of(
-            stairs, rise=rise, going=going, angle=angle, nosing_spacing=nosing_spacing, steps=steps
-        )
-    else:
-        profile = Profile.of_points(files.points_of(points))
-        flight = Stairs(name=points.name, rise=0.18, going=0.28)  # lends its name only
     case = options.case_from(
         robot,
-        flight,
+        options.terrain_of(
+            stairs,
+            points,
+            rise=rise,
+            going=going,
+            angle=angle,
+            nosing_spacing=nosing_spacing,
+            steps=steps,
+        ),
+        points=points,
         surface=surface,
         friction=friction,
         acceleration=acceleration,
@@ -111,8 +100,6 @@ def traverse(
         theta_m=theta_m,
         override=override,
     )
-    if points is not None:
-        case = case.changed(profile=profile)
     film = None
     if animation is not None:
         from kaidan.report import animation as films

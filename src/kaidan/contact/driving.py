@@ -273,9 +273,10 @@ def settle(
     (0.071, 0.0)
     """
     kernel = kernel_module("settling", compile_kernel=compile_kernel)
-    return Settled(
-        *kernel.settle(ground_table(terrain), body_table(parts, kinds), x, inclination, 0.0)
+    found, z, angle, rear, front = kernel.settle(
+        ground_table(terrain), body_table(parts, kinds), x, inclination, 0.0
     )
+    return Settled(bool(found), float(z), float(angle), int(rear), int(front))
 
 
 def traverse(

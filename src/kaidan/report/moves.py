@@ -148,7 +148,7 @@ def place_of(found: Climb, feature: int, leading: str) -> Place:
     if math.atan2(rise, run) > STEEP:
         top = _corner(nosings, float(ends[1, 0]), float(ends[1, 1]), name)
         return Place("riser", top.number, name)
-    return _tread(nosings, float(ends[:, 0].mean()), name)
+    return _tread(nosings, float(ends[:, 0].mean()), name, outline.stance.flat_length)
 
 
 def _corner(nosings: Array, x: float, z: float, part: str) -> Place:
@@ -158,7 +158,7 @@ def _corner(nosings: Array, x: float, z: float, part: str) -> Place:
     return Place("corner of step", _passed(nosings, x), part)
 
 
-def _tread(nosings: Array, x: float, part: str) -> Place:
+def _tread(nosings: Array, x: float, part: str, room: float) -> Place:
     number = _passed(nosings, x)
     if len(nosings) == 0:
         return Place("ground", None, part)
@@ -166,6 +166,8 @@ def _tread(nosings: Array, x: float, part: str) -> Place:
         return Place("the lower landing", None, part)
     if number == len(nosings):
         return Place("the upper landing", None, part)
+    if nosings[number, 0] - nosings[number - 1, 0] >= room:
+        return Place("the landing behind step", number, part)
     return Place("tread", number, part)
 
 
