@@ -100,9 +100,9 @@ def test_too_short_a_flat_leaves_tipping_open():
 
 
 def test_exactly_two_nosings_hold():
-    # limit: p = L / 2, whatever rounding does to it
-    robot = toy(track=Track(flat_length=0.5, front_radius=0.06, rear_radius=0.06))
-    found = climbing_conditions(robot, THREE_FOUR_FIVE, friction=1.0)
+    # limit: p = L / 2, whatever rounding does to it: 0.42 - 2 hypot(0.126, 0.168) = -6e-17
+    robot = toy(track=Track(flat_length=0.42, front_radius=0.06, rear_radius=0.06))
+    found = climbing_conditions(robot, Stairs(rise=0.126, going=0.168), friction=1.0)
     assert found["two-nosings"].margin == pytest.approx(0.0, abs=1e-15)
     assert found["two-nosings"].holds is True
     assert found["no-tip-downhill"].holds is not None

@@ -21,6 +21,7 @@ from kaidan.neighbours.entering import (
     ends_of,
     first_step,
     least_lever,
+    start_friction,
     tail_gap,
 )
 from kaidan.outline import Outline
@@ -161,6 +162,15 @@ def robot(**changes):
         "rear_flippers": pair,
     }
     return Robot(**(sheet | changes))
+
+
+def test_the_start_changes_its_formula_where_the_riser_passes_the_radius():
+    # limit: continuous there, since at h = R both are the same; hand: constant above, less below
+    ends = ends_of(robot(), robot().stance())
+    at = riser_start_friction(l_c=0.3, C_L=0.2, R=0.06)
+    assert start_friction(ends, 0.06) == pytest.approx(at, abs=1e-15)
+    assert start_friction(ends, 0.0601) == start_friction(ends, 0.2) == at
+    assert start_friction(ends, 0.05) < at
 
 
 def test_ends_turn_round_with_the_robot():

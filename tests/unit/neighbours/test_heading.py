@@ -280,6 +280,13 @@ def test_a_drift_makes_one_side_worse():
     assert right == pytest.approx(math.asin(0.65), abs=2e-4)
 
 
+@pytest.mark.parametrize(("duration", "settles"), [(1.16, False), (1.2, True)])
+def test_settled_for_a_tenth_of_the_run(duration, settles):
+    # hand: within two degrees from 1.06 s on, see above; 0.9 * 1.16 < 1.06 < 0.9 * 1.2
+    run = heading_run(toy(), STAIRS, loop(gain=2.0), start=0.3, duration=duration)
+    assert (run.outcome is Outcome.SETTLED) == settles
+
+
 def test_unsettled_is_neither():
     run = heading_run(toy(), STAIRS, loop(gain=0.01), start=0.5, duration=1.0)
     assert run.outcome is Outcome.UNSETTLED
