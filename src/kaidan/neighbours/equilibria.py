@@ -14,6 +14,7 @@ Magid, Tsubouchi, Koyanagi & Yoshida 2010, see `kaidan.neighbours.balance`.
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -24,7 +25,11 @@ from kaidan.neighbours.balance import Balance
 from kaidan.outline import Outline
 from kaidan.profile import Profile
 
-_SETTLED = 1e-6
+FARTHEST = math.radians(85.0)
+"""Inclination up to which poses are looked for [rad]: the kernel settles within 90 degrees."""
+APART = math.radians(0.5)
+"""Inclinations closer than this are one pose [rad]: the kernel, letting go, may step over wells
+as small."""
 _STARTS = math.radians(2.0)
 
 
@@ -63,8 +68,10 @@ def stable_poses(
     Returns
     -------
     tuple of Equilibrium
-        Stable and unstable ones in turn. Two stable poses closer than 2 degrees may be taken for
-        one; poses beyond 85 degrees are not looked for.
+        Stable and unstable ones in turn; beyond an unstable one at the end it falls. Contacts do
+        not slide: a pose is stable where the contact's lever turns it back. Poses that lean against
+        the face of a riser are not among them, nor are poses beyond 85 degrees; two stable ones
+        closer than 2 degrees may be taken for one.
 
     Raises
     ------
@@ -81,45 +88,36 @@ def stable_poses(
     if not math.isfinite(x):
         raise InputError(f"x = {x:g} m is not a finite place")
 
-    def settled(phi: float) -> contact.Settled:
-        return contact.settle(
+    def settled(phi: float) -> tuple[float, float]:
+        """Where it comes to rest [rad], infinite past 90 degrees, and at which height [m]."""
+        pose = contact.settle(
             profile.points, outline.parts, x, phi, kinds=outline.kinds, compile_kernel=compiled
         )
+        rest = pose.inclination if pose.found else math.copysign(math.inf, pose.inclination)
+        return float(rest), float(pose.z)
 
-    starts = np.arange(math.radians(-85.0), math.radians(85.0) + 1e-9, _STARTS)
+    starts = np.arange(-FARTHEST, FARTHEST + 1e-9, _STARTS).tolist()
+    rests = [settled(start) for start in starts]
+    ends = [k for k, (one, two) in enumerate(pairwise(rests)) if two[0] > one[0] + APART]
     found: list[Equilibrium] = []
-    before: tuple[float, contact.Settled] | None = None
-    for start in starts:
-        here = settled(float(start))
-        if not here.found:
-            before = None
-            continue
-        if before is not None and here.inclination > before[1].inclination + _SETTLED:
-            low, high = before[0], float(start)
-            rest = before[1]
+    for first, last in pairwise([0, *(k + 1 for k in ends), len(rests)]):
+        if first > 0:
+            low, high, below = starts[first - 1], starts[first], rests[first - 1][0]
             while high - low > 1e-9:
                 middle = 0.5 * (low + high)
-                there = settled(middle)
-                if there.found and there.inclination > rest.inclination + _SETTLED:
+                if settled(middle)[0] > below + APART:
                     high = middle
                 else:
                     low = middle
-            found.append(
-                Equilibrium(
-                    x=x, z=_height(profile, outline, x, low), inclination=low,
-                    balance=Balance.UNSTABLE,
-                )
-            )  # fmt: skip
-        if not found or here.inclination > found[-1].inclination + _SETTLED:
-            found.append(
-                Equilibrium(
-                    x=x,
-                    z=float(here.z),
-                    inclination=float(here.inclination),
-                    balance=Balance.STABLE,
-                )
-            )
-        before = (float(start), here)
+            ridge = _height(profile, outline, x, low)
+            found.append(Equilibrium(x=x, z=ridge, inclination=low, balance=Balance.UNSTABLE))
+        # of starts that end within half a degree, the one that had the least way to go
+        rest, z = min(
+            zip(starts[first:last], rests[first:last], strict=True),
+            key=lambda each: abs(each[0] - each[1][0]),
+        )[1]
+        if math.isfinite(rest):
+            found.append(Equilibrium(x=x, z=z, inclination=rest, balance=Balance.STABLE))
     return tuple(found)
 
 

@@ -20,7 +20,7 @@ from kaidan.contact import Status
 from kaidan.errors import InputError
 from kaidan.mechanics.measures import kinetic_energy_height
 from kaidan.neighbours import rollover, stepping
-from kaidan.neighbours.rollover import STRIDE, Action, Decision, avoid
+from kaidan.neighbours.rollover import STRIDE, Action, Decision, avoid_rollover
 from kaidan.neighbours.stepping import RANGE, Angles, Course, Stand
 from kaidan.profile import Profile
 from kaidan.robot import Posture, Robot
@@ -139,7 +139,7 @@ def drive_guarded(
         before = at
         if avoidance:
             foresight = _Foresight(course, at, step, keep, steepest)
-            decision = avoid(
+            decision = avoid_rollover(
                 at.angles, foresight.predict, threshold=keep, reach=reach, limits=limits
             )
             before = foresight.known.get(decision.angles, at)

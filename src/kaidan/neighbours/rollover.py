@@ -125,7 +125,7 @@ def stability_margin(contacts: ArrayLike, com: ArrayLike) -> tuple[float, float]
     return float(back), float(ahead)
 
 
-def avoid(
+def avoid_rollover(
     now: Angles,
     predict: Predictor,
     *,
@@ -170,7 +170,7 @@ def avoid(
 
     >>> def predict(angles):
     ...     return (0.01, 0.004 - 0.01 * angles.rear)
-    >>> decision = avoid(Angles(0.0, 0.0), predict, threshold=0.005, reach=(0.2, 0.2))
+    >>> decision = avoid_rollover(Angles(0.0, 0.0), predict, threshold=0.005, reach=(0.2, 0.2))
     >>> decision.action.value, decision.angles
     ('move', Angles(front=0.0, rear=-0.2))
     """

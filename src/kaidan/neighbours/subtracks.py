@@ -44,9 +44,9 @@ from kaidan.robot import FlipperPair, Posture, Robot
 Array = NDArray[np.float64]
 
 
-_FOLLOWED = 10.0
-"""Turn of the main tracks per way that the flippers go along with [rad/m]: a nose on an edge turns
-the body by a step over its own length, no track is shorter than 0.1 m, and more is a drop."""
+_FOLLOWED = 5.0
+"""Turn of the main tracks, as a multiple of the step over their length, up to which the flippers go
+along: a nose on an edge turns the body by about once that, and much more is a drop."""
 
 
 class Scan(NamedTuple):
@@ -156,7 +156,7 @@ def scanned(profile: Profile, x: float, scan: Scan, noise: np.random.Generator) 
 
 @dataclass(frozen=True)
 class Followed:
-    """A way with sub-tracks that follow the terrain; see `follow`. Arrays: one entry a step."""
+    """A way with sub-tracks that follow the terrain; see `follow_terrain`. Arrays: one entry a step."""
 
     status: Status
     arrived: bool
@@ -188,7 +188,7 @@ class Followed:
         return float(self.swing.max(initial=0.0))
 
 
-def follow(
+def follow_terrain(
     robot: Robot,
     profile: Profile,
     *,
@@ -313,12 +313,12 @@ def desired_angles(
     points = np.asarray(seen, dtype=float)
     body = stepping.outline_of(course.robot, at.angles)
     x, phi = at.x + step * math.cos(at.inclination), at.inclination
-    main = body.kinds != contact.FLIPPER
+    main, length = body.kinds != contact.FLIPPER, course.robot.track.flat_length
     pose = contact.settle(
         points, body.parts[main], x, phi, kinds=body.kinds[main], compile_kernel=course.compiled
     )
     stands = pose.found and _margin(body.parts[main], body.kinds[main], points, x, pose) >= safe
-    if stands and abs(pose.inclination - phi) <= _FOLLOWED * step:
+    if stands and abs(pose.inclination - phi) <= _FOLLOWED * step / length:
         z, phi = pose.z, pose.inclination
     else:
         stands = False
@@ -334,7 +334,7 @@ def desired_angles(
         if pair is None:
             wanted.append(None)
             continue
-        tip = front_tip if end == "front" else front_tip - course.robot.track.flat_length
+        tip = front_tip if end == "front" else front_tip - length
         p_x, p_z = tip - way * pair.pivot_inset, pair.pivot_height - stance.com_height
         u, w = points[:, 0] - x, points[:, 1] - z
         local = np.column_stack([way * (c * u + s * w - p_x), c * w - s * u - p_z])
