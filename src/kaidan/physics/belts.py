@@ -27,6 +27,8 @@ SHARPEST = 1e-3
 _ACROSS = [math.sqrt(0.5), -math.sqrt(0.5), 0.0, 0.0]
 """Turns z to y: an axle."""
 _BELLY_HEIGHT = 0.01
+HIDDEN = 3
+"""Group of geoms that MuJoCo's viewers do not show unless asked."""
 NARROW = 0.4
 """Overall width of a robot in the plane of which none is known [m]."""
 _COLOURS = {TRACK: (0.20, 0.22, 0.25, 1.0), BELLY: (0.9, 0.62, 0.0, 1.0)}
@@ -135,8 +137,9 @@ def _belt(
             pos=[x, lane.y, z],
             quat=_ACROSS,
             surfacevel=field[f"{name}_{end}"] * speed,
-            **look,
+            **{**look, "group": HIDDEN},
         )
+        add_wheel(body, (x, lane.y, z), r, lane.half_width, look["rgba"])
     if not nested:
         thick = min(part[2], part[5])
         for side, which in ((-1.0, "under"), (1.0, "over")):
@@ -144,6 +147,16 @@ def _belt(
                           look, speed)  # fmt: skip
             field[f"{name}_{which}"] = np.array([sign, 0.0, 0.0, 0.0, 0.0, 0.0])
     return field
+
+
+def add_wheel(
+    body: Any, at: tuple[float, float, float], radius: float, half: float, colour: Any
+) -> None:
+    """Add a cylinder that is seen and touches nothing, for a capsule that touches unseen."""
+    body.add_geom(
+        type=engine().mjtGeom.mjGEOM_CYLINDER, size=[radius, half, 0.0], pos=at, quat=_ACROSS,
+        contype=0, conaffinity=0, rgba=colour,
+    )  # fmt: skip
 
 
 def _plate(

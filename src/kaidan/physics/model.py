@@ -176,6 +176,12 @@ def _add_view(scene: Any, course: Course) -> None:
         xyaxes=[1.0, 0.0, 0.0, 0.0, 0.0, 1.0],
         mode=mujoco.mjtCamLight.mjCAMLIGHT_FIXED,
     )
+    scene.add_texture(
+        name="sky", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT, rgb1=[0.93, 0.95, 0.97],
+        rgb2=[0.75, 0.80, 0.86], width=64, height=384,
+    )  # fmt: skip
+    scene.visual.headlight.ambient = [0.35, 0.35, 0.35]
     scene.visual.global_.offwidth, scene.visual.global_.offheight = 1920, 1080
     scene.stat.center = [course.x, 0.0, course.z]
     scene.stat.extent = 2.0 * reach

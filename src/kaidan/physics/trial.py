@@ -22,15 +22,19 @@ from kaidan.physics.spec import TrialSpec
 Array = NDArray[np.float64]
 
 SETTLE = {"smooth-belt": 0.1, "sprung-noses": 0.4, "driven-grousers": 0.4, "shoe-chain": 0.4}
-"""Time on the tether, and again free with the track at rest [s], by model of the track."""
+"""Time on the tether [s], by model of the track."""
+STANDS = 0.5
+"""Time free with the track at rest [s], in which what cannot stand begins to fall."""
 RAMP = 0.4
 """Time in which grousers and chains come to speed [s]; belts start with the robot moving."""
 FALLEN = math.radians(45.0)
 """Turn beyond the line of the nosings, or beyond level, from which it has fallen [rad]."""
 STARTED_TO_FALL = math.radians(15.0)
 """Turn before the track moves that counts as a fall at the start [rad]."""
-TURNING = math.radians(15.0)
-"""Turn beyond which slipping is first of all a part of the fall [rad]."""
+SWINGING = math.radians(3.0)
+"""Turn beyond which slipping is first of all a part of the swing [rad]."""
+RESTED = math.radians(15.0)
+"""Turn beyond which a robot at the end of its course is still falling [rad]."""
 PATIENCE = 2.0
 """Times the time it takes, after which it is given up, and `GRACE` more."""
 GRACE = 2.0
@@ -217,9 +221,9 @@ class Simulation:
         """Let it rest, on a tether and then free; whether it stands."""
         mass, slope = self.spec.mass()[0], self.course.slope
         pull = mass * STANDARD_GRAVITY * math.sin(slope)
-        steps = max(1, round(SETTLE[self.spec.track.kind] / self.spec.step))
         phi = self.pose()[2]
-        for tether in (pull, 0.0):
+        for tether, time in ((pull, SETTLE[self.spec.track.kind]), (0.0, STANDS)):
+            steps = max(4, round(time / self.spec.step))
             self.data.xfrc_applied[self.body, 0] = tether * math.cos(slope)
             self.data.xfrc_applied[self.body, 2] = tether * math.sin(slope)
             for part in range(4):
@@ -323,10 +327,10 @@ class Simulation:
             if self.fallen(phi):
                 nose_up = (phi > course.slope) == (spec.facing == "nose-first")
                 return Outcome.FELL_BACKWARD if nose_up else Outcome.FELL_FORWARD
-            if abs(slip) > allowed * (1.0 if extra < TURNING else 4.0):
+            if abs(slip) > allowed * (1.0 if extra < SWINGING else 4.0):
                 return Outcome.SLID
             done = way >= course.goal or self.point(course.rear, 0.0)[0] >= course.goal_x
-            if done and extra < TURNING:
+            if done and extra < RESTED:
                 return Outcome.CLIMBED
         return Outcome.TIMED_OUT
 
