@@ -122,6 +122,29 @@ def test_the_contact_model_agrees(name, aside):
     assert climb(step, Outline.of(robot), with_margins=False, compiled=False).arrived == (aside < 0)
 
 
+def test_the_contact_model_agrees_on_random_robots():
+    # agreement: as above; where the formula says that it does not hold, nothing is compared
+    draw = np.random.default_rng(2010)
+    compared = 0
+    while compared < 40:
+        L, R = draw.uniform(0.3, 1.2), draw.uniform(0.01, 0.15)
+        body = Robot(
+            name="random",
+            com_from_front=L * draw.uniform(0.15, 0.85),
+            com_height=R * draw.uniform(1.0, 3.0),
+            track=Track(flat_length=L, front_radius=R, rear_radius=R),
+        )
+        asked = first_step(body, Stairs(rise=0.2, going=0.3))
+        if math.isnan(asked.largest_rise) or asked.largest_rise < 0.01:
+            continue
+        compared += 1
+        for aside in (-5e-4, 5e-4):
+            h = asked.largest_rise + aside
+            step = Profile.of_points([(-2, 0), (0, 0), (0, h), (2, h)])
+            found = climb(step, Outline.of(body), with_margins=False, compiled=False)
+            assert found.arrived == (aside < 0)
+
+
 def test_kenaf_does_not_get_over_the_ibcs_first_step():
     found = first_step(Robot.named("kenaf"), Stairs.named("ibc"))
     assert found.holds is False
