@@ -78,7 +78,13 @@ class ShoeChain(Sheet):
         json_schema_extra={"unit": "shoes"},
     )
     thickness: float = quantity("m", 0.002, 0.05, "of a shoe", default=0.008)
-    tension: float = quantity("N", 1.0, 1e5, "of the chain over its two runs", default=200.0)
+    tension: float = quantity(
+        "N",
+        1.0,
+        1e5,
+        "of both runs together; less than thrice the traction of a 20 kg robot lets shoes jam",
+        default=600.0,
+    )
 
 
 TrackModel = Annotated[
