@@ -13,8 +13,7 @@ turns and where they lead come from the contact model, on any profile.
         | .´   continuous            \__________ stretch 3
         +------------------------------------------------ way
 
-References
-----------
+Source:
 Magid, Tsubouchi, Koyanagi & Yoshida 2010, "Static balance for rescue robot navigation: losing
 balance on purpose within random step environment", IROS, 349-356. Re-derived: the quality figure,
 the thresholds and the mechanics are ours.
@@ -240,7 +239,7 @@ def balance_along(
     outline : Outline
         Robot in its posture.
     descending, facing, step, compiled
-        See `kaidan.climb.climb`.
+        See ``kaidan.climb.climb``.
     speed : float
         Speed whose energy a stable pose must be able to take up [m/s].
 

@@ -7,9 +7,7 @@ r"""All poses at one place: where losing balance on purpose could lead (after Ma
     centroid    \___/   \____.____/      two stable poses, one unstable between them
            +---------------------------- inclination
 
-References
-----------
-Magid, Tsubouchi, Koyanagi & Yoshida 2010, see `kaidan.neighbours.balance`.
+Source: Magid, Tsubouchi, Koyanagi & Yoshida 2010, see `kaidan.neighbours.balance`.
 """
 
 import math
@@ -63,7 +61,7 @@ def stable_poses(
     x : float
         Centroid [m].
     compiled : bool, optional
-        See `kaidan.climb.climb`.
+        See ``kaidan.climb.climb``.
 
     Returns
     -------

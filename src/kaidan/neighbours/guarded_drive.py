@@ -4,9 +4,7 @@ The rule of `kaidan.neighbours.rollover` in a loop over a profile: before each s
 model foretells the margin, the rule decides, the robot moves. What is foretold is what happens:
 slip, slopes across and dynamics are not in it.
 
-References
-----------
-Ohno et al. 2009, see `kaidan.neighbours.rollover`.
+Source: Ohno et al. 2009, see `kaidan.neighbours.rollover`.
 """
 
 import math
@@ -55,7 +53,7 @@ class GuardedDrive:
     """Smallest margin since the entry before [m]; 0 if it lost its balance and was caught, minus
     infinity if it fell."""
     actions: tuple[Action, ...]
-    """Decision before each step; all `Action.GO` without avoidance."""
+    """Decision before each step; all GO without avoidance."""
     time: float
     """Time taken, standing included [s]."""
     threshold: float
@@ -104,7 +102,7 @@ def drive_guarded(
     step : float
         Way between two decisions [m].
     compiled : bool, optional
-        See `kaidan.climb.climb`.
+        See ``kaidan.climb.climb``.
 
     Returns
     -------

@@ -11,17 +11,16 @@ stops.
       ----o---. nose up     ----o---.____      rear flippers down: the rearmost contact
        rear    `.                rear     o    moves back, and the margin about it grows
 
-References
-----------
-Ohno, Takeuchi, Chun, Tadokoro, Yuzawa, Yoshida & Koyanagi 2009, "Rollover avoidance using a
+Source: Ohno, Takeuchi, Chun, Tadokoro, Yuzawa, Yoshida & Koyanagi 2009, "Rollover avoidance using a
 stability margin for a tracked vehicle with sub-tracks", IEEE SSRR, 1-6. Re-derived: the rule is
 ours; the margin is Hirose's, see `kaidan.mechanics.measures`.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -34,13 +33,19 @@ from kaidan.mechanics.measures import (
 from kaidan.neighbours.stepping import RANGE, Angles
 
 Array = NDArray[np.float64]
-Predictor = Callable[[Angles], tuple[float, float]]
-"""Margins with flippers at these angles, here and one step of the way ahead [m]."""
 
 STRIDE = math.radians(10.0)
 """Turn by which motions longer than a step of the way are looked for [rad]: the kernel settles the
 robot at each, and a flipper of 0.3 m moves by 5 cm, less than any stair."""
 _DIRECTIONS = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1))
+
+
+class Predictor(Protocol):
+    """What foresees the margin."""
+
+    def __call__(self, angles: Angles, /) -> tuple[float, float]:
+        """Margins with flippers at these angles, here and one step of the way ahead [m]."""
+        ...
 
 
 class Action(StrEnum):

@@ -1,6 +1,6 @@
 """A robot driven in small steps while its flippers turn: the contact model, started anew each turn.
 
-Between two turns the way is one `kaidan.contact.traverse`, so that flippers that never turn give
+Between two turns the way is one ``kaidan.contact.traverse``, so that flippers that never turn give
 just that traverse. When they turn, the centroid moves within the robot, the robot stays where it
 is, and it is let go again from the inclination that it had.
 
@@ -70,7 +70,7 @@ class Course:
         *,
         compiled: bool | None = None,
     ) -> Self:
-        """Course from landing to landing, as `kaidan.climb.climb` drives it.
+        """Course from landing to landing, as ``kaidan.climb.climb`` drives it.
 
         Parameters
         ----------
@@ -81,7 +81,7 @@ class Course:
         first : Posture, optional
             Flippers at the start; stowed without one.
         compiled : bool, optional
-            See `kaidan.climb.climb`.
+            See ``kaidan.climb.climb``.
 
         Returns
         -------
@@ -148,7 +148,7 @@ class Stand:
 
     @property
     def margins(self) -> Array:
-        """Row of margins, see `kaidan.contact.margins.pose_margins`."""
+        """Row of margins, see ``kaidan.contact.margins.pose_margins``."""
         return np.asarray(self._margins(self.row)[-1])
 
     def _margins(self, first: int) -> Array:

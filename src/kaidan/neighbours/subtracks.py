@@ -12,8 +12,7 @@ the body at the slope of the terrain in sight below it.
        (______o)____|
      o-´   main track at the pose expected ahead
 
-References
-----------
+Source:
 Okada, Nagatani, Yoshida, Yoshida & Koyanagi 2010, "Shared autonomy system for tracked vehicles to
 traverse rough terrain based on continuous three-dimensional terrain scanning", IROS, 357-362; and
 Okada, Nagatani, Yoshida, Tadokoro, Yoshida & Koyanagi 2011, "Shared autonomy system for tracked
@@ -156,7 +155,7 @@ def scanned(profile: Profile, x: float, scan: Scan, noise: np.random.Generator) 
 
 @dataclass(frozen=True)
 class Followed:
-    """A way with sub-tracks that follow the terrain; see `follow_terrain`. Arrays: one entry a step."""
+    """A way with sub-tracks on the terrain; see `follow_terrain`. Arrays: one entry a step."""
 
     status: Status
     arrived: bool
@@ -221,7 +220,7 @@ def follow_terrain(
     step : float
         Way between two scans [m].
     compiled : bool, optional
-        See `kaidan.climb.climb`.
+        See ``kaidan.climb.climb``.
 
     Returns
     -------
