@@ -225,7 +225,7 @@ def _reason(
         )
     if governs == "momentum":
         return f"It may topple with the momentum it gains{place}."
-    if doubts:
+    if governs == "energy" and doubts:
         return f"It gets there, but {doubts[0]}."
     if governs == "friction_unknown":
         return f"It does not tip, but the friction is not known: it may slip{place}."

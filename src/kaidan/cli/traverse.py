@@ -158,6 +158,14 @@ def _show(found: "Journey") -> None:
     echo("")
     for line in lines_of(found.moves):
         echo(f"  {line}")
+    if found.fall:
+        echo("")
+        echo("  How it turns over its downhill end (stages of the paper's Fig. 20, no grousers)")
+    for stage in found.fall:
+        echo(
+            f"    {stage.name:<16}{stage.way_m:6.2f} m {stage.inclination_deg:6.1f} deg  "
+            f"{stage.text}"
+        )
 
 
 def grade_lines(grades: object) -> list[str]:

@@ -154,6 +154,5 @@ def swings(run: contact.Traverse) -> list[tuple[int, float]]:
     rows = []
     for release in run.releases:
         if release[15] == 0.0:
-            row = int(np.searchsorted(run.s, release[1], side="right")) - 1
-            rows.append((max(row, 0), float(release[9])))
+            rows.append((run.row_before(float(release[1])), float(release[9])))
     return rows

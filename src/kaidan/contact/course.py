@@ -365,6 +365,9 @@ def drive(
                 ):
                     write_event(events, n_event, 9, path, x, z, phi, rear, front, n_pose - 1)
                     return STUCK_STATUS, n_pose, n_event + 1, n_release
+        if x >= x_end:  # the turn carried it there
+            write_event(events, n_event, 8, path, x, z, phi, rear, front, n_pose - 1)
+            return OK, n_pose, n_event + 1, n_release
     return TOO_LONG, n_pose, n_event, n_release
 
 

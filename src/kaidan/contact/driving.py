@@ -168,6 +168,17 @@ class Traverse:
         """Grade three: it arrived and no release topples with the momentum gained."""
         return self.status is Status.OK and not bool((self.releases[:, 14] > 0).any())
 
+    def row_before(self, s: float) -> int:
+        """Row of the last pose of a line of poses that ends at an arclength [m].
+
+        A release lies between two rows of one arclength, before it and after it.
+        """
+        rows = np.flatnonzero(np.abs(self.s - s) < 1e-9)
+        if len(rows) == 0:
+            return max(int(np.searchsorted(self.s, s, side="right")) - 1, 0)
+        legs = self.poses[rows, 15]
+        return int(rows[legs == legs.min()][-1])
+
     def first_beyond(self, mu: float) -> int | None:
         """Row of the first pose whose required friction exceeds mu; None if there is none.
 

@@ -16,6 +16,7 @@ from kaidan.assessment.ruling import Ruling, ruling
 from kaidan.climb import Climb, Phase
 from kaidan.contact.forces import contacts_at, two_contact_forces
 from kaidan.errors import InputError
+from kaidan.report.fall import Stage, fall_of
 from kaidan.report.moves import Move, moves_of
 
 Array = NDArray[np.float64]
@@ -92,6 +93,11 @@ class Journey:
         return moves_of(self.found, self.leading)
 
     @cached_property
+    def fall(self) -> tuple[Stage, ...]:
+        """Stages of the largest turn over the downhill end; empty if there is none."""
+        return fall_of(self.found, self.leading)
+
+    @cached_property
     def phase_of_pose(self) -> NDArray[np.str_]:
         """Phase of each pose."""
         return self.found.phase_of_pose
@@ -126,18 +132,10 @@ class Journey:
             if release[15] == 0.0
         ]
         for _, way in sorted(swings, reverse=True):
-            row = self.row_before(way)
+            row = self.found.run.row_before(way)
             if self.phase_of_pose[row] == Phase.TRAVERSE.value:
                 return row
         return int(within[np.argmin(self.energy[within])])
-
-    def row_before(self, way: float) -> int:
-        """Row of the last pose of a line of poses that ends at a place of the way [m]."""
-        s, leg = self.found.run.s, self.found.run.poses[:, 15]
-        rows = np.flatnonzero(np.abs(s - way) < 1e-9)
-        if len(rows) == 0:
-            return max(int(np.searchsorted(s, way, side="right")) - 1, 0)
-        return int(rows[leg[rows] == leg[rows].min()][-1])
 
     def forces_at(self, row: int) -> tuple[Force, ...]:
         """Contacts of a pose, and the forces of the pair that needs the least friction."""
@@ -232,6 +230,7 @@ class Journey:
                 for each, event in zip(found.happenings, run.events, strict=True)
             ],
             "moves": [move.text for move in self.moves],
+            "fall": [asdict(stage) for stage in self.fall],
             "poses": {
                 "columns": [{"name": name, "unit": unit} for name, unit in _COLUMNS],
                 "rows": [

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from numpy.typing import NDArray
 
 from kaidan.contact.turning import turned
 from kaidan.report import look, side_view
@@ -24,6 +25,8 @@ _TALLEST = 4.4
 _APART, _NEAR = 0.8, 0.5
 """Distance of poses that do not hide each other, in lengths of the robot; least distance of start,
 end and swings."""
+_ROOM_FOR_NAME = 0.05
+"""Share of the way that the name of a phase takes in the figure."""
 _TINTS = {"enter": "#f3f3f3", "land": "#f3f3f3"}
 
 
@@ -190,7 +193,7 @@ def chosen(found: Journey, poses: int | None) -> list[Shown]:
             shown.append(Shown(stand_at(found, row), text, "ghost"))
     for kind, share in (("swings", _NEAR), ("rests", _APART), ("passes", _APART)):
         for move in sorted(found.moves, key=lambda move: -move.swing):
-            stand = stand_at(found, found.row_before(move.way))
+            stand = stand_at(found, found.found.run.row_before(move.way))
             if move.kind == kind and kind not in told and free(stand, share):
                 shown.append(Shown(stand, _word(found, move), "ghost"))
                 told.add(kind)
@@ -302,22 +305,19 @@ def _draw_inset(axes: Axes, found: Journey) -> None:
     )
 
 
-def _legs(leg: look.Array) -> list[tuple[int, int]]:
-    """Slices of rows between releases."""
-    cuts = [0, *(np.flatnonzero(np.diff(leg) != 0) + 1).tolist(), len(leg)]
+def _legs(leg: look.Array | NDArray[np.str_]) -> list[tuple[int, int]]:
+    """Slices of rows between changes: releases, phases."""
+    cuts = [0, *(np.flatnonzero(leg[1:] != leg[:-1]) + 1).tolist(), len(leg)]
     return list(pairwise(cuts))
 
 
 def _phases(axes: Axes, found: Journey, *, named: bool) -> None:
     x, phase = found.found.run.x, found.phase_of_pose
-    for name in ("enter", "traverse", "land"):
-        rows = np.flatnonzero(phase == name)
-        if len(rows) == 0:
-            continue
-        low, high = float(x[rows].min()), float(x[rows].max())
+    for start, end in _legs(phase):
+        name, low, high = str(phase[start]), float(x[start:end].min()), float(x[start:end].max())
         if name in _TINTS:
             axes.axvspan(low, high, facecolor=_TINTS[name], edgecolor="none", zorder=0)
-        if named:
+        if named and high - low > _ROOM_FOR_NAME * float(np.ptp(x)):
             axes.text(
                 (low + high) / 2,
                 1.015,
@@ -369,8 +369,9 @@ def _inclination(axes: Axes, found: Journey) -> None:
     axes.set_ylim(low - 0.08 * (high - low) - 1, high + 0.22 * (high - low) + 1)
     _along(axes, found, values, look.BLUE)
     axes.set_ylabel(f"{found.leading} up [°]")
-    angle = math.degrees(found.found.profile.angle)
-    if math.isfinite(angle):
+    apart = np.diff(found.found.profile.nosings, axis=0)
+    if len(apart):  # the middle one of all steps: a landing between flights does not count
+        angle = math.degrees(float(np.median(np.arctan2(apart[:, 1], apart[:, 0]))))
         _level(axes, angle, f"stairs {look.signed(angle, 1)}°", look.GREY)
 
 
@@ -419,6 +420,17 @@ def _friction(axes: Axes, found: Journey) -> None:
             ha="right",
             va="top",
             color=look.GREY,
+        )
+    elif surface.friction_low > 0.9 * top:
+        axes.text(
+            0.995,
+            0.95,
+            f"stated: more than this, {surface.friction_low:g}",
+            transform=axes.transAxes,
+            ha="right",
+            va="top",
+            fontsize=look.SMALL,
+            color=look.VERMILION,
         )
     elif surface.friction_low == surface.friction_high:
         _level(axes, surface.friction_low, f"stated {surface.friction_low:g}")
