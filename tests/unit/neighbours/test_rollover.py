@@ -129,6 +129,21 @@ def test_it_does_not_turn_through_a_worse_pose():
     assert rule(predict).action is Action.STOP
 
 
+def test_from_below_the_threshold_it_may_turn_through_poses_no_worse():
+    """By hand: from 8 mm through 9 mm to 12 mm, with 10 mm to be kept."""
+
+    def predict(angles):
+        if angles.rear != 0.5 or angles.front > 0.5:
+            return (0.0, 0.0)
+        here = {0: 0.008, 1: 0.009}.get(round((0.5 - angles.front) / 0.1), 0.012)
+        return (here, here)
+
+    decision = rule(predict)
+    assert decision.action is Action.WAIT
+    assert decision.margin_then == 0.012
+    assert decision.angles.rear == 0.5
+
+
 def test_joint_limits_are_kept():
     seen = []
 

@@ -1,6 +1,7 @@
 """Sub-tracks on the terrain scanned ahead: touching angle, scan, loop."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,7 +11,13 @@ from kaidan.contact import Status
 from kaidan.errors import InputError
 from kaidan.neighbours import stepping
 from kaidan.neighbours.stepping import Angles, Course
-from kaidan.neighbours.subtracks import Scan, follow_terrain, scanned, touching_angle
+from kaidan.neighbours.subtracks import (
+    Scan,
+    desired_angles,
+    follow_terrain,
+    scanned,
+    touching_angle,
+)
 from kaidan.outline import Outline
 from kaidan.profile import Profile
 from kaidan.robot import FlipperPair, Posture, Robot
@@ -165,6 +172,28 @@ def test_on_level_ground_the_flippers_come_to_lie_flat():
     # so the body may be lifted by the tips, never by more than that
     assert np.abs(found.inclination).max() < 2e-3
     assert found.largest_swing < 1e-12  # rounding
+
+
+def test_on_a_ramp_the_flippers_lie_flat_too():
+    """By hand: what counts is the ground seen from the body, whatever its inclination."""
+    slope = math.radians(20)
+    ramp = Profile.of_points([(-3, -3 * math.tan(slope)), (3, 3 * math.tan(slope))])
+    course = Course.of(ABSOLEM, ramp, FLAT, compiled=False)
+    stand = stepping.ahead(course, stepping.begin(course), 1.5)
+    assert stand.inclination == pytest.approx(slope, abs=1e-9)
+    seen = scanned(ramp, stand.x, Scan(spacing=0.001), np.random.default_rng(0))
+    wanted, stands = desired_angles(course, stand, seen, 0.02, 1e-4)
+    assert stands
+    # points 1 mm apart: a disc of 29 mm sinks by (0.5 mm)^2/(2 x 29 mm) = 4 um, 13 urad
+    assert wanted == pytest.approx((PAIR.flat_angle, PAIR.flat_angle), abs=1e-4)
+
+
+def test_a_swing_leaves_no_margin():
+    course = Course.of(ABSOLEM, FLIGHT, FLAT, compiled=False)
+    stand = stepping.begin(course)
+    assert stand.least_margin() > 0.05
+    assert replace(stand, swing=0.2).least_margin() == 0.0
+    assert replace(stand, status=Status.FELL_BACKWARD).least_margin() == -math.inf
 
 
 @pytest.mark.parametrize(
