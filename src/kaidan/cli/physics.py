@@ -170,7 +170,8 @@ def trial(
 ) -> None:
     """Drive ROBOT over STAIRS in MuJoCo and tell what happens.
 
-    Without a surface friction is 3, which isolates tipping; of a range the low end counts.
+    Without a surface friction is 3, which isolates tipping (grousers: 0.8); of a range the low end
+    counts.
 
     Exit code: 0 climbed, 1 not, 2 bad input, 3 the simulation diverged.
     """
@@ -304,7 +305,7 @@ def _show(result: "TrialResult") -> None:
     torque = "" if result.largest_torque is None else f", {result.largest_torque:.1f} N m"
     rows = (
         ("model", f"{spec.track.kind}, {spec.dimensions}-D, steps of {1e3 * spec.step:g} ms"),
-        ("friction", f"{spec.friction:g}"),
+        ("friction", f"{spec.static_friction:g}"),
         ("speed", f"{spec.speed:g} m/s, {spec.acceleration:g} m/s2 up the stairs"),
         ("mass", f"{result.mass:g} kg{assumed}{estimated}"),
         ("extra inclination", f"{result.largest_extra_deg:.2f} deg at most"),

@@ -78,7 +78,7 @@ def model_of(spec: TrialSpec) -> Model:
         motion = add_grousers(scene, body, spec, parts[0], lanes_of(spec)[0], contacts)
         driven = list(motion.geoms)
     for geom in scene.geoms:
-        geom.friction = [spec.friction, 0.0, 0.0] if geom.priority == 0 else geom.friction
+        geom.friction = [spec.static_friction, 0.0, 0.0] if geom.priority == 0 else geom.friction
         geom.solref, geom.solimp = [spec.softness, 1.0], _SOLIMP
     _add_view(scene, course)
     compiled = scene.compile()

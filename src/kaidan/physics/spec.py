@@ -96,6 +96,11 @@ KINDS: dict[str, type[SmoothBelt | SprungNoses | DrivenGrousers | ShoeChain]] = 
     "driven-grousers": DrivenGrousers,
     "shoe-chain": ShoeChain,
 }
+SMOOTH_FRICTION = 3.0
+"""Friction of belts where none is stated [1]: they do not slip below 71 degrees."""
+RUBBER_FRICTION = 0.8
+"""Friction of grousers where none is stated [1]: rubber on something dry, 0.6 to 1.0."""
+_SMOOTH = ("smooth-belt", "sprung-noses", "shoe-chain")
 FROM_THE_LANDING = 0.02
 """Contact time of a trial that drives against the first riser [s]: a rigid belt that never slows
 down and a rigid riser throw each other about; rubber does not."""
@@ -114,8 +119,12 @@ class TrialSpec(Sheet):
     )
     posture: Posture = Posture()
     payload: tuple[Payload, ...] = ()
-    friction: float = quantity(
-        "1", 0.0, 5.0, "track on nosings; as high as the default it isolates tipping", default=3.0
+    friction: float | None = quantity(
+        "1",
+        0.0,
+        5.0,
+        "track on nosings; 3 without, which isolates tipping, 0.8 for grousers",
+        default=None,
     )
     speed: float = quantity("m/s", 0.001, 5.0, "of the belt; the lowest, if it changes",
                             default=0.1)  # fmt: skip
@@ -175,7 +184,8 @@ class TrialSpec(Sheet):
             self.robot.track.gauge is None or self.robot.track.width is None
         ):
             raise self.refuse(
-                f"dimensions = 3 needs the gauge and the width of {self.robot.name!r}'s tracks"
+                "dimensions = 3 needs gauge and width of the tracks; "
+                f"{self.robot.name!r} states none"
             )
         if self.dimensions == 2 and (self.yaw or self.lateral_offset):
             raise self.refuse("yaw and lateral_offset need dimensions = 3")
@@ -190,7 +200,7 @@ class TrialSpec(Sheet):
                 raise self.refuse(f"{self.track.kind} needs a track without a gap")
         if self.track.kind == "sprung-noses" and self.stiffness is None:
             raise self.refuse(
-                f"sprung-noses need a stiffness: {self.robot.name!r}'s track states none"
+                f"sprung-noses need a stiffness; the track of {self.robot.name!r} states none"
             )
         if self.track.kind == "shoe-chain" and self.outline().kinds.max() > 0:
             raise self.refuse("shoe-chain is modelled without flippers and belly")
@@ -211,6 +221,16 @@ class TrialSpec(Sheet):
     def step(self) -> float:
         """Time step [s]."""
         return self.timestep or _STEPS[self.track.kind]
+
+    @property
+    def static_friction(self) -> float:
+        """Friction of the track on the nosings [1].
+
+        A smooth belt needs more than tan(slope), so without a figure it has what isolates tipping.
+        What stands out of a belt holds by its shape: much friction would let it hang on treads.
+        """
+        usual = SMOOTH_FRICTION if self.track.kind in _SMOOTH else RUBBER_FRICTION
+        return usual if self.friction is None else self.friction
 
     @property
     def softness(self) -> float:

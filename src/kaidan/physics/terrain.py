@@ -16,6 +16,8 @@ Array = NDArray[np.float64]
 NOSE = (0.001, 0.02)
 """Width and height of a nosing that stands alone [m]: a blade, on which no tail can rest."""
 _THICK = 0.05
+_PLATE = 0.01
+"""Thickness of what slopes [m]: little of its square ends sticks out of its neighbours."""
 _OVERLAP = 0.01
 _COLOURS = ((0.78, 0.76, 0.72, 1.0), (0.70, 0.68, 0.64, 1.0))
 
@@ -63,8 +65,8 @@ def blocks_of(profile: Profile, *, down: bool, noses_only: bool) -> list[Block]:
         if x1 - x0 < 1e-9:
             if _level(points, k + 1 if z1 > z0 else k - 1):
                 continue  # the face of the box that lies behind it
-            away = _THICK / 2 if z1 > z0 else -_THICK / 2
-            made.append(Block(x0 + away, (z0 + z1) / 2, _THICK / 2, abs(z1 - z0) / 2, 0.0, number))
+            away = _PLATE / 2 if z1 > z0 else -_PLATE / 2
+            made.append(Block(x0 + away, (z0 + z1) / 2, _PLATE / 2, abs(z1 - z0) / 2, 0.0, number))
         elif abs(z1 - z0) < 1e-12:
             left = x0 - (_OVERLAP if before < 0 else 0.0)
             right = x1 + (_OVERLAP if after > 0 else 0.0)
@@ -77,10 +79,10 @@ def blocks_of(profile: Profile, *, down: bool, noses_only: bool) -> list[Block]:
             half = math.hypot(x1 - x0, z1 - z0) / 2
             made.append(
                 Block(
-                    (x0 + x1) / 2 + _THICK / 2 * math.sin(angle),
-                    (z0 + z1) / 2 - _THICK / 2 * math.cos(angle),
+                    (x0 + x1) / 2 + _PLATE / 2 * math.sin(angle),
+                    (z0 + z1) / 2 - _PLATE / 2 * math.cos(angle),
                     half,
-                    _THICK / 2,
+                    _PLATE / 2,
                     angle,
                     number,
                 )

@@ -64,6 +64,10 @@ class Belt:
             return self.first * time / self.ramp
         return self.first + self.along * min(time - self.ramp, self.coasting)
 
+    def steady(self, time: float) -> bool:
+        """Whether the speed changes no more after that time."""
+        return time >= self.ramp and (self.along == 0.0 or time - self.ramp >= self.coasting)
+
     def run(self, time: float) -> float:
         """Way [m] that the belt has run."""
         if time < self.ramp:
@@ -199,15 +203,18 @@ class Simulation:
 
     def drive(self, time: float, steps: int, on: bool) -> None:
         """Advance by some steps, the belt at its speed (or at rest)."""
-        if self.model.motion is None:
-            speed = self.belt.speed(time + 0.5 * steps * self.spec.step) if on else 0.0
-            self._set_surface(speed)
-            self.mujoco.mj_step(self.compiled, self.data, steps)
-            return
         motion, data, step = self.model.motion, self.data, self.mujoco.mj_step
+        steady = not on or self.belt.steady(time)
         self._set_surface(self.belt.speed(time) if on else 0.0)
-        for k in range(steps):
-            data.ctrl[:] = motion.targets(self.belt.run(time + k * self.spec.step) if on else 0.0)
+        if steady and motion is None:
+            step(self.compiled, data, steps)
+            return
+        for k in range(steps):  # in as many strides as a change of speed or of places asks for
+            now = time + k * self.spec.step
+            if not steady:
+                self._set_surface(self.belt.speed(now))
+            if motion is not None:
+                data.ctrl[:] = motion.targets(self.belt.run(now) if on else 0.0)
             step(self.compiled, data)
 
     def _set_surface(self, speed: float) -> None:

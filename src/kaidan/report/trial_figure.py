@@ -48,7 +48,7 @@ def trial_figure(result: TrialResult) -> Figure:
             0.6,
             f"{look.named(spec.robot.name)} on {look.named(spec.stairs.name)}: {told}",
             f"{spec.track.kind}, {spec.direction} {spec.facing}, {spec.speed:g} m/s, "
-            f"friction {spec.friction:g}, seed {spec.seed}",
+            f"friction {spec.static_friction:g}, seed {spec.seed}",
         )
     return figure
 
