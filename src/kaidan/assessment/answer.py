@@ -118,8 +118,8 @@ class PhaseShown:
 
     phase: Literal["enter", "traverse", "land"]
     """Part of the way."""
-    required_friction: float
-    """Largest required friction of any pose [1]."""
+    required_friction: float | None
+    """Largest required friction of any pose [1]; null: no friction is enough."""
     required_friction_step: int
     """Nosing at which, counted from the bottom."""
     energy_margin_mm: float | None

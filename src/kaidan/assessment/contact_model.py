@@ -94,7 +94,7 @@ def answer(case: Case, judged: Judgement, flat: Assessment, *, accept: Accept) -
             margin_backward_deg=None,
         )
     angle = 0.0 if flat.angle_deg is None else math.radians(flat.angle_deg)
-    needed = [each.required_friction for each in told.phases]
+    needed = [each.required_friction for each in found.phases]
     if case.steps_known and flat.required_friction is not None:
         needed.append(flat.required_friction)
     mass = flat.mass_kg
@@ -150,7 +150,7 @@ def _advice(
     whole = WholeWay(
         governs=told.governs,
         entering_or_landing=told.phase in ("enter", "land"),
-        friction=max((each.required_friction for each in told.phases), default=math.nan),
+        friction=max((each.required_friction for each in found.phases), default=math.nan),
         energy=energy_margin(case, found),
         kind=kind,
     )

@@ -95,7 +95,8 @@ def reading_of(case: Case, found: Climb, *, kind: bool) -> Reading:
     ]
     downhill, uphill = reversed(bare) if found.descending else bare
     downhill, uphill = downhill - theta_d - theta_M, uphill - theta_d
-    if found.phases and all(each.phase is not Phase.TRAVERSE for each in found.phases):
+    no_flight = all(each.phase is not Phase.TRAVERSE for each in found.phases)
+    if found.phases and no_flight and one.holds is None:
         downhill = uphill = FALL  # it only enters and lands: the energy margin alone judges
     elif (case.yaw == 0 and one.outside) or math.isnan(downhill):
         swing = largest_swing(found)

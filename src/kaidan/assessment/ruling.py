@@ -106,7 +106,7 @@ def _phases_shown(found: Climb) -> tuple[PhaseShown, ...]:
     return tuple(
         PhaseShown(
             phase=each.phase.value,
-            required_friction=each.required_friction,
+            required_friction=_finite(each.required_friction),
             required_friction_step=each.required_friction_step,
             energy_margin_mm=_finite(each.energy_margin_mm),
             energy_margin_step=each.energy_margin_step,

@@ -55,16 +55,26 @@ def phases_of(
     landing = (front[:, 0] > last + _ON) | (
         (np.abs(front[:, 1] - end_level) < _ON) & (front[:, 0] >= last - _ON)
     )
+    entering = _without_gaps(entering)
     for ends in _between(way, room):
         leaves = _on_landing(rear, ends, descending)
         if not descending:  # the edge behind it belongs to the flight that it leaves
             leaves &= rear[:, 0] > ends[0, 0] + _ON
-        entering |= leaves
+        entering |= _without_gaps(leaves)
         landing |= _on_landing(front, ends, descending) & ~_at_its_end(front, ends)
     phase = np.full(len(run.poses), Phase.TRAVERSE.value, dtype="<U8")
     phase[entering] = Phase.ENTER.value
     phase[landing] = Phase.LAND.value
     return phase
+
+
+def _without_gaps(some: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """All poses from the first to the last of some: in between others may carry it for a while."""
+    rows = np.flatnonzero(some)
+    filled = np.zeros_like(some)
+    if len(rows):
+        filled[rows[0] : rows[-1] + 1] = True
+    return filled
 
 
 def _between(way: Profile, room: float) -> list[Array]:

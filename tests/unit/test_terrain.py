@@ -1,0 +1,114 @@
+"""Several flights and profiles of any shape as what the robot is to climb."""
+
+import math
+
+import numpy as np
+import pytest
+
+import kaidan
+from kaidan.assessment import case_of
+from kaidan.assessment.contact_model import climb_of
+from kaidan.climb import Phase
+from kaidan.errors import InputError, KaidanError
+from kaidan.profile import Profile
+from kaidan.stairs import Stairs
+
+LOW = Stairs(name="low", rise=0.10, going=0.25, steps=9, upper_landing=2.0)
+HIGH = Stairs(name="high", rise=0.12, going=0.25, steps=8)
+ASKED = {"friction": 1.5, "flippers": "flat"}
+
+
+def ways(terrain, direction="up"):
+    return climb_of(case_of("absolem", terrain, **ASKED, direction=direction))
+
+
+def spans(found):
+    """Names of the phases in the order in which the robot goes through them."""
+    phase = found.phase_of_pose.tolist()
+    return [name for k, name in enumerate(phase) if k == 0 or phase[k - 1] != name]
+
+
+def test_a_profile_of_a_flight_is_answered_as_the_flight():
+    flight = kaidan.assess("absolem", LOW, **ASKED)
+    profile = kaidan.assess("absolem", Profile.of_stairs(LOW), **ASKED)
+    assert (profile.verdict, profile.governs, profile.phase) == (
+        flight.verdict, flight.governs, flight.phase,
+    )  # fmt: skip
+    assert profile.margin_deg == pytest.approx(flight.margin_deg, abs=1e-9)
+    assert profile.angle_deg == pytest.approx(flight.angle_deg, abs=1e-9)
+    assert profile.margin_angle_deg == pytest.approx(flight.margin_angle_deg, abs=1e-9)
+
+
+@pytest.mark.parametrize("given", [[LOW, HIGH], (LOW, HIGH), Profile.of_flights([LOW, HIGH])])
+def test_several_flights_are_one_way(given):
+    found = ways(given)
+    assert found.arrived
+    # height climbed, by hand: 9 x 0.10 + 8 x 0.12
+    assert found.run.z[-1] - found.run.z[0] == pytest.approx(1.86, abs=1e-9)
+    assert spans(found) == ["enter", "traverse", "land", "enter", "traverse", "land"]
+
+
+def test_flights_go_down_through_the_same_phases():
+    found = ways([LOW, HIGH], direction="down")
+    assert found.arrived
+    assert spans(found) == ["enter", "traverse", "land", "enter", "traverse", "land"]
+    enters = next(each for each in found.phases if each.phase is Phase.ENTER)
+    assert enters.largest_swing_deg == pytest.approx(math.degrees(math.atan2(0.12, 0.25)), abs=0.1)
+
+
+def test_a_landing_shorter_than_the_flat_is_a_long_step():
+    short = LOW.model_copy(update={"upper_landing": 0.8})  # m; the flat is 1.149 m long
+    assert "land" not in spans(ways([short, HIGH]))[:-1]
+
+
+def test_worst_of_both_flights_counts():
+    both = ways([LOW, HIGH]).phases
+    each = [ways(flight).phases for flight in (LOW, HIGH)]
+    for phase, *alone in zip(both, *each, strict=True):
+        assert phase.required_friction == pytest.approx(
+            max(one.required_friction for one in alone), abs=1e-6
+        )
+
+
+def test_flights_in_one_text():
+    one = kaidan.assess("absolem", "ibc+ada", **ASKED)
+    assert one.stairs == "ibc + ada"
+    assert one == kaidan.assess("absolem", ["ibc", "ada"], **ASKED)
+    with pytest.raises(KaidanError, match="no staircase is called 'nowhere'"):
+        kaidan.assess("absolem", "ibc+nowhere")
+
+
+def test_a_single_flight_in_a_list_is_that_flight():
+    assert kaidan.assess("absolem", [LOW], **ASKED) == kaidan.assess("absolem", LOW, **ASKED)
+
+
+BUMP = [(-2, 0), (0, 0), (0.05, 0.10), (0.30, 0.10), (0.35, 0), (2, 0)]
+
+
+def test_a_terrain_without_steps_is_judged_by_what_it_has():
+    answer = kaidan.assess("absolem", Profile.of_points(BUMP), **ASKED)
+    assert answer.verdict == "go"
+    assert (answer.angle_deg, answer.nosing_spacing_m, answer.area) == (None, None, None)
+    assert answer.required_friction == max(each.required_friction for each in answer.phases)
+    assert {each.phase for each in answer.phases} == {"enter", "land"}
+    flat = kaidan.assess("absolem", Profile.of_points(BUMP), **ASKED, model="closed-form")
+    assert flat.verdict == "outside-model"
+    assert flat.reason == "Outside the closed form: the terrain is no flight of stairs."
+
+
+def test_a_kerb_too_high_is_a_no_go():
+    kerb = Profile.of_points([(-2, 0), (0, 0), (0, 0.55), (3, 0.55)])
+    answer = kaidan.assess("absolem", kerb, **ASKED)
+    assert answer.verdict == "no-go"
+    assert answer.to_json()
+
+
+def test_a_yaw_on_a_profile_is_refused():
+    with pytest.raises(InputError, match="a profile lies along the heading already"):
+        kaidan.assess("absolem", Profile.of_points(BUMP), yaw=0.1, **ASKED)
+
+
+@pytest.mark.parametrize("bad", [None, 3, [], [None], np.zeros((3, 2)), object()])
+def test_what_is_no_terrain_is_refused(bad):
+    with pytest.raises(KaidanError):
+        kaidan.assess("absolem", bad)
