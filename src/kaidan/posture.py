@@ -66,7 +66,8 @@ class PhasePosture:
     verdict: Verdict
     """Of this phase alone."""
     margin_deg: float | None
-    required_friction: float
+    required_friction: float | None
+    """Null: no friction is enough."""
     largest_swing_deg: float
 
 
@@ -365,7 +366,7 @@ def _phases(
                 rear_deg=_degrees(best.angles[1]),
                 verdict=verdict,
                 margin_deg=_degrees(margin if math.isfinite(margin) else None),
-                required_friction=seen.required_friction,
+                required_friction=_finite(seen.required_friction),
                 largest_swing_deg=seen.largest_swing_deg,
             )
         )
@@ -417,6 +418,10 @@ def _told(each: _Judged) -> Tried:
         governs=each.ruling.governs,
         reason=each.ruling.reason,
     )
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
 
 
 def _degrees(angle: float | None) -> float | None:

@@ -252,11 +252,15 @@ def _phase_rows(answer: "Assessment") -> list[str]:
             if each.energy_margin_mm is None
             else f", energy margin {each.energy_margin_mm:.1f} mm (step {each.energy_margin_step})"
         )
+        friction = (
+            "no friction is enough"
+            if each.required_friction is None
+            else f"friction {each.required_friction:.2f}"
+        )
         rows.append(
             _row(
                 each.phase,
-                f"friction {each.required_friction:.2f} (step {each.required_friction_step})"
-                f"{energy}" + (", the belly touches" if each.belly_touches else ""),
+                f"{friction} (step {each.required_friction_step}){energy}" + (", the belly touches" if each.belly_touches else ""),
             )
         )
     return rows

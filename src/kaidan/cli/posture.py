@@ -123,7 +123,7 @@ def as_text(answer: "PostureAnswer") -> str:
         lines += ["", f"  By phase ({better})"]
         lines += [
             f"    {each.phase:<10}{_angles(each)}: {_outcome(each)}, "
-            f"friction {each.required_friction:.2f}, largest swing {each.largest_swing_deg:.1f} deg"
+            f"{_friction(each)}, largest swing {each.largest_swing_deg:.1f} deg"
             for each in answer.phases
         ]
     for change in answer.changes:
@@ -146,3 +146,9 @@ def _angles(each: "Tried | PhasePosture") -> str:
 def _outcome(each: "Tried | PhasePosture") -> str:
     margin = "" if each.margin_deg is None else f" ({each.margin_deg:+.1f} deg)"
     return f"{each.verdict.upper()}{margin}"
+
+
+def _friction(each: "PhasePosture") -> str:
+    if each.required_friction is None:
+        return "no friction is enough"
+    return f"friction {each.required_friction:.2f}"

@@ -9,6 +9,7 @@ from kaidan.cli import options
 from kaidan.cli.tables import echo, echo_table
 
 if TYPE_CHECKING:
+    from kaidan.assessment.answer import PhaseShown
     from kaidan.report.journey import Journey
 
 Accept = Annotated[
@@ -183,6 +184,11 @@ def grade_lines(grades: object) -> list[str]:
     ]
 
 
+def _friction_of(each: "PhaseShown") -> str:
+    needed = "none is enough" if each.required_friction is None else f"{each.required_friction:.2f}"
+    return f"{needed} at step {each.required_friction_step}"
+
+
 def _show_phases(found: "Journey") -> None:
     def at(value: float | None, step: int, form: str) -> str:
         return "-" if value is None else f"{value:{form}} at step {step}"
@@ -191,7 +197,7 @@ def _show_phases(found: "Journey") -> None:
         [
             {
                 "phase": each.phase,
-                "friction": at(each.required_friction, each.required_friction_step, ".2f"),
+                "friction": _friction_of(each),
                 "energy": at(each.energy_margin_mm, each.energy_margin_step, ".1f"),
                 "static": f"{round(each.static_margin_mm) + 0:.0f}",
                 "traction": f"{each.traction_over_weight:.2f}",
