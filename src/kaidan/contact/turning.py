@@ -84,14 +84,17 @@ def foot_limit(
 def next_pivot(
     ground: FloatArray, body: FloatArray, pivot: int, x: float, z: float, phi: float, sense: float
 ) -> int:
-    """Name of the pivot after its disc has run to the end of its segment."""
+    """Name of the pivot after its disc has run to the end of its segment.
+
+    Over the end of the terrain itself it turns about that end.
+    """
     k = pivot >> 6
     part = (pivot >> 2) & 15
     if sense > 0.0:
-        if ground[k, 5] == 1.0:
+        if ground[k, 5] == 1.0 or k == 0:
             return 64 * k + 4 * part
         return 64 * (k - 1) + (pivot & 63)
-    if ground[k + 1, 5] == 1.0:
+    if ground[k + 1, 5] == 1.0 or k + 2 == ground.shape[0]:
         return 64 * (k + 1) + 4 * part
     return 64 * (k + 1) + (pivot & 63)
 
