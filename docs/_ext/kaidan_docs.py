@@ -257,13 +257,21 @@ class Commands(Written):
 
         from kaidan.cli import app
 
-        group: Any = get_command(app)
-        for name, command in group.commands.items():
-            yield f"(command-{name})="
+        for name, command in _flat(get_command(app)):
+            yield f"(command-{name.replace(' ', '-')})="
             yield f"## kaidan {name}"
             yield ""
             yield from _described(command.help or "")
             yield from _options(name, command)
+
+
+def _flat(group: Any, before: str = "") -> Iterator[tuple[str, Any]]:
+    """Commands with those of their groups, by their whole name."""
+    for name, command in group.commands.items():
+        if hasattr(command, "commands"):
+            yield from _flat(command, f"{before}{name} ")
+        else:
+            yield before + name, command
 
 
 def _described(text: str) -> Iterator[str]:

@@ -19,7 +19,8 @@ SIZE = (960, 544)
 FRAMES_PER_SECOND = 25
 NO_DRAWING = (
     "pictures need OpenGL without a display (EGL or OSMesa), which does not work here "
-    "({reason}): apt-get install libegl1 libgl1-mesa-dri, or libosmesa6 with MUJOCO_GL=osmesa"
+    "({reason}): apt-get install libegl1 libgl1-mesa-dri, or libosmesa6; where mujoco is "
+    "imported before kaidan.physics, set MUJOCO_GL=egl or osmesa"
 )
 
 
