@@ -149,9 +149,11 @@ def test_what_has_no_meaning_is_refused(words, text):
     assert refusal(*words) == text
 
 
-def test_a_figure_of_a_start_fall_is_refused_in_words(tmp_path):
-    text = refusal(
-        "trial", "kenaf", "--angle", "88deg", "--nosing-spacing", "150mm", "--start-offset", "0.95",
-        "--figure", tmp_path / "a.png",
-    )  # fmt: skip
-    assert text == "trial: it has no log to draw (outcome: start_fall)"
+def test_a_trial_that_never_began_has_no_figure():
+    from kaidan.physics import run as run_trial
+    from kaidan.report.trial_figure import trial_figure
+    from physics_cases import spec
+
+    result = run_trial(spec(80.0, start_offset=0.95), log=True)
+    with pytest.raises(InputError, match=r"^trial: it has no log to draw \(outcome: start_fall\)$"):
+        trial_figure(result)
