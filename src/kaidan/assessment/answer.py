@@ -122,6 +122,9 @@ class PhaseShown:
     """Largest required friction of any pose [1]; null: no friction is enough."""
     required_friction_step: int
     """Nosing at which, counted from the bottom."""
+    slides_below: float | None
+    """Friction below which, landing at the foot, the trailing end slides down the last risers [1];
+    no fall, so it does not count as slipping. Null: it rests on none, or always slides."""
     energy_margin_mm: float | None
     """Smallest rise of the centroid that a fall downhill needs [mm]; null: it falls nowhere."""
     energy_margin_step: int

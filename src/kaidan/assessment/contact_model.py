@@ -13,7 +13,7 @@ from kaidan.assessment.closed_form import Judgement, at_risk
 from kaidan.assessment.readings import Reading, energy_margin, reading_of
 from kaidan.assessment.ruling import Accept, Ruling, ruling
 from kaidan.assessment.spread import share_out_of_reach
-from kaidan.assessment.wording import notes_of_any_model
+from kaidan.assessment.wording import notes_of_any_model, notes_of_robot
 from kaidan.assessment.yaw import along_heading, yaw_limit
 from kaidan.climb import Climb, climb
 from kaidan.contact import Status
@@ -201,13 +201,19 @@ def _notes(case: Case, found: Climb, doubts: tuple[str, ...]) -> tuple[str, ...]
             "Somewhere fewer than two nosings carry the track (p > L/2): the paper's criterion "
             "says nothing there, so there is no GO."
         )
+    slides = max((each.slides_below or 0.0 for each in found.phases), default=0.0)
+    if slides > (0.0 if case.surface is None else case.surface.friction_low):
+        notes.append(
+            f"Landing, with a friction below {slides:.2f} its trailing end slides down the last "
+            "risers: a bump of a riser at most, no fall."
+        )
     if found.outline.gyration_estimated:
         notes.append("The moment of inertia is estimated as that of an even box.")
     if found.profile.open_risers:
         notes.append("Open risers: the model gives them faces that are not there.")
     if found.profile.overhangs:
         notes.append("Nosings overhang: the model stands on their upper envelope.")
-    return tuple(notes)
+    return (*notes, *notes_of_robot(case))
 
 
 def _interval(worst: Reading) -> tuple[float, float] | None:

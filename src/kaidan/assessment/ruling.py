@@ -108,6 +108,7 @@ def _phases_shown(found: Climb) -> tuple[PhaseShown, ...]:
             phase=each.phase.value,
             required_friction=_finite(each.required_friction),
             required_friction_step=each.required_friction_step,
+            slides_below=None if each.slides_below is None else _finite(each.slides_below),
             energy_margin_mm=_finite(each.energy_margin_mm),
             energy_margin_step=each.energy_margin_step,
             static_margin_mm=each.static_margin_mm,

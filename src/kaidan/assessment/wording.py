@@ -300,11 +300,11 @@ def _notes(case: Case, found: Judgement, pose: Pose) -> tuple[str, ...]:
                 f"{shown.speed_height_mm:.2f} mm, more than the energy margin of "
                 f"{shown.energy_margin_mm:.2f} mm: expect it to swing."
             )
-    return (*notes, *notes_of_any_model(case))
+    return (*notes, *notes_of_any_model(case), *notes_of_robot(case))
 
 
 def notes_of_any_model(case: Case) -> tuple[str, ...]:
-    """What was assumed or not stated, whichever model judges; the robot's own notes last."""
+    """What was assumed or not stated, whichever model judges."""
     notes = []
     for name, value in (("theta_d", case.theta_d), ("theta_M", case.theta_M)):
         if value.source == "default":
@@ -320,6 +320,9 @@ def notes_of_any_model(case: Case) -> tuple[str, ...]:
             missing = "mass" if case.stance.mass is None else "speed"
             text = f"The drive is not judged: that takes the {missing}, which is not stated."
         notes.append(text)
-    if case.robot.notes:
-        notes.append(" ".join(case.robot.notes.split()))
     return tuple(notes)
+
+
+def notes_of_robot(case: Case) -> tuple[str, ...]:
+    """What its data sheet says of the robot."""
+    return (" ".join(case.robot.notes.split()),) if case.robot.notes else ()

@@ -27,8 +27,11 @@ class PhaseFound:
 
     phase: Phase
     required_friction: float
-    """Largest required friction of any pose [1]."""
+    """Largest required friction of any pose [1], but of those that `slides_below` tells of."""
     required_friction_step: int
+    slides_below: float | None
+    """Friction below which the trailing end slides down the faces of the last risers as the robot
+    lands, going down [1]: it goes where it is going, by a riser at most. None: it rests on none."""
     energy_margin_mm: float
     """Smallest rise of the centroid that a fall towards the downhill end needs [mm]; traversing,
     that any turn needs: about the contact that stays, as in the paper, whatever may catch it."""
@@ -82,12 +85,17 @@ def worst_of_phases(
         of_turns = turns if name is Phase.TRAVERSE else ()
         energy, at = _least_energy(run, rows, side, of_turns, compiled)
         uphill, _ = _least_energy(run, below, -side, of_turns, compiled)
-        hardest = int(np.argmax(friction))
+        slides = np.zeros(len(rows), dtype=np.bool_)
+        if descending and name is Phase.LAND:  # the trailing contact presses on a steep face
+            slides = np.abs(run.poses[rows, 10]) > run.poses[rows, 11]
+        held = np.where(slides, 0.0, friction)
+        hardest = int(np.argmax(held))
         places = run.poses[:, 8]
         found.append(
             PhaseFound(
                 phase=name,
-                required_friction=float(friction[hardest]),
+                required_friction=float(held[hardest]),
+                slides_below=float(friction[slides].max()) if slides.any() else None,
                 required_friction_step=step_at(way, float(places[rows[hardest]]), descending),
                 energy_margin_mm=1e3 * energy,
                 energy_margin_step=step_at(way, at, descending),
