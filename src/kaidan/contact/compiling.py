@@ -119,6 +119,15 @@ def plain(module: str) -> ModuleType:
     return importlib.import_module(f"{_PACKAGE}.{module}")
 
 
+def _tell() -> None:
+    """Say why it takes a while; silenced as any other logger."""
+    import logging
+
+    logging.getLogger(_PACKAGE).warning(
+        "kaidan: compiling the contact kernel, once on this machine: about 20 seconds"
+    )
+
+
 @lru_cache(maxsize=1)
 def _compiled_modules() -> dict[str, ModuleType]:
     try:
@@ -133,6 +142,7 @@ def _compiled_modules() -> dict[str, ModuleType]:
     for name in KERNEL_MODULES:
         digest.update(Path(str(plain(name).__file__)).read_bytes())
     mark = digest.hexdigest()[:12]
+    told = False
     fast: dict[int, Any] = {}
     modules: dict[str, ModuleType] = {}
     for name in KERNEL_MODULES:
@@ -164,6 +174,9 @@ def _compiled_modules() -> dict[str, ModuleType]:
                 "forceinline": hasattr(value, "_kaidan_leaf"),
             }
             compiled_function = njit(_signature(value), **options)(value)
+            if not told and not compiled_function.stats.cache_hits:
+                _tell()
+                told = True
             fast[id(vars(original)[key])] = compiled_function
             setattr(module, key, compiled_function)
         modules[name] = module
