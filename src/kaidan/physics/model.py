@@ -44,7 +44,7 @@ class Model(NamedTuple):
     number_of: NDArray[np.int64]
     """Number of each geom's nosing along the way from 0; -1: other ground; -2: of the robot."""
     driven: NDArray[np.bool_]
-    """Geoms that drive the robot."""
+    """Geoms whose surface drives the robot; grousers do it through their servos."""
     motion: Motion | None
     """Where the grousers have to be."""
 
@@ -76,7 +76,6 @@ def model_of(spec: TrialSpec) -> Model:
         field = add_belts(body, spec, parts, kinds, contacts)
     if isinstance(spec.track, DrivenGrousers):
         motion = add_grousers(scene, body, spec, parts[0], lanes_of(spec)[0], contacts)
-        driven = list(motion.geoms)
     for geom in scene.geoms:
         geom.friction = [spec.static_friction, 0.0, 0.0] if geom.priority == 0 else geom.friction
         geom.solref, geom.solimp = [spec.softness, 1.0], _SOLIMP

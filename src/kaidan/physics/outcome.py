@@ -104,7 +104,7 @@ class TrialResult:
         return self.outcome in (Outcome.FELL_BACKWARD, Outcome.FELL_FORWARD)
 
     def as_dict(self) -> dict[str, Any]:
-        """Everything but the log, ready for JSON."""
+        """Everything but the log, ready for JSON; what the specification leaves open, as used."""
         plain = {
             name: getattr(self, name)
             for name in self.__dataclass_fields__
@@ -113,6 +113,10 @@ class TrialResult:
         return {
             "outcome": self.outcome.value,
             **plain,
+            "friction": self.spec.static_friction,
+            "stiffness": self.spec.stiffness,
+            "timestep": self.spec.step,
+            "contact_time": self.spec.softness,
             "versions": dict(self.versions),
             "spec": self.spec.model_dump(mode="json"),
         }

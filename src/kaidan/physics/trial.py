@@ -353,10 +353,24 @@ class Simulation:
         end = self.point(self.course.downhill_end, -self.course.outline.stance.com_height)
         return float(np.array(end) @ self.course.along)
 
+    def _servo_power(self) -> float:
+        """Power that the grousers take from the belt [W].
+
+        From the state at the end of the step, as the integrator sees the servos; the force that
+        the engine reports is that at its beginning, off by stiffness times a step's way.
+        """
+        joints = self.compiled.actuator_trnid[:, 0]
+        place = self.data.qpos[self.compiled.jnt_qposadr[joints]]
+        speed = self.data.qvel[self.compiled.jnt_dofadr[joints]]
+        stiff, damping = self.compiled.actuator_gainprm[:, 0], self.compiled.actuator_biasprm[:, 2]
+        return float((stiff * (self.data.ctrl - place) + damping * speed) @ speed)
+
     def _note(self, time: float, x: float, z: float, phi: float, way: float, slip: float) -> None:
         """Add a row to the log."""
         by_nosing, normal, traction, contacts = self.forces.read(self.data)
         speed = self.belt.speed(time)
+        if self.model.motion is not None and speed > 0.0:
+            traction += self._servo_power() / speed
         radius = self.spec.robot.drive.sprocket_radius or self.spec.robot.track.rear_radius
         torque = traction * radius if radius else math.nan
         row = [

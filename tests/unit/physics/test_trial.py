@@ -43,6 +43,16 @@ def test_it_climbs_and_its_forces_balance_its_weight():
     assert result.log.table().keys() > columns.keys()
 
 
+@pytest.mark.parametrize(
+    "track", [SprungNoses(stiffness=3e4), DrivenGrousers(), ShoeChain()], ids=lambda each: each.kind
+)
+def test_other_tracks_pull_as_much(track):
+    log = run(spec(40.0, track=track), log=True).log
+    driven = log.columns["traction_N"][log.columns["time_s"] > 0.5]
+    # 2 %: springs and grousers swing about it
+    assert driven.mean() == pytest.approx(WEIGHT * math.sin(math.radians(40.0)), rel=0.02)
+
+
 def test_it_falls_over_its_tail_and_says_where():
     result = run(spec(68.0), log=True)
     assert result.outcome is Outcome.FELL_BACKWARD
@@ -114,6 +124,8 @@ def test_a_result_can_be_pickled_and_written_as_json():
     told = json.loads(json.dumps(result.as_dict(), allow_nan=False))
     assert TrialSpec.model_validate(told["spec"]) == result.spec
     assert set(told["versions"]) == {"kaidan", "mujoco"}
+    used = {key: told[key] for key in ("friction", "stiffness", "timestep", "contact_time")}
+    assert used == {"friction": 3.0, "stiffness": None, "timestep": 1e-3, "contact_time": 2e-3}
 
 
 def test_a_trial_leaves_no_file_behind(tmp_path, monkeypatch):
