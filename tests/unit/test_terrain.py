@@ -112,3 +112,13 @@ def test_a_yaw_on_a_profile_is_refused():
 def test_what_is_no_terrain_is_refused(bad):
     with pytest.raises(KaidanError):
         kaidan.assess("absolem", bad)
+
+
+def test_rocking_under_an_acceleration_is_no_verdict_on_the_robot():
+    """Effective gravity leans with the path, which turns at once where a contact is exchanged."""
+    stairs = Stairs(rise=0.136, going=0.265, steps=8)
+    asked = {"friction": 1.0, "direction": "down"}
+    rocks = kaidan.assess("ozbot-atr", stairs, acceleration=0.5, **asked)
+    assert (rocks.verdict, rocks.margin_deg) == ("outside-model", None)
+    assert "rocking on the spot" in rocks.reason
+    assert kaidan.assess("ozbot-atr", stairs, **asked).verdict != "outside-model"

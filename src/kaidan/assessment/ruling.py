@@ -144,6 +144,16 @@ def _held(
     return found.arrived and found.held_with_momentum, tuple(doubts)
 
 
+def _answered(case: Case, found: Climb) -> bool:
+    """Whether the model has an answer.
+
+    Under an acceleration effective gravity leans with the path, which turns at once where a contact
+    is exchanged: a pose that then rocks between two contacts tells of the model, not of the robot.
+    """
+    rocks = found.status is Status.STUCK and case.acceleration != 0
+    return found.status not in _SOLVER and not rocks
+
+
 def _verdict(
     case: Case,
     found: Climb,
@@ -153,7 +163,7 @@ def _verdict(
     doubts: tuple[str, ...],
     accept: Accept,
 ) -> tuple[Verdict, str]:
-    if found.status in _SOLVER:
+    if not _answered(case, found):
         return "outside-model", "validity"
     friction_known = case.surface is not None
     supply, supply_best = worst.supply, best.supply
