@@ -13,7 +13,7 @@ import pytest
 from contact_cases import stadium, steps
 from kaidan.contact import Status, traverse
 
-pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 DRIVE = 1e-3  # m
 TURN = np.radians(0.03)

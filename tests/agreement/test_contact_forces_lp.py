@@ -13,7 +13,7 @@ from contact_cases import random_robot, random_terrain, stadium, steps
 from kaidan.contact import traverse
 from kaidan.contact.forces import contacts_at
 
-pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 G = 9.80665
 

@@ -9,7 +9,7 @@ import pytest
 from contact_cases import flight, stadium, thin_noses
 from kaidan.contact import grade_one, mirror, traverse
 
-pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 G = 9.80665
 TOLERANCE = 1e-6  # rad; the brief's. The two differ by rounding of coordinates only: about 1e-13

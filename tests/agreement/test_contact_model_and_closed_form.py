@@ -9,7 +9,7 @@ from kaidan.assessment import answer_to, case_of
 from kaidan.robot import Robot, Track
 from kaidan.stairs import Stairs
 
-pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 pytest.importorskip("numba")  # a hundred whole flights take minutes without the compiled kernel
 

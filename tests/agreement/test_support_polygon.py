@@ -10,7 +10,7 @@ from kaidan.assessment.yaw import polygon_energy, polygon_margins
 from kaidan.robot import Robot, Track
 from kaidan.stairs import Stairs
 
-pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 G = 9.80665
 

@@ -20,8 +20,11 @@ from hypothesis import HealthCheck, given, settings
 from typer.testing import CliRunner
 
 from kaidan import Assessment, InputError, Payload, Posture, Robot, Stairs, assess, sweep, verdicts
+from kaidan.assessment import MODELS
 from kaidan.assessment.allowance import Allowance
 from kaidan.cli import app, main
+
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 SCHEMA = jsonschema.Draft202012Validator(Assessment.json_schema())
 WORDS = {"GO": 0, "CAUTION": 0, "NO-GO": 1, "OUTSIDE": 3}
@@ -109,15 +112,16 @@ of_numpy = st.sampled_from(
 anything = odd | of_numpy
 ARGUMENTS = (
     *("surface", "friction", "acceleration", "speed", "direction", "facing", "flippers"),
-    *("payload", "theta_d", "theta_M", "risk", "model"),
+    *("payload", "theta_d", "theta_M", "risk", "model", "accept", "yaw"),
 )
 FLIGHT = Stairs.inclined(angle=0.6, nosing_spacing=0.15)
+models = st.sampled_from(MODELS)
 
 
-@fuzz(600, name=st.sampled_from(ARGUMENTS), value=anything)
-def test_any_argument(name, value):
+@fuzz(600, name=st.sampled_from(ARGUMENTS), value=anything, model=models)
+def test_any_argument(name, value, model):
     try:
-        answer = assess("kenaf", FLIGHT, **{name: value})
+        answer = assess("kenaf", FLIGHT, **({"model": model} | {name: value}))
     except InputError as error:
         assert_refused_well(str(error))
     else:
@@ -126,11 +130,11 @@ def test_any_argument(name, value):
             assert not isinstance(value, bool | str | Decimal)
 
 
-@fuzz(300, robot=anything, stairs=anything, surface=anything)
-def test_anything_for_a_sheet(robot, stairs, surface):
+@fuzz(300, robot=anything, stairs=anything, surface=anything, model=models)
+def test_anything_for_a_sheet(robot, stairs, surface, model):
     for question in ((robot, FLIGHT, None), ("kenaf", stairs, None), ("kenaf", FLIGHT, surface)):
         try:
-            answer = assess(*question[:2], surface=question[2])
+            answer = assess(*question[:2], surface=question[2], model=model)
         except InputError as error:
             assert_refused_well(str(error))
         else:
@@ -157,19 +161,20 @@ good = {
     question=st.fixed_dictionaries({}, optional=good),
     angle=st.floats(0.05, 1.5),
     spacing=st.floats(0.03, 0.7),
+    model=models,
 )
-def test_every_sound_question_has_an_answer(question, angle, spacing):
+def test_every_sound_question_has_an_answer(question, angle, spacing, model):
     """Each argument within its range, together in every way: an answer, never a refusal."""
     rise, going = spacing * math.sin(angle), spacing * math.cos(angle)
     if not (0.02 <= rise <= 0.6 and 0.02 <= going <= 2.5):
         return
-    assert_sound(assess("absolem", Stairs(rise=rise, going=going), **question))
+    assert_sound(assess("absolem", Stairs(rise=rise, going=going), model=model, **question))
 
 
-@fuzz(300, name=st.sampled_from(["front", "rear"]), value=anything)
-def test_any_posture(name, value):
+@fuzz(300, name=st.sampled_from(["front", "rear"]), value=anything, model=models)
+def test_any_posture(name, value, model):
     try:
-        answer = assess("absolem", FLIGHT, flippers=Posture(**{name: value}))
+        answer = assess("absolem", FLIGHT, flippers=Posture(**{name: value}), model=model)
     except InputError as error:
         assert_refused_well(str(error))
     else:
@@ -225,9 +230,9 @@ QUANTITIES = """
     180MM 1,8m 180mm180mm mm 0.6 0.6..1.0 1.0..0.6 .. ..1 1.. 0.6...1 0x10mm 1_000mm +180mm 5kg
     5kg@200mm,300mm 5kg@200mm 5@2,3 5kg@,mm @,, flat stowed flat,stowed 20deg,-5deg 400deg,0deg
     , ,, com_height=71mm com_height= =71mm com_height=71 mass=5kg,mass=6kg foo=1mm friction=0.1
-    up down nose-first tail-first closed-form ibc kenaf absolem concrete-dry / . .. /dev/null
-    /dev/zero /dev/full ~ -- - -h --help --json 0.01 0 1 1e-9 0.5 12 10000 10001 -5 9.9m/s2
-    0.5m/s2 -0.5m/s2 0.1m/s 3km/h ½° ١٢mm ∞mm"""
+    up down nose-first tail-first closed-form contact caught no-rotation ibc kenaf absolem
+    concrete-dry / . .. /dev/null /dev/zero /dev/full ~ -- - -h --help --json 0.01 0 1 1e-9 0.5 12 10000
+    10001 -5 9.9m/s2 0.5m/s2 -0.5m/s2 0.1m/s 3km/h ½° ١٢mm ∞mm"""
 AWKWARD = ["", " ", "180 mm", " 180mm ", "1mm\n2mm", "\x1b[31m", "\x00", "\udcff", "1" * 400]
 AWKWARD += ["1" * 5000 + "mm", "0." + "0" * 5000 + "1mm"]
 quantities = st.sampled_from(QUANTITIES.split() + AWKWARD)
@@ -235,7 +240,7 @@ values = quantities | st.text(max_size=8).filter(lambda text: "\x00" not in text
 OPTIONS = (
     *("--rise", "--going", "--angle", "--nosing-spacing", "--steps", "--surface", "--friction"),
     *("--acceleration", "--speed", "--direction", "--facing", "--flippers", "--payload"),
-    *("--theta-d", "--theta-m", "--set", "--uncertainty", "--risk", "--model"),
+    *("--theta-d", "--theta-m", "--set", "--uncertainty", "--risk", "--model", "--accept", "--yaw"),
 )
 options = st.tuples(st.sampled_from(OPTIONS), values).map(list)
 flags = st.sampled_from([["--json"], ["--strict"], ["--nonsense"], ["-x"], ["--"], ["--json=1"]])
@@ -331,13 +336,14 @@ SHEETS = {
     kind=st.sampled_from(sorted(SHEETS)),
     text=tables | st.builds("{} = {}".format, fields, settings_of),
     whole=st.booleans(),
+    model=models,
 )
-def test_any_file(kind, text, whole, tmp_path_factory):
+def test_any_file(kind, text, whole, model, tmp_path_factory):
     path = tmp_path_factory.getbasetemp() / "any.toml"
     path.write_text(text if whole else SHEETS[kind].format(text), encoding="utf-8")
     question = {"robot": "kenaf", "stairs": FLIGHT, "surface": None} | {kind: str(path)}
     try:
-        answer = assess(**question)
+        answer = assess(**question, model=model)
     except InputError as error:
         assert_refused_well(str(error).removeprefix(str(path)))
     else:

@@ -15,7 +15,7 @@ from kaidan.profile import Profile
 from kaidan.robot import Robot, Track
 from kaidan.stairs import Stairs
 
-pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 STEP = 0.03  # m between poses; events are located whatever it is
 SETTINGS = settings(

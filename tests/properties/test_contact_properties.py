@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from contact_cases import random_robot, random_terrain, stadium, steps
 from kaidan.contact import Status, grade_one, ground_table, mirror, settle, traverse
 
-pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 seeds = st.integers(0, 10_000)
 

@@ -1,15 +1,20 @@
-"""The answer as one JSON object: its schema, and that every answer keeps to it."""
+"""The answer as one JSON object: its schema, and that every answer of any model keeps to it."""
 
 import dataclasses
 import json
 import math
+from functools import partial
 
 import jsonschema
 import pytest
 from typer.testing import CliRunner
 
-from kaidan import Assessment, Payload, Posture, Robot, Stairs, Surface, assess
+import kaidan
+from kaidan import Assessment, Payload, Posture, Robot, Stairs, Surface
+from kaidan.assessment import MODELS
 from kaidan.cli import app
+
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 NAMED_BY_THE_ISSUE = [
     "verdict",
@@ -52,7 +57,12 @@ def controlled():
 
 
 def answers():
-    """One of every kind: all verdicts, known and unknown, certain and uncertain."""
+    """One of every kind: all verdicts, known and unknown, certain and uncertain, both models."""
+    for model in MODELS:
+        yield from answers_of(partial(kaidan.assess, model=model))
+
+
+def answers_of(assess):
     yield assess("kenaf", flight(40, 0.15), friction=2.0, speed=0.1)
     yield assess("kenaf", flight(40, 0.15))
     yield assess("kenaf", flight(57, 0.15), friction=2.0)
@@ -109,14 +119,15 @@ def test_every_kind_of_answer_keeps_to_the_schema(schema):
         document = json.loads(answer.to_json())
         validator.validate(document)
         assert list(document) == [field.name for field in dataclasses.fields(answer)]
-        seen.add((document["verdict"], document["governs"]))
-    assert {verdict for verdict, _ in seen} == {"go", "caution", "no-go", "outside-model"}
-    assert len(seen) >= 6
+        seen.add((document["verdict"], document["governs"], document["model"]))
+    assert {model for _, _, model in seen} == set(MODELS)
+    assert {verdict for verdict, _, _ in seen} == {"go", "caution", "no-go", "outside-model"}
+    assert len(seen) >= 12
 
 
 def test_the_schema_refuses_what_is_no_answer(schema):
     validator = jsonschema.Draft202012Validator(schema)
-    good = json.loads(assess("kenaf", flight(40, 0.15)).to_json())
+    good = json.loads(kaidan.assess("kenaf", flight(40, 0.15)).to_json())
     assert validator.is_valid(good)
     for spoilt in (
         good | {"verdict": "GO"},
@@ -139,6 +150,6 @@ def test_json_is_plain():
 
 
 def test_an_answer_cannot_be_changed():
-    answer = assess("kenaf", flight(40, 0.15))
+    answer = kaidan.assess("kenaf", flight(40, 0.15))
     with pytest.raises(dataclasses.FrozenInstanceError):
         answer.verdict = "go"

@@ -11,12 +11,13 @@ import pytest
 from kaidan.assessment import answer_to, assess, case_of
 from kaidan.assessment.contact_model import LONG_FLIGHT
 from kaidan.assessment.yaw import polygon_margins, yaw_limit
+from kaidan.cli.assess import as_text
 from kaidan.errors import InputError
-from kaidan.robot import Robot, Track, Uncertainty
+from kaidan.robot import Payload, Robot, Track, Uncertainty
 from kaidan.stairs import Stairs, StairsUncertainty
 from kaidan.surface import Surface
 
-pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 KENAF = Robot.named("kenaf")
 WITH_GAUGE = KENAF.model_copy(
@@ -183,6 +184,19 @@ def test_long_flights_are_driven_on_what_repeats():
     assert few.verdict == many.verdict == "go"
     assert few.margin_deg == many.margin_deg
     assert any("10000 risers are alike" in note for note in many.notes)
+
+
+def test_where_no_friction_is_enough_the_answer_says_null():
+    """JSON has no infinity; seen with a tail-heavy Absolem against a riser of 256 mm."""
+    load = Payload(mass=5.0, from_front=0.2, height=0.3)
+    stairs = at(math.degrees(0.75), p=0.375)
+    answer = assess(
+        "absolem", stairs, friction=1.0, acceleration=1.0, flippers="flat", payload=load
+    )
+    assert None in [each.required_friction for each in answer.phases]
+    assert answer.required_friction is None
+    assert "Infinity" not in answer.to_json()
+    assert "no friction is enough" in as_text(answer)
 
 
 def test_json_holds_no_nan():

@@ -14,7 +14,7 @@ from kaidan.posture import best_posture, shortened
 from kaidan.robot import Drive, FlipperPair, Posture, Robot, Track
 from kaidan.stairs import Stairs
 
-pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 PAIR = FlipperPair(length=0.3, root_radius=0.08, tip_radius=0.03, pivot_height=0.08, max_speed=0.5)
 ONE_PAIR = Robot(

@@ -19,7 +19,7 @@ from kaidan.report.side_view import hull
 from kaidan.report.traverse_figure import chosen, traverse_figure
 from kaidan.stairs import Stairs
 
-pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 FLIGHT = Stairs(name="short", rise=0.178, going=0.279, steps=4)
 

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 from contact_cases import stadium, steps
 from kaidan.contact import Status, traverse
 
-pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 
 def highest_step(L, C_L, C_N, R):

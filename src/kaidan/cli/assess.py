@@ -260,7 +260,8 @@ def _phase_rows(answer: "Assessment") -> list[str]:
         rows.append(
             _row(
                 each.phase,
-                f"{friction} (step {each.required_friction_step}){energy}" + (", the belly touches" if each.belly_touches else ""),
+                f"{friction} (step {each.required_friction_step}){energy}"
+                + (", the belly touches" if each.belly_touches else ""),
             )
         )
     return rows

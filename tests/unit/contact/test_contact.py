@@ -8,7 +8,7 @@ from kaidan.contact import Event, Status, body_table, ground_table, settle, trav
 from kaidan.contact.gaps import gap, relabelled
 from kaidan.contact.turning import turned
 
-pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 
 def test_flat_ground():
