@@ -1,0 +1,39 @@
+"""Campaigns: thousands of trials on many processes or machines, into a store that survives.
+
+`carry_out` does a plan of trials in MuJoCo. Its parts serve any other `Work`: `conduct` brings a
+`Store` and `Workers` together.
+"""
+
+from kaidan.campaign.campaign import carry_out, resume
+from kaidan.campaign.cluster import DaskWorkers
+from kaidan.campaign.conducting import Tally, conduct
+from kaidan.campaign.local import LocalWorkers, Workers
+from kaidan.campaign.plans import Condition, Grid, Plan, VerificationTest
+from kaidan.campaign.reading import State, export, read_batches, read_table, state_of
+from kaidan.campaign.store import Store
+from kaidan.campaign.trials import TRIALS
+from kaidan.campaign.work import CRASHED, FAILED, Work
+
+__all__ = [
+    "CRASHED",
+    "FAILED",
+    "TRIALS",
+    "Condition",
+    "DaskWorkers",
+    "Grid",
+    "LocalWorkers",
+    "Plan",
+    "State",
+    "Store",
+    "Tally",
+    "VerificationTest",
+    "Work",
+    "Workers",
+    "carry_out",
+    "conduct",
+    "export",
+    "read_batches",
+    "read_table",
+    "resume",
+    "state_of",
+]

@@ -1,0 +1,158 @@
+"""Reading a store, finished or being written: rows, figures of its state, one file of it all."""
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from kaidan.campaign.known import Known
+from kaidan.campaign.lock import holder
+from kaidan.campaign.store import (
+    about_store,
+    arrow,
+    batches_of,
+    journal_rows,
+    journals_of,
+    number_of,
+    parts_of,
+    schema_of,
+)
+from kaidan.errors import InputError
+
+EXPORTS = (".parquet", ".csv")
+
+
+def read_batches(folder: Path, columns: Sequence[str] | None = None) -> Iterator[Any]:
+    """Record batches of a store, journal included, each trial once.
+
+    Parameters
+    ----------
+    folder : Path
+        Store; it may be written meanwhile.
+    columns : sequence of str, optional
+        Columns wanted; all without.
+
+    Raises
+    ------
+    InputError
+        No store, or a damaged one.
+    """
+    pa = arrow()
+    about = about_store(folder)
+    assert about is not None
+    schema = schema_of(about["columns"])
+    wanted = list(schema.names) if columns is None else list(columns)
+    journals = {}
+    for path in journals_of(folder):  # before the parts: a journal may become one meanwhile
+        try:
+            journals[number_of(path)] = journal_rows(path)
+        except FileNotFoundError:
+            continue
+    seen = Known()
+    for part in parts_of(folder):
+        journals.pop(number_of(part), None)
+        for batch in batches_of(part, list(dict.fromkeys(("id", *wanted)))):
+            yield _first_ones(batch, seen).select(wanted)
+    for rows in journals.values():
+        if rows:
+            batch = pa.RecordBatch.from_pylist(rows, schema=schema)
+            yield _first_ones(batch, seen).select(wanted)
+
+
+def _first_ones(batch: Any, seen: Known) -> Any:
+    """Rows whose trial has not come before."""
+    new = [seen.add(identity) for identity in batch.column("id").to_pylist()]
+    return batch if all(new) else batch.filter(arrow().array(new))
+
+
+def read_table(folder: Path, columns: Sequence[str] | None = None) -> Any:
+    """Store as one `pyarrow.Table`, each trial once.
+
+    Raises
+    ------
+    InputError
+        No store, or a damaged one.
+    """
+    pa = arrow()
+    batches = list(read_batches(folder, columns))
+    about = about_store(folder)
+    assert about is not None
+    schema = schema_of(about["columns"])
+    if columns is not None:
+        schema = pa.schema([schema.field(name) for name in columns])
+    return pa.Table.from_batches(batches, schema=schema)
+
+
+class State(NamedTuple):
+    """State of a store."""
+
+    work: str
+    plans: tuple[dict[str, Any], ...]
+    trials: int
+    outcomes: dict[str, int]
+    versions: dict[str, int]
+    """Trials by version of what computed them."""
+    writer: str | None
+    """Who is writing it now."""
+
+
+def state_of(folder: Path) -> State:
+    """State of a store, finished or being written.
+
+    Raises
+    ------
+    InputError
+        No store, or a damaged one.
+    """
+    about = about_store(folder)
+    assert about is not None
+    outcomes: Counter[str] = Counter()
+    versions: Counter[str] = Counter()
+    for batch in read_batches(folder, ["outcome", "version"]):
+        outcomes.update(batch.column("outcome").to_pylist())
+        versions.update(batch.column("version").to_pylist())
+    return State(
+        work=about["work"],
+        plans=tuple(about["plans"]),
+        trials=sum(outcomes.values()),
+        outcomes=dict(sorted(outcomes.items())),
+        versions=dict(sorted(versions.items())),
+        writer=holder(folder),
+    )
+
+
+def export(folder: Path, file: Path) -> int:
+    """Write a store as one file, a batch at a time; say how many trials it has.
+
+    Raises
+    ------
+    InputError
+        Another suffix than .parquet or .csv, no store, or a file that cannot be written.
+    """
+    suffix = file.suffix.lower()
+    if suffix not in EXPORTS:
+        found = f"unknown suffix {file.suffix!r}" if file.suffix else "no suffix"
+        raise InputError(f"export {str(file)!r}: {found}; known: {', '.join(EXPORTS)}")
+    about = about_store(folder)
+    assert about is not None
+    schema = schema_of(about["columns"])
+    open_writer: Callable[..., Any] = (
+        arrow("pyarrow.parquet").ParquetWriter
+        if suffix == ".parquet"
+        else arrow("pyarrow.csv").CSVWriter
+    )
+    passing = file.with_name(f".{file.name}.passing")
+    count = 0
+    try:
+        with passing.open("wb") as stream, open_writer(stream, schema) as writer:
+            for batch in read_batches(folder):
+                writer.write_batch(batch)
+                count += batch.num_rows
+        passing.replace(file)
+    except OSError as error:
+        passing.unlink(missing_ok=True)
+        raise InputError(f"{file}: cannot be written: {error.strerror or error}") from None
+    except BaseException:
+        passing.unlink(missing_ok=True)
+        raise
+    return count

@@ -1,0 +1,63 @@
+"""A campaign's work without physics: quick, and it goes wrong when it is told to."""
+
+import json
+import os
+import signal
+import sys
+import time
+from pathlib import Path
+
+from kaidan.campaign import LocalWorkers, Store, Work, conduct
+
+COLUMNS = {"n": "count", "square": "number", "pid": "count"}
+
+
+def run(spec):
+    """{"n": 3, "seconds": 0.0, "wrong": "raise" | "die" | "die once" | "odd", "folder": ...}."""
+    time.sleep(spec.get("seconds", 0.0))
+    wrong = spec.get("wrong")
+    if "folder" in spec:  # who did what, told outside the store
+        with (Path(spec["folder"]) / "done.txt").open("a") as file:
+            file.write(f"{spec['n']} {os.getpid()}\n")
+    if wrong == "raise":
+        raise ZeroDivisionError("half a character \ud800")
+    if wrong == "missing":
+        raise ImportError("no module called luck")
+    if wrong == "die":
+        os.kill(os.getpid(), signal.SIGKILL)
+    if wrong == "die once":
+        mark = Path(spec["folder"]) / f"died-{spec['n']}"
+        if not mark.exists():
+            mark.touch()
+            os.kill(os.getpid(), signal.SIGKILL)
+    outcome = "unstable" if wrong == "odd" else "climbed"
+    return {"outcome": outcome, "square": float(spec["n"]) ** 2, "pid": os.getpid()}
+
+
+def inputs(spec):
+    return {"n": spec["n"]}
+
+
+def text(spec):
+    return json.dumps({"n": spec["n"]})
+
+
+def version():
+    return "fake 1"
+
+
+FAKE = Work(name="fake", run=run, inputs=inputs, text=text, version=version, columns=COLUMNS)
+
+
+def specs(count, **fields):
+    return ({"n": n, **fields} for n in range(count))
+
+
+def local_campaign(folder, trials, *, count=2, tries=3):
+    with Store(Path(folder), FAKE) as store, LocalWorkers(FAKE, count, tries=tries) as workers:
+        return conduct(trials, store, workers)
+
+
+if __name__ == "__main__":
+    store, count, seconds, notes = sys.argv[1:]
+    print(local_campaign(store, specs(int(count), seconds=float(seconds), folder=notes)).done)

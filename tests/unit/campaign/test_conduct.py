@@ -1,0 +1,197 @@
+"""Campaigns of local processes: complete, exactly once, whatever dies."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("pyarrow")
+
+import campaign_cases
+from campaign_cases import FAKE, local_campaign, specs
+from kaidan.campaign import LocalWorkers, Store, conduct, read_table
+from kaidan.errors import InputError
+
+
+def rows(folder):
+    return {row["n"]: row for row in read_table(folder).to_pylist()}
+
+
+def numbers(folder):
+    return sorted(read_table(folder, ["n"]).column("n").to_pylist())
+
+
+def test_every_trial_once_and_again_nothing(tmp_path):
+    assert local_campaign(tmp_path, specs(20)).done == 20
+    assert numbers(tmp_path) == list(range(20))
+    assert len({row["pid"] for row in rows(tmp_path).values()}) == 2
+    again = local_campaign(tmp_path, specs(23))
+    assert (again.done, again.found) == (3, 20)
+    assert numbers(tmp_path) == list(range(23))
+
+
+def test_a_plan_that_names_a_trial_twice(tmp_path):
+    tally = local_campaign(tmp_path, [{"n": 1}, {"n": 2}, {"n": 1}], count=1)
+    assert (tally.done, tally.found) == (2, 1)
+    assert numbers(tmp_path) == [1, 2]
+
+
+def test_bad_news_is_data(tmp_path):
+    plan = [{"n": 0}, {"n": 1, "wrong": "odd"}, {"n": 2, "wrong": "raise"}, {"n": 3}]
+    tally = local_campaign(tmp_path, plan, count=1)
+    assert tally.outcomes == {"climbed": 2, "unstable": 1, "failed": 1}
+    assert rows(tmp_path)[2]["error"] == "ZeroDivisionError: half a character ?"
+    assert rows(tmp_path)[2]["n"] == 2, "its inputs are known all the same"
+
+
+def test_a_trial_that_kills_its_worker_again_and_again_is_an_outcome(tmp_path):
+    plan = [{"n": n, **({"wrong": "die"} if n == 3 else {})} for n in range(8)]
+    tally = local_campaign(tmp_path, plan, tries=2)
+    assert tally.outcomes == {"climbed": 7, "crashed": 1}
+    assert rows(tmp_path)[3]["error"] == "its worker died 2 times"
+    assert {n: row["deaths"] for n, row in rows(tmp_path).items() if row["deaths"]} == {3: 2}
+    assert numbers(tmp_path) == list(range(8))
+
+
+def test_a_trial_whose_worker_dies_once_is_done_again(tmp_path):
+    notes = tmp_path / "notes"
+    notes.mkdir()
+    plan = [
+        {"n": n, "folder": str(notes), **({"wrong": "die once"} if n == 3 else {})}
+        for n in range(8)
+    ]
+    tally = local_campaign(tmp_path / "store", plan)
+    assert tally.outcomes == {"climbed": 8}
+    assert numbers(tmp_path / "store") == list(range(8))
+
+
+def test_killed_workers_are_replaced(tmp_path):
+    """kill -9 from outside, at a moment of its own."""
+    folder = tmp_path / "store"
+    killed = []
+
+    def plan():
+        for n in range(12):
+            if n == 8:  # asked for when some have come back
+                killed.append(next(iter(rows(folder).values()))["pid"])
+                os.kill(killed[0], signal.SIGKILL)
+            yield {"n": n, "seconds": 0.02}
+
+    assert local_campaign(folder, plan()).outcomes == {"climbed": 12}
+    assert numbers(folder) == list(range(12))
+    assert killed[0] not in {row["pid"] for n, row in rows(folder).items() if n >= 10}
+
+
+def test_a_package_missing_where_it_runs_ends_the_campaign(tmp_path):
+    with pytest.raises(InputError) as caught:
+        local_campaign(tmp_path, [{"n": 0}, {"n": 1, "wrong": "missing"}], count=1)
+    assert str(caught.value) == (
+        f"the campaign ends: the worker on {os.uname().nodename}: no module called luck"
+    )
+    assert numbers(tmp_path) == [0]
+    assert local_campaign(tmp_path, specs(2), count=1).done == 1
+
+
+def test_processes_that_cannot_even_begin_are_no_outcome(tmp_path, monkeypatch):
+    monkeypatch.setattr("kaidan.campaign.local._become_worker", os._exit)  # wants an argument
+    with pytest.raises(InputError, match="die as soon as they begin"):
+        local_campaign(tmp_path, specs(3), count=1)
+    assert numbers(tmp_path) == []
+
+
+def test_another_version_at_the_worker_ends_the_campaign(tmp_path):
+    with Store(tmp_path, FAKE) as store, LocalWorkers(FAKE, 1) as workers:
+        workers.version = "fake 2"
+        with pytest.raises(InputError, match=r"has fake 1, the campaign fake 2$"):
+            conduct(specs(2), store, workers)
+
+
+def test_planning_is_lazy(tmp_path):
+    """A plan of any length: never more asked for than is done and in flight."""
+    asked = []
+
+    class EnoughError(Exception):
+        pass
+
+    def endless():
+        n = 0
+        while True:
+            asked.append(n)
+            yield {"n": n}
+            n += 1
+
+    class Stop:
+        done = 0
+
+        def advance(self, done, skipped):
+            self.done += done
+            assert len(asked) <= self.done + 2 * 2
+            if self.done >= 20:
+                raise EnoughError
+
+    with (
+        Store(tmp_path, FAKE) as store,
+        LocalWorkers(FAKE, 2) as workers,
+        pytest.raises(EnoughError),
+    ):
+        conduct(endless(), store, workers, told=Stop())
+    assert len(numbers(tmp_path)) >= 20, "what is done is kept when a campaign is broken off"
+
+
+def start(folder, notes, count, seconds):
+    environment = os.environ | {"PYTHONPATH": str(Path(campaign_cases.__file__).parent)}
+    command = [sys.executable, campaign_cases.__file__, str(folder), str(count), str(seconds)]
+    return subprocess.Popen([*command, str(notes)], env=environment, stdout=subprocess.PIPE)
+
+
+def noted(notes):
+    """Trials that were done, told by the workers themselves: n to pids."""
+    done = {}
+    file = notes / "done.txt"
+    for line in file.read_text().splitlines() if file.exists() else ():
+        n, pid = line.split()
+        done.setdefault(int(n), []).append(int(pid))
+    return done
+
+
+def wait_until(condition, seconds=30.0):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+def alive(pid):
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    state = Path(f"/proc/{pid}/stat")
+    return not state.exists() or state.read_text().rpartition(")")[2].split()[0] != "Z"
+
+
+def test_kill_9_of_the_campaign_and_the_same_command_again(tmp_path):
+    store, notes = tmp_path / "store", tmp_path / "notes"
+    notes.mkdir()
+    campaign = start(store, notes, 60, 0.03)
+    wait_until(lambda: len(noted(notes)) >= 20)
+    campaign.kill()
+    campaign.communicate()
+    workers = {pid for pids in noted(notes).values() for pid in pids}
+    wait_until(lambda: not any(alive(pid) for pid in workers))
+    begun = noted(notes)
+    kept = numbers(store)
+    assert len(set(kept)) == len(kept)
+    assert len(begun) - len(kept) <= 4, "in flight: two workers with two trials each"
+
+    again = start(store, notes, 60, 0.0)
+    assert again.communicate()[0].decode().strip() == str(60 - len(kept))
+    assert again.returncode == 0
+    assert numbers(store) == list(range(60))
+    twice = Counter(n for n, pids in noted(notes).items() if len(pids) > 1)
+    assert set(twice) <= set(begun) - set(kept), "what the store had was not done again"
