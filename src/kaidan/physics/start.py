@@ -72,6 +72,11 @@ class Course(NamedTuple):
         """Downhill end of the flat, along the track from the centroid [m]."""
         return self.front if self.down else self.rear
 
+    @property
+    def uphill_end(self) -> float:
+        """Uphill end of the flat, along the track from the centroid [m]."""
+        return self.rear if self.down else self.front
+
 
 def course_of(spec: TrialSpec) -> Course:
     """Start and end of a trial."""

@@ -312,6 +312,7 @@ class Simulation:
         steps = max(1, round(min(spec.log_interval, CHUNK) / spec.step))
         every = max(1, round(spec.log_interval / (steps * spec.step)))
         time, turn = 0.0, 0
+        furthest, slip_then = 0, 0.0
         allowed = self._allowed_slip()
         while time < limit:
             before = self.velocity()
@@ -334,7 +335,11 @@ class Simulation:
             if self.fallen(phi):
                 nose_up = (phi > course.slope) == (spec.facing == "nose-first")
                 return Outcome.FELL_BACKWARD if nose_up else Outcome.FELL_FORWARD
-            if abs(slip) > allowed * (1.0 if extra < SWINGING else 4.0):
+            reached = self.passed + int((ways <= self._end_way(uphill=True)).sum())
+            if reached > furthest:  # it gets on; what it lost in a swing is forgotten
+                furthest, slip_then = reached, max(slip, 0.0)
+            lost = max(slip - slip_then, -2.0 * slip)  # running away, half as much tells
+            if lost > allowed * (1.0 if abs(extra) < SWINGING else 4.0):
                 return Outcome.SLID
             done = way >= course.goal or self.point(course.rear, 0.0)[0] >= course.goal_x
             if done and extra < RESTED:
@@ -342,15 +347,19 @@ class Simulation:
         return Outcome.TIMED_OUT
 
     def _allowed_slip(self) -> float:
-        """Slip beyond which it slides [m]: rounding an edge, belt and centroid differ by less."""
+        """Slip since the last nosing was passed beyond which it slides [m].
+
+        Going over an edge, belt and centroid differ by less than that.
+        """
         if self.spec.begin == "flight":
-            return 0.5 * self.course.spacing + 0.02 * self.course.distance
+            return self.course.spacing
         back, ahead = self.course.outline.reach
         return back + ahead
 
-    def _end_way(self) -> float:
-        """Way of the downhill end of the flat along the line of the nosings [m]."""
-        end = self.point(self.course.downhill_end, -self.course.outline.stance.com_height)
+    def _end_way(self, *, uphill: bool = False) -> float:
+        """Way of the downhill (or uphill) end of the flat along the line of the nosings [m]."""
+        place = self.course.uphill_end if uphill else self.course.downhill_end
+        end = self.point(place, -self.course.outline.stance.com_height)
         return float(np.array(end) @ self.course.along)
 
     def _servo_power(self) -> float:

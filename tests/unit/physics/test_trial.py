@@ -74,7 +74,22 @@ def test_going_down_nose_first_it_falls_over_its_nose():
 def test_too_smooth_it_slides():
     result = run(spec(50.0, friction=0.8))
     assert result.outcome is Outcome.SLID
-    assert result.slip > 0.07
+    assert result.slip > 0.15
+
+
+def test_too_smooth_it_runs_away_downhill():
+    result = run(spec(30.0, direction="down", facing="tail-first", friction=0.4))
+    assert result.outcome is Outcome.SLID
+    assert result.slip < -0.07
+
+
+def test_a_swing_on_the_way_is_no_sliding():
+    # it swings by 14 degrees at each nosing, and loses 0.15 m each time
+    stairs = Stairs.named("ibc")
+    trial = TrialSpec(
+        robot=Robot.named("superdroid-hd2"), stairs=stairs, friction=1.0, speed=0.3, releases=4
+    )
+    assert run(trial).outcome is Outcome.CLIMBED
 
 
 def test_where_it_cannot_stand_it_falls_at_the_start():
