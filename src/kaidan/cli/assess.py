@@ -5,10 +5,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kaidan.cli import options
+from kaidan.cli.question import question
 from kaidan.cli.tables import echo
 
 if TYPE_CHECKING:
     from kaidan.assessment.answer import Assessment
+    from kaidan.assessment.case import Case
 
 Strict = Annotated[bool, typer.Option("--strict", help="Exit with 1 on caution too.")]
 Model = Annotated[str, typer.Option(help="Which model judges: contact or closed-form.")]
@@ -22,29 +24,9 @@ def register(app: typer.Typer) -> None:
     app.command("assess")(assess)
 
 
+@question()
 def assess(
-    robot: options.RobotName,
-    stairs: options.TerrainName = None,
-    points: options.PointsFile = None,
-    rise: options.Rise = None,
-    going: options.Going = None,
-    angle: options.Angle = None,
-    nosing_spacing: options.NosingSpacing = None,
-    steps: options.Steps = None,
-    surface: options.SurfaceName = None,
-    friction: options.Friction = None,
-    acceleration: options.Acceleration = "0m/s2",
-    speed: options.Speed = None,
-    direction: options.Direction = None,
-    facing: options.Facing = "nose-first",
-    flippers: options.Flippers = "stowed",
-    payload: options.PayloadText = None,
-    theta_d: options.ThetaD = None,
-    theta_m: options.ThetaM = None,
-    override: options.Override = None,
-    uncertainty: options.UncertaintyText = None,
-    yaw: options.Yaw = "0deg",
-    risk: options.Risk = 0.01,
+    case: "Case",
     model: Model = "contact",
     accept: Accept = "no-rotation",
     strict: Strict = False,
@@ -56,33 +38,6 @@ def assess(
     """
     from kaidan.assessment import answer_to
 
-    case = options.case_from(
-        robot,
-        options.terrain_of(
-            stairs,
-            points,
-            rise=rise,
-            going=going,
-            angle=angle,
-            nosing_spacing=nosing_spacing,
-            steps=steps,
-        ),
-        points=points,
-        surface=surface,
-        friction=friction,
-        acceleration=acceleration,
-        speed=speed,
-        direction=direction,
-        facing=facing,
-        flippers=flippers,
-        payload=payload,
-        theta_d=theta_d,
-        theta_m=theta_m,
-        override=override,
-        uncertainty=uncertainty,
-        yaw=yaw,
-        risk=risk,
-    )
     answer = answer_to(case, model=model, accept=accept)
     echo(answer.to_json() if as_json else as_text(answer))
     raise typer.Exit(1 if strict and answer.verdict == "caution" else answer.exit_code)

@@ -5,8 +5,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kaidan.cli import options
+from kaidan.cli.question import question
 
 if TYPE_CHECKING:
+    from kaidan.assessment.case import Case
     from kaidan.posture import PhasePosture, PostureAnswer, Tried
 
 Limits = Annotated[
@@ -22,29 +24,9 @@ def register(app: typer.Typer) -> None:
     app.command("posture")(posture)
 
 
+@question()
 def posture(
-    robot: options.RobotName,
-    stairs: options.TerrainName = None,
-    points: options.PointsFile = None,
-    rise: options.Rise = None,
-    going: options.Going = None,
-    angle: options.Angle = None,
-    nosing_spacing: options.NosingSpacing = None,
-    steps: options.Steps = None,
-    surface: options.SurfaceName = None,
-    friction: options.Friction = None,
-    acceleration: options.Acceleration = "0m/s2",
-    speed: options.Speed = None,
-    direction: options.Direction = None,
-    facing: options.Facing = "nose-first",
-    flippers: options.Flippers = "stowed",
-    payload: options.PayloadText = None,
-    theta_d: options.ThetaD = None,
-    theta_m: options.ThetaM = None,
-    override: options.Override = None,
-    uncertainty: options.UncertaintyText = None,
-    yaw: options.Yaw = "0deg",
-    risk: options.Risk = 0.01,
+    case: "Case",
     limits: Limits = "-60deg..120deg",
     accept: Accept = "no-rotation",
     as_json: options.AsJson = False,
@@ -59,33 +41,6 @@ def posture(
     from kaidan.posture import best_posture
     from kaidan.units import parse
 
-    case = options.case_from(
-        robot,
-        options.terrain_of(
-            stairs,
-            points,
-            rise=rise,
-            going=going,
-            angle=angle,
-            nosing_spacing=nosing_spacing,
-            steps=steps,
-        ),
-        points=points,
-        surface=surface,
-        friction=friction,
-        acceleration=acceleration,
-        speed=speed,
-        direction=direction,
-        facing=facing,
-        flippers=flippers,
-        payload=payload,
-        theta_d=theta_d,
-        theta_m=theta_m,
-        override=override,
-        uncertainty=uncertainty,
-        yaw=yaw,
-        risk=risk,
-    )
     if accept not in ACCEPTED:
         raise InputError(f"--accept {accept!r} is not known; known: {', '.join(ACCEPTED)}")
     low, dots, high = limits.partition("..")

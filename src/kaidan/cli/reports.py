@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kaidan.cli import options
+from kaidan.cli.question import question
 from kaidan.cli.tables import echo, echo_table
 
 if TYPE_CHECKING:
@@ -243,25 +244,9 @@ def _told(p: list[float]) -> list[int]:
     return list(range(0, len(p), math.ceil(len(p) / _ROWS)))
 
 
+@question(without=("points", "uncertainty", "yaw", "risk"))
 def plane(
-    robot: options.RobotName,
-    stairs: options.StairsName = None,
-    rise: options.Rise = None,
-    going: options.Going = None,
-    angle: options.Angle = None,
-    nosing_spacing: options.NosingSpacing = None,
-    steps: options.Steps = None,
-    surface: options.SurfaceName = None,
-    friction: options.Friction = None,
-    acceleration: options.Acceleration = "0m/s2",
-    speed: options.Speed = None,
-    direction: options.Direction = None,
-    facing: options.Facing = "nose-first",
-    flippers: options.Flippers = "stowed",
-    payload: options.PayloadText = None,
-    theta_d: options.ThetaD = None,
-    theta_m: options.ThetaM = None,
-    override: options.Override = None,
+    case: "Case",
     accelerate: Accelerate = False,
     figure: FigureFile = None,
     as_json: options.AsJson = False,
@@ -274,23 +259,6 @@ def plane(
     from kaidan.report.d_a_plane import d_a_plane
 
     form = _form(figure)
-    case = options.case_from(
-        robot,
-        options.stairs_of(
-            stairs, rise=rise, going=going, angle=angle, nosing_spacing=nosing_spacing, steps=steps
-        ),
-        surface=surface,
-        friction=friction,
-        acceleration=acceleration,
-        speed=speed,
-        direction=direction,
-        facing=facing,
-        flippers=flippers,
-        payload=payload,
-        theta_d=theta_d,
-        theta_m=theta_m,
-        override=override,
-    )
     found = d_a_plane(case, accelerate=accelerate)
     contents: dict[Path, bytes | str] = {}
     if figure is not None and not found.outside:

@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kaidan.cli import options
+from kaidan.cli.question import question
 from kaidan.cli.tables import echo, echo_table
 
 if TYPE_CHECKING:
     from kaidan.assessment.answer import PhaseShown
+    from kaidan.assessment.case import Case
     from kaidan.report.journey import Journey
 
 Accept = Annotated[
@@ -39,26 +41,9 @@ def register(app: typer.Typer) -> None:
     app.command("traverse")(traverse)
 
 
+@question(without=("uncertainty", "yaw", "risk"))
 def traverse(
-    robot: options.RobotName,
-    stairs: options.TerrainName = None,
-    points: options.PointsFile = None,
-    rise: options.Rise = None,
-    going: options.Going = None,
-    angle: options.Angle = None,
-    nosing_spacing: options.NosingSpacing = None,
-    steps: options.Steps = None,
-    surface: options.SurfaceName = None,
-    friction: options.Friction = None,
-    acceleration: options.Acceleration = "0m/s2",
-    speed: options.Speed = None,
-    direction: options.Direction = None,
-    facing: options.Facing = "nose-first",
-    flippers: options.Flippers = "stowed",
-    payload: options.PayloadText = None,
-    theta_d: options.ThetaD = None,
-    theta_m: options.ThetaM = None,
-    override: options.Override = None,
+    case: "Case",
     accept: Accept = "no-rotation",
     figure: FigureFile = None,
     poses: Poses = None,
@@ -77,30 +62,6 @@ def traverse(
     forms = [None if path is None else files.figure_format(path) for path in (figure, landscape)]
     if poses is not None and figure is None:
         raise InputError("--poses needs --figure")
-    case = options.case_from(
-        robot,
-        options.terrain_of(
-            stairs,
-            points,
-            rise=rise,
-            going=going,
-            angle=angle,
-            nosing_spacing=nosing_spacing,
-            steps=steps,
-        ),
-        points=points,
-        surface=surface,
-        friction=friction,
-        acceleration=acceleration,
-        speed=speed,
-        direction=direction,
-        facing=facing,
-        flippers=flippers,
-        payload=payload,
-        theta_d=theta_d,
-        theta_m=theta_m,
-        override=override,
-    )
     film = None
     if animation is not None:
         from kaidan.report import animation as films
