@@ -154,6 +154,8 @@ class Grades:
     energy_threshold_mm: float
     """Energy margin below which a swing is expected: v^2/2g of the stated speed, else of the
     paper's 0.1 m/s [mm]."""
+    speed_stated: bool
+    """Whether that is the speed asked about."""
     accepted: Literal["no-rotation", "caught"]
     """What the operator accepts as holding."""
 

@@ -96,6 +96,7 @@ def ruling(case: Case, found: Climb, *, accept: Accept) -> Ruling:
             caught_with_momentum=found.arrived and found.held_with_momentum,
             largest_swing_deg=math.degrees(largest_swing(found)),
             energy_threshold_mm=1e3 * threshold,
+            speed_stated=bool(case.speed),
             accepted=accept,
         ),
         doubts=doubts,

@@ -101,6 +101,11 @@ def _margin_rows(answer: "Assessment") -> list[str]:
         if answer.margin_centroid_mm is None
         else f", centroid {answer.margin_centroid_mm:+.0f} mm"
     )
+    force = (
+        ""
+        if answer.margin_force_N is None
+        else f", {answer.margin_force_N:+.0f} N along the slope"
+    )
     shown = ", ".join(
         f"{name} {value.low_deg:.1f} to {value.high_deg:.1f} deg ({value.source})"
         for name, value in answer.allowances.items()
@@ -109,7 +114,7 @@ def _margin_rows(answer: "Assessment") -> list[str]:
         _row("governs", answer.governs.replace("_", " ")),
         _row(
             "margin",
-            f"{answer.margin_deg:+.1f} deg{spread}{centroid}"
+            f"{answer.margin_deg:+.1f} deg{spread}{centroid}{force}"
             + (
                 ""
                 if answer.margin_angle_deg is None
@@ -199,7 +204,12 @@ def _phase_rows(answer: "Assessment") -> list[str]:
             "holds",
             f"without rotation: {one}; caught: {caught}; caught with momentum: {momentum}; "
             f"swings by {grades.largest_swing_deg:.1f} deg",
-        )
+        ),
+        _row(
+            "energy wanted",
+            f"more than {grades.energy_threshold_mm:.2f} mm at every pose, v^2/2g of "
+            + ("the speed asked" if grades.speed_stated else "0.1 m/s, the paper's"),
+        ),
     ]
     for each in answer.phases:
         energy = (
