@@ -4,6 +4,7 @@ A `TrialSpec` is a frozen sheet that can be pickled and written as JSON, so that
 machine can run it and come to the same result.
 """
 
+import math
 from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
@@ -102,8 +103,8 @@ RUBBER_FRICTION = 0.8
 """Friction of grousers where none is stated [1]: rubber on something dry, 0.6 to 1.0."""
 _SMOOTH = ("smooth-belt", "sprung-noses", "shoe-chain")
 FROM_THE_LANDING = 0.02
-"""Contact time of a trial that drives against the first riser [s]: a rigid belt that never slows
-down and a rigid riser throw each other about; rubber does not."""
+"""Contact time of a trial that drives against risers [s]: a rigid belt that never slows down and a
+rigid riser throw each other about; rubber does not."""
 _STEPS = {"smooth-belt": 1e-3, "sprung-noses": 1e-3, "driven-grousers": 1e-3, "shoe-chain": 2.5e-4}
 
 
@@ -171,7 +172,7 @@ class TrialSpec(Sheet):
         2e-5,
         0.1,
         "time in which a contact pushes back what has sunk in; the stiffest that the time step "
-        "resolves on the flight, 20 ms from the landing, without",
+        "resolves on the flight, 20 ms where it enters or lands, without",
         default=None,
     )
     log_interval: float = quantity("s", 1e-3, 1.0, "between rows of the log", default=0.02)
@@ -223,6 +224,22 @@ class TrialSpec(Sheet):
         return self.timestep or _STEPS[self.track.kind]
 
     @property
+    def first_nosing(self) -> int:
+        """Nosing under the downhill end at the start on the flight, along the way from 0."""
+        profile = self.profile()
+        last = len(profile.nosings) - 1
+        if not self.downhill:
+            return 1 if last > 1 else 0
+        # the uphill end, which trails, is on the flight too
+        return min(math.ceil(self.outline().stance.flat_length / profile.nosing_spacing), last)
+
+    @property
+    def runs_out(self) -> bool:
+        """Whether the flight ends before the releases asked for, so that the robot lands."""
+        wanted = self.first_nosing + self.releases - (0 if self.downhill else 1)
+        return wanted > len(self.profile().nosings) - 1
+
+    @property
     def static_friction(self) -> float:
         """Friction of the track on the nosings [1].
 
@@ -235,7 +252,7 @@ class TrialSpec(Sheet):
     @property
     def softness(self) -> float:
         """Contact time [s], never less than two time steps."""
-        usual = FROM_THE_LANDING if self.begin == "landing" else 0.0
+        usual = FROM_THE_LANDING if self.begin == "landing" or self.runs_out else 0.0
         return max(2 * self.step, usual if self.contact_time is None else self.contact_time)
 
     @property

@@ -129,20 +129,17 @@ def _on_the_flight(
     spec: TrialSpec, profile: Profile, ways: Array, rear: float, front: float
 ) -> tuple[float, float, float]:
     """Centroid x [m] and inclination [rad] at the start, and the goal of the downhill end [m]."""
-    slope, spacing, last = profile.angle, profile.nosing_spacing, len(ways) - 1
-    offset = spec.drawn()[0] * spacing
-    if spec.downhill:  # the uphill end, which trails, is on the flight too
-        first = min(math.ceil((front - rear) / spacing), last)
-        way = ways[first] + offset
-        reached = first + spec.releases
-        goal = ways[reached] + AFTER_GAIN * spacing if reached <= last else math.inf
-        tip = front
+    slope, spacing = profile.angle, profile.nosing_spacing
+    offset, first = spec.drawn()[0] * spacing, spec.first_nosing
+    goal = math.inf
+    if spec.downhill:
+        way, tip = ways[first] + offset, front
+        if not spec.runs_out:
+            goal = ways[first + spec.releases] + AFTER_GAIN * spacing
     else:
-        first = 1 if last > 1 else 0
-        way = ways[first] - offset
-        lost = first + spec.releases - 1
-        goal = ways[lost] + AFTER * spacing if lost <= last else math.inf
-        tip = rear
+        way, tip = ways[first] - offset, rear
+        if not spec.runs_out:
+            goal = ways[first + spec.releases - 1] + AFTER * spacing
     # the flat on the line through the nosings
     nosing = profile.nosings[first]
     on = nosing + (way - ways[first] - tip) * np.array([math.cos(slope), math.sin(slope)])
