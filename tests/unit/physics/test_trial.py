@@ -3,6 +3,8 @@
 import json
 import math
 import pickle
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 
 import numpy as np
 import pytest
@@ -129,6 +131,13 @@ def test_the_same_seed_gives_the_same_result(track):
     assert plain(one) == plain(two)
     other = run(spec(50.0, seed=6, **fields))
     assert other.start_offset != one.start_offset
+
+
+def test_another_process_comes_to_the_same_result():
+    trial = spec(55.0, releases=1, track=SprungNoses(stiffness=3e4), seed=9)
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+        there = pool.submit(run, trial).result()
+    assert plain(there) == plain(run(trial))
 
 
 def test_a_result_can_be_pickled_and_written_as_json():
