@@ -29,6 +29,8 @@ def test_defaults_are_all_robots_on_all_stairs():
     assert {each["name"] for each in found["without_centroid"]} == set(catalog.gross_robots())
 
 
+@pytest.mark.usefixtures("compiled_kernel")
+@pytest.mark.parametrize("model", ["contact", "closed-form"])
 @pytest.mark.parametrize(
     ("arguments", "options"),
     [
@@ -39,12 +41,13 @@ def test_defaults_are_all_robots_on_all_stairs():
          {"facing": "tail-first", "acceleration": 0.5, "theta_d": 0.017453292519943295}),
     ],
 )  # fmt: skip
-def test_every_cell_is_what_assess_says(arguments, options):
-    found = json.loads(run("--json", *arguments).stdout)
+def test_every_cell_is_what_assess_says(arguments, options, model):
+    found = json.loads(run("--json", "--model", model, *arguments).stdout)
+    assert found["model"] == model
     for cell in found["cells"]:
         robot = Robot.named(cell["robot"])
         has = robot.front_flippers is not None or robot.rear_flippers is not None
-        options |= {"flippers": "flat" if has else "stowed", "model": "closed-form"}
+        options |= {"flippers": "flat" if has else "stowed", "model": model}
         answer = assess(robot, cell["stairs"], **options)
         assert cell["verdict"] == answer.verdict
         assert cell["governs"] == answer.governs
@@ -57,7 +60,7 @@ def test_every_cell_is_what_assess_says(arguments, options):
 def test_files_and_page(tmp_path):
     table, figure = tmp_path / "c.csv", tmp_path / "c.pdf"
     result = run("kenaf", "absolem", "packbot-510", "--stairs", "ibc", "--stairs", "osha-ship",
-                 "--friction", "0.8", "--csv", str(table), "--figure", str(figure))  # fmt: skip
+                 "--friction", "0.8", "--model", "closed-form", "--csv", str(table), "--figure", str(figure))  # fmt: skip
     assert result.exit_code == 0
     rows = list(csv.DictReader(io.StringIO(table.read_text())))
     assert [(row["stairs"], row["robot"], row["verdict"]) for row in rows] == [
@@ -69,6 +72,7 @@ def test_files_and_page(tmp_path):
     assert rows[0]["margin_deg"] == ""
     assert figure.read_bytes().startswith(b"%PDF")
     assert "? OUTSIDE" in result.stdout
+    assert "closed form, the regular flight alone" in result.stdout
     assert "+ GO +6.1" in result.stdout  # hand: atan(0.8) - atan(178/279) = 6.12 deg
     assert "x NO-GO -31.3" in result.stdout  # hand: atan(0.8) - atan(305/111.1) = -31.3 deg
     assert "packbot-510: iRobot PackBot 510" in result.stdout
@@ -77,7 +81,8 @@ def test_files_and_page(tmp_path):
 
 def test_flippers_may_stay_stowed():
     found = json.loads(run("absolem", "--stairs", "ibc", "--flippers", "stowed", "--json").stdout)
-    assert found["cells"][0]["verdict"] == "outside-model"
+    assert found["model"] == "contact"  # as assess
+    assert found["cells"][0]["verdict"] == "no-go"
     assert found["cells"][0]["flippers"] == "stowed"
 
 
@@ -88,6 +93,8 @@ def test_bad_input(tmp_path):
         run("kenaff", catch_exceptions=False)
     with pytest.raises(InputError, match="unknown suffix"):
         run("kenaf", "--figure", str(tmp_path / "c.gif"), catch_exceptions=False)
+    with pytest.raises(InputError, match="model = 'luck' is not known; known: contact, closed-"):
+        run("kenaf", "--model", "luck", catch_exceptions=False)
     assert not list(tmp_path.iterdir())
 
 

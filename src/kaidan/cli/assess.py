@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from kaidan.assessment.case import Case
 
 Strict = Annotated[bool, typer.Option("--strict", help="Exit with 1 on caution too.")]
-Model = Annotated[str, typer.Option(help="Which model judges: contact or closed-form.")]
 Accept = Annotated[
     str, typer.Option(help="What counts as holding: no-rotation, or caught (by the next contact).")
 ]
@@ -27,7 +26,7 @@ def register(app: typer.Typer) -> None:
 @question()
 def assess(
     case: "Case",
-    model: Model = "contact",
+    model: options.Model = "contact",
     accept: Accept = "no-rotation",
     strict: Strict = False,
     as_json: options.AsJson = False,

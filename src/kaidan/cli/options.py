@@ -95,6 +95,7 @@ UncertaintyText = Annotated[
 Yaw = Annotated[
     str, typer.Option(help="Heading off the line of steepest ascent, to the left positive: 10deg.")
 ]
+Model = Annotated[str, typer.Option(help="Which model judges: contact or closed-form.")]
 Risk = Annotated[float, typer.Option(help="Probability of failure that is accepted.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 

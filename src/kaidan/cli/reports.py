@@ -318,6 +318,7 @@ def compare(
     theta_d: options.ThetaD = None,
     theta_m: options.ThetaM = None,
     risk: options.Risk = 0.01,
+    model: options.Model = "contact",
     figure: FigureFile = None,
     csv: CsvFile = None,
     as_json: options.AsJson = False,
@@ -357,7 +358,7 @@ def compare(
         )
 
     cases = [[case(name, flight) for name in known] for flight in flights]
-    found = matrix(cases, conditions=_conditions(cases), without_centroid=apart)
+    found = matrix(cases, model=model, conditions=_conditions(cases, model), without_centroid=apart)
     contents: dict[Path, bytes | str] = {}
     if csv is not None:
         contents[csv] = files.csv_text(found.columns())
@@ -368,7 +369,7 @@ def compare(
     _put_out(contents, found.as_dict() if as_json else None, lambda: _show_matrix(found))
 
 
-def _conditions(cases: "list[list[Case]]") -> str:
+def _conditions(cases: "list[list[Case]]", model: str) -> str:
     """What holds for all cases, in words."""
     first = cases[0][0]
     directions = {case.direction for row in cases for case in row}
@@ -379,7 +380,8 @@ def _conditions(cases: "list[list[Case]]") -> str:
         else f"{first.acceleration:g} m/s2 up the stairs"
     )
     ground = "friction not stated" if first.surface is None else first.surface.name
-    return f"{way} {first.facing.replace('-', ' ')}, {speed}, {ground}".capitalize()
+    judged = "whole way" if model == "contact" else "closed form, the regular flight alone"
+    return f"{way} {first.facing.replace('-', ' ')}, {speed}, {ground}; {judged}".capitalize()
 
 
 def _show_matrix(matrix: "Matrix") -> None:

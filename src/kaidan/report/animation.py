@@ -22,6 +22,7 @@ from kaidan.contact.turning import turned
 from kaidan.errors import InputError, MissingExtraError
 from kaidan.report import look, side_view
 from kaidan.report.journey import Journey
+from kaidan.report.progress import progress
 from kaidan.report.side_view import Stand
 
 FRAMES_PER_SECOND = 25
@@ -121,7 +122,7 @@ def gif_bytes(found: Journey) -> bytes:
         file = Path(folder) / "film.gif"
         stage = _Stage(found)
         with writer.saving(stage.figure, str(file), _DPI * 0.75):
-            for frame in _told(frames_of(found)):
+            for frame in progress(frames_of(found), "film"):
                 stage.show(frame)
                 writer.grab_frame()
         return file.read_bytes()
@@ -139,25 +140,10 @@ def mp4_bytes(found: Journey) -> bytes:
         with imageio.get_writer(
             file, fps=FRAMES_PER_SECOND, codec="libx264", quality=7, macro_block_size=16
         ) as film:
-            for frame in _told(frames_of(found)):
+            for frame in progress(frames_of(found), "film"):
                 stage.show(frame)
                 film.append_data(stage.pixels())
         return file.read_bytes()
-
-
-def _told(frames: list[Frame]) -> Iterator[Frame]:
-    """Frames with a progress bar on a terminal's standard error."""
-    from rich.console import Console
-    from rich.progress import track
-
-    console = Console(stderr=True)
-    yield from track(
-        frames,
-        description="film",
-        console=console,
-        transient=True,
-        disable=not console.is_terminal,
-    )
 
 
 class _Stage:
