@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from kaidan import contact
+from kaidan.assessment import case_of
+from kaidan.assessment.contact_model import climb_of
 from kaidan.climb import Phase, climb
 from kaidan.errors import InputError
 from kaidan.outline import Outline
@@ -13,7 +15,7 @@ from kaidan.profile import Profile
 from kaidan.robot import Robot, Track
 from kaidan.stairs import Stairs
 
-pytestmark = pytest.mark.slow  # the contact model is not the default yet; minutes together
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 STEP = 0.02  # m between poses; events are located whatever it is
 KENAF = Outline.of(Robot.named("kenaf"))
@@ -118,3 +120,16 @@ def test_long_profiles_are_refused_and_never_hang(monkeypatch):
     monkeypatch.setattr(contact, "numba_is_installed", lambda: False)
     with pytest.raises(InputError, match=r"pip install 'kaidan\[fast\]'"):
         climb(Profile.of_points(level[:30_000]), KENAF)
+
+
+def test_going_down_the_tail_may_slide_down_the_last_risers():
+    """A trailing end on a riser's face, the other on the landing: it needs no friction to arrive."""
+    case = case_of("absolem", "ibc", flippers="flat", friction=0.7, direction="down")
+    found = climb_of(case)
+    land = found.phases[-1]
+    rear = found.run.poses[found.phase_of_pose == "land"]
+    on_face = abs(rear[:, 10]) > rear[:, 11]
+    frictions = found.run.margins[found.phase_of_pose == "land", 0]
+    assert land.slides_below == frictions[on_face].max() > 0.7
+    assert land.required_friction == frictions[~on_face].max() < 0.7
+    assert climb_of(case.changed(direction="up")).phases[-1].slides_below is None
