@@ -12,7 +12,8 @@ import pytest
 pytest.importorskip("mujoco", reason="skipped: mujoco not installed")
 
 from kaidan.physics import DrivenGrousers, Outcome, ShoeChain, SprungNoses, TrialSpec, model_of, run
-from kaidan.physics.trial import Belt, Simulation
+from kaidan.physics.pace import Belt
+from kaidan.physics.trial import Simulation
 from kaidan.robot import Posture, Robot
 from kaidan.stairs import Stairs
 from physics_cases import robot, spec
