@@ -4,7 +4,7 @@
 `Store` and `Workers` together.
 """
 
-from kaidan.campaign.campaign import carry_out, resume
+from kaidan.campaign.campaign import PlanProgress, carry_out, progress_of, resume
 from kaidan.campaign.cluster import DaskWorkers
 from kaidan.campaign.conducting import Tally, conduct
 from kaidan.campaign.local import LocalWorkers, Workers
@@ -23,6 +23,7 @@ __all__ = [
     "Grid",
     "LocalWorkers",
     "Plan",
+    "PlanProgress",
     "State",
     "Store",
     "Tally",
@@ -32,6 +33,7 @@ __all__ = [
     "carry_out",
     "conduct",
     "export",
+    "progress_of",
     "read_batches",
     "read_table",
     "resume",

@@ -2,13 +2,15 @@
 
 from collections import Counter
 from pathlib import Path
-from typing import Any
+from typing import NamedTuple
 
 from kaidan.campaign.cluster import DaskWorkers
 from kaidan.campaign.conducting import Tally, conduct
+from kaidan.campaign.known import Known
 from kaidan.campaign.local import LocalWorkers, Workers
 from kaidan.campaign.plans import Grid, VerificationTest, as_stored, plan_from
 from kaidan.campaign.progress import Progress
+from kaidan.campaign.reading import read_batches
 from kaidan.campaign.store import Store, about_store
 from kaidan.campaign.trials import TRIALS
 
@@ -86,10 +88,42 @@ def resume(
     return Tally(done, found, dict(outcomes))
 
 
-def missing(plan: VerificationTest | Grid, known: Any) -> int:
-    """How many trials of a plan are not among known identities."""
-    identities = {TRIALS.identity(spec) for spec in plan.specs()}
-    return sum(identity not in known for identity in identities)
+class PlanProgress(NamedTuple):
+    """How far a plan of a store is."""
+
+    kind: str
+    trials: int
+    """Different trials of the plan."""
+    done: int
+
+    @property
+    def missing(self) -> int:
+        """Trials that are not in the store."""
+        return self.trials - self.done
+
+
+def progress_of(store: str | Path) -> list[PlanProgress]:
+    """How far each plan of a store is, with the physics of now.
+
+    Raises
+    ------
+    InputError, MissingExtraError
+        No store, a plan of another version, or no MuJoCo, whose version belongs to a trial.
+    """
+    folder = Path(store)
+    about = about_store(folder)
+    assert about is not None
+    known = Known()
+    for batch in read_batches(folder, ["id"]):
+        known.update(batch.column("id").to_pylist())
+    found = []
+    for stored in about["plans"]:
+        different, done = Known(), 0
+        for spec in plan_from(stored).specs():
+            identity = TRIALS.identity(spec)
+            done += different.add(identity) and identity in known
+        found.append(PlanProgress(stored["kind"], len(different), done))
+    return found
 
 
 def _workers(count: int | None, scheduler: str | None) -> Workers:

@@ -10,7 +10,17 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from kaidan.cli import assess, catalogs, monitor, physics, posture, reports, traverse
+from kaidan.cli import (
+    assess,
+    campaign,
+    catalogs,
+    experiment,
+    monitor,
+    physics,
+    posture,
+    reports,
+    traverse,
+)
 
 _START_LIGHTLY = {
     "OPENBLAS_NUM_THREADS": "1",  # no matrix here is worth the threads numpy would start
@@ -45,7 +55,9 @@ def kaidan(
 
 
 assess.register(app)
+campaign.register(app)
 catalogs.register(app)
+experiment.register(app)
 monitor.register(app)
 physics.register(app)
 posture.register(app)
