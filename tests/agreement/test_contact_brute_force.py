@@ -147,7 +147,6 @@ def compare(terrain, parts, x_start, x_end):
     return mine, top, verdict, np.nan, LEVELS[-1]
 
 
-@pytest.mark.slow
 def test_random_robots_and_flights():
     rng = np.random.default_rng(21)
     verdicts = {"ok": 0, "back": 0, "front": 0}
@@ -169,7 +168,6 @@ def test_random_robots_and_flights():
     assert min(verdicts["ok"], verdicts["back"]) > 15
 
 
-@pytest.mark.slow
 def test_rough_profiles():
     rng = np.random.default_rng(22)
     for case in range(50):

@@ -87,7 +87,6 @@ def test_less_than_two_contacts_is_outside():
     assert np.isnan(grade.back_margin)
 
 
-@pytest.mark.slow
 def test_where_grade_one_holds_the_kernel_sees_no_rotation():
     """The traverse itself: on the inner flight the inclination stays the flight's."""
     rng = np.random.default_rng(8)

@@ -231,8 +231,8 @@ QUANTITIES = """
     5kg@200mm,300mm 5kg@200mm 5@2,3 5kg@,mm @,, flat stowed flat,stowed 20deg,-5deg 400deg,0deg
     , ,, com_height=71mm com_height= =71mm com_height=71 mass=5kg,mass=6kg foo=1mm friction=0.1
     up down nose-first tail-first closed-form contact caught no-rotation ibc kenaf absolem
-    concrete-dry / . .. /dev/null /dev/zero /dev/full ~ -- - -h --help --json 0.01 0 1 1e-9 0.5 12 10000
-    10001 -5 9.9m/s2 0.5m/s2 -0.5m/s2 0.1m/s 3km/h ½° ١٢mm ∞mm"""
+    concrete-dry / . .. /dev/null /dev/zero /dev/full ~ -- - -h --help --json 0.01 0 1 1e-9 0.5 12
+    10000 10001 -5 9.9m/s2 0.5m/s2 -0.5m/s2 0.1m/s 3km/h ½° ١٢mm ∞mm"""
 AWKWARD = ["", " ", "180 mm", " 180mm ", "1mm\n2mm", "\x1b[31m", "\x00", "\udcff", "1" * 400]
 AWKWARD += ["1" * 5000 + "mm", "0." + "0" * 5000 + "1mm"]
 quantities = st.sampled_from(QUANTITIES.split() + AWKWARD)

@@ -43,7 +43,6 @@ def applicable(L, C_L, C_N, R):
     return h > 1e-3 and 0 < along < L and tail_x > R * 1.001
 
 
-@pytest.mark.slow
 def test_largest_height_is_the_cubics():
     rng = np.random.default_rng(4)
     done = 0
@@ -62,7 +61,6 @@ def test_largest_height_is_the_cubics():
         assert not climbs(robot, h + 1e-4), (L, C_L, C_N, R, h)
 
 
-@pytest.mark.slow
 def test_riser_start_friction():
     """Nose disc on the face, tail disc on the ground: friction of the first pose on the face."""
     rng = np.random.default_rng(5)
