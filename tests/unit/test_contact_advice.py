@@ -1,0 +1,167 @@
+"""Advice by the contact model: each change offered keeps its promise when asked anew."""
+
+import dataclasses
+import math
+import re
+
+import pytest
+
+import kaidan
+from kaidan import Payload, Posture, Robot, Stairs, Surface, assess
+from kaidan.assessment.advice import RAISED
+
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
+
+KENAF = Robot.named("kenaf")
+ABSOLEM = Robot.named("absolem")
+SURE = {"theta_d": 0.0, "theta_M": 0.0}
+ONCE = 0.01  # deg: one place fewer than advice is told in
+
+
+def at(angle, p=0.150, steps=8):
+    return Stairs.inclined(angle=math.radians(angle), nosing_spacing=p, steps=steps)
+
+
+def changed(robot, text, question):
+    """Robot and question with the change that a text tells."""
+    raised = re.fullmatch(r"Raise the (front|rear) flippers to 45 deg", text)
+    friction = re.fullmatch(r".* friction of (\d\.\d\d) or more", text)
+    speed = re.fullmatch(r"Drive at (\d+\.\d\d) m/s or less", text)
+    moved = re.fullmatch(r"Move the centroid (\d+) mm towards the (front|rear)", text)
+    measured = re.fullmatch(r"Measure (.*): at best, if they are zero", text)
+    if raised:
+        posture = question.get("flippers", Posture())
+        if posture == "flat":
+            posture = Posture(front="flat", rear="flat")
+        return robot, {"flippers": posture.model_copy(update={raised[1]: RAISED})}
+    if text == "Lay the flippers flat, in line with the track":
+        return robot, {"flippers": "flat"}
+    if friction:
+        return robot, {"friction": float(friction[1]), "surface": None}
+    if speed:
+        return robot, {"speed": float(speed[1])}
+    if moved:
+        shift = float(moved[1]) / 1e3 * (1 if moved[2] == "rear" else -1)
+        return robot.model_copy(update={"com_from_front": robot.com_from_front + shift}), {}
+    if measured:
+        return robot, dict.fromkeys(measured[1].split(" and "), 0.0)
+    if text.endswith("tail first"):
+        return robot, {"facing": "tail-first"}
+    if text.endswith("nose first"):
+        return robot, {"facing": "nose-first"}
+    return robot, {
+        "Head straight along the stairs": {"yaw": 0.0},
+        "Keep the speed constant": {"acceleration": 0.0},
+    }[text]
+
+
+QUESTIONS = {
+    "a dry step of the building code": (
+        ABSOLEM, Stairs.named("ibc"), {"flippers": "flat", "surface": "concrete-dry"}
+    ),
+    "friction not stated": (KENAF, at(40), {}),
+    "too little friction": (KENAF, at(40), {"friction": 0.7}),
+    "little energy": (KENAF, at(44, p=0.200), {"friction": 2.5, **SURE}),
+    "allowances in doubt": (KENAF, at(57), {"friction": 2.5}),
+    "beyond the limit": (KENAF, at(64), {"friction": 2.5, **SURE}),
+    "a hard start": (KENAF, at(50), {"friction": 2.5, "acceleration": 2.0}),
+    "down nose first": (KENAF, at(40), {"friction": 2.5, "direction": "down"}),
+    "flippers stowed": (ABSOLEM, at(30, p=0.3), {"friction": 1.5}),
+    "at a yaw": (
+        KENAF.model_copy(update={"track": KENAF.track.model_copy(update={"gauge": 0.3})}),
+        at(50),
+        {"friction": 2.5, **SURE, "yaw": 0.95},
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", QUESTIONS)
+def test_every_change_keeps_its_promise(name):
+    robot, stairs, question = QUESTIONS[name]
+    answer = assess(robot, stairs, **question)
+    assert answer.verdict != "go"
+    assert answer.what_would_help
+    for change in answer.what_would_help:
+        other, more = changed(robot, change.change, question)
+        asked = {key: value for key, value in (question | more).items() if value is not None}
+        then = assess(other, stairs, **asked)
+        assert then.model == "contact"
+        assert then.verdict == change.verdict, change
+        assert then.margin_deg == pytest.approx(change.margin_deg, abs=ONCE), change
+
+
+def told(name):
+    robot, stairs, question = QUESTIONS[name]
+    return [each.change for each in assess(robot, stairs, **question).what_would_help]
+
+
+def test_raised_flippers_enter_with_less_friction():
+    """The nose of 90 mm meets the riser of 178 mm on its face; raised flippers reach over it."""
+    flat = assess(ABSOLEM, "ibc", flippers="flat", surface="concrete-dry")
+    assert (flat.governs, flat.phase) == ("slip", "enter")
+    assert "Raise the front flippers to 45 deg" in told("a dry step of the building code")
+    posture = Posture(front=RAISED, rear="flat")
+    raised = assess(ABSOLEM, "ibc", flippers=posture, surface="concrete-dry")
+    assert raised.phases[0].required_friction < flat.phases[0].required_friction - 0.1
+
+
+def test_slower_where_the_energy_is_too_little():
+    """Theory section 4: 0.07 mm of energy margin; by hand sqrt(2 g 0.07 mm) = 0.037 m/s."""
+    assert "Drive at 0.03 m/s or less" in told("little energy")
+
+
+def test_the_same_friction_that_it_says_it_needs():
+    """By hand: tan 40 deg = 0.839; the worst of the way is a little more or the same."""
+    robot, stairs, question = QUESTIONS["friction not stated"]
+    answer = assess(robot, stairs, **question)
+    (change,) = answer.what_would_help
+    needed = float(re.search(r"(\d\.\d\d) or more", change.change)[1])
+    assert change.verdict == "go"
+    assert answer.required_friction < needed <= answer.required_friction + 0.02
+    assert answer.required_friction >= math.tan(math.radians(40)) - 1e-9
+
+
+def test_head_straight_at_a_yaw_only():
+    assert "Head straight along the stairs" in told("at a yaw")
+    assert "Head straight along the stairs" not in told("beyond the limit")
+
+
+def test_a_go_has_no_advice():
+    assert assess(KENAF, at(40), friction=2.5).what_would_help == ()
+
+
+def test_the_best_comes_first():
+    rank = ["go", "caution", "no-go", "outside-model"]
+    for robot, stairs, question in QUESTIONS.values():
+        changes = assess(robot, stairs, **question).what_would_help
+        keys = [(rank.index(each.verdict), -(each.margin_deg or 0.0)) for each in changes]
+        assert keys == sorted(keys)
+
+
+def test_a_payload_stays_where_it_is():
+    load = Payload(mass=5.0, from_front=0.9, height=0.4)
+    answer = assess(ABSOLEM, at(44, p=0.28), friction=2.5, flippers="flat", payload=load)
+    for change in answer.what_would_help:
+        assert change.verdict in ("go", "caution", "no-go")
+    assert dataclasses.is_dataclass(answer)
+
+
+# The default
+
+
+def test_the_contact_model_is_the_default():
+    answer = assess(KENAF, at(40), friction=2.0)
+    assert answer.model == "contact"
+    assert answer == assess(KENAF, at(40), friction=2.0, model="contact")
+    assert [each.phase for each in answer.phases] == ["enter", "traverse", "land"]
+    flat = kaidan.assess(KENAF, at(40), friction=2.0, model="closed-form")
+    assert (flat.model, flat.phases, flat.grades) == ("closed-form", (), None)
+
+
+def test_the_closed_form_sees_the_flight_only():
+    """On a first riser of 178 mm it slips sooner than on the flight: the default says so."""
+    question = {"flippers": "flat", "surface": Surface.of_friction(0.8)}
+    whole = assess(ABSOLEM, "ibc", **question)
+    flight = assess(ABSOLEM, "ibc", model="closed-form", **question)
+    assert (flight.verdict, whole.verdict) == ("go", "no-go")
+    assert (whole.governs, whole.phase, whole.step) == ("slip", "enter", 1)
