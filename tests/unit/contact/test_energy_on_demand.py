@@ -43,7 +43,7 @@ def test_energy_equals_the_full_table(seed):
 
 
 def test_energy_is_never_less_than_the_pivots():
-    """Rolling and new contacts lie farther out than a point that stays: what the search relies on."""
+    """Rolling and new contacts lie farther out than a point that stays; the search relies on it."""
     for seed in range(30):
         margins = run_of(seed).margins
         back, front = np.abs(margins[:, 8]), np.abs(margins[:, 9])
