@@ -108,9 +108,12 @@ def test_steps_of_the_drive_change_nothing_that_counts(robot, flight):
     profile, outline = Profile.of_stairs(flight), Outline.of(robot)
     coarse, fine = (climb(profile, outline, step=s, compiled=False) for s in (0.03, 0.011))
     same(coarse, fine, 1e-3)  # rad: an inclination between poses may be passed over
-    for one, two in zip(coarse.phases, fine.phases, strict=True):
-        if coarse.status is contact.Status.OK:
-            assert one.required_friction == pytest.approx(two.required_friction, rel=0.02)
+    if coarse.status is contact.Status.OK:
+        # of the whole way: a phase may begin between two poses
+        one, two = (
+            max(each.required_friction for each in found.phases) for found in (coarse, fine)
+        )
+        assert one == pytest.approx(two, rel=0.02)
 
 
 @SETTINGS
