@@ -136,7 +136,7 @@ def draws(case: Case, at: Draws) -> Iterator[Draws]:
         yield at
         return
     spread = case.spread
-    count = max(SAMPLES, math.ceil(BEYOND / case.risk))
+    count = sample_count(case)
     L, C_L, C_N, d_theta, d_p, d_mu = (
         unit_draws(count)[:, :, None] * np.array(spread)[:, None, None]
     )
@@ -152,6 +152,11 @@ def draws(case: Case, at: Draws) -> Iterator[Draws]:
             mu_low=np.maximum(at.mu_low + d_mu, 0.0),
             mu_high=np.maximum(at.mu_high + d_mu, 0.0),
         )
+
+
+def sample_count(case: Case) -> int:
+    """Samples of the uncertain inputs that the risk asks for."""
+    return max(SAMPLES, math.ceil(BEYOND / case.risk))
 
 
 def _decisive(steps: list[tuple[float, float]]) -> tuple[Array, Array]:

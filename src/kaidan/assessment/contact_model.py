@@ -221,7 +221,7 @@ def _interval(worst: Reading) -> tuple[float, float] | None:
     if len(worst.smallest) == 1 or np.isnan(worst.smallest).any():
         return None
     low, high = np.degrees([at_risk(worst.smallest, share) for share in (0.025, 0.975)])
-    return float(low), float(high)
+    return (float(low), float(high)) if math.isfinite(low) else None
 
 
 def _probability(case: Case, found: Climb, worst: Reading) -> Probability | None:

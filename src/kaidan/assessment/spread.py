@@ -1,8 +1,9 @@
-"""How far the inputs' uncertainties carry the contact model's margins, to first order.
+"""How far the inputs' uncertainties carry the contact model's margins.
 
-The criterion of no rotation is cheap, so its slopes are finite differences of the criterion itself
-on the profile at hand. The inputs then vary as in the closed form (the same Latin hypercube), each
-margin follows along its slopes, and what the samples say of risk is read off as there.
+On a flight of known steps the criterion of no rotation is the closed form, so its samples are the
+closed form's own (the same Latin hypercube), less its figure for the sheets. On any other profile
+the criterion is cheap: its slopes are finite differences on the profile at hand, and the margins
+follow the samples along them, to first order.
 """
 
 import math
@@ -11,8 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from kaidan import contact
-from kaidan.assessment.case import SAMPLES, Array, Case, unit_draws
+from kaidan.assessment.case import Array, Case, Draws, draws, nominal, sample_count, unit_draws
 from kaidan.climb import SLACK, Climb
+from kaidan.mechanics.margins import margins
 from kaidan.outline import Outline
 from kaidan.profile import Profile
 from kaidan.stairs import Stairs
@@ -51,25 +53,50 @@ def spread(case: Case, found: Climb) -> Spread | None:
     sigma = np.array(case.spread)
     if not sigma.any():
         return None
-    draws = unit_draws(SAMPLES) * sigma[:, None]
+    drawn = unit_draws(sample_count(case)) * sigma[:, None]
+    along = case.profile is not None or found.criterion.outside
+    down, up = _to_first_order(case, found, drawn) if along else _by_closed_form(case)
+    return Spread(down, up, drawn[3], drawn[5])
+
+
+def _by_closed_form(case: Case) -> tuple[Array, Array]:
+    """Tip margins of the samples, less those of the sheets' figures [rad]; minus infinity: none."""
+    at = nominal(case, case.stance)
+    known = _tips(case, at)
+    each = [_tips(case, block) for block in draws(case, at)]
+    down, up = (np.minimum.reduce([block[side] for block in each]) - known[side] for side in (0, 1))
+    return np.where(np.isnan(down), -np.inf, down), np.where(np.isnan(up), -np.inf, up)
+
+
+def _tips(case: Case, at: Draws) -> tuple[Array, Array]:
+    """Margins downhill and uphill of each sample, over the steps [rad]."""
+    found = margins(
+        L=at.L, C_L=at.C_L, C_N=at.C_N, p=at.p, theta_s=at.theta_s, mu_s=np.nan, a=case.acceleration
+    )
+    return np.asarray(found.tip_downhill.min(axis=-1)), np.asarray(found.tip_uphill.min(axis=-1))
+
+
+def _to_first_order(case: Case, found: Climb, drawn: Array) -> tuple[Array, Array]:
+    """Tip margins of the samples along the slopes of the criterion, less the known ones [rad]."""
+    sigma = np.array(case.spread)
     slopes = np.zeros((2, 5))
     for k in np.flatnonzero(sigma[:5]):
         h = min(float(sigma[k]), LARGEST_STEP)
         ahead, behind = (_margins(case, found, int(k), side * h) for side in (1, -1))
         slopes[:, k] = (ahead - behind) / (2 * h)
-    down, up = np.nan_to_num(slopes) @ draws[:5]
-    return Spread(down, up, draws[3], draws[5])
+    down, up = np.nan_to_num(slopes) @ drawn[:5]
+    return down, up
 
 
 def share_out_of_reach(case: Case, found: Climb) -> float:
     """Probability that fewer than two nosings stay on the track somewhere."""
     if found.criterion.outside and not case.yaw:
         return 1.0
-    sigma, draws = np.array(case.spread), unit_draws(SAMPLES)
+    sigma, drawn = np.array(case.spread), unit_draws(sample_count(case))
     if case.yaw or case.profile is not None or not sigma[[0, 4]].any():
         return 0.0
-    length = found.outline.stance.flat_length + sigma[0] * draws[0]
-    spacing = max(math.hypot(*step) for step in case.stairs.regular_steps) + sigma[4] * draws[4]
+    length = found.outline.stance.flat_length + sigma[0] * drawn[0]
+    spacing = max(math.hypot(*step) for step in case.stairs.regular_steps) + sigma[4] * drawn[4]
     return float(np.mean(2 * spacing > length))
 
 
