@@ -99,7 +99,7 @@ class LocalWorkers:
     Raises
     ------
     InputError
-        From `wait`: processes die before they do anything.
+        Later: its processes die before they do anything.
     """
 
     def __init__(self, work: Work, count: int | None = None, *, tries: int = TRIES) -> None:

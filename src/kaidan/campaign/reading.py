@@ -22,12 +22,12 @@ from kaidan.errors import InputError
 EXPORTS = (".parquet", ".csv")
 
 
-def read_batches(folder: Path, columns: Sequence[str] | None = None) -> Iterator[Any]:
+def read_batches(folder: str | Path, columns: Sequence[str] | None = None) -> Iterator[Any]:
     """Record batches of a store, journal included, each trial once.
 
     Parameters
     ----------
-    folder : Path
+    folder : str or Path
         Store; it may be written meanwhile.
     columns : sequence of str, optional
         Columns wanted; all without.
@@ -37,7 +37,7 @@ def read_batches(folder: Path, columns: Sequence[str] | None = None) -> Iterator
     InputError
         No store, or a damaged one.
     """
-    pa = arrow()
+    pa, folder = arrow(), Path(folder)
     about = about_store(folder)
     assert about is not None
     schema = schema_of(about["columns"])
@@ -65,15 +65,15 @@ def _first_ones(batch: Any, seen: Known) -> Any:
     return batch if all(new) else batch.filter(arrow().array(new))
 
 
-def read_table(folder: Path, columns: Sequence[str] | None = None) -> Any:
-    """Store as one `pyarrow.Table`, each trial once.
+def read_table(folder: str | Path, columns: Sequence[str] | None = None) -> Any:
+    """Store as one table of pyarrow, each trial once.
 
     Raises
     ------
     InputError
         No store, or a damaged one.
     """
-    pa = arrow()
+    pa, folder = arrow(), Path(folder)
     batches = list(read_batches(folder, columns))
     about = about_store(folder)
     assert about is not None
@@ -96,7 +96,7 @@ class State(NamedTuple):
     """Who is writing it now."""
 
 
-def state_of(folder: Path) -> State:
+def state_of(folder: str | Path) -> State:
     """State of a store, finished or being written.
 
     Raises
@@ -104,6 +104,7 @@ def state_of(folder: Path) -> State:
     InputError
         No store, or a damaged one.
     """
+    folder = Path(folder)
     about = about_store(folder)
     assert about is not None
     outcomes: Counter[str] = Counter()
@@ -121,7 +122,7 @@ def state_of(folder: Path) -> State:
     )
 
 
-def export(folder: Path, file: Path) -> int:
+def export(folder: str | Path, file: str | Path) -> int:
     """Write a store as one file, a batch at a time; say how many trials it has.
 
     Raises
@@ -129,6 +130,7 @@ def export(folder: Path, file: Path) -> int:
     InputError
         Another suffix than .parquet or .csv, no store, or a file that cannot be written.
     """
+    folder, file = Path(folder), Path(file)
     suffix = file.suffix.lower()
     if suffix not in EXPORTS:
         found = f"unknown suffix {file.suffix!r}" if file.suffix else "no suffix"

@@ -67,7 +67,7 @@ class Store:
 
     Parameters
     ----------
-    folder : Path
+    folder : str or Path
         Made if it does not exist.
     work : Work
         What is done; a store holds the rows of one work.
@@ -78,8 +78,9 @@ class Store:
         Another campaign writes it, it holds something else, or it cannot be written.
     """
 
-    def __init__(self, folder: Path, work: Work) -> None:
-        self.folder, self.work = folder, work
+    def __init__(self, folder: str | Path, work: Work) -> None:
+        self.folder = folder = Path(folder)
+        self.work = work
         self._kinds = work.all_columns()
         self.schema = schema_of(self._kinds)
         self.known = Known()
