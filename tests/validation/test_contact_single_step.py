@@ -81,3 +81,7 @@ def test_riser_start_friction():
         # the pose is recorded where the face is met, still level: rounding of a quadratic's root;
         # the brief asks for 1 %
         assert got == pytest.approx(expected, rel=1e-6)
+        # with 1 % less it does not climb: it ends there, still as high as on the landing
+        stopped = run.first_beyond(0.99 * expected)
+        assert stopped is not None
+        assert run.z[stopped] == pytest.approx(run.z[0], abs=1e-9)  # m, rounding
