@@ -3,11 +3,12 @@
 import json
 import os
 import signal
+import subprocess
 import sys
 import time
 from pathlib import Path
 
-from kaidan.campaign import LocalWorkers, Store, Work, conduct
+from kaidan.campaign import DaskWorkers, LocalWorkers, Store, Work, conduct
 
 COLUMNS = {"n": "count", "square": "number", "pid": "count"}
 
@@ -53,11 +54,40 @@ def specs(count, **fields):
     return ({"n": n, **fields} for n in range(count))
 
 
+def start(store, notes, count, seconds, *address):
+    """The same in a process of its own; its workers note what they did in a folder."""
+    environment = os.environ | {"PYTHONPATH": str(Path(__file__).parent)}
+    command = [sys.executable, __file__, str(store), str(count), str(seconds), str(notes)]
+    return subprocess.Popen([*command, *address], env=environment, stdout=subprocess.PIPE)
+
+
+def noted(notes):
+    """Trials that were done, told by the workers themselves: n to pids."""
+    done = {}
+    file = notes / "done.txt"
+    for line in file.read_text().splitlines() if file.exists() else ():
+        n, pid = line.split()
+        done.setdefault(int(n), []).append(int(pid))
+    return done
+
+
+def wait_until(condition, seconds=30.0):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
 def local_campaign(folder, trials, *, count=2, tries=3):
     with Store(Path(folder), FAKE) as store, LocalWorkers(FAKE, count, tries=tries) as workers:
         return conduct(trials, store, workers)
 
 
 if __name__ == "__main__":
-    store, count, seconds, notes = sys.argv[1:]
-    print(local_campaign(store, specs(int(count), seconds=float(seconds), folder=notes)).done)
+    folder, count, seconds, notes, *address = sys.argv[1:]
+    plan = specs(int(count), seconds=float(seconds), folder=notes)
+    if address:
+        with Store(Path(folder), FAKE) as store, DaskWorkers(FAKE, address[0]) as workers:
+            print(conduct(plan, store, workers).done)
+    else:
+        print(local_campaign(folder, plan).done)

@@ -66,18 +66,19 @@ class VerificationTest(Sheet):
     def specs(self) -> Iterator[TrialSpec]:
         """Trials, one after the other; all of one condition together."""
         for condition in self.conditions:
+            first = self.spec(condition, 0)  # validated once; the others differ by their seeds
             for trial in range(self.trials):
-                yield self.spec(condition, trial)
+                yield first.model_copy(update={"seed": self._seed(condition, trial)})
 
     def spec(self, condition: Condition, trial: int) -> TrialSpec:
         """One trial; its seed depends on the condition, not on which others there are."""
-        p, angle, down = condition.nosing_spacing, condition.angle, condition.direction == "down"
-        seed = seed_of(self.seed, round(1e6 * p), round(1e6 * angle), int(down), trial)
+        p, down = condition.nosing_spacing, condition.direction == "down"
         within = self.robot.stance(self.posture, self.payload).flat_length / p
-        stairs = Stairs.inclined(angle=angle, nosing_spacing=p, steps=max(12, 8 + int(within)))
         return TrialSpec(
             robot=self.robot,
-            stairs=stairs,
+            stairs=Stairs.inclined(
+                angle=condition.angle, nosing_spacing=p, steps=max(12, 8 + int(within))
+            ),
             posture=self.posture,
             payload=self.payload,
             friction=self.friction,
@@ -86,8 +87,12 @@ class VerificationTest(Sheet):
             facing="tail-first" if down else "nose-first",
             track=self.track,
             ground=self.ground,
-            seed=seed,
+            seed=self._seed(condition, trial),
         )
+
+    def _seed(self, condition: Condition, trial: int) -> int:
+        p, angle = round(1e6 * condition.nosing_spacing), round(1e6 * condition.angle)
+        return seed_of(self.seed, p, angle, int(condition.direction == "down"), trial)
 
 
 class Grid(Sheet):

@@ -87,7 +87,7 @@ def experiment(
 
     Exit code: 0 done, 2 bad input, 3 no trial says anything about the robot.
     """
-    from kaidan.campaign import carry_out, read_table
+    from kaidan.campaign import carry_out, read_batches
     from kaidan.errors import InputError
     from kaidan.report import files
     from kaidan.report.verification import verification
@@ -108,8 +108,9 @@ def experiment(
             kept = "" if store is None else f"; the same command goes on with {store}"
             typer.echo(f"kaidan: broken off{kept}", err=True)
             raise typer.Exit(130) from None
-        rows = read_table(folder, ["id", "outcome", "largest_extra_deg"]).to_pylist()
-    found = verification(plan, rows)
+        columns = ("id", "outcome", "largest_extra_deg")
+        batches = read_batches(folder, columns)
+        found = verification(plan, (row for batch in batches for row in batch.to_pylist()))
     contents: dict[Path, bytes | str] = {}
     if csv is not None:
         contents[csv] = files.csv_text(found.columns())

@@ -107,6 +107,23 @@ def test_bad_news_is_data_on_a_scheduler_too(tmp_path):
     assert found[5]["error"] == "ZeroDivisionError: half a character ?"
 
 
+def test_kill_9_of_the_campaign_on_a_scheduler(tmp_path):
+    store, notes = tmp_path / "store", tmp_path / "notes"
+    notes.mkdir()
+    with scheduler(tmp_path) as (address, _):
+        campaign = campaign_cases.start(store, notes, 60, 0.03, address)
+        campaign_cases.wait_until(lambda: len(campaign_cases.noted(notes)) >= 20)
+        campaign.kill()
+        campaign.communicate()
+        kept = {row["n"] for row in rows(store)}
+        assert len(kept) >= 20 - 2 * 3, "in flight: three for each of two threads"
+        again = campaign_cases.start(store, notes, 60, 0.0, address)
+        assert again.communicate()[0].decode().strip() == str(60 - len(kept))
+    assert sorted(row["n"] for row in rows(store)) == list(range(60))
+    twice = {n for n, pids in campaign_cases.noted(notes).items() if len(pids) > 1}
+    assert not twice & kept, "what the store had was not done again"
+
+
 def test_a_scheduler_that_goes_away_ends_the_campaign_and_keeps_what_is_done(tmp_path):
     with scheduler(tmp_path, workers=1) as (address, processes):
 

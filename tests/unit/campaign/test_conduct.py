@@ -2,9 +2,6 @@
 
 import os
 import signal
-import subprocess
-import sys
-import time
 from collections import Counter
 from pathlib import Path
 
@@ -12,9 +9,9 @@ import pytest
 
 pytest.importorskip("pyarrow")
 
-import campaign_cases
-from campaign_cases import FAKE, local_campaign, specs
+from campaign_cases import FAKE, local_campaign, noted, specs, start, wait_until
 from kaidan.campaign import LocalWorkers, Store, conduct, read_table
+from kaidan.campaign.progress import Progress
 from kaidan.errors import InputError
 
 
@@ -143,29 +140,6 @@ def test_planning_is_lazy(tmp_path):
     assert len(numbers(tmp_path)) >= 20, "what is done is kept when a campaign is broken off"
 
 
-def start(folder, notes, count, seconds):
-    environment = os.environ | {"PYTHONPATH": str(Path(campaign_cases.__file__).parent)}
-    command = [sys.executable, campaign_cases.__file__, str(folder), str(count), str(seconds)]
-    return subprocess.Popen([*command, str(notes)], env=environment, stdout=subprocess.PIPE)
-
-
-def noted(notes):
-    """Trials that were done, told by the workers themselves: n to pids."""
-    done = {}
-    file = notes / "done.txt"
-    for line in file.read_text().splitlines() if file.exists() else ():
-        n, pid = line.split()
-        done.setdefault(int(n), []).append(int(pid))
-    return done
-
-
-def wait_until(condition, seconds=30.0):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.01)
-
-
 def alive(pid):
     try:
         os.kill(pid, 0)
@@ -195,3 +169,20 @@ def test_kill_9_of_the_campaign_and_the_same_command_again(tmp_path):
     assert numbers(store) == list(range(60))
     twice = Counter(n for n, pids in noted(notes).items() if len(pids) > 1)
     assert set(twice) <= set(begun) - set(kept), "what the store had was not done again"
+
+
+def test_progress_is_shown_on_a_terminal_and_nowhere_else(capsys, monkeypatch):
+    for variable in ("FORCE_COLOR", "TTY_COMPATIBLE", "TTY_INTERACTIVE"):
+        monkeypatch.delenv(variable, raising=False)
+    with Progress(5, shown=True) as told:
+        told.advance(2, 0)
+    assert capsys.readouterr() == ("", "")
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("TERM", "xterm")
+    with Progress(5, shown=True) as told:
+        told.advance(0, 2)
+        told.advance(3, 0)
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "3/3" in err, "what was found done is no work"
+    assert "left" in err
