@@ -133,3 +133,24 @@ def test_going_down_the_tail_may_slide_down_the_last_risers():
     assert land.slides_below == frictions[on_face].max() > 0.7
     assert land.required_friction == frictions[~on_face].max() < 0.7
     assert climb_of(case.changed(direction="up")).phases[-1].slides_below is None
+
+
+@pytest.mark.parametrize("descending", [False, True])
+def test_every_nosing_comes_under_the_flat_at_one_tip_and_leaves_it_at_the_other(descending):
+    """By hand: in the body's frame the tips lie C_L ahead of the centroid and L - C_L behind it."""
+    found = driven(descending=descending)
+    run, (L, C_L) = found.run, (0.470, 0.196)
+    numbers = {contact.Event.REACHED: [], contact.Event.LEFT: []}
+    for event, told in zip(found.events, found.happenings, strict=True):
+        code = contact.Event(int(event[0]))
+        if code not in numbers or told.phase is not Phase.TRAVERSE:
+            continue
+        x, z, phi = event[2:5]
+        place = run.ground[int(event[5]) >> 6, :2] - (x, z)
+        along = place @ (math.cos(phi), math.sin(phi))
+        tip = C_L if code is contact.Event.REACHED else C_L - L
+        assert along == pytest.approx(tip, abs=1e-9)  # m: a straight line between two poses
+        numbers[code].append(int(event[5]) >> 6)
+        assert told.what == code.name.lower()
+    assert min(len(each) for each in numbers.values()) >= 2
+    assert list(found.events[:, 1]) == sorted(found.events[:, 1])

@@ -95,7 +95,9 @@ def reading_of(case: Case, found: Climb, *, kind: bool) -> Reading:
     ]
     downhill, uphill = reversed(bare) if found.descending else bare
     downhill, uphill = downhill - theta_d - theta_M, uphill - theta_d
-    no_flight = all(each.phase is not Phase.TRAVERSE for each in found.phases)
+    no_flight = len(found.profile.nosings) == 0 or all(
+        each.phase is not Phase.TRAVERSE for each in found.phases
+    )
     if found.phases and no_flight and one.holds is None:
         downhill = uphill = FALL  # it only enters and lands: the energy margin alone judges
     elif (case.yaw == 0 and one.outside) or math.isnan(downhill):
@@ -169,6 +171,35 @@ def energy_margin(case: Case, found: Climb) -> float:
         ]
         margins.append(1e3 * polygon_energy(case))
     return 1e-3 * min(margins)
+
+
+class Drop(NamedTuple):
+    """Release after which a turn is caught."""
+
+    turn: float
+    """How far it turned [rad]."""
+    spare: float
+    """Rise still to climb before it topples, less the whole fall [m]: positive if it would hold
+    even though the impact took nothing of the momentum."""
+
+
+def hardest_drop(case: Case, found: Climb) -> Drop | None:
+    """Caught release with the least to spare if no impact took anything; None: none.
+
+    The fall of the centroid bounds the energy of the turn whatever the impact does, so what holds
+    by this measure holds without the plastic impact that grade three supposes.
+    """
+    along = -case.acceleration if found.descending else case.acceleration
+    drops = []
+    for release in found.run.releases:
+        if release[15] != 0.0:
+            continue
+        psi = float(found.run.poses[found.run.row_before(float(release[1])), 14])
+        ahead, up = along * math.cos(psi), STANDARD_GRAVITY + along * math.sin(psi)
+        gravity = math.hypot(ahead, up)
+        fall = (up * (release[4] - release[7]) + ahead * (release[3] - release[6])) / gravity
+        drops.append(Drop(float(release[9]), float(release[13] / gravity - fall)))
+    return min(drops, key=lambda drop: drop.spare, default=None)
 
 
 class PhaseMargins(NamedTuple):

@@ -15,6 +15,7 @@ from kaidan.assessment.readings import (
     FALL,
     Reading,
     energy_margin,
+    hardest_drop,
     largest_swing,
     no_rotation,
     reading_of,
@@ -76,7 +77,7 @@ def ruling(case: Case, found: Climb, *, accept: Accept) -> Ruling:
     worst, best = reading_of(case, found, kind=False), reading_of(case, found, kind=True)
     threshold = float(kinetic_energy_height(v=case.speed or SWING_SPEED))
     energy = energy_margin(case, found)
-    held, doubts = _held(case, found, threshold, energy)
+    held, doubts = _held(case, found, threshold, energy, accept)
     verdict, governs = _verdict(case, found, worst, best, held, doubts, accept)
     phase, step = _where(found, governs)
     margin = worst.worst if verdict != "outside-model" else math.nan
@@ -122,7 +123,7 @@ def _phases_shown(found: Climb) -> tuple[PhaseShown, ...]:
 
 
 def _held(
-    case: Case, found: Climb, threshold: float, energy: float
+    case: Case, found: Climb, threshold: float, energy: float, accept: Accept
 ) -> tuple[bool, tuple[str, ...]]:
     """Whether the robot arrives with momentum counted, and what keeps that from being a GO."""
     doubts = []
@@ -130,6 +131,12 @@ def _held(
         doubts.append(
             f"the energy margin of {1e3 * energy:.2f} mm is less than the "
             f"{1e3 * threshold:.2f} mm that its speed is worth: expect it to swing"
+        )
+    drop = hardest_drop(case, found)
+    if accept != "caught" and drop is not None and drop.spare <= 0:
+        doubts.append(
+            f"it drops by {math.degrees(drop.turn):.0f} deg over an edge, and holds only because "
+            "the impact takes momentum"
         )
     if any(each.belly_touches for each in found.phases):
         doubts.append("the belly carries the robot in places (high-centring)")

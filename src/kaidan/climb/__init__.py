@@ -5,16 +5,18 @@ drives towards +x; going down, the profile is reflected so that the way still le
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kaidan import contact
+from kaidan.climb.exchanges import exchanges_of
 from kaidan.climb.happenings import Happening as Happening
 from kaidan.climb.happenings import happenings_of
 from kaidan.climb.phases import Phase as Phase
-from kaidan.climb.phases import ends_of_flights, phases_of
+from kaidan.climb.phases import ends_of_way, phases_of
 from kaidan.climb.worst import PhaseFound as PhaseFound
 from kaidan.climb.worst import turns_about_stays, worst_of_phases
 from kaidan.errors import InputError
@@ -51,7 +53,19 @@ class Climb:
     criterion: contact.GradeOne
     """The paper's criterion of no rotation (grade one)."""
     phases: tuple[PhaseFound, ...]
-    happenings: tuple[Happening, ...]
+
+    @cached_property
+    def events(self) -> NDArray[np.float64]:
+        """Events (k, 8) of the run, and nosings that the flat reaches and leaves in between."""
+        both = np.vstack([self.run.events, exchanges_of(self.run)])
+        return both[np.argsort(both[:, 1], kind="stable")]
+
+    @cached_property
+    def happenings(self) -> tuple[Happening, ...]:
+        """The same in words, one for each row."""
+        return happenings_of(
+            self.run, self.events, self.profile, self.phase_of_pose, self.descending
+        )
 
     @property
     def arrived(self) -> bool:
@@ -136,7 +150,7 @@ def climb(
     way = profile.reflected() if descending else profile
     body = outline if facing == "nose-first" else outline.turned_round()
     back, ahead = body.reach
-    first, last = ends_of_flights(way, descending)
+    first, last = ends_of_way(way)
     clear = back + ahead + 1.0
     ends = way.points[[0, -1]] + np.array([[-clear, 0.0], [clear, 0.0]])
     ground = np.vstack([ends[0], way.points, ends[1]])
@@ -164,7 +178,6 @@ def climb(
         run=run,
         criterion=criterion,
         phases=phases,
-        happenings=happenings_of(run, way, phase, descending),
     )
 
 

@@ -31,12 +31,16 @@ class Happening:
 
 
 def happenings_of(
-    run: contact.Traverse, way: Profile, phase: NDArray[np.str_], descending: bool
+    run: contact.Traverse,
+    events: NDArray[np.float64],
+    way: Profile,
+    phase: NDArray[np.str_],
+    descending: bool,
 ) -> tuple[Happening, ...]:
-    """Events of a traverse, in their order."""
+    """Events in words, in their order."""
     told = []
     release = -1
-    for code, s, _, _, phi, *_, row in run.events:
+    for code, s, _, _, phi, *_, row in events:
         event = contact.Event(int(code))
         at = int(min(max(row, 0), len(run.poses) - 1))
         if event in (contact.Event.NOSE_DROPS, contact.Event.TIPS_BACK):

@@ -11,6 +11,8 @@ from kaidan.profile import Profile
 Array = NDArray[np.float64]
 
 _ON = 1e-6
+_LEVEL = 1e-9
+"""Height by which points of level ground may differ [m]: rounding."""
 
 
 class Phase(StrEnum):
@@ -24,10 +26,23 @@ class Phase(StrEnum):
     """From the first contact with the other landing until the whole robot stands on it."""
 
 
+def ends_of_way(way: Profile) -> tuple[float, float]:
+    """Where the level ground before ends and the level ground behind begins: all that is driven.
+
+    A riser that leans, a ramp or a hole before the first nosing, a drop behind the last one lie in
+    between.
+    """
+    x, z = way.points.T
+    rises, falls = (np.flatnonzero(np.abs(z - end) > _LEVEL) for end in (z[0], z[-1]))
+    if len(rises) == 0:  # level all the way
+        return float(x[0]), float(x[0])
+    return float(x[rises[0] - 1]), float(x[falls[-1] + 1])
+
+
 def ends_of_flights(way: Profile, descending: bool) -> tuple[float, float]:
     """Where the flight begins and ends along the way: landings lie before and behind."""
     if len(way.nosings) == 0:
-        return float(way.points[0, 0]), float(way.points[-1, 0])
+        return ends_of_way(way)
     first, last = float(way.nosings[0, 0]), float(way.nosings[-1, 0])
     if descending:  # the foot of the last riser
         last = max(

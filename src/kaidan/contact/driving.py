@@ -70,6 +70,10 @@ class Event(IntEnum):
     ARRIVED = 8
     STUCK = 9
     RESETTLED = 10
+    REACHED = 11
+    """The flat has come upon a nosing in line with those that carry it (`kaidan.climb`)."""
+    LEFT = 12
+    """It has left one."""
 
 
 class Settled(NamedTuple):

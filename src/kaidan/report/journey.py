@@ -227,7 +227,7 @@ class Journey:
                     "swing_deg": each.swing_deg,
                     "toppled_with_momentum": each.toppled_with_momentum,
                 }
-                for each, event in zip(found.happenings, run.events, strict=True)
+                for each, event in zip(found.happenings, found.events, strict=True)
             ],
             "moves": [move.text for move in self.moves],
             "fall": [asdict(stage) for stage in self.fall],

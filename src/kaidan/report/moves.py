@@ -64,7 +64,7 @@ class Move:
 
 def moves_of(found: Climb, leading: str) -> tuple[Move, ...]:
     """Moves of a traverse, in order."""
-    events, told = found.run.events, found.happenings
+    events, told = found.events, found.happenings
     moves, at = [], 0
     while at < len(events):
         code = Event(int(events[at, 0]))
@@ -83,7 +83,11 @@ def _move(found: Climb, leading: str, events: Array, told: tuple[Happening, ...]
     trailing = "tail" if leading == "nose" else "nose"
     swing = told[-1].swing_deg or 0.0
     places: tuple[Place, ...] = (first,)
-    if code in (Event.MADE, Event.TAIL_RESTS, Event.LOST):
+    if code in (Event.REACHED, Event.LEFT):
+        kind = code.name.lower()
+        goes = "comes under" if code is Event.REACHED else "leaves"
+        text = f"{first.where} {goes} the {first.part}"
+    elif code in (Event.MADE, Event.TAIL_RESTS, Event.LOST):
         other = place_of(found, int(events[0, 6]), leading)
         places = (first, other)
         if code is Event.TAIL_RESTS:
@@ -182,11 +186,16 @@ def lines_of(moves: tuple[Move, ...], most: int = MOST_LINES) -> list[str]:
         period, times = _repeat(moves, at)
         if times > 1:
             lines += [_line(move) for move in moves[at : at + period]]
+            block = [move.step for move in moves[at : at + period] if move.step is not None]
             steps = [move.step for move in moves[at + period : at + period * times]]
             known = [step for step in steps if step is not None]
-            stride = abs(known[period] - known[0]) if times > 2 else 1
-            every = "" if stride == 1 else f" by {stride}"
-            lines.append(f"{'':27}steps {known[0]} to {known[-1]}{every}: the same")
+            if len(set(block)) > 1:  # one nosing at one end, another at the other
+                more = "once more" if times == 2 else f"{times - 1} times more"
+                lines.append(f"{'':27}the same {more}, from step to step")
+            else:
+                stride = abs(known[period] - known[0]) if times > 2 else 1
+                every = "" if stride == 1 else f" by {stride}"
+                lines.append(f"{'':27}steps {known[0]} to {known[-1]}{every}: the same")
             at += period * times
         else:
             lines.append(_line(moves[at]))
