@@ -137,9 +137,12 @@ def test_going_down_the_tail_may_slide_down_the_last_risers():
 
 @pytest.mark.parametrize("descending", [False, True])
 def test_every_nosing_comes_under_the_flat_at_one_tip_and_leaves_it_at_the_other(descending):
-    """By hand: in the body's frame the tips lie C_L ahead of the centroid and L - C_L behind it."""
-    found = driven(descending=descending)
-    run, (L, C_L) = found.run, (0.470, 0.196)
+    """By hand: the tips of the flat lie C_L and L - C_L from the centroid."""
+    facing = "tail-first" if descending else "nose-first"  # nose first it would drop
+    found = driven(descending=descending, facing=facing)
+    run, ahead, behind = found.run, 0.196, 0.470 - 0.196
+    if descending:
+        ahead, behind = behind, ahead
     numbers = {contact.Event.REACHED: [], contact.Event.LEFT: []}
     for event, told in zip(found.events, found.happenings, strict=True):
         code = contact.Event(int(event[0]))
@@ -148,7 +151,7 @@ def test_every_nosing_comes_under_the_flat_at_one_tip_and_leaves_it_at_the_other
         x, z, phi = event[2:5]
         place = run.ground[int(event[5]) >> 6, :2] - (x, z)
         along = place @ (math.cos(phi), math.sin(phi))
-        tip = C_L if code is contact.Event.REACHED else C_L - L
+        tip = ahead if code is contact.Event.REACHED else -behind
         assert along == pytest.approx(tip, abs=1e-9)  # m: a straight line between two poses
         numbers[code].append(int(event[5]) >> 6)
         assert told.what == code.name.lower()
