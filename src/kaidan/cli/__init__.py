@@ -11,6 +11,7 @@ from typing import Annotated, NoReturn
 import typer
 
 from kaidan.cli import (
+    agree,
     assess,
     campaign,
     catalogs,
@@ -54,6 +55,7 @@ def kaidan(
     """Can this tracked robot take these stairs?"""
 
 
+agree.register(app)
 assess.register(app)
 campaign.register(app)
 catalogs.register(app)

@@ -1,0 +1,1 @@
+"""Calibration: what of the physics the paper's text fixes, and what that predicts blind."""

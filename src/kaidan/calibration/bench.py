@@ -1,0 +1,160 @@
+"""The test bench: many settings of the physics, five trials at each condition, counted.
+
+A `Bench` remembers every trial it was asked for; with a store it finds them there next time.
+"""
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from kaidan.calibration.evidence import TRIALS as FIVE
+from kaidan.campaign import TRIALS, Condition, LocalWorkers, Store, VerificationTest, conduct
+from kaidan.campaign import read_table as rows_of
+from kaidan.campaign.progress import Progress
+from kaidan.physics import TrackModel, TrialSpec
+from kaidan.physics import run as simulate
+from kaidan.robot import Robot
+
+FALL = 15.0
+"""Turn beyond the line of the nosings from which a trial counts as a fall [deg], whatever it
+comes to in the end: the robot hangs on its tether."""
+
+Figures = tuple[str, float]
+"""Outcome and largest extra inclination [deg] of a trial."""
+Runner = Callable[[Sequence[TrialSpec]], list[Figures]]
+"""What runs trials and gives their figures, in their order."""
+
+
+class Setting(NamedTuple):
+    """The physics that all trials of one candidate share."""
+
+    robot: Robot
+    track: TrackModel
+    friction: float = 3.0
+    ground: str = "steps"
+
+
+class Count(NamedTuple):
+    """What the trials of a setting at a condition came to."""
+
+    trials: int
+    """Trials that say something: neither diverged nor placed where the robot cannot stand."""
+    falls: int
+    swings: tuple[float, ...]
+    """Largest extra inclination of each trial that did not fall [deg]."""
+    slid: int
+    """Trials that slid or timed out without a fall; they count among those that did not fall."""
+
+
+def with_ends(robot: Robot, radius: float) -> Robot:
+    """Robot with ends of a radius [m]."""
+    ends = {"front_radius": radius, "rear_radius": radius}
+    track = type(robot.track).model_validate(robot.track.model_dump() | ends)
+    return robot.model_copy(update={"track": track})
+
+
+class Bench:
+    """Runs trials, each once.
+
+    Parameters
+    ----------
+    runner : Runner
+        What runs them; `here` and `in_store` are such.
+    seed : int
+        Of start offsets and grouser phases; trials at one condition share them, whatever the
+        setting, so that settings are compared on the same starts.
+    trials : int
+        Trials a condition.
+    """
+
+    def __init__(self, runner: Runner, *, seed: int = 0, trials: int = FIVE) -> None:
+        self.runner, self.seed, self.trials = runner, seed, trials
+        self._counts: dict[str, Count] = {}
+
+    def counts(self, asked: Iterable[tuple[Setting, Condition]]) -> list[Count]:
+        """Counts of settings at conditions, in their order; all trials in one go."""
+        wanted = list(asked)
+        keys = [self._key(setting, condition) for setting, condition in wanted]
+        new = {
+            key: self._specs(*pair)
+            for key, pair in zip(keys, wanted, strict=True)
+            if key not in self._counts
+        }
+        figures = self.runner([spec for specs in new.values() for spec in specs]) if new else []
+        for at, key in enumerate(new):
+            self._counts[key] = count_of(figures[at * self.trials : (at + 1) * self.trials])
+        return [self._counts[key] for key in keys]
+
+    def _specs(self, setting: Setting, condition: Condition) -> list[TrialSpec]:
+        plan = VerificationTest.model_validate(
+            {
+                "robot": setting.robot,
+                "track": setting.track,
+                "friction": setting.friction,
+                "ground": setting.ground,
+                "conditions": (condition,),
+                "trials": self.trials,
+                "seed": self.seed,
+            }
+        )
+        return list(plan.specs())
+
+    @staticmethod
+    def _key(setting: Setting, condition: Condition) -> str:
+        robot, track = setting.robot.model_dump_json(), setting.track.model_dump_json()
+        return f"{robot}{track}{setting.friction}{setting.ground}{condition.model_dump_json()}"
+
+
+def count_of(figures: Iterable[Figures], fall: float = FALL) -> Count:
+    """Count of trials.
+
+    Examples
+    --------
+    >>> count_of([("climbed", 1.5), ("fell_backward", 47.0), ("slid", 33.0), ("start_fall", 0.0)])
+    Count(trials=3, falls=2, swings=(1.5,), slid=0)
+    """
+    said = [each for each in figures if each[0] not in SAYS_NOTHING]
+    stood = [(outcome, extra) for outcome, extra in said if not _fell(outcome, extra, fall)]
+    return Count(
+        trials=len(said),
+        falls=len(said) - len(stood),
+        swings=tuple(extra for _, extra in stood),
+        slid=sum(outcome in ("slid", "timed_out") for outcome, _ in stood),
+    )
+
+
+SAYS_NOTHING = ("unstable", "start_fall", "failed", "crashed")
+"""Outcomes that say nothing about the robot on the move."""
+
+
+def _fell(outcome: str, extra: float, fall: float) -> bool:
+    return outcome in ("fell_backward", "fell_forward") or extra > fall
+
+
+def here(specs: Sequence[TrialSpec]) -> list[Figures]:
+    """Run trials one after the other in this process."""
+    return [
+        (result.outcome.value, result.largest_extra_deg)
+        for result in (simulate(spec) for spec in specs)
+    ]
+
+
+def in_store(folder: Path, *, workers: int | None = None, progress: bool = False) -> Runner:
+    """Runner on all processors that keeps its trials in a campaign's store, and resumes it."""
+
+    def run(specs: Sequence[TrialSpec]) -> list[Figures]:
+        with (
+            Store(folder, TRIALS) as store,
+            LocalWorkers(TRIALS, workers) as hands,
+            Progress(len(specs), shown=progress) as told,
+        ):
+            conduct(specs, store, hands, told=told)
+        table: dict[str, list[Any]] = rows_of(
+            folder, ["id", "outcome", "largest_extra_deg"]
+        ).to_pydict()
+        extras = [math.nan if each is None else each for each in table["largest_extra_deg"]]
+        found = dict(zip(table["id"], zip(table["outcome"], extras, strict=True), strict=True))
+        return [found[TRIALS.identity(spec)] for spec in specs]
+
+    return run
