@@ -13,10 +13,12 @@ import importlib
 import importlib.util
 import sys
 from collections.abc import Callable
-from functools import lru_cache
+from functools import lru_cache, wraps
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import Any, TypeVar, get_args, get_origin, get_type_hints
+
+import numpy as np
 
 from kaidan.contact.tables import FloatArray, FloatRow, IntArray
 
@@ -119,6 +121,36 @@ def plain(module: str) -> ModuleType:
     return importlib.import_module(f"{_PACKAGE}.{module}")
 
 
+@lru_cache
+def _plain_with_views(module: str) -> SimpleNamespace:
+    """Plain module whose entries read their tables through views.
+
+    An element of a view is a float, one of an array is an object of numpy's, on which arithmetic
+    takes four times as long: the plain kernel runs nearly twice as fast. Views cannot be cut up, as
+    the batch does with its tables.
+    """
+    names = dict(vars(plain(module)))
+    if module != "batch":
+        for name, value in names.items():
+            if hasattr(value, "_kaidan_entry"):
+                names[name] = _through_views(value)
+    return SimpleNamespace(**names)
+
+
+def _through_views(function: Callable[..., Any]) -> Callable[..., Any]:
+    @wraps(function)
+    def call(*arguments: Any) -> Any:
+        tables = (isinstance(each, np.ndarray) and each.ndim == 2 for each in arguments)
+        return function(
+            *(
+                memoryview(each) if is_table else each
+                for each, is_table in zip(arguments, tables, strict=True)
+            )
+        )
+
+    return call
+
+
 def _tell() -> None:
     """Say why it takes a while; silenced as any other logger."""
     import logging
@@ -194,7 +226,9 @@ def compiled(module: str) -> ModuleType:
     return _compiled_modules()[module]
 
 
-def kernel_module(module: str, *, compile_kernel: bool | None = None) -> ModuleType:
+def kernel_module(
+    module: str, *, compile_kernel: bool | None = None
+) -> ModuleType | SimpleNamespace:
     """Return a kernel module, compiled or plain.
 
     Parameters
@@ -207,4 +241,4 @@ def kernel_module(module: str, *, compile_kernel: bool | None = None) -> ModuleT
     """
     if compile_kernel is None:
         compile_kernel = numba_is_loaded()
-    return compiled(module) if compile_kernel else plain(module)
+    return compiled(module) if compile_kernel else _plain_with_views(module)
