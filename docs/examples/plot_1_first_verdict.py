@@ -17,8 +17,8 @@ print(answer.reason)
 # %%
 # Every failure mode has a margin: by how many degrees the stairs could be steeper (or gentler)
 # before it happens, on the worst reading of what is only known as a range. The smallest one
-# decides. The friction of dry concrete is published as 0.6 to 1.0: at 0.6 the robot slides, at 1.0
-# it does not, so the answer is neither GO nor NO-GO.
+# decides. The first riser asks for a friction of 0.91, and that of dry concrete is published as 0.6
+# to 1.0: at 0.6 the robot slides, at 1.0 it does not, so the answer is neither GO nor NO-GO.
 
 margins = {mode: value for mode, value in answer.margins_deg.items() if value is not None}
 figure, axes = plt.subplots(figsize=(7, 2.6), layout="constrained")

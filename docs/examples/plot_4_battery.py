@@ -38,7 +38,8 @@ table = kaidan.sweep(
     engine="numpy",  # for a few thousand pairs compiling takes longer than computing
 )
 margin = table.margin_deg.transpose("z", "x")
-without = kaidan.assess(robot, "iso-14122-3", flippers="flat", friction=1.2)
+question = {"flippers": "flat", "friction": 1.2, "model": "closed-form"}  # as a sweep judges
+without = kaidan.assess(robot, "iso-14122-3", **question)
 print(f"without the load {without.margin_deg:+.1f} deg")
 print(f"with it, from {float(margin.min()):+.1f} to {float(margin.max()):+.1f} deg")
 

@@ -38,11 +38,11 @@ with TemporaryDirectory() as folder:
     file.write_text(SHEET)
     mine = kaidan.Robot.named(str(file))
 
-answer = kaidan.assess(mine, kaidan.Stairs(rise=0.17, going=0.29), friction=0.9)
+answer = kaidan.assess(mine, kaidan.Stairs(rise=0.17, going=0.29), friction=1.2)
 print(f"{answer.verdict}: {answer.reason}")
 
 # %%
-# Mind which nosing spacings such a track can be judged on: up to half its flat length.
+# Mind on which nosing spacings such a track can get a GO: up to half its flat length.
 
 print(
     f"up to {1e3 * mine.track.flat_length / 2:.0f} mm; these stairs have "
@@ -65,7 +65,7 @@ answers = [
     kaidan.assess(
         mine,
         kaidan.Stairs(rise=0.17, going=0.29),
-        friction=0.9,
+        friction=1.2,
         payload=kaidan.Payload(mass=load, from_front=0.60, height=0.50),
     )
     for load in loads
