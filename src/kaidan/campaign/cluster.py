@@ -1,8 +1,11 @@
 """Workers beyond this machine: a Dask scheduler that is running already."""
 
+import asyncio
+import concurrent.futures
 import itertools
 import time
 from collections import deque
+from contextlib import suppress
 from importlib import import_module
 from queue import Empty, SimpleQueue
 from types import TracebackType
@@ -20,6 +23,8 @@ _AHEAD = 3
 """Tasks in flight for each thread of the workers; the scheduler hands them out."""
 _LOOK = 2.0
 """Time between looks at how many workers there are [s]."""
+_ANY = (Exception, asyncio.CancelledError, concurrent.futures.CancelledError)
+"""What an exchange with a scheduler that goes away may raise."""
 
 
 def distributed() -> Any:
@@ -92,10 +97,10 @@ class DaskWorkers:
     ) -> None:
         futures = [future for future, _ in self._tasks.values()]
         self._tasks.clear()
-        try:
+        with suppress(*_ANY):
             if futures and self.client.status == "running":
                 self.client.cancel(futures)
-        finally:
+        with suppress(*_ANY):
             self.client.close(timeout=5.0)
 
     def room(self) -> int:
@@ -115,25 +120,32 @@ class DaskWorkers:
         """Threads of all workers now."""
         try:
             threads = int(sum(self.client.nthreads().values()))
-        except (OSError, TimeoutError):
+        except _ANY:
             threads = 0
-        if threads or self.client.status != "running":
-            self._last_seen = now if threads else self._last_seen
-        if now - self._last_seen > self.patience:
-            raise InputError(
-                f"the Dask scheduler at {self.address!r} had no worker for {self.patience:g} s; "
-                "what is done is in the store"
-            )
-        return threads
+        if self.client.status in ("closing", "closed"):
+            raise self._gone()
+        if threads:
+            self._last_seen = now
+        if now - self._last_seen <= self.patience:
+            return threads
+        if self.client.status != "running":
+            raise self._gone()
+        raise InputError(
+            f"the Dask scheduler at {self.address!r} had no worker for {self.patience:g} s; "
+            "what is done is in the store"
+        )
 
     def submit(self, task: Task) -> None:
         """Take a task."""
         key = f"trial-{task.id}-{next(self._keys)}"
-        future = self.client.submit(
-            perform, self.work, task.spec, self.version, key=key, pure=False
-        )
-        self._tasks[key] = (future, task)
-        future.add_done_callback(lambda done: self._done.put(done.key))
+        try:
+            future = self.client.submit(
+                perform, self.work, task.spec, self.version, key=key, pure=False
+            )
+            self._tasks[key] = (future, task)
+            future.add_done_callback(lambda done: self._done.put(done.key))
+        except _ANY:
+            raise self._gone() from None
 
     def wait(self, timeout: float) -> list[Ended]:
         """Tasks that came to an end, after `timeout` [s] at the latest."""
@@ -156,33 +168,31 @@ class DaskWorkers:
         return ended
 
     def _gathered(self, keys: list[str]) -> dict[str, Reply]:
-        """Replies of finished tasks in one exchange; without those lost on the way."""
+        """Replies of finished tasks in one exchange; none if one was lost on the way."""
         if not keys:
             return {}
-        futures = [self._tasks[key][0] for key in keys]
-        found = self.client.gather(futures, errors="skip")
-        if len(found) == len(keys):
-            return dict(zip(keys, found, strict=True))
-        return {}
+        try:
+            found = self.client.gather([self._tasks[key][0] for key in keys], errors="skip")
+        except _ANY:  # each is asked for by itself then
+            return {}
+        return dict(zip(keys, found, strict=True)) if len(found) == len(keys) else {}
 
     def _without_reply(self, future: Any, task: Task) -> list[Ended]:
         """What becomes of a task that ended otherwise, or whose reply was lost."""
         try:
             return [self._end(task, future.result(timeout=self.patience))]
-        except distributed().KilledWorker:
-            deaths = self._deaths[task.id] = self._deaths.get(task.id, 0) + self._alone
-            if deaths < self.tries:
-                self._suspects.append(task)
-                return []
-            text = f"given up {deaths} times by the scheduler, as workers died with it"
-            return [self._end(task, Reply({"outcome": CRASHED, "error": text}))]
-        except TimeoutError:
-            raise self._gone() from None
-        except Exception as error:
-            if self.client.status != "running" or future.cancelled():
+        except _ANY as error:
+            if future.status != "error":
                 raise self._gone() from None
-            text = f"{type(error).__name__}: {error}"
-            return [self._end(task, Reply({"outcome": FAILED, "error": text}))]
+            if not isinstance(error, distributed().KilledWorker):
+                text = f"{type(error).__name__}: {error}"
+                return [self._end(task, Reply({"outcome": FAILED, "error": text}))]
+        deaths = self._deaths[task.id] = self._deaths.get(task.id, 0) + self._alone
+        if deaths < self.tries:
+            self._suspects.append(task)
+            return []
+        text = f"given up {deaths} times by the scheduler, as workers died with it"
+        return [self._end(task, Reply({"outcome": CRASHED, "error": text}))]
 
     def _gone(self) -> InputError:
         return InputError(
