@@ -102,3 +102,21 @@ def effects(
         Effect(name, value, found[2 * at], found[2 * at + 1])
         for at, (name, value, _) in enumerate(kinds)
     )
+
+
+def as_columns(found: Sequence[Effect]) -> dict[str, list[float | str]]:
+    """Effects as columns of a table; lengths in m, stiffness in N/m, angles in degrees."""
+    return {
+        "varied": [each.varied for each in found],
+        "value": [each.value for each in found],
+        "up_deg": [each.up.value for each in found],
+        "up_deviation_deg": [each.up.deviation for each in found],
+        "up_none_fell_to_deg": [each.up.none_up_to for each in found],
+        "up_all_fell_from_deg": [each.up.all_from for each in found],
+        "down_deg": [each.down.value for each in found],
+        "down_deviation_deg": [each.down.deviation for each in found],
+        "down_none_fell_to_deg": [each.down.none_up_to for each in found],
+        "down_all_fell_from_deg": [each.down.all_from for each in found],
+        "theta_M_deg": [each.theta_M for each in found],
+        "theta_M_deviation_deg": [each.deviation for each in found],
+    }

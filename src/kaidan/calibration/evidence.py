@@ -3,6 +3,7 @@
 The points of Figs. 13, 16, 19 and 21 stand in its pictures only and are not used.
 """
 
+import math
 from typing import NamedTuple
 
 from kaidan.campaign import Condition
@@ -75,19 +76,21 @@ FITTED = ("theta_d", "zone")
 
 
 def conditions_fitted(evidence: Evidence) -> tuple[Condition, ...]:
-    """Conditions whose trials the fit looks at; no others."""
+    """Conditions whose trials the fit looks at, and no others.
+
+    Below the fall zone, at its lower end, at its upper end, where theta_d was measured.
+    """
     zone, turn = evidence.zone, evidence.theta_d
-    wanted = [
-        (zone.nosing_spacing, zone.below),
-        (zone.nosing_spacing, zone.low),
-        (zone.nosing_spacing, zone.high),
-        (turn.nosing_spacing, turn.angle),
-    ]
-    return tuple(condition(p, angle) for p, angle in dict.fromkeys(wanted))
+    return (
+        condition(zone.nosing_spacing, zone.below),
+        condition(zone.nosing_spacing, zone.low),
+        condition(zone.nosing_spacing, zone.high),
+        condition(turn.nosing_spacing, turn.angle),
+    )
 
 
 def condition(nosing_spacing: float, angle: float, direction: str = "up") -> Condition:
     """Condition at a nosing spacing [m] and a slope [deg]."""
-    from math import radians
-
-    return Condition(nosing_spacing=nosing_spacing, angle=radians(angle), direction=direction)
+    return Condition.model_validate(
+        {"nosing_spacing": nosing_spacing, "angle": math.radians(angle), "direction": direction}
+    )

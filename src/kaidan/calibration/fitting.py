@@ -1,12 +1,12 @@
 """The fit: a grid of candidates, the likelihood of each, profile intervals."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import product
 from typing import NamedTuple
 
 from kaidan.calibration.bench import Bench, Count, Setting, with_ends
-from kaidan.calibration.evidence import Evidence, condition, conditions_fitted
+from kaidan.calibration.evidence import Evidence, conditions_fitted
 from kaidan.calibration.likelihood import log_likelihood
 from kaidan.physics import DrivenGrousers, SprungNoses
 from kaidan.robot import Robot
@@ -44,6 +44,12 @@ class Candidate(NamedTuple):
     def log_likelihood(self) -> float:
         """Logarithm of the likelihood of all that is fitted to."""
         return self.log_zone + self.log_turn
+
+    @property
+    def swings(self) -> tuple[float, ...]:
+        """Turns of which theta_d is the mean [deg]; empty: every trial fell everywhere."""
+        below, low, _, at_turn = self.counts
+        return at_turn.swings or low.swings or below.swings
 
 
 class Interval(NamedTuple):
@@ -143,31 +149,33 @@ def fit(
     candidates = []
     for at, (values, setting) in enumerate(grid):
         own = tuple(counts[at * size : (at + 1) * size])
-        found = dict(zip(conditions, own, strict=True))
-        zone, turn = evidence.zone, evidence.theta_d
-        judged = log_likelihood(
-            evidence,
-            bench.trials,
-            found[condition(zone.nosing_spacing, zone.below)],
-            found[condition(zone.nosing_spacing, zone.low)],
-            found[condition(zone.nosing_spacing, zone.high)],
-            found[condition(turn.nosing_spacing, turn.angle)],
-        )
+        judged = log_likelihood(evidence, bench.trials, *own)
         candidates.append(Candidate(values, setting, own, *judged))
     return Fit(kind, tuple(candidates), intervals(candidates))
 
 
-def intervals(candidates: Sequence[Candidate]) -> tuple[Interval, ...]:
-    """Profile interval of each parameter."""
-    best = max(candidates, key=lambda each: each.log_likelihood)
+def intervals(
+    candidates: Sequence[Candidate],
+    judge: Callable[[Candidate], float] = lambda each: each.log_likelihood,
+) -> tuple[Interval, ...]:
+    """Profile interval of each parameter, from all that is fitted to or a part of it.
+
+    Parameters
+    ----------
+    candidates : sequence of Candidate
+        All of a grid.
+    judge : callable
+        Logarithm of the likelihood that counts.
+    """
+    best = max(candidates, key=judge)
     found = []
     for name, value in best.values.items():
         profile: dict[Value, float] = {}
         for each in candidates:
             at = each.values[name]
-            profile[at] = max(profile.get(at, -math.inf), each.log_likelihood)
-        places = sorted(profile)
-        kept = tuple(at for at in places if profile[at] >= best.log_likelihood - WITHIN)
+            profile[at] = max(profile.get(at, -math.inf), judge(each))
+        places = sorted(profile, key=lambda at: (str(at) if isinstance(at, str) else "", at))
+        kept = tuple(at for at in places if profile[at] >= judge(best) - WITHIN)
         numbers = not isinstance(value, str)
         edge = numbers and len(places) > 1 and (kept[0] == places[0] or kept[-1] == places[-1])
         found.append(Interval(name, value, kept[0], kept[-1], kept, edge))

@@ -68,3 +68,16 @@ def log_likelihood(
     turn = evidence.theta_d
     swings = at_turn.swings or low.swings or below.swings
     return zone, log_turn(turn.extra, turn.uncertainty, swings)
+
+
+def log_best_zone(trials: int) -> float:
+    """Logarithm of the probability of the fall zone where simulated trials fell just as read.
+
+    None of five below it, all of five at its upper end, four or five of five at its lower end:
+    what five simulated trials can say at best.
+    """
+    none = Count(trials, 0, (0.0,) * trials, 0)
+    every = Count(trials, trials, (), 0)
+    return (
+        log_falls(0, trials, none) + log_any_falls(trials, every) + log_falls(trials, trials, every)
+    )

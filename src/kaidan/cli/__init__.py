@@ -13,6 +13,7 @@ import typer
 from kaidan.cli import (
     agree,
     assess,
+    calibrate,
     campaign,
     catalogs,
     experiment,
@@ -57,6 +58,7 @@ def kaidan(
 
 agree.register(app)
 assess.register(app)
+calibrate.register(app)
 campaign.register(app)
 catalogs.register(app)
 experiment.register(app)

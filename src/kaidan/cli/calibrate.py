@@ -1,0 +1,400 @@
+"""``kaidan calibrate``: fit the physics to the paper's text, judge it blind, vary the grousers."""
+
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from kaidan.cli import options
+from kaidan.cli.tables import echo, echo_table
+
+if TYPE_CHECKING:
+    from kaidan.calibration.bench import Bench
+    from kaidan.calibration.effects import Effect
+    from kaidan.calibration.fitting import Interval
+    from kaidan.calibration.report import Calibration
+
+group = typer.Typer(
+    name="calibrate",
+    help="Fit the physics to the paper's text, judge it blind on the rest, vary the grousers.",
+    no_args_is_help=True,
+)
+
+RobotName = Annotated[
+    str,
+    typer.Argument(metavar="[ROBOT]", help="The paper's, or own figures for it (TOML file)."),
+]
+StoreFolder = Annotated[
+    Path | None,
+    typer.Option(
+        "--store", metavar="DIR", help="Keep the trials here; what it has is not done again."
+    ),
+]
+Workers = Annotated[
+    int | None, typer.Option(min=1, max=1024, help="Processes on this machine [one a processor].")
+]
+Trials = Annotated[int, typer.Option(min=2, max=1000, help="A condition; the paper made 5.")]
+Seed = Annotated[int, typer.Option(min=0, help="Of all start offsets and grousers' phases.")]
+Judged = Annotated[
+    int, typer.Option(min=0, max=50, help="Fits that predict blind, the likeliest first.")
+]
+Step = Annotated[str, typer.Option(help="Between the slopes at which margins are looked for.")]
+FigureFile = Annotated[
+    Path | None, typer.Option("--figure", metavar="FILE", help="Drawn: .png, .svg or .pdf.")
+]
+CsvFile = Annotated[
+    Path | None, typer.Option("--csv", metavar="FILE", help="Write a row a kind of grousers.")
+]
+Friction = Annotated[float, typer.Option(min=0.0, max=5.0, help="Of grousers on the nosings.")]
+
+
+def register(app: typer.Typer) -> None:
+    """Add ``calibrate`` to the command line."""
+    app.add_typer(group)
+
+
+@group.command("compliance")
+def compliance(
+    robot: RobotName = "kenaf",
+    stiffness: Annotated[
+        str, typer.Option(help="Of a nosing: the grid, for example 16kN/m,32kN/m.")
+    ] = "8,11,16,22,32,45,64,90,128kN/m",
+    end_radius: Annotated[
+        str, typer.Option(help="Of the track's ends: a nuisance, profiled out.")
+    ] = "5,10,20,30,45,65mm",
+    ground: Annotated[
+        str, typer.Option(help="Steps with treads or a rig of nosings: a nuisance.")
+    ] = "steps,noses",
+    trials: Trials = 5,
+    seed: Seed = 0,
+    judged: Judged = 9,
+    step: Step = "2deg",
+    store: StoreFolder = None,
+    workers: Workers = None,
+    figure: FigureFile = None,
+    as_json: options.AsJson = False,
+) -> None:
+    """Fit the stiffness of sprung nosings to theta_d and to the fall zone at 150 mm.
+
+    Exit code: 0 done, whatever is reproduced; 2 bad input.
+    """
+    from kaidan.calibration import fitting
+    from kaidan.errors import InputError
+
+    stiff = _list(stiffness, "stiffness", "--stiffness")
+    radii = _list(end_radius, "length", "--end-radius")
+    grounds = [text.strip() for text in ground.split(",")]
+    for text in grounds:
+        if text not in fitting.GROUND:
+            raise InputError(f"--ground {text!r} is not known; known: steps, noses")
+    sheet = options.robot_of(robot, None)
+    grid = fitting.compliance_grid(sheet, stiff, radii, grounds)
+    _calibrate("sprung-noses", sheet.name, grid, trials, seed, judged, step, store, workers,
+               figure, as_json)  # fmt: skip
+
+
+@group.command("grousers")
+def grousers(
+    robot: RobotName = "kenaf",
+    height: Annotated[
+        str, typer.Option(help="Of a grouser: the grid.")
+    ] = "5,10,12.5,15,17.5,20,22.5mm",
+    stiffness: Annotated[
+        str, typer.Option(help="Of a grouser, radially: the grid.")
+    ] = "20,60,200,600kN/m",
+    friction: Friction = 0.8,
+    trials: Trials = 5,
+    seed: Seed = 0,
+    judged: Judged = 2,
+    step: Step = "2deg",
+    store: StoreFolder = None,
+    workers: Workers = None,
+    figure: FigureFile = None,
+    as_json: options.AsJson = False,
+) -> None:
+    """Fit height and stiffness of driven grousers to the same two figures.
+
+    Exit code: 0 done, whatever is reproduced; 2 bad input.
+    """
+    from kaidan.calibration import fitting
+
+    sheet = options.robot_of(robot, None)
+    grid = fitting.grouser_grid(
+        sheet,
+        _list(height, "length", "--height"),
+        _list(stiffness, "stiffness", "--stiffness"),
+        friction,
+    )
+    _calibrate("driven-grousers", sheet.name, grid, trials, seed, judged, step, store, workers,
+               figure, as_json)  # fmt: skip
+
+
+@group.command("effects")
+def effects(
+    robot: RobotName = "kenaf",
+    height: Annotated[str, typer.Option(help="Of a grouser: values tried.")] = "5,10,15,20mm",
+    spacing: Annotated[str, typer.Option(help="Of grousers: values tried.")] = "20,33,50,100mm",
+    stiffness: Annotated[
+        str, typer.Option(help="Of a grouser, radially: values tried.")
+    ] = "20,50,200,1000kN/m",
+    about: Annotated[
+        str, typer.Option(help="Height, spacing and stiffness while another is varied.")
+    ] = "10mm,33mm,200kN/m",
+    friction: Friction = 0.8,
+    nosing_spacing: Annotated[str, typer.Option(help="Nosing to nosing.")] = "150mm",
+    trials: Trials = 5,
+    seed: Seed = 0,
+    step: Step = "2deg",
+    store: StoreFolder = None,
+    workers: Workers = None,
+    figure: FigureFile = None,
+    csv: CsvFile = None,
+    as_json: options.AsJson = False,
+) -> None:
+    """Vary height, spacing and stiffness of grousers, and tell theta_M: the paper's open question.
+
+    Exit code: 0 done, 2 bad input.
+    """
+    from kaidan.calibration.effects import as_columns
+    from kaidan.calibration.effects import effects as found_by
+    from kaidan.errors import InputError
+    from kaidan.report import files
+    from kaidan.units import parse
+
+    form = None if figure is None else files.figure_format(figure)
+    parts = about.split(",")
+    if len(parts) != 3:
+        raise InputError(f"--about {about!r}: write HEIGHT,SPACING,STIFFNESS")
+    kinds = ("length", "length", "stiffness")
+    base = [
+        round(parse(text.strip(), kind, option="--about"), 9)
+        for text, kind in zip(parts, kinds, strict=True)
+    ]
+    sheet = options.robot_of(robot, None)
+    asked: dict[str, Any] = {
+        "base": dict(zip(("height", "spacing", "stiffness"), base, strict=True)),
+        "varied": {
+            "height": _list(height, "length", "--height"),
+            "spacing": _list(spacing, "length", "--spacing"),
+            "stiffness": _list(stiffness, "stiffness", "--stiffness"),
+        },
+        "friction": friction,
+        "nosing_spacing": parse(nosing_spacing, "length", option="--nosing-spacing"),
+        "step": _step(step),
+    }
+    with _bench(store, workers, seed, trials) as bench:
+        found = found_by(bench, sheet, **asked)
+    contents: dict[Path, bytes | str] = {}
+    if csv is not None:
+        contents[csv] = files.csv_text(as_columns(found))
+    if figure is not None and form is not None:
+        from kaidan.report.calibration_figure import effects_figure
+
+        contents[figure] = files.figure_bytes(effects_figure(found), form)
+    files.write_all(contents)
+    if as_json:
+        told = {"robot": sheet.name, "seed": seed, "trials": trials, **asked}
+        typer.echo(files.json_text({**told, "effects": as_columns(found)}), nl=False)
+    else:
+        _show_effects(sheet.name, found, seed, trials)
+    for path in contents:
+        typer.echo(f"wrote {path}", err=as_json)
+
+
+def _calibrate(
+    kind: str,
+    robot: str,
+    grid: Any,
+    trials: int,
+    seed: int,
+    judged: int,
+    step: str,
+    store: Path | None,
+    workers: int | None,
+    figure: Path | None,
+    as_json: bool,
+) -> None:
+    from kaidan.calibration.report import calibrate
+    from kaidan.report import files
+
+    form = None if figure is None else files.figure_format(figure)
+    width = _step(step)
+    with _bench(store, workers, seed, trials) as bench:
+        found = calibrate(bench, robot, kind, grid, judged=judged, step=width)
+    if figure is not None and form is not None:
+        from kaidan.report.calibration_figure import calibration_figure
+
+        files.write_all({figure: files.figure_bytes(calibration_figure(found), form)})
+    if as_json:
+        typer.echo(files.json_text(found.as_dict()), nl=False)
+    else:
+        _show(found)
+    if figure is not None:
+        typer.echo(f"wrote {figure}", err=as_json)
+
+
+@contextmanager
+def _bench(store: Path | None, workers: int | None, seed: int, trials: int) -> "Iterator[Bench]":
+    from kaidan.calibration.bench import Bench, in_store
+
+    with tempfile.TemporaryDirectory() as passing:
+        folder = store or Path(passing) / "store"
+        runner = in_store(folder, workers=workers, progress=True)
+        try:
+            yield Bench(runner, seed=seed, trials=trials)
+        except KeyboardInterrupt:
+            kept = "" if store is None else f"; the same command goes on with {store}"
+            typer.echo(f"kaidan: broken off{kept}", err=True)
+            raise typer.Exit(130) from None
+
+
+def _list(text: str, kind: str, option: str) -> list[float]:
+    """Quantities of a list, each once, increasing; the last one's unit is that of bare numbers."""
+    from kaidan.units import parse
+
+    parts = [part.strip() for part in text.split(",")]
+    unit = parts[-1].lstrip("+-0123456789.")
+    whole = [part if part.lstrip("+-0123456789.") else part + unit for part in parts]
+    # rounded, so that 17.5mm is the 0.0175 of the default grids and finds its trials in a store
+    return sorted({round(parse(part, kind, option=option), 9) for part in whole})
+
+
+def _step(text: str) -> float:
+    import math
+
+    from kaidan.errors import InputError
+    from kaidan.units import parse
+
+    step = math.degrees(parse(text, "angle", option="--step"))
+    if not 0.1 <= step <= 5.0:
+        raise InputError(f"--step {text!r} is not within 0.1 to 5 deg")
+    return step
+
+
+def _value(name: str, value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    if name.endswith("_m") and not name.endswith("_N_m"):
+        return f"{1e3 * value:g} mm"
+    return f"{value / 1e3:g} kN/m"
+
+
+def _show(found: "Calibration") -> None:
+    best = found.fit.best
+    echo(
+        f"{found.robot}, {found.fit.kind}: {len(found.fit.candidates)} candidates, "
+        f"{found.trials} trials a condition, seed {found.seed}"
+    )
+    echo("  Fitted to theta_d and the fall zone at 150 mm alone; all other figures are blind.")
+    echo("")
+    echo_table(
+        [
+            {
+                "name": _name(each.name),
+                "best": _value(each.name, each.best),
+                "both": _interval(each),
+                "turn": _interval(turn),
+                "zone": _interval(zone),
+            }
+            for each, turn, zone in zip(
+                found.fit.intervals, found.from_turn, found.from_zone, strict=True
+            )
+        ],
+        {
+            "name": "fitted",
+            "best": "likeliest",
+            "both": "95 % profile interval",
+            "turn": "from theta_d alone",
+            "zone": "from the fall zone alone",
+        },
+    )
+    echo("")
+    echo("  The likeliest: " + ", ".join(_value(*each) for each in best.values.items()))
+    for text, good in found.lines:
+        echo(f"  {'yes' if good else 'NO ':<4} {text}")
+    if found.blind[1:]:
+        echo("")
+        echo(f"  Blind, over the {len(found.blind)} likeliest:")
+        for text in _ranges(found):
+            echo(f"       {text}")
+    echo("")
+    lost = found.not_reproduced
+    told = "; ".join(text.partition(" (")[0] for text in lost)
+    echo(f"  Not reproduced: {told}." if lost else "  All of it is reproduced.")
+
+
+def _ranges(found: "Calibration") -> "Iterator[str]":
+    """Each prediction over all candidates that were judged."""
+    import math
+
+    for each in zip(*(blind.predictions for blind in found.blind), strict=True):
+        values = [one.value for one in each if math.isfinite(one.value)]
+        good = sum(one.reproduced for one in each)
+        unit = " deg" if each[0].unit == "deg" else ""
+        span = f"{min(values):.1f} to {max(values):.1f}{unit}" if values else "not found"
+        yield f"{each[0].text}: {span}; reproduced by {good} of {len(each)}"
+
+
+def _name(name: str) -> str:
+    return name.removesuffix("_N_m").removesuffix("_m").replace("_", " ")
+
+
+def _interval(each: "Interval") -> str:
+    if isinstance(each.low, str):
+        return " or ".join(map(str, each.kept))
+    if each.low == each.high:
+        told = _value(each.name, each.low)
+    else:
+        told = f"{_value(each.name, each.low)} to {_value(each.name, each.high)}"
+    return f"{told} (end of the grid)" if each.at_edge else told
+
+
+def _show_effects(robot: str, found: "Sequence[Effect]", seed: int, trials: int) -> None:
+    spacing = 1e3 * found[0].up.nosing_spacing
+    echo(
+        f"{robot}: theta_M at {spacing:g} mm over the grousers; {trials} trials a condition, "
+        f"seed {seed}"
+    )
+    echo("")
+    echo_table(
+        [
+            {
+                "varied": each.varied,
+                "value": "-" if each.varied == "none" else _value(
+                    "stiffness_N_m" if each.varied == "stiffness" else "length_m", each.value
+                ),
+                "up": _plus_minus(each.up.value, each.up.deviation),
+                "falls_up": _zone(each.up.none_up_to, each.up.all_from),
+                "down": _plus_minus(each.down.value, each.down.deviation),
+                "falls_down": _zone(each.down.none_up_to, each.down.all_from),
+                "M": _plus_minus(each.theta_M, each.deviation),
+            }
+            for each in found
+        ],
+        {
+            "varied": "varied",
+            "value": "value",
+            "up": "up [deg]",
+            "falls_up": "none, all fell",
+            "down": "down [deg]",
+            "falls_down": "none, all fell",
+            "M": "theta_M [deg]",
+        },
+    )  # fmt: skip
+    echo("")
+    echo("  The text prints 1.2 to 2.6 deg. One robot of guessed mass and ends; no measurement.")
+
+
+def _plus_minus(value: float, deviation: float) -> str:
+    import math
+
+    return "-" if math.isnan(value) else f"{value:.1f} +- {deviation:.1f}"
+
+
+def _zone(low: float, high: float) -> str:
+    import math
+
+    return " ".join("-" if math.isnan(each) else f"{each:g}" for each in (low, high))

@@ -1,0 +1,23 @@
+"""A physics that is known: falls and turns by rule, so that what a fit finds can be checked."""
+
+import math
+
+
+def falls_from(angle_of, turn_of):
+    """Runner whose trials fall from a slope [deg] on and turn by so much [deg] below it.
+
+    Both are functions of the spec.
+    """
+
+    def run(specs):
+        asked.extend(specs)
+        return [
+            ("fell_backward", 46.0)
+            if math.degrees(spec.stairs.angle) >= angle_of(spec) - 1e-9
+            else ("climbed", turn_of(spec))
+            for spec in specs
+        ]
+
+    asked = []
+    run.asked = asked
+    return run
