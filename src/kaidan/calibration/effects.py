@@ -42,7 +42,7 @@ class Effect(NamedTuple):
 
     @property
     def deviation(self) -> float:
-        """Standard deviation of `theta_M` over experiments of as many trials [deg]."""
+        """Standard deviation of `theta_M`: experiments of as many trials, step of the grid [deg]."""
         return float((self.down.deviation**2 + self.up.deviation**2) ** 0.5)
 
 

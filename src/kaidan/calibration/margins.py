@@ -22,7 +22,7 @@ class Margin(NamedTuple):
     value: float
     """Mean slope of falling [deg]; NaN where the grid does not span it."""
     deviation: float
-    """Standard deviation of `value` over experiments of as many trials [deg]."""
+    """Standard deviation of `value`: experiments of as many trials, step of the grid [deg]."""
     none_up_to: float
     """Steepest slope below which, itself included, no trial fell [deg]; NaN: none."""
     all_from: float
@@ -36,7 +36,9 @@ def margin_of(
 
     Each trial falls from some slope on; the mean of those slopes is the lower end of the grid plus
     the integral of the share that does not fall (trapezoids). It needs no monotone counts: a trial
-    that falls at one slope and climbs a steeper one counts for what it is at each.
+    that falls at one slope and climbs a steeper one counts for what it is at each. The deviation is
+    that of the counts, and that of not knowing where between two slopes a trial begins to fall
+    (uniform: a step over the root of 12 where all do in one step).
 
     Parameters
     ----------
@@ -54,7 +56,7 @@ def margin_of(
     --------
     >>> five = lambda falls: Count(trials=5, falls=falls, swings=(), slid=0)
     >>> margin_of([54.0, 56.0, 58.0, 60.0], [five(0), five(0), five(5), five(5)])
-    (57.0, 0.0, 56.0, 58.0)
+    (57.0, 0.577, 56.0, 58.0)
 
     References
     ----------
@@ -81,8 +83,9 @@ def margin_of(
     weight = np.zeros_like(slope)
     weight[:-1] += np.diff(slope) / 2
     weight[1:] += np.diff(slope) / 2
-    variance = weight**2 * share * climbs / np.maximum(trials - 1, 1)
-    return float(value), float(math.sqrt(variance.sum())), none_up_to, all_from
+    variance = float(np.sum(weight**2 * share * climbs / np.maximum(trials - 1, 1)))
+    variance += float(np.sum((np.diff(share) * np.diff(slope)) ** 2)) / 12
+    return float(value), math.sqrt(variance), none_up_to, all_from
 
 
 def margins_of(

@@ -134,7 +134,7 @@ def _draw_profile(axes: Axes, found: Calibration) -> None:
     _plain_log(axes, first)
     axes.set_ylabel("log profile likelihood", labelpad=1.0)
     axes.set_title("line: 95 % interval", fontsize=look.SMALL)
-    axes.legend(fontsize=6.0, frameon=False, loc="lower center")
+    axes.legend(fontsize=6.0, frameon=False, loc="lower left", borderaxespad=0.1)
 
 
 def _draw_blind(axes: Axes, found: Calibration) -> None:
@@ -224,7 +224,7 @@ def effects_figure(found: Sequence[Effect]) -> Figure:
             figure,
             0.5,
             "Effects of the grousers on the margins and on theta_M, as MuJoCo has them",
-            "bars: two standard deviations over experiments; dotted: smooth belt; grey: the text's "
+            "bars: two standard deviations (counts and grid); dotted: smooth belt; grey: the text's "
             "1.2 to 2.6°",
         )
     return figure

@@ -142,8 +142,9 @@ def test_mean_slope_of_falling_by_hand():
     # falls 0, 2, 1, 5 of 5 at 50, 52, 54, 56: shares standing 1, 0.6, 0.8, 0; trapezoids of 2 deg
     found = margin_of((50.0, 52.0, 54.0, 56.0), [count(0), count(2), count(1), count(5)])
     assert found[0] == pytest.approx(50.0 + 1.6 + 1.4 + 0.8)
-    # weights of 2 deg, p(1 - p)/4 of each
-    assert found[1] == pytest.approx(math.sqrt(4 * (0.24 / 4 + 0.16 / 4)))
+    # weights of 2 deg, p(1 - p)/4 of each; and jumps of 0.4, 0.2, 0.8 within 2 deg each
+    counted, placed = 4 * (0.24 / 4 + 0.16 / 4), (0.16 + 0.04 + 0.64) * 4 / 12
+    assert found[1] == pytest.approx(math.sqrt(counted + placed))
     assert found[2:] == (50.0, 56.0)
 
 
