@@ -3,7 +3,7 @@
 The same trials are done by one process, by all local processes and by as many workers of a Dask
 scheduler on this machine, in turn, each into a fresh store; starting processes is not counted
 (each way first does some trials), storing is. Other work on the machine slows all of them, so the
-ratios say more than the figures.
+ratios say more than the figures; trials that only wait show what each way adds of its own.
 """
 
 import argparse
@@ -14,8 +14,10 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 from kaidan.campaign import (
     TRIALS,
@@ -24,6 +26,7 @@ from kaidan.campaign import (
     LocalWorkers,
     Store,
     VerificationTest,
+    Work,
     conduct,
 )
 from kaidan.campaign.local import Workers, processors
@@ -33,6 +36,26 @@ from kaidan.robot import Robot
 from record import finish, options
 
 PAPER = (0.150, 0.180, 0.200, 0.220)
+WAIT = 0.05
+"""Of a trial that computes nothing, as long as a real one [s]."""
+
+
+def wait(spec: int) -> dict[str, Any]:
+    time.sleep(WAIT)
+    return {"outcome": "waited", "number": spec}
+
+
+def number(spec: int) -> dict[str, Any]:
+    return {"number": spec}
+
+
+def version() -> str:
+    return "waiting"
+
+
+WAITING = Work(
+    name="waiting", run=wait, inputs=number, text=str, version=version, columns={"number": "count"}
+)
 
 
 def kenaf_plan(trials: int, seed: int = 0) -> VerificationTest:
@@ -49,13 +72,14 @@ def kenaf_plan(trials: int, seed: int = 0) -> VerificationTest:
     return first.model_copy(update={"conditions": conditions})
 
 
-def seconds(plan: VerificationTest, workers: Workers) -> float:
-    """Time for a plan with workers that have begun."""
+def seconds(plan: VerificationTest | int, workers: Workers) -> float:
+    """Time for a plan, or for so many trials that wait, with workers that have begun."""
+    waiting = isinstance(plan, int)
     with tempfile.TemporaryDirectory() as folder:
         start = time.perf_counter()
-        with Store(Path(folder), TRIALS) as store:
-            tally = conduct(plan.specs(), store, workers)
-        assert tally.done == len(plan)
+        with Store(Path(folder), WAITING if waiting else TRIALS) as store:
+            tally = conduct(range(plan) if waiting else plan.specs(), store, workers)
+        assert tally.done == (plan if waiting else len(plan))
         return time.perf_counter() - start
 
 
@@ -103,16 +127,26 @@ def main() -> None:
                 times[name].append(seconds(plan, workers))
         for name, taken in times.items():
             figures[f"{name}, trials a second"] = len(plan) / statistics.median(taken)
-        pairs = zip(times["Dask"], times["local processes"], strict=True)
         ratio = f"Dask / {count} local processes, time"
-        figures[ratio] = statistics.median(there / here for there, here in pairs)
-        pairs = zip(times["one process"], times["local processes"], strict=True)
-        figures[f"one process / {count} local processes, time"] = statistics.median(
-            one / many for one, many in pairs
+        figures[ratio] = median_ratio(times["Dask"], times["local processes"])
+        figures[f"one process / {count} local processes, time"] = median_ratio(
+            times["one process"], times["local processes"]
         )
         whole = f"the paper's experiment, 240 trials, {count} processes [s]"
         figures[whole] = seconds(kenaf_plan(5), ways["local processes"])
-    finish(figures, chosen, targets={ratio: 1.15, whole: 180.0})
+    with ExitStack() as stack:
+        here: Workers = stack.enter_context(LocalWorkers(WAITING, count))
+        there: Workers = stack.enter_context(DaskWorkers(WAITING, dask(stack, count)))
+        waits = [(seconds(100, there), seconds(100, here)) for _ in range(chosen.rounds + 1)][1:]
+        waited = f"the same, trials that only wait {1e3 * WAIT:g} ms"
+        figures[waited] = median_ratio(*zip(*waits, strict=True))
+        alone = f"{count} local processes / waiting alone, time"
+        figures[alone] = statistics.median(local for _, local in waits) * count / (100 * WAIT)
+    finish(figures, chosen, targets={ratio: 1.15, waited: 1.15, whole: 180.0})
+
+
+def median_ratio(upper: Sequence[float], lower: Sequence[float]) -> float:
+    return statistics.median(a / b for a, b in zip(upper, lower, strict=True))
 
 
 if __name__ == "__main__":
