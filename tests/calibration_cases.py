@@ -12,9 +12,9 @@ def falls_from(angle_of, turn_of):
     def run(specs):
         asked.extend(specs)
         return [
-            ("fell_backward", 46.0)
+            ("fell_backward", 46.0, 1)
             if math.degrees(spec.stairs.angle) >= angle_of(spec) - 1e-9
-            else ("climbed", turn_of(spec))
+            else ("climbed", turn_of(spec), 2)
             for spec in specs
         ]
 

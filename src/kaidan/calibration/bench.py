@@ -20,8 +20,8 @@ FALL = 15.0
 """Turn beyond the line of the nosings from which a trial counts as a fall [deg], whatever it
 comes to in the end: the robot hangs on its tether."""
 
-Figures = tuple[str, float]
-"""Outcome and largest extra inclination [deg] of a trial."""
+Figures = tuple[str, float, int]
+"""Outcome, largest extra inclination [deg] and nosings passed of a trial."""
 Runner = Callable[[Sequence[TrialSpec]], list[Figures]]
 """What runs trials and gives their figures, in their order."""
 
@@ -39,12 +39,21 @@ class Count(NamedTuple):
     """What the trials of a setting at a condition came to."""
 
     trials: int
-    """Trials that say something: neither diverged nor placed where the robot cannot stand."""
+    """Trials that began and did not diverge."""
     falls: int
+    """Trials among them that fell."""
     swings: tuple[float, ...]
-    """Largest extra inclination of each trial that did not fall [deg]."""
-    slid: int
-    """Trials that slid or timed out without a fall; they count among those that did not fall."""
+    """Largest extra inclination of each that did not fall [deg]."""
+    slid: int = 0
+    """Trials that did not fall and slid, or came to the end without driving there."""
+    unplaced: int = 0
+    """Trials, beside those that began, that fell before the track moved."""
+
+    @property
+    def lost(self) -> float:
+        """Share of all that did not hold on the slope, in whatever way [1]; NaN of none."""
+        whole = self.trials + self.unplaced
+        return (self.falls + self.slid + self.unplaced) / whole if whole else math.nan
 
 
 def with_ends(robot: Robot, radius: float) -> Robot:
@@ -111,31 +120,35 @@ def count_of(figures: Iterable[Figures], fall: float = FALL) -> Count:
 
     Examples
     --------
-    >>> count_of([("climbed", 1.5), ("fell_backward", 47.0), ("slid", 33.0), ("start_fall", 0.0)])
-    Count(trials=3, falls=2, swings=(1.5,), slid=0)
+    >>> count_of([("climbed", 1.5, 2), ("fell_backward", 47.0, 1), ("start_fall", 0.0, 0)])
+    Count(trials=2, falls=1, swings=(1.5,), slid=0, unplaced=1)
     """
-    said = [each for each in figures if each[0] not in SAYS_NOTHING]
-    stood = [(outcome, extra) for outcome, extra in said if not _fell(outcome, extra, fall)]
+    known = [each for each in figures if each[0] not in SAYS_NOTHING]
+    began = [each for each in known if each[0] != "start_fall"]
+    stood = [each for each in began if not _fell(each, fall)]
     return Count(
-        trials=len(said),
-        falls=len(said) - len(stood),
-        swings=tuple(extra for _, extra in stood),
-        slid=sum(outcome in ("slid", "timed_out") for outcome, _ in stood),
+        trials=len(began),
+        falls=len(began) - len(stood),
+        swings=tuple(extra for _, extra, _ in stood),
+        # one that passed no nosing slid down to the end before the track moved
+        slid=sum(outcome != "climbed" or passed == 0 for outcome, _, passed in stood),
+        unplaced=len(known) - len(began),
     )
 
 
-SAYS_NOTHING = ("unstable", "start_fall", "failed", "crashed")
-"""Outcomes that say nothing about the robot on the move."""
+SAYS_NOTHING = ("unstable", "failed", "crashed")
+"""Outcomes that say nothing about the robot."""
 
 
-def _fell(outcome: str, extra: float, fall: float) -> bool:
+def _fell(figures: Figures, fall: float) -> bool:
+    outcome, extra, _ = figures
     return outcome in ("fell_backward", "fell_forward") or extra > fall
 
 
 def here(specs: Sequence[TrialSpec]) -> list[Figures]:
     """Run trials one after the other in this process."""
     return [
-        (result.outcome.value, result.largest_extra_deg)
+        (result.outcome.value, result.largest_extra_deg, result.releases)
         for result in (simulate(spec) for spec in specs)
     ]
 
@@ -151,10 +164,12 @@ def in_store(folder: Path, *, workers: int | None = None, progress: bool = False
         ):
             conduct(specs, store, hands, told=told)
         table: dict[str, list[Any]] = rows_of(
-            folder, ["id", "outcome", "largest_extra_deg"]
+            folder, ["id", "outcome", "largest_extra_deg", "releases"]
         ).to_pydict()
         extras = [math.nan if each is None else each for each in table["largest_extra_deg"]]
-        found = dict(zip(table["id"], zip(table["outcome"], extras, strict=True), strict=True))
+        passed = [each or 0 for each in table["releases"]]
+        figures = zip(table["outcome"], extras, passed, strict=True)
+        found = dict(zip(table["id"], figures, strict=True))
         return [found[TRIALS.identity(spec)] for spec in specs]
 
     return run

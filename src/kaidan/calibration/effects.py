@@ -42,7 +42,7 @@ class Effect(NamedTuple):
 
     @property
     def deviation(self) -> float:
-        """Standard deviation of `theta_M`: experiments of as many trials, step of the grid [deg]."""
+        """Standard deviation of `theta_M`: counts, and step of the grids [deg]."""
         return float((self.down.deviation**2 + self.up.deviation**2) ** 0.5)
 
 
@@ -111,12 +111,12 @@ def as_columns(found: Sequence[Effect]) -> dict[str, list[float | str]]:
         "value": [each.value for each in found],
         "up_deg": [each.up.value for each in found],
         "up_deviation_deg": [each.up.deviation for each in found],
-        "up_none_fell_to_deg": [each.up.none_up_to for each in found],
-        "up_all_fell_from_deg": [each.up.all_from for each in found],
+        "up_none_lost_to_deg": [each.up.none_up_to for each in found],
+        "up_all_lost_from_deg": [each.up.all_from for each in found],
         "down_deg": [each.down.value for each in found],
         "down_deviation_deg": [each.down.deviation for each in found],
-        "down_none_fell_to_deg": [each.down.none_up_to for each in found],
-        "down_all_fell_from_deg": [each.down.all_from for each in found],
+        "down_none_lost_to_deg": [each.down.none_up_to for each in found],
+        "down_all_lost_from_deg": [each.down.all_from for each in found],
         "theta_M_deg": [each.theta_M for each in found],
         "theta_M_deviation_deg": [each.deviation for each in found],
     }

@@ -17,7 +17,7 @@ def log_falls(falls: int, trials: int, simulated: Count) -> float:
 
     Examples
     --------
-    >>> five = Count(trials=5, falls=0, swings=(0.0,) * 5, slid=0)
+    >>> five = Count(trials=5, falls=0, swings=(0.0,) * 5)
     >>> [round(math.exp(log_falls(k, 5, five)), 3) for k in (0, 1, 5)]
     [0.716, 0.188, 0.001]
     """
@@ -76,8 +76,8 @@ def log_best_zone(trials: int) -> float:
     None of five below it, all of five at its upper end, four or five of five at its lower end:
     what five simulated trials can say at best.
     """
-    none = Count(trials, 0, (0.0,) * trials, 0)
-    every = Count(trials, trials, (), 0)
+    none = Count(trials, 0, (0.0,) * trials)
+    every = Count(trials, trials, ())
     return (
         log_falls(0, trials, none) + log_any_falls(trials, every) + log_falls(trials, trials, every)
     )

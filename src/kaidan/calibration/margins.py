@@ -1,4 +1,4 @@
-"""Margins from counts on a fixed grid of slopes: no bisection, falls need not grow with slope."""
+"""Margins from counts on a fixed grid of slopes: no bisection, losses need not grow with slope."""
 
 import math
 from collections.abc import Sequence
@@ -20,41 +20,43 @@ class Margin(NamedTuple):
     """Slopes of the grid [deg]."""
     counts: tuple[Count, ...]
     value: float
-    """Mean slope of falling [deg]; NaN where the grid does not span it."""
+    """Mean slope from which trials are lost [deg]; NaN where the grid does not span it."""
     deviation: float
     """Standard deviation of `value`: experiments of as many trials, step of the grid [deg]."""
     none_up_to: float
-    """Steepest slope below which, itself included, no trial fell [deg]; NaN: none."""
+    """Steepest slope up to which no trial was lost [deg]; NaN: none."""
     all_from: float
-    """Slope from which on every trial fell [deg]; NaN: none."""
+    """Gentlest slope at which every trial was lost [deg]; NaN: none."""
 
 
 def margin_of(
     angles: Sequence[float], counts: Sequence[Count]
 ) -> tuple[float, float, float, float]:
-    """Mean slope of falling from counts on a grid, after Spearman and Karber.
+    """Mean slope from which trials are lost, from counts on a grid, after Spearman and Karber.
 
-    Each trial falls from some slope on; the mean of those slopes is the lower end of the grid plus
-    the integral of the share that does not fall (trapezoids). It needs no monotone counts: a trial
-    that falls at one slope and climbs a steeper one counts for what it is at each. The deviation is
-    that of the counts, and that of not knowing where between two slopes a trial begins to fall
-    (uniform: a step over the root of 12 where all do in one step).
+    Each trial is lost from some slope on; the mean of those slopes is the lower end of the grid
+    plus the integral of the share that holds (trapezoids), up to the gentlest slope at which all
+    are lost: what happens beyond is luck. It needs no monotone counts: a trial that is lost at one
+    slope and climbs a steeper one counts for what it is at each. The deviation is that of the
+    counts, and that of not knowing where between two slopes a trial is lost first (uniform: a step
+    over the root of 12 where all are in one step).
 
     Parameters
     ----------
     angles : sequence of float
         Slopes, increasing [deg].
     counts : sequence of Count
-        At each.
+        At each; lost is who falls, slides, or cannot be placed.
 
     Returns
     -------
     value, deviation, none_up_to, all_from [deg]
-        NaN for value where a quarter or more fall at the gentlest slope, or climb the steepest.
+        NaN for value where a quarter or more are lost at the gentlest slope, or hold on the
+        steepest.
 
     Examples
     --------
-    >>> five = lambda falls: Count(trials=5, falls=falls, swings=(), slid=0)
+    >>> five = lambda falls: Count(trials=5, falls=falls, swings=())
     >>> margin_of([54.0, 56.0, 58.0, 60.0], [five(0), five(0), five(5), five(5)])
     (57.0, 0.577, 56.0, 58.0)
 
@@ -63,27 +65,26 @@ def margin_of(
     Karber 1931, doi:10.1007/BF01863914.
     """
     slope = np.asarray(angles, dtype=np.float64)
-    trials = np.array([count.trials for count in counts], dtype=np.float64)
-    falls = np.array([count.falls for count in counts], dtype=np.float64)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        share = np.where(trials > 0, falls / trials, np.nan)
+    trials = np.array([count.trials + count.unplaced for count in counts], dtype=np.float64)
+    share = np.array([count.lost for count in counts], dtype=np.float64)
     known = np.isfinite(share)
     slope, share, trials = slope[known], share[known], trials[known]
-    if len(slope) < 2:
-        return math.nan, math.nan, math.nan, math.nan
-    clean = np.flatnonzero(share > 0)
-    none_up_to = float(slope[-1] if not len(clean) else slope[clean[0] - 1] if clean[0] else np.nan)
-    stands = np.flatnonzero(share < 1)
-    last = stands[-1] if len(stands) else -1
-    all_from = float(slope[last + 1]) if last + 1 < len(slope) else math.nan
-    if share[0] >= 0.25 or share[-1] <= 0.75:
+    some, every = np.flatnonzero(share > 0), np.flatnonzero(share == 1)
+    none_up_to = math.nan
+    if len(slope):
+        first = some[0] if len(some) else len(slope)
+        none_up_to = float(slope[first - 1]) if first else math.nan
+    all_from = float(slope[every[0]]) if len(every) else math.nan
+    if len(every):
+        slope, share, trials = (each[: every[0] + 1] for each in (slope, share, trials))
+    if len(slope) < 2 or share[0] >= 0.25 or share[-1] <= 0.75:
         return math.nan, math.nan, none_up_to, all_from
-    climbs = 1.0 - share
-    value = slope[0] + float(np.sum(np.diff(slope) * (climbs[1:] + climbs[:-1]) / 2))
+    holds = 1.0 - share
+    value = slope[0] + float(np.sum(np.diff(slope) * (holds[1:] + holds[:-1]) / 2))
     weight = np.zeros_like(slope)
     weight[:-1] += np.diff(slope) / 2
     weight[1:] += np.diff(slope) / 2
-    variance = float(np.sum(weight**2 * share * climbs / np.maximum(trials - 1, 1)))
+    variance = float(np.sum(weight**2 * share * holds / np.maximum(trials - 1, 1)))
     variance += float(np.sum((np.diff(share) * np.diff(slope)) ** 2)) / 12
     return float(value), math.sqrt(variance), none_up_to, all_from
 

@@ -108,7 +108,7 @@ def grousers(
     friction: Friction = 0.8,
     trials: Trials = 5,
     seed: Seed = 0,
-    judged: Judged = 2,
+    judged: Judged = 1,
     step: Step = "2deg",
     store: StoreFolder = None,
     workers: Workers = None,
@@ -378,14 +378,15 @@ def _show_effects(robot: str, found: "Sequence[Effect]", seed: int, trials: int)
             "varied": "varied",
             "value": "value",
             "up": "up [deg]",
-            "falls_up": "none, all fell",
+            "falls_up": "none, all lost",
             "down": "down [deg]",
-            "falls_down": "none, all fell",
+            "falls_down": "none, all lost",
             "M": "theta_M [deg]",
         },
     )  # fmt: skip
     echo("")
-    echo("  The text prints 1.2 to 2.6 deg. One robot of guessed mass and ends; no measurement.")
+    echo("  Lost: fell, slid, or could not be placed. The text prints a theta_M of 1.2 to 2.6 deg.")
+    echo("  One robot of guessed mass and ends: what this model says, no measurement.")
 
 
 def _plus_minus(value: float, deviation: float) -> str:

@@ -19,7 +19,7 @@ KENAF = Robot.named("kenaf")
 
 
 def count(falls, trials=5, swings=None):
-    return Count(trials, falls, (1.0,) * (trials - falls) if swings is None else swings, 0)
+    return Count(trials, falls, (1.0,) * (trials - falls) if swings is None else swings)
 
 
 def soft(spec):
@@ -138,8 +138,8 @@ def test_a_prediction_that_the_grid_does_not_span_is_not_reproduced():
     )
 
 
-def test_mean_slope_of_falling_by_hand():
-    # falls 0, 2, 1, 5 of 5 at 50, 52, 54, 56: shares standing 1, 0.6, 0.8, 0; trapezoids of 2 deg
+def test_mean_slope_of_being_lost_by_hand():
+    # lost 0, 2, 1, 5 of 5 at 50, 52, 54, 56: shares 1, 0.6, 0.8, 0 hold; trapezoids of 2 deg
     found = margin_of((50.0, 52.0, 54.0, 56.0), [count(0), count(2), count(1), count(5)])
     assert found[0] == pytest.approx(50.0 + 1.6 + 1.4 + 0.8)
     # weights of 2 deg, p(1 - p)/4 of each; and jumps of 0.4, 0.2, 0.8 within 2 deg each
@@ -148,16 +148,27 @@ def test_mean_slope_of_falling_by_hand():
     assert found[2:] == (50.0, 56.0)
 
 
+def test_what_happens_beyond_the_slope_at_which_all_are_lost_is_luck():
+    angles, lost = (50.0, 52.0, 54.0, 56.0), [count(0), count(5), count(2), count(5)]
+    assert margin_of(angles, lost) == margin_of(angles[:2], lost[:2])
+
+
 @pytest.mark.parametrize("falls", [(0, 0, 0), (5, 5, 5), (2, 5, 5), (0, 0, 3)])
 def test_a_grid_that_does_not_span_the_margin_says_nothing(falls):
     value, *_ = margin_of((50.0, 52.0, 54.0), [count(each) for each in falls])
     assert math.isnan(value)
 
 
-def test_trials_that_say_nothing_are_not_counted():
-    found = count_of([("unstable", 99.0), ("climbed", 20.0), ("timed_out", 1.0)])
-    assert found == Count(trials=2, falls=1, swings=(1.0,), slid=1)
-    value, *_ = margin_of((50.0, 52.0, 54.0), [count(0), Count(0, 0, (), 0), count(5)])
+def test_what_is_lost_and_what_says_nothing():
+    found = count_of(
+        [("unstable", 99.0, 1), ("climbed", 20.0, 2), ("timed_out", 1.0, 1), ("climbed", 2.0, 0),
+         ("start_fall", 0.0, 0), ("climbed", 3.0, 2)]
+    )  # fmt: skip
+    assert found == Count(trials=4, falls=1, swings=(1.0, 2.0, 3.0), slid=2, unplaced=1)
+    assert found.lost == 0.8
+    nothing = Count(0, 0, ())
+    assert math.isnan(nothing.lost)
+    value, *_ = margin_of((50.0, 52.0, 54.0), [count(0), nothing, count(5)])
     assert value == pytest.approx(52.0)
 
 
