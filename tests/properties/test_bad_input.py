@@ -59,7 +59,9 @@ def assert_sound(answer):
         assert answer.friction is not None
         # what the weight asks of the contacts is within what friction gives
         assert answer.required_friction <= answer.friction[0] + 1e-9
-        assert 2 * answer.nosing_spacing_m <= answer.flat_length_m * (1 + 1e-9)
+        # on treads as long as the robot each step is a flight of its own, entered and left
+        if answer.model == "closed-form" or "traverse" in [each.phase for each in answer.phases]:
+            assert 2 * answer.nosing_spacing_m <= answer.flat_length_m * (1 + 1e-9)
 
 
 # Arguments from Python
