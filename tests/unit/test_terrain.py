@@ -122,3 +122,60 @@ def test_rocking_under_an_acceleration_is_no_verdict_on_the_robot():
     assert (rocks.verdict, rocks.margin_deg) == ("outside-model", None)
     assert "rocking on the spot" in rocks.reason
     assert kaidan.assess("ozbot-atr", stairs, **asked).verdict != "outside-model"
+
+
+def test_a_hole_before_the_stairs_and_a_cliff_behind_them_are_driven():
+    """The first and the last nosing are not where the way begins and ends."""
+    steps = [(0, 0), (0, 0.15), (0.3, 0.15), (0.3, 0.3)]
+    asked = {"friction": 3.0, "theta_d": 0.0, "theta_M": 0.0}
+    hole = [(-9, 0), (-5, 0), (-5, -2), (-4, -2), (-1.5, 0), *steps, (3, 0.3)]
+    cliff = [(-3, 0), *steps, (2, 0.3), (2, -5), (9, -5)]
+    for points in (hole, cliff):
+        answer = kaidan.assess("absolem-flat", Profile.of_points(points), **asked)
+        assert (answer.verdict, answer.falls_over) == ("no-go", "nose")
+
+
+def test_a_riser_that_leans_is_entered_from_its_foot():
+    leaning = Profile.of_points([(-3, 0), (0, 0), (0.5, 5.7), (4, 5.7)])
+    answer = kaidan.assess("kenaf", leaning, friction=3.0)
+    assert (answer.verdict, answer.phase) == ("no-go", "enter")
+
+
+@pytest.mark.parametrize("direction", ["up", "down"])
+def test_level_ground_and_a_ramp_are_a_go(direction):
+    slope = math.radians(20)
+    foot, top = (0.0, 0.0), (2 * math.cos(slope), 2 * math.sin(slope))
+    ramp = Profile.of_points([(-3, 0), foot, top, (top[0] + 3, top[1])])
+    asked = {"friction": 1.0, "direction": direction}
+    answer = kaidan.assess("kenaf", ramp, **asked)
+    # by hand: on a plane tan(slope) wherever the load is, so 45 - 20 degrees to spare
+    assert (answer.verdict, answer.governs) == ("go", "slip")
+    assert answer.margin_deg == pytest.approx(25.0, abs=1e-6)
+    level = Profile.of_points([(-3, 0), (3, 0)])
+    assert kaidan.assess("kenaf", level, **asked).verdict == "go"
+
+
+def test_a_drop_that_only_the_impact_softens_is_no_go_ahead():
+    """Kenaf, nose first down one edge, turned about it until the nose meets the ground.
+
+    By hand for 200 mm: it turns by 59.2 deg (0.2 = 0.196 sin + R (1 - cos), R = 65 mm), the
+    centroid falls by 71 (1 - cos 59.2) = 34.6 mm, and 24.7 mm are left to climb. For 150 mm: 42.7
+    deg, 18.8 mm, 58.9 mm.
+    """
+    by_height = {
+        height: kaidan.assess(
+            "kenaf",
+            Profile.of_points([(-3, 0), (0, 0), (0, height), (3, height)]),
+            direction="down",
+            friction=3.0,
+        )
+        for height in (0.15, 0.20)
+    }
+    assert by_height[0.15].verdict == "go"
+    high = by_height[0.20]
+    assert (high.verdict, high.governs, high.phase, high.step) == ("caution", "energy", "enter", 1)
+    assert high.grades.caught_with_momentum
+    assert high.reason == (
+        "It gets there, but it drops by 59 deg over an edge, and holds only because the impact "
+        "takes momentum."
+    )

@@ -11,6 +11,7 @@ from kaidan.assessment.closed_form import at_risk, traction_limit
 from kaidan.assessment.spread import spread
 from kaidan.assessment.yaw import SWING_SPEED, polygon_energy, polygon_margins
 from kaidan.climb import Climb, Phase
+from kaidan.climb.phases import step_at
 from kaidan.contact import Status
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.measures import kinetic_energy_height
@@ -181,6 +182,8 @@ class Drop(NamedTuple):
     spare: float
     """Rise still to climb before it topples, less the whole fall [m]: positive if it would hold
     even though the impact took nothing of the momentum."""
+    phase: Phase
+    step: int
 
 
 def hardest_drop(case: Case, found: Climb) -> Drop | None:
@@ -194,11 +197,19 @@ def hardest_drop(case: Case, found: Climb) -> Drop | None:
     for release in found.run.releases:
         if release[15] != 0.0:
             continue
-        psi = float(found.run.poses[found.run.row_before(float(release[1])), 14])
+        row = found.run.row_before(float(release[1]))
+        psi, front = (float(found.run.poses[row, column]) for column in (14, 8))
         ahead, up = along * math.cos(psi), STANDARD_GRAVITY + along * math.sin(psi)
         gravity = math.hypot(ahead, up)
         fall = (up * (release[4] - release[7]) + ahead * (release[3] - release[6])) / gravity
-        drops.append(Drop(float(release[9]), float(release[13] / gravity - fall)))
+        drops.append(
+            Drop(
+                turn=float(release[9]),
+                spare=float(release[13] / gravity - fall),
+                phase=Phase(str(found.phase_of_pose[row])),
+                step=step_at(found.profile, front, found.descending),
+            )
+        )
     return min(drops, key=lambda drop: drop.spare, default=None)
 
 

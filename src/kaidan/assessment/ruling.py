@@ -79,7 +79,7 @@ def ruling(case: Case, found: Climb, *, accept: Accept) -> Ruling:
     energy = energy_margin(case, found)
     held, doubts = _held(case, found, threshold, energy, accept)
     verdict, governs = _verdict(case, found, worst, best, held, doubts, accept)
-    phase, step = _where(found, governs)
+    phase, step = _where(case, found, governs)
     margin = worst.worst if verdict != "outside-model" else math.nan
     if accept == "caught" and held:
         margin = min(worst.supply, FALL)
@@ -127,16 +127,16 @@ def _held(
 ) -> tuple[bool, tuple[str, ...]]:
     """Whether the robot arrives with momentum counted, and what keeps that from being a GO."""
     doubts = []
-    if energy <= threshold:
-        doubts.append(
-            f"the energy margin of {1e3 * energy:.2f} mm is less than the "
-            f"{1e3 * threshold:.2f} mm that its speed is worth: expect it to swing"
-        )
     drop = hardest_drop(case, found)
     if accept != "caught" and drop is not None and drop.spare <= 0:
         doubts.append(
             f"it drops by {math.degrees(drop.turn):.0f} deg over an edge, and holds only because "
             "the impact takes momentum"
+        )
+    if energy <= threshold:
+        doubts.append(
+            f"the energy margin of {1e3 * energy:.2f} mm is less than the "
+            f"{1e3 * threshold:.2f} mm that its speed is worth: expect it to swing"
         )
     if any(each.belly_touches for each in found.phases):
         doubts.append("the belly carries the robot in places (high-centring)")
@@ -188,11 +188,14 @@ def _verdict(
     return "no-go", "stuck" if found.status is Status.STUCK else worst.governs
 
 
-def _where(found: Climb, governs: str) -> tuple[str | None, int | None]:
+def _where(case: Case, found: Climb, governs: str) -> tuple[str | None, int | None]:
     """Phase and step number at which the governing failure shows."""
     if governs in ("slip", "friction_unknown") and found.phases:
         hardest = max(found.phases, key=lambda each: each.required_friction)
         return hardest.phase.value, hardest.required_friction_step
+    drop = hardest_drop(case, found) if governs == "energy" else None
+    if drop is not None and drop.spare <= 0:
+        return drop.phase.value, drop.step
     fell = [h for h in found.happenings if h.what.startswith(("fell", "stuck"))]
     if fell:
         return fell[-1].phase.value, fell[-1].step
