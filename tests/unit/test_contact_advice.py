@@ -165,3 +165,13 @@ def test_the_closed_form_sees_the_flight_only():
     flight = assess(ABSOLEM, "ibc", model="closed-form", **question)
     assert (flight.verdict, whole.verdict) == ("go", "no-go")
     assert (whole.governs, whole.phase, whole.step) == ("slip", "enter", 1)
+
+
+def test_where_a_catch_governs_the_centroid_may_be_moved():
+    """61.5 deg lies between the paper's 60.2 and grade two's 62.5: the closed form says how far."""
+    stairs = Stairs.inclined(angle=math.radians(61.5), nosing_spacing=0.150)
+    answer = kaidan.assess("kenaf", stairs, friction=3.0)
+    assert answer.governs == "catch"
+    assert [(each.change, each.verdict) for each in answer.what_would_help] == [
+        ("Move the centroid 42 mm towards the front", "go")
+    ]

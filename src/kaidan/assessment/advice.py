@@ -149,11 +149,12 @@ def by_contact_model(
         candidates += _more_friction(case, found.friction)
     if found.governs == "energy":
         candidates += _slower(case, found.energy)
-    if found.governs in ("tip_downhill", "tip_uphill"):
-        if found.kind:
-            candidates += _measured(case)
-        if case.profile is None and not case.yaw:
-            candidates += _centroid_moved(case, flat, found.governs)
+    tips = ("tip_downhill", "tip_uphill")
+    if found.governs in tips and found.kind:
+        candidates += _measured(case)
+    over = flat.governs if found.governs in ("catch", "momentum") else found.governs
+    if over in tips and case.profile is None and not case.yaw:
+        candidates += _centroid_moved(case, flat, over)
     return improvements(candidates, now, ask)
 
 
