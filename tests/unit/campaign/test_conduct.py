@@ -33,8 +33,8 @@ def test_every_trial_once_and_again_nothing(tmp_path):
 
 
 def test_a_plan_that_names_a_trial_twice(tmp_path):
-    tally = local_campaign(tmp_path, [{"n": 1}, {"n": 2}, {"n": 1}], count=1)
-    assert (tally.done, tally.found) == (2, 1)
+    tally = local_campaign(tmp_path, [{"n": 1}, {"n": 1}, {"n": 2}, {"n": 1}], count=1)
+    assert (tally.done, tally.found) == (2, 2)
     assert numbers(tmp_path) == [1, 2]
 
 
