@@ -105,7 +105,10 @@ def effects(
 
 
 def as_columns(found: Sequence[Effect]) -> dict[str, list[float | str]]:
-    """Effects as columns of a table; lengths in m, stiffness in N/m, angles in degrees."""
+    """Effects as columns of a table; lengths in m, stiffness in N/m, angles in degrees.
+
+    `loss_deg` is how much ascending margin is lost against the smooth belt.
+    """
     return {
         "varied": [each.varied for each in found],
         "value": [each.value for each in found],
@@ -117,6 +120,7 @@ def as_columns(found: Sequence[Effect]) -> dict[str, list[float | str]]:
         "down_deviation_deg": [each.down.deviation for each in found],
         "down_none_lost_to_deg": [each.down.none_up_to for each in found],
         "down_all_lost_from_deg": [each.down.all_from for each in found],
+        "loss_deg": [found[0].up.value - each.up.value for each in found],
         "theta_M_deg": [each.theta_M for each in found],
         "theta_M_deviation_deg": [each.deviation for each in found],
     }

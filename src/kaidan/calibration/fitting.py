@@ -131,7 +131,7 @@ def fit(
     bench : Bench
         What runs the trials.
     evidence : Evidence
-        Of which only the fields `FITTED` are used.
+        Of which only the zone and theta_d are used.
     kind : str
         What is fitted, for the report.
     grid : sequence of (values, setting)
@@ -141,7 +141,7 @@ def fit(
     -------
     Fit
         A parameter's interval has the values whose profile likelihood, the largest over all other
-        parameters, is within `WITHIN` of the largest of all.
+        parameters, is within 1.92 (``WITHIN``) of the largest of all.
     """
     conditions = conditions_fitted(evidence)
     counts = bench.counts((setting, each) for _, setting in grid for each in conditions)

@@ -370,6 +370,9 @@ def _show_effects(robot: str, found: "Sequence[Effect]", seed: int, trials: int)
                 "falls_up": _zone(each.up.none_up_to, each.up.all_from),
                 "down": _plus_minus(each.down.value, each.down.deviation),
                 "falls_down": _zone(each.down.none_up_to, each.down.all_from),
+                "loss": _plus_minus(found[0].up.value - each.up.value, float(
+                    (found[0].up.deviation**2 + each.up.deviation**2) ** 0.5
+                )) if each.varied != "none" else "-",
                 "M": _plus_minus(each.theta_M, each.deviation),
             }
             for each in found
@@ -381,6 +384,7 @@ def _show_effects(robot: str, found: "Sequence[Effect]", seed: int, trials: int)
             "falls_up": "none, all lost",
             "down": "down [deg]",
             "falls_down": "none, all lost",
+            "loss": "less than smooth, up",
             "M": "theta_M [deg]",
         },
     )  # fmt: skip
