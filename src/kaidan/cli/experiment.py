@@ -96,7 +96,7 @@ def experiment(
     if workers is not None and scheduler is not None:
         raise InputError("give either --workers or --scheduler, not both")
     plan = _plan(
-        robot, spacings, angles, trials, descent, physics._track(
+        robot, spacings, angles, trials, descent, physics.track_model(
             track, stiffness, grouser_height, grouser_spacing, shoes
         ), speed, friction, ground, flippers, payload, override, seed,
     )  # fmt: skip

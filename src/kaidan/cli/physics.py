@@ -122,7 +122,7 @@ def export(
         robot, stairs[0] if stairs else None, rise, going, angle, nosing_spacing, steps,
         surface=surface, friction=friction, acceleration="0m/s2", speed=speed,
         direction=direction, facing=facing, flippers=flippers, payload=payload, override=override,
-        track=_track(track, stiffness, grouser_height, grouser_spacing, shoes), begin=begin,
+        track=track_model(track, stiffness, grouser_height, grouser_spacing, shoes), begin=begin,
         releases=2, ground=ground, dimensions=dimensions, yaw=yaw, lateral_offset=lateral_offset,
         start_offset=start_offset, seed=seed, timestep=timestep,
     )  # fmt: skip
@@ -188,7 +188,7 @@ def trial(
         robot, stairs, rise, going, angle, nosing_spacing, steps,
         surface=surface, friction=friction, acceleration=acceleration, speed=speed,
         direction=direction, facing=facing, flippers=flippers, payload=payload, override=override,
-        track=_track(track, stiffness, grouser_height, grouser_spacing, shoes), begin=begin,
+        track=track_model(track, stiffness, grouser_height, grouser_spacing, shoes), begin=begin,
         releases=releases, ground=ground, dimensions=dimensions, yaw=yaw,
         lateral_offset=lateral_offset, start_offset=start_offset, seed=seed, timestep=timestep,
     )  # fmt: skip
@@ -215,7 +215,7 @@ def trial(
     raise typer.Exit(0 if climbed else 3 if result.outcome is Outcome.UNSTABLE else 1)
 
 
-def _track(
+def track_model(
     kind: str, stiffness: str | None, height: str | None, spacing: str | None, shoes: int | None
 ) -> "TrackModel":
     """Model of the track from the options that go with its kind."""
