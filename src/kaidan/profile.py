@@ -21,6 +21,9 @@ Array = NDArray[np.float64]
 STEEP = math.radians(45.0)
 """Slope from which a part of the terrain is a riser and no tread [rad]: stairs have risers near
 90 degrees and treads near 0, and no code allows a flight steeper than 70 degrees."""
+ROUGHNESS = 15e-3
+"""Height of bumps and dents that make no nosing [m]: five times the noise of a scan of 3 mm, less
+than the lowest riser of a uniform flight, 20 mm. They are driven over all the same."""
 MOST_PAIRS = 10_000_000
 """Pairs of segments that are checked for crossings: about a second's work."""
 LARGEST_EXTENT = 1e4
@@ -41,6 +44,8 @@ class Profile(NamedTuple):
     """Whether the terrain hung over itself and was replaced by its envelope."""
     open_risers: bool
     """Whether risers are open, so that their faces stand here but carry nothing."""
+    roughness: float = 0.0
+    """Largest distance of a point from the coarser line on which the nosings were found [m]."""
 
     @classmethod
     def of_stairs(cls, stairs: Stairs) -> Self:
@@ -99,7 +104,7 @@ class Profile(NamedTuple):
         -------
         Profile
             Nosings are the convex corners between a part steeper than 45 degrees and one less
-            steep. Repeated points are dropped.
+            steep, but for a roughness of 15 mm. Repeated points are dropped.
 
         Raises
         ------
@@ -128,11 +133,13 @@ class Profile(NamedTuple):
         if len(line) < 2 or not line[-1, 0] > line[0, 0]:
             raise InputError("profile: needs at least two different points that lead ahead in x")
         envelope, overhangs = _upper_envelope(line)
+        nosings, roughness = _convex_corners(envelope)
         return cls(
             points=_frozen(envelope),
-            nosings=_frozen(_convex_corners(envelope)),
+            nosings=_frozen(nosings),
             overhangs=overhangs,
             open_risers=False,
+            roughness=roughness,
         )
 
     @property
@@ -188,12 +195,36 @@ def _frozen(array: Array) -> Array:
     return array
 
 
-def _convex_corners(points: Array) -> Array:
-    steps = np.diff(points, axis=0)
+def _convex_corners(points: Array) -> tuple[Array, float]:
+    """Convex corners between a part steeper than 45 degrees and one less steep, and roughness."""
+    kept, roughness = _coarser(points, ROUGHNESS)
+    line = points[kept]
+    steps = np.diff(line, axis=0)
     steep = np.abs(np.arctan2(steps[:, 1], steps[:, 0])) > STEEP
     rising = steps[:, 1] > 0
     corner = np.flatnonzero(steep[:-1] & rising[:-1] & ~steep[1:]) + 1
-    return points[corner]
+    return line[corner], roughness
+
+
+def _coarser(points: Array, tolerance: float) -> tuple[NDArray[np.int64], float]:
+    """Points of a coarser line, and how far from it the others are (Douglas & Peucker 1973)."""
+    last = len(points) - 1
+    kept, spans, left = [0, last], [(0, last)], 0.0
+    while spans:
+        begin, end = spans.pop()
+        if end - begin < 2:
+            continue
+        away, chord = points[begin + 1 : end] - points[begin], points[end] - points[begin]
+        along = np.clip(away @ chord / max(float(chord @ chord), 1e-300), 0.0, 1.0)
+        apart = np.hypot(*(away - along[:, None] * chord).T)
+        farthest = int(np.argmax(apart))
+        if apart[farthest] > tolerance:
+            middle = begin + 1 + farthest
+            kept.append(middle)
+            spans += [(begin, middle), (middle, end)]
+        else:
+            left = max(left, float(apart[farthest]))
+    return np.unique(kept), left
 
 
 def _upper_envelope(line: Array) -> tuple[Array, bool]:

@@ -1,6 +1,8 @@
 """Terrain: numbers by hand from drawings in the comments, unless a line says otherwise."""
 
+import math
 import time
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -141,3 +143,20 @@ def test_a_million_points_are_an_answer_or_an_error_in_bounded_time(points):
     except InputError as error:
         assert "thin it" in str(error)  # noqa: PT017 - either is right
     assert time.process_time() - start < 15.0  # s: takes 2 here; ten times slower machines pass
+
+
+def test_a_noisy_scan_has_the_nosings_of_its_flight():
+    """1 cm apart with 3 mm of noise: a bump on a landing or a dent in a riser is no nosing."""
+    rng = np.random.default_rng(3)
+    corners = [(-1.0, 0.0), (0.0, 0.0), (0.0, 0.18), (0.28, 0.18), (0.28, 0.36), (0.56, 0.36)]
+    corners += [(0.56, 0.54), (1.6, 0.54)]
+    line = []
+    for begin, end in pairwise(np.array(corners)):
+        line += list(np.linspace(begin, end, round(math.dist(begin, end) / 0.01), endpoint=False))
+    points = np.array([*line, corners[-1]])
+    points[:, 1] += rng.normal(0.0, 0.003, len(points))
+    profile = Profile.of_points(points)
+    at = [(0.0, 0.18), (0.28, 0.36), (0.56, 0.54)]
+    np.testing.assert_allclose(profile.nosings, at, atol=0.015)  # the roughness it is blind to
+    assert 0.003 < profile.roughness <= 0.015
+    assert Profile.of_points(corners).roughness == 0.0

@@ -196,6 +196,6 @@ def _kernel_for(profile: Profile, step: float, compiled: bool | None) -> bool | 
         raise InputError(
             f"profile: {len(profile.points)} points over "
             f"{profile.points[-1, 0] - profile.points[0, 0]:.0f} m are more than one traverse "
-            "takes: cut or thin it"
+            "takes: cut or thin it (in millimetres?)"
         )
     return compiled

@@ -44,10 +44,11 @@ def ends_of_flights(way: Profile, descending: bool) -> tuple[float, float]:
     if len(way.nosings) == 0:
         return ends_of_way(way)
     first, last = float(way.nosings[0, 0]), float(way.nosings[-1, 0])
-    if descending:  # the foot of the last riser
+    if descending:  # the foot of the last riser, rough as the landing may be
+        floor = way.points[-1, 1] + max(_LEVEL, way.roughness)
         last = max(
             last,
-            float(way.points[way.points[:, 1] > way.points[-1, 1] + 1e-9, 0].max(initial=last)),
+            float(way.points[way.points[:, 1] > floor, 0].max(initial=last)),
         )
     return first, last
 
@@ -60,21 +61,22 @@ def phases_of(
     Between two flights lies a landing where a nosing is `room` or more, the length of the flat,
     from the next: there the robot lands from the one and enters the other.
     """
+    on = max(_ON, way.roughness)
     start_level, end_level = way.points[0, 1], way.points[-1, 1]
     first, last = ends_of_flights(way, descending)
     rear, front = run.poses[:, 6:8], run.poses[:, 8:10]
     # before the edge whatever the height (measured landings are not level), on it by the height
-    entering = (rear[:, 0] < first - _ON) | (
-        (np.abs(rear[:, 1] - start_level) < _ON) & (rear[:, 0] <= first + _ON)
+    entering = (rear[:, 0] < first - on) | (
+        (np.abs(rear[:, 1] - start_level) < on) & (rear[:, 0] <= first + on)
     )
-    landing = (front[:, 0] > last + _ON) | (
-        (np.abs(front[:, 1] - end_level) < _ON) & (front[:, 0] >= last - _ON)
+    landing = (front[:, 0] > last + on) | (
+        (np.abs(front[:, 1] - end_level) < on) & (front[:, 0] >= last - on)
     )
     entering = _without_gaps(entering)
     for ends in _between(way, room):
         leaves = _on_landing(rear, ends, descending)
         if not descending:  # the edge behind it belongs to the flight that it leaves
-            leaves &= rear[:, 0] > ends[0, 0] + _ON
+            leaves &= rear[:, 0] > ends[0, 0] + on
         entering |= _without_gaps(leaves)
         landing |= _on_landing(front, ends, descending) & ~_at_its_end(front, ends)
     phase = np.full(len(run.poses), Phase.TRAVERSE.value, dtype="<U8")
@@ -123,10 +125,11 @@ def over_the_top(
     if len(way.nosings) == 0:
         return np.zeros(len(run.poses), dtype=np.bool_)
     upper = run.poses[:, 6:8] if descending else run.poses[:, 8:10]
+    on = max(_ON, way.roughness)
     over = (
-        upper[:, 0] <= way.nosings[0, 0] + _ON
+        upper[:, 0] <= way.nosings[0, 0] + on
         if descending
-        else upper[:, 0] >= way.nosings[-1, 0] - _ON
+        else upper[:, 0] >= way.nosings[-1, 0] - on
     )
     for ends in _between(way, room):
         here = _on_landing(upper, ends, descending)
