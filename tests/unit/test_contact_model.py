@@ -245,3 +245,9 @@ def test_a_small_risk_takes_more_samples_at_a_yaw_too():
     robot = Robot.named("absolem").model_copy(update={"uncertainty": doubts})
     answer = assess(robot, "ibc", flippers="flat", friction=1.5, yaw=0.1, risk=1e-3)
     assert answer.margin_interval_deg[0] < answer.margin_interval_deg[1]
+
+
+def test_at_best_is_never_less_than_the_margin_where_a_catch_is_accepted():
+    asked = {"friction": 3.0, "flippers": "flat", "accept": "caught"}
+    answer = assess("absolem", "ibc", **asked)
+    assert answer.margin_at_best_deg == pytest.approx(answer.margin_deg, abs=1e-9)  # friction's

@@ -105,7 +105,7 @@ def answer(case: Case, judged: Judgement, flat: Assessment, *, accept: Accept) -
         governs=told.governs,  # type: ignore[arg-type]
         reason=told.reason,
         margin_deg=_degrees(margin),
-        margin_at_best_deg=_degrees(best.worst) if verdict != "outside-model" else None,
+        margin_at_best_deg=_degrees(told.at_best),
         margins_deg={
             "tip_downhill": _degrees(worst.margin("tip_downhill")),
             "tip_uphill": _degrees(worst.margin("tip_uphill")),

@@ -50,6 +50,8 @@ class Ruling(NamedTuple):
     reason: str
     margin: float
     """Smallest margin of slope, allowances off [rad]; NaN: not known."""
+    at_best: float
+    """The same on the kindest reading [rad]."""
     phase: str | None
     step: int | None
     phases: tuple[PhaseShown, ...]
@@ -80,14 +82,17 @@ def ruling(case: Case, found: Climb, *, accept: Accept) -> Ruling:
     held, doubts = _held(case, found, threshold, energy, accept)
     verdict, governs = _verdict(case, found, worst, best, held, doubts, accept)
     phase, step = _where(case, found, governs)
-    margin = worst.worst if verdict != "outside-model" else math.nan
-    if accept == "caught" and held:
-        margin = min(worst.supply, FALL)
+    margin, at_best = worst.worst, best.worst
+    if accept == "caught" and held:  # what tips is caught
+        margin, at_best = min(worst.supply, FALL), min(best.supply, FALL)
+    if verdict == "outside-model":
+        margin = at_best = math.nan
     return Ruling(
         verdict=verdict,
         governs=governs,
         reason=_reason(case, found, verdict, governs, margin, doubts, phase, step),
         margin=margin,
+        at_best=at_best,
         phase=phase,
         step=step,
         phases=_phases_shown(found),
