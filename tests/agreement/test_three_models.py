@@ -127,3 +127,11 @@ def test_a_robot_that_cannot_stand_is_an_answer():
     found = agree(case, resolution=1.0)
     assert answers(found)["stairs"]["physics"] in ("falls", "unknown")
     assert differences(found)["extra", "physics", "contact"].within is None
+
+
+def test_the_whole_way_is_driven_but_its_turn_not_compared():
+    found = agree(case_of(robot(), inclined(50.0, 0.150)), begin="landing", resolution=1.0)
+    assert answers(found)["stairs"]["physics"] == "holds"
+    turn = differences(found)["extra", "physics", "contact"]
+    assert turn.within is None
+    assert turn.cause.startswith("the trial enters and lands")

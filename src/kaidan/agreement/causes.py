@@ -28,7 +28,7 @@ def why_not(model: str, answer: object, known: Known, *, question: str = "stairs
     Parameters
     ----------
     model : str
-        Of `kaidan.agreement.comparing.MODELS`.
+        Of `kaidan.agreement.answer.MODELS`.
     answer : object
         Its answer: a word, or None where it has no number.
     known : Known

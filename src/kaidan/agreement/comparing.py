@@ -1,11 +1,9 @@
 """The questions, the answers, the differences with their bands and likely causes."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any, NamedTuple
 
 from kaidan.agreement import bands
+from kaidan.agreement.answer import MODELS, Agreement, Answer, Difference, Question
 from kaidan.agreement.asked import (
     PLENTY,
     SPEED,
@@ -30,92 +28,8 @@ from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.margin import theta_s_sup
 from kaidan.physics import TrialResult, run
 
-MODELS = {
-    "closed_form": "closed form",
-    "no_rotation": "contact, no rotation",
-    "contact": "contact, caught",
-    "physics": "physics",
-}
 RESOLUTION = 0.1
 """Width of the last bracket of searches by trials [deg]."""
-
-Answer = float | str | None
-
-
-class Question(NamedTuple):
-    """A question and what each of `MODELS` answers."""
-
-    name: str
-    text: str
-    unit: str
-    answers: Mapping[str, Answer]
-    """None: not asked, or no answer."""
-
-
-class Difference(NamedTuple):
-    """One model's answer less another's."""
-
-    question: str
-    of: str
-    less: str
-    value: float | None
-    """None: not comparable, or two words that can only be the same or not."""
-    band: Band | None
-    within: bool | None
-    """None: not comparable."""
-    cause: str
-    """Likely cause where it is not within, or why it cannot be compared; else empty."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Agreement:
-    """What `agree` finds."""
-
-    case: Case
-    begin: Begin
-    speed: float
-    """Of the trials [m/s]."""
-    friction: float
-    """Of the trials, but where it is what is asked [1]."""
-    resolution: float
-    """Of what is found by bisection over trials [deg]."""
-    questions: tuple[Question, ...]
-    differences: tuple[Difference, ...]
-    trials: int
-    """Trials run."""
-    versions: Mapping[str, str]
-
-    @property
-    def agrees(self) -> bool:
-        """Whether every difference that can be told is within its band."""
-        return all(each.within is not False for each in self.differences)
-
-    def as_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON."""
-        case = self.case
-        return {
-            "robot": case.robot.name,
-            "stairs": case.stairs.name,
-            "angle_deg": math.degrees(case.stairs.angle),
-            "nosing_spacing_m": case.stairs.nosing_spacing,
-            "direction": case.direction,
-            "facing": case.facing,
-            "acceleration": case.acceleration,
-            "begin": self.begin,
-            "speed": self.speed,
-            "friction": self.friction,
-            "resolution_deg": self.resolution,
-            "trials": self.trials,
-            "versions": dict(self.versions),
-            "agrees": self.agrees,
-            "questions": [
-                {**each._asdict(), "answers": dict(each.answers)} for each in self.questions
-            ],
-            "differences": [
-                {**each._asdict(), "band": None if each.band is None else each.band._asdict()}
-                for each in self.differences
-            ],
-        }
 
 
 def agree(case: Case, *, begin: Begin = "flight", resolution: float = RESOLUTION) -> Agreement:
@@ -324,6 +238,9 @@ def _late(one: Answer, other: Answer, flight: Question, known: Known) -> bool:
 
 
 def _of_turn(turn: Question, known: Known) -> Difference:
+    if known.result.spec.begin == "landing":
+        cause = "the trial enters and lands, the contact model's figure is of the flight"
+        return Difference(turn.name, "physics", "contact", None, None, None, cause)
     contact = turn.answers["contact"]
     band = bands.turn(contact) if isinstance(contact, float) else None
     return _numbers(turn, "physics", "contact", band, known)
@@ -338,7 +255,8 @@ def _of_grip(grip: Question, known: Known) -> list[Difference]:
 
     angles = grip._replace(unit="deg", answers={model: angle(model) for model in MODELS})
     turned = math.degrees(known.way.extra) if known.way.status is Status.OK else 0.0
-    most = max(turned, known.result.largest_extra_deg, 0.0)
+    on_flight = known.result.spec.begin == "flight"
+    most = max(turned, known.result.largest_extra_deg if on_flight else 0.0)
     return [
         _numbers(angles, "contact", "closed_form", bands.friction_of_poses(turned), known),
         _numbers(angles, "physics", "closed_form", bands.friction(most), known),

@@ -100,7 +100,7 @@ def agree(
 
 
 def _show(found: "Agreement") -> None:
-    from kaidan.agreement.comparing import MODELS
+    from kaidan.agreement.answer import MODELS
 
     case = found.case
     echo(
@@ -132,11 +132,13 @@ def _show(found: "Agreement") -> None:
         },
     )
     echo("")
+    reasons: dict[str, list[int]] = {}
     for number, each in enumerate(found.differences, start=1):
-        if each.cause:
-            echo(f"  {number}  {each.cause[0].upper()}{each.cause[1:]}.")
-        elif each.band is not None:
-            echo(f"  {number}  {each.band.reason[0].upper()}{each.band.reason[1:]}.")
+        text = each.cause or (each.band.reason if each.band is not None else "")
+        if text:
+            reasons.setdefault(text, []).append(number)
+    for text, numbers in reasons.items():
+        echo(f"  {', '.join(map(str, numbers))}: {text}.")
 
 
 def _asked(each: "Question") -> str:
@@ -154,7 +156,7 @@ def _answer(each: "Question", model: str) -> str:
 
 
 def _row(each: "Difference", number: str) -> dict[str, str]:
-    from kaidan.agreement.comparing import MODELS
+    from kaidan.agreement.answer import MODELS
 
     names = {"steepest_flight": "flight", "extra": "inclination"}
     name = names.get(each.question, each.question)

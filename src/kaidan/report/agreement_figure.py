@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from kaidan.agreement import Agreement, Difference
-from kaidan.agreement.comparing import MODELS
+from kaidan.agreement.answer import MODELS
 from kaidan.report import look
 
 _MARKS = {

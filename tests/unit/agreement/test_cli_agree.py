@@ -29,7 +29,7 @@ def test_the_page_for_people():
     lines = result.stdout.splitlines()
     assert lines[0] == "AGREE  kenaf on 58 deg at 150 mm, up nose first"
     assert any(line.split()[:5] == ["on", "58.0", "deg", "holds", "holds"] for line in lines)
-    assert "  1  One criterion, once as a formula and once on poses: 1e-6 rad." in lines
+    assert "  1: one criterion, once as a formula and once on poses: 1e-6 rad." in lines
 
 
 def test_json_and_figure(tmp_path):
