@@ -12,7 +12,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from contact_cases import flight, scanned, stadium
-from kaidan.contact import body_table, ground_table, traverse_many
+from kaidan.contact import STEP, body_table, ground_table, traverse_many
 from kaidan.contact.compiling import kernel_module
 
 COMPILE = "--plain" not in sys.argv
@@ -65,7 +65,7 @@ def main():
     end = 11 * 0.15 * np.cos(np.radians(40)) + 0.8
 
     def motion(g=ground, x1=end):
-        return course.drive(g, body, -1.0, x1, 0.0, 4e-3, 0.0, G, 0.2, *tables)
+        return course.drive(g, body, -1.0, x1, 0.0, STEP, 0.0, G, 0.2, *tables)
 
     count = motion()[1]
     table, found = margins_of.new_margins(count)

@@ -20,8 +20,8 @@ from kaidan.contact.compiling import kernel_module
 from kaidan.contact.tables import FloatArray, body_table, ground_table
 
 GRAVITY = 9.80665
-#: Arclength between poses [m].
-STEP = 4e-3
+#: Arclength between poses [m]: beyond 5 mm grazing contacts could be passed over between two poses.
+STEP = 5e-3
 #: Gap up to which a feature counts as a contact [m].
 TOUCH = 1e-9
 #: How far below the flat a nosing may lie and still count as on it for grade one [m].

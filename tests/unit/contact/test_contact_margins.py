@@ -192,11 +192,13 @@ def test_every_pose_is_stable_in_the_mirror(seed):
     rng = np.random.default_rng(seed)
     parts, _ = random_robot(rng, flippers=False, least_radius=0.03)
     terrain = steps(rng.uniform(0.05, 0.2), rng.uniform(0.15, 0.4), 4)
-    run = traverse(terrain, parts, -1.5, 1.0, with_margins=False)
+    run = traverse(terrain, parts, -1.5, 1.0)
     reflected, swapped = mirror(terrain, parts)
     done = 0
-    for row in rng.choice(len(run.poses), 25):
+    for row in rng.choice(len(run.poses), 40):
         q = run.poses[row]
+        if run.margins[row, 14] > 2:
+            continue  # the condition below is one of two contacts
         if min(q[1] - q[6], q[8] - q[1]) < 1e-3:
             continue  # about to be let go
         # let down at a fixed x nothing but the contacts' normals counts, friction does not: the
