@@ -105,7 +105,7 @@ def grousers(
     friction: Friction = 0.8,
     trials: Trials = 5,
     seed: Seed = 0,
-    judged: Judged = 1,
+    judged: Judged = 4,
     step: Step = "2deg",
     store: StoreFolder = None,
     workers: Workers = None,
