@@ -29,6 +29,8 @@ from kaidan.mechanics.measures import kinetic_energy_height
 Accept = Literal["no-rotation", "caught"]
 
 
+_ALIKE = 1e-6
+"""Difference of two turns that is rounding [deg]."""
 _SOLVER = (Status.NOT_CONVERGED, Status.TOO_LONG, Status.NO_START)
 
 
@@ -205,8 +207,9 @@ def _where(case: Case, found: Climb, governs: str) -> tuple[str | None, int | No
     if fell:
         return fell[-1].phase.value, fell[-1].step
     swings = [h for h in found.happenings if h.swing_deg and h.phase is Phase.TRAVERSE]
-    if swings:
-        worst = max(swings, key=lambda h: h.swing_deg or 0.0)
+    if swings:  # the first of those that are alike: the way repeats itself
+        largest = max(each.swing_deg or 0.0 for each in swings)
+        worst = next(each for each in swings if (each.swing_deg or 0.0) > largest - _ALIKE)
         return worst.phase.value, worst.step
     traverse = [each for each in found.phases if each.phase is Phase.TRAVERSE]
     return ("traverse", traverse[0].energy_margin_step) if traverse else (None, None)

@@ -89,7 +89,7 @@ def worst_of_phases(
         if descending and name is Phase.LAND:  # the trailing contact presses on a steep face
             slides = np.abs(run.poses[rows, 10]) > run.poses[rows, 11]
         held = np.where(slides, 0.0, friction)
-        hardest = int(np.argmax(held))
+        hardest = int(np.flatnonzero(held >= held.max() - _TIE)[0])  # inf - _TIE is inf
         places = run.poses[:, 8]
         found.append(
             PhaseFound(

@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 
 from kaidan import contact
 from kaidan.climb import Climb, climb
+from kaidan.contact.forces import contacts_at
 from kaidan.errors import InputError
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.measures import kinetic_energy_height
@@ -382,11 +383,19 @@ def _loss(found: Climb, turn: Array, change: Change, start: int, end: int | None
     )
 
 
-def _impact_speed(run: contact.Traverse, turn: Array) -> float:
-    """Rate of turn before the last impact, times the distance of what hits from what it turns on.
+_TOUCH = 1e-7
+"""Gap up to which a contact is counted [m]."""
 
-    The pose on which the turn ended stands in the traverse with both its contacts.
+
+def _impact_speed(run: contact.Traverse, turn: Array) -> float:
+    """Rate of turn before the last impact, times how far the contacts lie apart.
+
+    Of several that meet the ground at once the farthest hits fastest; what it turned on is the
+    outermost on the other side, because those beyond it have opened.
     """
-    row = int(np.argmin(np.abs(run.poses[:, 1:4] - turn[6:9]).sum(axis=1)))
-    rear, front = run.poses[row, 6:8], run.poses[row, 8:10]
-    return float(turn[10]) * math.dist(rear, front)
+    x, z, phi = (float(value) for value in turn[6:9])
+    table = np.empty((32, 7))
+    many, _ = contacts_at(run.ground, run.body, x, z, phi, _TOUCH, table, 0)
+    points = table[:many, 1:3]
+    outer = points[[int(np.argmin(points[:, 0])), int(np.argmax(points[:, 0]))]]
+    return float(turn[10]) * math.dist(*outer)
