@@ -224,7 +224,7 @@ def effects_figure(found: Sequence[Effect]) -> Figure:
             figure,
             0.5,
             "Effects of the grousers on the margins and on theta_M, as MuJoCo has them",
-            "bars: two standard deviations (counts and grid); dotted: smooth belt; grey: the text's "
+            "bars: two standard deviations (counts, grid); dotted: smooth belt; grey: the text's "
             "1.2 to 2.6°",
         )
     return figure
