@@ -72,6 +72,7 @@ def as_text(answer: "PostureAnswer") -> str:
         lines += [
             f"  after     {_angles(answer.after)}: {_outcome(answer.after)}",
             f"            {answer.after.reason}",
+            f"            asked again with --flippers={_option(answer.after)}",
         ]
     if answer.phases:
         better = "better than one for all" if answer.phases_help else "no better than one for all"
@@ -96,6 +97,12 @@ def as_text(answer: "PostureAnswer") -> str:
 def _angles(each: "Tried | PhasePosture") -> str:
     ends = (("front", each.front_deg), ("rear", each.rear_deg))
     return ", ".join(f"{end} {angle:+.0f} deg" for end, angle in ends if angle is not None)
+
+
+def _option(each: "Tried") -> str:
+    """Text of the option, exact enough to give the same answer."""
+    ends = (each.front_deg, each.rear_deg)
+    return ",".join("stowed" if angle is None else f"{angle:.10g}deg" for angle in ends)
 
 
 def _outcome(each: "Tried | PhasePosture") -> str:

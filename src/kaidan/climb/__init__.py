@@ -28,10 +28,12 @@ SLACK = 2e-3
 rotation: hand measurement step by step is good to 2.8 mm, rubber tracks yield more."""
 
 
-LONG = 20_000
-"""Points and poses above which the plain kernel would take a minute."""
-
-
+PATIENCE = 5.0
+"""Time for which the plain kernel is waited for where the compiled one is at hand [s]."""
+LONG = 60.0
+"""Time beyond which it is not waited for at all [s]."""
+A_POSE, A_POINT = 8e-5, 3.5e-5
+"""Time of the plain kernel for a pose, and for each point of the ground under the robot [s]."""
 LONGEST = 400_000
 """Points and poses above which a traverse is refused: half a minute compiled."""
 
@@ -146,10 +148,10 @@ def climb(
     InputError
         A profile too long for the kernel at hand.
     """
-    compiled = _kernel_for(profile, step, compiled)
     way = profile.reflected() if descending else profile
     body = outline if facing == "nose-first" else outline.turned_round()
     back, ahead = body.reach
+    compiled = _kernel_for(way, back + ahead, step, compiled)
     first, last = ends_of_way(way)
     clear = back + ahead + 1.0
     ends = way.points[[0, -1]] + np.array([[-clear, 0.0], [clear, 0.0]])
@@ -181,21 +183,24 @@ def climb(
     )
 
 
-def _kernel_for(profile: Profile, step: float, compiled: bool | None) -> bool | None:
-    """Whether to compile: a long profile is not driven by the plain kernel (seconds a metre)."""
-    work = len(profile.points) + float(np.abs(np.diff(profile.points, axis=0)).sum()) / step
-    if compiled is None and work > LONG and not contact.numba_is_loaded():
-        if not contact.numba_is_installed():
-            raise InputError(
-                f"profile: {len(profile.points)} points over "
-                f"{profile.points[-1, 0] - profile.points[0, 0]:.0f} m are too many without the "
-                "compiled kernel: pip install 'kaidan[fast]', or cut or thin the profile"
-            )
-        compiled = True
-    if work > LONGEST:
+def _kernel_for(profile: Profile, reach: float, step: float, compiled: bool | None) -> bool | None:
+    """Whether to compile: a long or a dense profile is not driven by the plain kernel."""
+    points, length = len(profile.points), float(np.abs(np.diff(profile.points, axis=0)).sum())
+    span = float(profile.points[-1, 0] - profile.points[0, 0])
+    poses = length / step
+    if points + poses > LONGEST:
         raise InputError(
-            f"profile: {len(profile.points)} points over "
-            f"{profile.points[-1, 0] - profile.points[0, 0]:.0f} m are more than one traverse "
-            "takes: cut or thin it (in millimetres?)"
+            f"profile: {points} points over {span:.0f} m are more than one traverse takes: "
+            "cut or thin it (in millimetres?)"
         )
-    return compiled
+    if compiled is not None or contact.numba_is_loaded():
+        return compiled
+    takes = poses * (A_POSE + A_POINT * points * min(1.0, reach / span))
+    if takes > PATIENCE and contact.numba_is_installed():
+        return True
+    if takes > LONG:
+        raise InputError(
+            f"profile: {points} points over {span:.0f} m are too many without the compiled "
+            "kernel: pip install 'kaidan[fast]', or cut or thin the profile"
+        )
+    return None

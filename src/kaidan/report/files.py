@@ -92,9 +92,10 @@ def points_of(path: Path) -> list[tuple[float, float]]:
         A file that cannot be read, or a row that is not two numbers.
     """
     try:
-        if path.stat().st_size > LARGEST_TABLE:
+        with path.open(encoding="utf-8-sig") as file:  # no file's size bounds what a device gives
+            text = file.read(LARGEST_TABLE + 1)
+        if len(text) > LARGEST_TABLE:
             raise InputError(f"{path}: more than {LARGEST_TABLE // 1_000_000} MB of points")
-        text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
         raise InputError(f"{path}: cannot be read: not a text file") from None
     except (OSError, ValueError) as error:
