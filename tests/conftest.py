@@ -6,6 +6,12 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 
 
+@pytest.fixture(autouse=True)
+def as_into_a_pipe(monkeypatch):
+    """Tables as wide as they like, whatever the screen that runs the tests."""
+    monkeypatch.delenv("COLUMNS", raising=False)
+
+
 @pytest.fixture(scope="session")
 def compiled_kernel(tmp_path_factory):
     """Contact kernel compiled if numba is there, for tests that ask many contact answers.

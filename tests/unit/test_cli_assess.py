@@ -23,11 +23,6 @@ GRIP = ["--friction", "2"]
 CLOSED = ["--model", "closed-form"]
 
 
-@pytest.fixture(autouse=True)
-def _no_terminal(monkeypatch):
-    monkeypatch.delenv("COLUMNS", raising=False)
-
-
 def run(*words):
     """As `by_default`, by the closed form."""
     return by_default(*CLOSED, *words)

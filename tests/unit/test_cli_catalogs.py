@@ -32,12 +32,6 @@ FILLED = {
 }
 
 
-@pytest.fixture(autouse=True)
-def _wide(monkeypatch):
-    """Without a terminal a table is as wide as it needs to be."""
-    monkeypatch.delenv("COLUMNS", raising=False)
-
-
 def run(*words):
     result = CliRunner().invoke(app, list(words))
     if result.exception and not isinstance(result.exception, SystemExit):

@@ -16,12 +16,6 @@ SHORT = ("--rise", "178mm", "--going", "279mm", "--steps", "4")
 POINTS = "x,z\n-2,0\n0,0\n0,0.178\n0.279,0.178\n0.279,0.356\n0.558,0.356\n0.558,0.534\n3,0.534\n"
 
 
-@pytest.fixture(autouse=True)
-def as_into_a_pipe(monkeypatch):
-    """As wide as it likes, whatever screen the tests run on."""
-    monkeypatch.delenv("COLUMNS", raising=False)
-
-
 def run(*arguments):
     return CliRunner().invoke(app, ["traverse", *map(str, arguments)])
 

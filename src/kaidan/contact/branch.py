@@ -320,18 +320,27 @@ def lever_rate(
 
 @kernel
 def may_graze(
-    ground: FloatArray, body: FloatArray, one: int, other: int, sign: float, kappa: float,
+    ground: FloatArray, body: FloatArray, one: int, other: int, sign: float,
+    kappa: float, kappa1: float,
     x0: float, z0: float, phi0: float, t_x: float, t_z: float, t_w: float,
     x1: float, z1: float, phi1: float, u_x: float, u_z: float, u_w: float, ds: float,
 ) -> bool:  # fmt: skip
     """Whether the centroid may pass a contact and come back within one step.
 
     ``sign`` +1 for the front contact, -1 for the rear one, ``one`` and ``other`` its names at both
-    ends. The tangents at both ends meet below the true course if that is convex.
+    ends, ``kappa`` and ``kappa1`` the tilt of effective gravity there: where the course bends back,
+    the tilt at its end hides what was passed. The tangents at both ends meet below the true course
+    if that is convex.
     """
     v1 = sign * lever(ground, body, other, x1, z1, math.cos(phi1), math.sin(phi1), kappa)
     if v1 > 3.0 * ds:
         return False
+    if (
+        v1
+        <= 0.0
+        < sign * lever(ground, body, other, x1, z1, math.cos(phi1), math.sin(phi1), kappa1)
+    ):
+        return True
     rate1 = sign * lever_rate(ground, body, other, x1, z1, phi1, u_x, u_z, u_w)
     rate0 = sign * lever_rate(ground, body, one, x0, z0, phi0, t_x, t_z, t_w)
     if rate0 >= 0.0 or rate1 <= 0.0:
@@ -408,6 +417,7 @@ def advance(
     behind = 0.0
     ahead = 0.0
     kappa = 0.0
+    kappa0 = tilt(a, g, t_x, t_z)
     for _ in range(60):
         good, x1, z1, phi1, u_x, u_z, u_w, r1, f1 = stepped(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, ds
@@ -424,16 +434,16 @@ def advance(
                 ahead = lever(ground, body, f1, x1, z1, c, s, kappa)
                 if ds < 2e-5 or not (
                     (
-                        ahead <= 3.0 * ds
+                        min(ahead, lever(ground, body, f1, x1, z1, c, s, kappa0)) <= 3.0 * ds
                         and may_graze(
-                            ground, body, front, f1, 1.0, kappa,
+                            ground, body, front, f1, 1.0, kappa0, kappa,
                             x, z, phi, t_x, t_z, t_w, x1, z1, phi1, u_x, u_z, u_w, ds,
                         )
                     )
                     or (
-                        behind <= 3.0 * ds
+                        min(behind, -lever(ground, body, r1, x1, z1, c, s, kappa0)) <= 3.0 * ds
                         and may_graze(
-                            ground, body, rear, r1, -1.0, kappa,
+                            ground, body, rear, r1, -1.0, kappa0, kappa,
                             x, z, phi, t_x, t_z, t_w, x1, z1, phi1, u_x, u_z, u_w, ds,
                         )
                     )
