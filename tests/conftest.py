@@ -1,15 +1,11 @@
+import os
 import sys
 from pathlib import Path
 
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
-
-
-@pytest.fixture(autouse=True)
-def as_into_a_pipe(monkeypatch):
-    """Tables as wide as they like, whatever the screen that runs the tests."""
-    monkeypatch.delenv("COLUMNS", raising=False)
+os.environ.pop("COLUMNS", None)  # tables as wide as they like, whatever screen runs the tests
 
 
 @pytest.fixture(scope="session")

@@ -123,7 +123,7 @@ def test_long_profiles_are_refused_and_never_hang(monkeypatch):
 
 
 def test_going_down_the_tail_may_slide_down_the_last_risers():
-    """A trailing end on a riser's face, the other on the landing: it needs no friction to arrive."""
+    """A trailing end on a riser's face, the other on the landing: no friction is needed there."""
     case = case_of("absolem", "ibc", flippers="flat", friction=0.7, direction="down")
     found = climb_of(case)
     land = found.phases[-1]

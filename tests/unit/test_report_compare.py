@@ -60,7 +60,8 @@ def test_every_cell_is_what_assess_says(arguments, options, model):
 def test_files_and_page(tmp_path):
     table, figure = tmp_path / "c.csv", tmp_path / "c.pdf"
     result = run("kenaf", "absolem", "packbot-510", "--stairs", "ibc", "--stairs", "osha-ship",
-                 "--friction", "0.8", "--model", "closed-form", "--csv", str(table), "--figure", str(figure))  # fmt: skip
+                 "--friction", "0.8", "--model", "closed-form", "--csv", str(table),
+                 "--figure", str(figure))  # fmt: skip
     assert result.exit_code == 0
     rows = list(csv.DictReader(io.StringIO(table.read_text())))
     assert [(row["stairs"], row["robot"], row["verdict"]) for row in rows] == [

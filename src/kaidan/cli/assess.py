@@ -101,9 +101,7 @@ def _margin_rows(answer: "Assessment") -> list[str]:
         else f", centroid {answer.margin_centroid_mm:+.0f} mm"
     )
     force = (
-        ""
-        if answer.margin_force_N is None
-        else f", {answer.margin_force_N:+.0f} N along the slope"
+        "" if answer.margin_force_N is None else f", {answer.margin_force_N:+.0f} N along the slope"
     )
     shown = ", ".join(
         f"{name} {value.low_deg:.1f} to {value.high_deg:.1f} deg ({value.source})"
