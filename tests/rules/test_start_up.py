@@ -85,3 +85,21 @@ def test_every_public_name_is_there():
     assert dir(kaidan) == sorted(kaidan.__all__)
     with pytest.raises(AttributeError, match="module 'kaidan' has no attribute 'luck'"):
         _ = kaidan.luck
+
+
+def test_every_command_is_found_by_its_name():
+    """A command line loads the module of its command alone: none may be missing from the map."""
+    import typer
+
+    from kaidan import cli
+
+    known = {name for commands in cli._COMMANDS.values() for name in commands}
+    assert set(typer.main.get_command(cli.app_for(())).commands) == known
+    for name in known:
+        assert name in typer.main.get_command(cli.app_for([name])).commands
+
+
+def test_a_command_loads_its_own_module_alone():
+    modules = imported(RUN, "robots")[1]
+    assert "kaidan.cli.catalogs" in modules
+    assert "kaidan.cli.physics" not in modules

@@ -5,38 +5,32 @@ Exit codes: 0 go or caution, 1 no-go, 2 bad input, 3 outside the model.
 
 import os
 import sys
+from collections.abc import Sequence
 from contextlib import suppress
-from typing import Annotated, NoReturn
+from importlib import import_module
+from typing import Annotated, Any, NoReturn
 
 import typer
 
-from kaidan.cli import (
-    agree,
-    assess,
-    calibrate,
-    campaign,
-    catalogs,
-    experiment,
-    monitor,
-    physics,
-    posture,
-    reports,
-    traverse,
-)
+_COMMANDS = {
+    "agree": ("agree",),
+    "assess": ("assess",),
+    "calibrate": ("calibrate",),
+    "campaign": ("campaign",),
+    "catalogs": ("robots", "stairs", "surfaces", "new", "schema"),
+    "experiment": ("experiment",),
+    "monitor": ("monitor",),
+    "physics": ("physics",),
+    "posture": ("posture",),
+    "reports": ("margin", "plane", "compare", "reproduce"),
+    "traverse": ("traverse",),
+}
+"""Commands by the module that registers them: one that is asked for is loaded alone."""
 
 _START_LIGHTLY = {
     "OPENBLAS_NUM_THREADS": "1",  # no matrix here is worth the threads numpy would start
     "PYDANTIC_DISABLE_PLUGINS": "__all__",  # kaidan uses none, and looking for some takes time
 }
-
-app = typer.Typer(
-    name="kaidan",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    rich_markup_mode=None,
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
 
 
 def _print_version(wanted: bool) -> None:
@@ -47,7 +41,6 @@ def _print_version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
 def kaidan(
     version: Annotated[
         bool, typer.Option("--version", callback=_print_version, help="Show the version and exit.")
@@ -56,17 +49,29 @@ def kaidan(
     """Can this tracked robot take these stairs?"""
 
 
-agree.register(app)
-assess.register(app)
-calibrate.register(app)
-campaign.register(app)
-catalogs.register(app)
-experiment.register(app)
-monitor.register(app)
-physics.register(app)
-posture.register(app)
-reports.register(app)
-traverse.register(app)
+def app_for(words: Sequence[str]) -> typer.Typer:
+    """Command line with the command that comes first, or with all if that is none of them."""
+    app = typer.Typer(
+        name="kaidan",
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+        rich_markup_mode=None,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    app.callback()(kaidan)
+    asked = words[0] if words else ""
+    modules = [name for name, commands in _COMMANDS.items() if asked in commands] or _COMMANDS
+    for name in modules:
+        import_module(f"kaidan.cli.{name}").register(app)
+    return app
+
+
+def __getattr__(name: str) -> Any:
+    """All commands as `app`, for those who run it in their own process."""
+    if name == "app":
+        return app_for(())
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def main() -> None:
@@ -76,7 +81,7 @@ def main() -> None:
     from kaidan.errors import KaidanError
 
     try:
-        app()
+        app_for(sys.argv[1:])()
     except KaidanError as error:
         _complain(str(error))
     except BrokenPipeError:

@@ -251,7 +251,7 @@ def plane(
     figure: FigureFile = None,
     as_json: options.AsJson = False,
 ) -> None:
-    """Show the d-a plane of the paper's Fig. 7: limits of acceleration over the progress.
+    """Show the paper's d-a plane, its figure 7: limits of acceleration over the progress.
 
     Exit code: 0, 1 no plan where one is needed (--accelerate), 2 bad input, 3 outside the model.
     """
