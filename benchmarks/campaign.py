@@ -8,7 +8,6 @@ ratios say more than the figures; trials that only wait show what each way adds 
 
 import argparse
 import json
-import math
 import statistics
 import subprocess
 import sys
@@ -21,9 +20,9 @@ from typing import Any
 
 from kaidan.campaign import (
     TRIALS,
-    Condition,
     DaskWorkers,
     LocalWorkers,
+    Setting,
     Store,
     VerificationTest,
     Work,
@@ -31,8 +30,7 @@ from kaidan.campaign import (
 )
 from kaidan.campaign.local import Workers, processors
 from kaidan.physics import SprungNoses
-from kaidan.report.verification import usual_conditions
-from kaidan.robot import Robot
+from kaidan.studies.verification import usual_conditions
 from record import finish, options
 
 PAPER = (0.150, 0.180, 0.200, 0.220)
@@ -60,16 +58,10 @@ WAITING = Work(
 
 def kenaf_plan(trials: int, seed: int = 0) -> VerificationTest:
     """The paper's experiment: 4 spacings, 12 slopes each, belt with sprung noses of 30 kN/m."""
-    first = VerificationTest(
-        robot=Robot.named("kenaf"),
-        conditions=(Condition(nosing_spacing=0.15, angle=math.radians(50.0)),),
-        track=SprungNoses(stiffness=3e4),
-        trials=trials,
-        seed=seed,
-    )
-    conditions = usual_conditions(first, PAPER, descent=False)
+    setting = Setting.of("kenaf", track=SprungNoses(stiffness=3e4))
+    conditions = usual_conditions(setting, PAPER, descent=False)
     assert len(conditions) == 48
-    return first.model_copy(update={"conditions": conditions})
+    return VerificationTest(setting=setting, conditions=conditions, trials=trials, seed=seed)
 
 
 def seconds(plan: VerificationTest | int, workers: Workers) -> float:

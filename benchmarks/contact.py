@@ -1,8 +1,10 @@
-"""Speed of the contact model: public functions and the kernel under them, warm, one core.
+"""Speed of the contact kernel, warm, one core: poses, flights, a scan, many traverses.
 
-Run ``python benchmarks/contact.py``; ``--plain`` times the uncompiled kernel instead.
+The compiled kernel; ``--plain`` times the other.
 """
 
+import argparse
+import math
 import sys
 import time
 from pathlib import Path
@@ -11,21 +13,34 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
-from contact_cases import flight, scanned, stadium
-from kaidan.contact import STEP, body_table, ground_table, traverse_many
+from contact_cases import flight, scanned, stadium, steps
+from kaidan import Robot
+from kaidan.contact import STEP, Job, body_table, ground_table, traverse_many, use_kernel
 from kaidan.contact.compiling import kernel_module
+from kaidan.outline import Outline
+from kaidan.terrain.profile import Profile
+from kaidan.traversal import traverse
+from record import finish, options
 
-COMPILE = "--plain" not in sys.argv
 G = 9.80665
 KENAF = stadium(0.470, 0.196, 0.071, 0.06)
+SETTLED, POSE = "settled pose from scratch [us]", "pose along a traverse [us]"
+MOTION, EVERY = "flight of 12 steps, motion [ms]", "the same with every margin [ms]"
+SCAN, MANY = "scan, 1 cm, 3 mm noise [ms]", "random traverse from Python [ms]"
+POINTS = "growth of a traverse from 10^4 to 10^5 points [power]"
+STEPS = "growth of a traverse from 300 to 3,000 steps [power]"
+BASELINE = "plain numpy, dropped and turned, a pose [us]"
+TARGETS = {SETTLED: 3.0, POSE: 0.5, MOTION: 0.3, EVERY: 1.0, SCAN: 1.0, MANY: 1.0}
+TARGETS |= {POINTS: 1.1, STEPS: 1.1}
 
 
-def best(function, repeat=30 if COMPILE else 2):
+def best(function, repeat):
+    """Least time of several runs [s]."""
     times = []
     for _ in range(repeat):
-        start = time.perf_counter()
+        start = time.process_time()
         function()
-        times.append(time.perf_counter() - start)
+        times.append(time.process_time() - start)
     return min(times)
 
 
@@ -50,71 +65,91 @@ def drop_and_rotate(terrain, parts, x):
     return lowest
 
 
-def report(name, seconds, target, scale, unit):
-    print(f"{name:58s} {seconds * scale:10.3f} {unit:3s}  target {target}")
+def dense(count, rng):
+    """A flight of twelve steps with so many points, noise of 0.1 mm."""
+    line = steps(0.178, 0.279, 12)
+    along = np.r_[0.0, np.cumsum(np.abs(np.diff(line, axis=0)).sum(axis=1))]
+    s = np.linspace(0.0, along[-1], count)
+    x, z = (np.interp(s, along, each) for each in line.T)
+    return np.stack([np.maximum.accumulate(x), z + 1e-4 * rng.normal(size=count)], 1)
 
 
-def main():
-    start = time.perf_counter()
-    course = kernel_module("course", compile_kernel=COMPILE)
-    margins_of = kernel_module("margins", compile_kernel=COMPILE)
-    batch = kernel_module("batch", compile_kernel=COMPILE)
-    terrain = flight(np.radians(40), 0.15)
-    ground, body = ground_table(terrain), body_table(KENAF)
-    tables = course.new_tables(8000)
-    end = 11 * 0.15 * np.cos(np.radians(40)) + 0.8
+def irregular(count, rng):
+    """Low steps, each of its own."""
+    x = np.cumsum(rng.uniform(0.14, 0.2, count))
+    z = np.cumsum(rng.uniform(0.06, 0.09, count))
+    faces = np.stack([np.repeat(x, 2), np.r_[0.0, np.repeat(z, 2)[:-1]]], 1)
+    return np.vstack([[x[0] - 3.0, 0.0], faces, [x[-1] + 3.0, z[-1]]])
 
-    def motion(g=ground, x1=end):
-        return course.drive(g, body, -1.0, x1, 0.0, STEP, 0.0, G, 0.2, *tables)
 
-    count = motion()[1]
-    table, found = margins_of.new_margins(count)
+def growth(terrain_of, sizes, rng, outline):
+    """Power of the size with which the time of a whole traverse grows."""
+    times = []
+    for size in sizes:
+        profile = Profile.of_points(terrain_of(size, rng))
+        times.append(best(lambda profile=profile: traverse(profile, outline).events, 2))
+    return math.log(times[1] / times[0]) / math.log(sizes[1] / sizes[0])
 
-    def every_margin():
-        margins_of.pose_margins(ground, body, tables[0], count, 0.0, G, 1e-9, table, found)
-        margins_of.flow_energy(ground, body, tables[0], table, np.arange(count))
 
-    every_margin()
-    x = np.linspace(-0.5, 1.2, 2000 if COMPILE else 50)
-    slope = np.full(len(x), 0.3)
-    batch.settle_many(ground, body, x, slope, 0.0)
-    rng = np.random.default_rng(0)
+def random_jobs(count, rng):
+    """Terrains, robots and a job for each pair of them."""
     terrains, robots, jobs = [], [], []
-    for k in range(1000 if COMPILE else 10):
+    for k in range(count):
         L = rng.uniform(0.4, 0.9)
         angle, p = rng.uniform(0.4, 0.8), rng.uniform(0.15, 0.35)
         n = int(rng.integers(3, 8))
         terrains.append(flight(angle, p, n))
         robots.append(stadium(L, 0.45 * L, 0.2 * L, rng.uniform(0.05, 0.12)))
-        jobs.append([k, k, -1.0, (n - 1) * p * np.cos(angle) + 0.8, 0.0, 0.0, 0.2, angle])
-    traverse_many(terrains[:1], robots[:1], jobs[:1], compile_kernel=COMPILE)
-    print(
-        f"ready after {time.perf_counter() - start:.2f} s (first time: compiling; else the cache)"
-    )
+        jobs.append(Job(k, k, -1.0, (n - 1) * p * np.cos(angle) + 0.8, reference=angle))
+    return terrains, robots, jobs
 
-    each = best(lambda: batch.settle_many(ground, body, x, slope, 0.0)) / len(x)
-    report("one settled pose from scratch", each, "3 us", 1e6, "us")
-    baseline = best(lambda: drop_and_rotate(terrain, KENAF, 0.6), 3)
-    report("  plain numpy drop-and-rotate, for comparison", baseline, "-", 1e6, "us")
-    whole = best(motion)
-    report(f"12-step flight with landings, motion ({count} poses)", whole, "0.3 ms", 1e3, "ms")
-    report("  a pose", whole / count, "0.5 us", 1e6, "us")
-    report(
-        "12-step flight, every margin at every pose", best(every_margin) + whole, "1 ms", 1e3, "ms"
-    )
-    x_scan, z_scan = scanned(terrain, rng)
-    rough = ground_table(np.stack([x_scan, z_scan], 1))
-    status = motion(rough, end)
-    rough_time = best(lambda: motion(rough, end))
-    report(
-        f"1 cm scan, 3 mm noise ({status[1]} poses, status {status[0]})",
-        rough_time,
-        "1 ms",
-        1e3,
-        "ms",
-    )
-    many = best(lambda: traverse_many(terrains, robots, jobs, compile_kernel=COMPILE), 3)
-    report(f"{len(jobs)} random traverses from Python", many, "1 s for 1,000", 1.0, "s")
+
+def main():
+    parser = options(argparse.ArgumentParser(description=__doc__))
+    parser.add_argument("--plain", action="store_true", help="time the plain kernel")
+    chosen = parser.parse_args()
+    use_kernel("plain" if chosen.plain else "compiled")
+    repeat, rng = (2 if chosen.plain else 30), np.random.default_rng(0)
+    start = time.perf_counter()
+    driver, judge, batch = (kernel_module(name) for name in ("driver", "margins", "batch"))
+    tables = kernel_module("recording").new_tables(8000)
+    print(f"ready after {time.perf_counter() - start:.2f} s (first: compiling; else the cache)")
+
+    terrain = flight(np.radians(40), 0.15)
+    ground, body = ground_table(terrain), body_table(KENAF)
+    end = 11 * 0.15 * np.cos(np.radians(40)) + 0.8
+
+    def motion(g=ground):
+        return driver.drive(g, body, -1.0, end, 0.0, STEP, 0.0, G, 0.2, *tables)
+
+    count = motion()[1]
+    table, found = judge.new_margins(count)
+
+    def every_margin():
+        motion()
+        judge.pose_margins(ground, body, tables[0], count, 0.0, G, 1e-9, table, found)
+        judge.flow_energy(ground, body, tables[0], table, np.arange(count))
+
+    x = np.linspace(-0.5, 1.2, 50 if chosen.plain else 2000)
+    slope = np.full(len(x), 0.3)
+    rough = ground_table(np.stack(scanned(terrain, rng), 1))
+    terrains, robots, jobs = random_jobs(10 if chosen.plain else 1000, rng)
+    whole = best(motion, repeat)
+    settled = best(lambda: batch.settle_many(ground, body, x, slope, 0.0), repeat)
+    figures = {
+        SETTLED: 1e6 * settled / len(x),
+        BASELINE: 1e6 * best(lambda: drop_and_rotate(terrain, KENAF, 0.6), 3),
+        MOTION: 1e3 * whole,
+        POSE: 1e6 * whole / count,
+        EVERY: 1e3 * best(every_margin, repeat),
+        SCAN: 1e3 * best(lambda: motion(rough), repeat),
+        MANY: 1e3 * best(lambda: traverse_many(terrains, robots, jobs), 3) / len(jobs),
+    }
+    if not chosen.plain:
+        outline = Outline.of(Robot.named("kenaf"))
+        figures[POINTS] = growth(dense, (10_000, 100_000), rng, outline)
+        figures[STEPS] = growth(irregular, (300, 3000), rng, outline)
+    finish(figures, chosen, {} if chosen.plain else TARGETS)
 
 
 if __name__ == "__main__":

@@ -5,8 +5,8 @@ import statistics
 from math import radians
 
 from kaidan.physics import DrivenGrousers, ShoeChain, SmoothBelt, SprungNoses, TrialSpec, run
-from kaidan.robot import Robot
-from kaidan.stairs import Stairs
+from kaidan.question import Question
+from kaidan.terrain.stairs import Stairs
 from record import finish, options
 
 TARGETS = {"smooth-belt": 12.5, "sprung-noses": 25.0, "driven-grousers": 170.0, "shoe-chain": 500.0}
@@ -19,7 +19,7 @@ def milliseconds_a_second(spec: TrialSpec, runs: int) -> float:
     costs = []
     for _ in range(runs):
         result = run(spec)
-        costs.append(1e3 * result.wall_time / result.time)
+        costs.append(1e3 * result.wall_time_s / result.time_s)
     return statistics.median(costs)
 
 
@@ -28,9 +28,10 @@ def main() -> None:
     arguments.add_argument("--runs", type=int, default=15)
     chosen = arguments.parse_args()
     stairs = Stairs.inclined(angle=radians(55), nosing_spacing=0.15)
+    question = Question.of("kenaf", stairs)
     figures, targets = {}, {}
     for track in (SmoothBelt(), SprungNoses(stiffness=SPRING), DrivenGrousers(), ShoeChain()):
-        spec = TrialSpec(robot=Robot.named("kenaf"), stairs=stairs, track=track, start_offset=0.3)
+        spec = TrialSpec(question=question, track=track, start_offset=0.3)
         run(spec)  # what is imported and compiled once
         key = f"{track.kind} [ms a second]"
         light = track.kind in ("smooth-belt", "sprung-noses")

@@ -1,10 +1,10 @@
-"""A physics that is known: falls and turns by rule, so that what a fit finds can be checked."""
+"""A physics that is known: falls and inclines by rule, so that what a fit finds can be checked."""
 
 import math
 
 
-def falls_from(angle_of, turn_of):
-    """Runner whose trials fall from a slope [deg] on and turn by so much [deg] below it.
+def falls_from(angle_of, extra_of):
+    """Runner whose trials fall from a slope [deg] on and incline by so much more [deg] below it.
 
     Both are functions of the spec.
     """
@@ -13,8 +13,8 @@ def falls_from(angle_of, turn_of):
         asked.extend(specs)
         return [
             ("fell_backward", 46.0, 1)
-            if math.degrees(spec.stairs.angle) >= angle_of(spec) - 1e-9
-            else ("climbed", turn_of(spec), 2)
+            if math.degrees(spec.question.terrain.angle) >= angle_of(spec) - 1e-9
+            else ("climbed", extra_of(spec), 2)
             for spec in specs
         ]
 

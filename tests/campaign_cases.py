@@ -56,7 +56,9 @@ def specs(count, **fields):
 
 def start(store, notes, count, seconds, *address):
     """The same in a process of its own; its workers note what they did in a folder."""
-    environment = os.environ | {"PYTHONPATH": str(Path(__file__).parent)}
+    environment = os.environ | {
+        "PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), *sys.path])
+    }
     command = [sys.executable, __file__, str(store), str(count), str(seconds), str(notes)]
     return subprocess.Popen([*command, *address], env=environment, stdout=subprocess.PIPE)
 

@@ -3,15 +3,16 @@
 import math
 
 from kaidan.physics import Outcome, TrialSpec, run
+from kaidan.question import Question
 from kaidan.robot import Robot, Track
-from kaidan.stairs import Stairs
+from kaidan.terrain.stairs import Stairs
 
 SPACINGS = (0.150, 0.180, 0.200, 0.220)
 """Of the paper's verification test [m]."""
 FORMULA = dict(zip(SPACINGS, (60.205, 52.936, 46.185, 37.255), strict=True))
 """theta_s_sup = atan((L - p - C_L)/C_N) [deg]."""
 QUASI_STATIC = dict(zip(SPACINGS, (62.48, 57.70, 53.85, 49.31), strict=True))
-"""Contact model, grade two, R = 60 mm, converged (theory section 6) [deg]."""
+"""Contact model, grade two, R = 60 mm, converged (docs/theory/contact.md) [deg]."""
 
 
 def robot(radius=0.06, **track):
@@ -26,11 +27,12 @@ def robot(radius=0.06, **track):
 
 
 def spec(angle, spacing=0.150, *, radius=0.06, **fields):
-    """Trial at an angle [deg]; the start is the same for all."""
+    """Trial at an angle [deg]; the start is the same for all. Fields of it, or of its question."""
+    trial = {name: fields.pop(name) for name in TrialSpec.model_fields if name in fields}
     stairs = Stairs.inclined(angle=math.radians(angle), nosing_spacing=spacing)
-    return TrialSpec(
-        **{"robot": robot(radius), "stairs": stairs, "start_offset": 0.3, "seed": 0} | fields
-    )
+    sheet, terrain = fields.pop("robot", robot(radius)), fields.pop("terrain", stairs)
+    question = Question.of(sheet, terrain, **fields)
+    return TrialSpec(**{"question": question, "start_offset": 0.3, "seed": 0} | trial)
 
 
 def outcome(angle, spacing=0.150, **fields):

@@ -9,18 +9,23 @@ from pathlib import Path
 from typing import Any
 
 from docutils import nodes
+from models import models
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 from kaidan import catalog
-from kaidan.assessment.answer import Assessment
 from kaidan.robot import Robot
 from kaidan.sheet import Sheet, bounds
-from kaidan.stairs import Stairs
 from kaidan.surface import Surface
+from kaidan.terrain.stairs import Stairs
 
 CATALOG = Path(catalog.__file__).parent
-SHEETS: dict[str, type[Sheet]] = {"robots": Robot, "stairs": Stairs, "surfaces": Surface}
+SHEETS: dict[str, type[Sheet]] = {
+    "robots": Robot,
+    "unweighed": Robot,
+    "stairs": Stairs,
+    "surfaces": Surface,
+}
 
 
 class Written(SphinxDirective):
@@ -87,7 +92,12 @@ class Overview(Catalogue):
 
     def lines(self) -> Iterator[str]:
         """Table of the kind asked for."""
-        tables = {"robots": _robots, "stairs": _stairs, "surfaces": _surfaces}
+        tables = {
+            "robots": _robots,
+            "unweighed": _unweighed,
+            "stairs": _stairs,
+            "surfaces": _surfaces,
+        }
         yield from tables[self.arguments[0]]()
 
 
@@ -110,6 +120,24 @@ def _robots() -> Iterator[str]:
         )
     heads = ["name", "mass [kg]", "L [mm]", "C_L [mm]", "C_N [mm]", "R [mm]", "flippers"]
     yield from table([*heads, "largest p [mm]"], rows)
+
+
+def _unweighed() -> Iterator[str]:
+    rows = []
+    for name in catalog.names("unweighed"):
+        robot = Robot.named(name)
+        assert robot.com_range is not None
+        spans = (robot.com_range.from_front, robot.com_range.height)
+        rows.append(
+            [
+                f"[{name}](#unweighed-{name})",
+                "not published" if robot.mass is None else number(robot.mass),
+                number(1e3 * robot.track.flat_length),
+                *(f"{number(1e3 * low)} to {number(1e3 * high)}" for low, high in spans),
+                number(1e3 * robot.track.front_radius),
+            ]
+        )
+    yield from table(["name", "mass [kg]", "L [mm]", "C_L [mm]", "C_N [mm]", "R [mm]"], rows)
 
 
 def _stairs() -> Iterator[str]:
@@ -165,19 +193,26 @@ def _figures(
         if key in ("name", "title", "notes", "sources"):
             continue
         field = sheet.model_fields[key]
-        if isinstance(value, dict):
+        tables = [value] if isinstance(value, dict) else value
+        if isinstance(tables, list) and isinstance(tables[0], dict):
             inner = next(
                 part
                 for part in (field.annotation, *getattr(field.annotation, "__args__", ()))
                 if inspect.isclass(part) and issubclass(part, Sheet)
             )
-            yield from _figures(inner, value, f"{path}{key}.")
+            for number, table in enumerate(tables, 1):
+                place = f"{path}{key}" if tables[0] is value else f"{path}{key}[{number}]"
+                yield from _figures(inner, table, f"{place}.")
             continue
         unit, _, _ = bounds(field)
         extra = field.json_schema_extra
         symbol = str(extra.get("symbol", "")) if isinstance(extra, dict) else ""
         if isinstance(value, bool):
             shown = "yes" if value else "no"
+        elif isinstance(value, str):
+            shown = value
+        elif isinstance(value, list):
+            shown = " to ".join(f"{each:g}" for each in value) + f"\N{NO-BREAK SPACE}{unit}"
         else:
             shown = f"{value:g}" + (f"\N{NO-BREAK SPACE}{unit}" if unit and unit != "1" else "")
         yield path + key, code(symbol), shown
@@ -198,6 +233,43 @@ class Gross(Written):
             for name, entry in catalog.gross_robots().items()
         ]
         yield from table(["name", "robot", "figures", "source"], rows)
+
+
+class PublicOutcomes(Written):
+    """``{public-outcomes} pair``: what is public of robots on stairs; ``sources``, ``reported``."""
+
+    required_arguments = 1
+    optional_arguments = 0
+
+    def watched(self) -> Iterator[Path]:
+        """The file they stand in."""
+        yield from super().watched()
+        yield CATALOG / "outcomes.toml"
+
+    def lines(self) -> Iterator[str]:
+        """Table of the part that is named."""
+        part = catalog.outcomes()[self.arguments[0]]
+        if self.arguments[0] == "sources":
+            keys = ("citation", "link", "assumed")
+            rows = [[code(key), *(entry[name] for name in keys)] for key, entry in part.items()]
+            yield from table(["source", "document", "link", "what it leaves open"], rows)
+        elif self.arguments[0] == "reported":
+            keys = ("robot", "stairs", "outcome", "status", "missing", "source")
+            rows = [[entry[key] for key in keys] for entry in part]
+            yield from table(["robot", "stairs", "outcome", "status", "missing", "source"], rows)
+        else:
+            rows = [
+                [
+                    entry["robot"],
+                    ", ".join([*entry.get("angles", []), *map(str, entry["stairs"].values())]),
+                    ", ".join(f"{key} {value}" for key, value in entry["manner"].items()),
+                    *(entry[key] for key in ("outcome", "evidence", "status", "note")),
+                    code(entry["source"]),
+                ]
+                for entry in part
+            ]
+            heads = ["robot", "stairs", "manner", "outcome", "evidence", "status", "how", "source"]
+            yield from table(heads, rows)
 
 
 class SheetFields(Written):
@@ -277,6 +349,9 @@ def _flat(group: Any, before: str = "") -> Iterator[tuple[str, Any]]:
 def _described(text: str) -> Iterator[str]:
     """Paragraphs of a docstring; what looks like TOML or an option stays as it is."""
     for paragraph in inspect.cleandoc(text).split("\n\n"):
+        if paragraph.startswith("\b"):  # a drawing
+            yield from ("```text", paragraph.lstrip("\b\n"), "```", "")
+            continue
         text = " ".join(paragraph.split()).replace("*", "\\*")
         yield re.sub(r"(--[\w-]+)", r"`\1`", text)
         yield ""
@@ -298,29 +373,66 @@ def _options(name: str, command: Any) -> Iterator[str]:
 
 
 class Answer(Written):
-    """``{answer}``: fields of the answer's JSON object, from its schema."""
+    """``{answer} kaidan.assessment.answer.Assessment``: fields of an answer, from its schema."""
+
+    required_arguments = 1
+    optional_arguments = 0
 
     def watched(self) -> Iterator[Path]:
         """Module of the answer."""
         yield from super().watched()
-        yield Path(inspect.getfile(Assessment))
+        yield Path(inspect.getfile(self._answer()))
+
+    def _answer(self) -> Any:
+        module, _, name = self.arguments[0].rpartition(".")
+        return getattr(import_module(module), name)
 
     def lines(self) -> Iterator[str]:
         """The object, then the objects within it."""
-        schema = Assessment.json_schema()
-        yield "## The object"
-        yield from _properties(schema)
-        for name, part in schema["$defs"].items():
-            yield f"(answer-{name.lower()})="
-            yield f"## {name}"
+        yield from _object(self._answer())
+
+
+class Answers(Written):
+    """``{answers}``: every answer of a verb, one section each."""
+
+    def watched(self) -> Iterator[Path]:
+        """Modules of the answers."""
+        yield from super().watched()
+        for answer in models("Answer"):
+            yield Path(inspect.getfile(answer))
+
+    def lines(self) -> Iterator[str]:
+        """Its first line and its fields."""
+        for answer in models("Answer"):
+            if answer.__name__ != "Assessment":  # has a page of its own
+                yield f"## {answer.__name__}"
+                yield ""
+                yield _prose(inspect.getdoc(answer) or "")
+                yield from _object(answer)
+
+
+def _object(answer: Any) -> Iterator[str]:
+    """Fields of an object, and of the objects within it."""
+    schema = answer.json_schema()
+    parts = schema.get("$defs", {})
+    whole = answer.__name__.lower()
+    yield from _properties(schema, parts, whole)
+    for name, part in parts.items():
+        if "properties" in part:
+            yield f"({_anchor(whole, name)})="
+            yield f"### {name}"
             yield ""
             yield _prose(part.get("description", ""))
-            yield from _properties(part)
+            yield from _properties(part, parts, whole)
 
 
-def _properties(schema: dict[str, Any]) -> Iterator[str]:
+def _anchor(whole: str, name: str) -> str:
+    return f"answer-{whole}-{name.lower()}"
+
+
+def _properties(schema: dict[str, Any], parts: dict[str, Any], whole: str) -> Iterator[str]:
     rows = [
-        [code(name), _kind(part), _prose(part.get("description", ""))]
+        [code(name), _kind(part, parts, whole), _prose(part.get("description", ""))]
         for name, part in schema["properties"].items()
     ]
     yield from table(["field", "type", "meaning"], rows)
@@ -330,21 +442,29 @@ def _prose(text: str) -> str:
     return " ".join(text.split()).replace("<", "\\<").replace("*", "\\*")
 
 
-def _kind(part: dict[str, Any]) -> str:
+def _kind(part: dict[str, Any], parts: dict[str, Any], whole: str) -> str:
     """Type of a JSON value in words."""
+
+    def kind(inner: dict[str, Any]) -> str:
+        return _kind(inner, parts, whole)
+
     if "$ref" in part:
         name = part["$ref"].rpartition("/")[2]
-        return f"[{name}](#answer-{name.lower()})"
-    if "anyOf" in part:
-        return " or ".join(_kind(choice) for choice in part["anyOf"])
+        known = parts[name]
+        return f"[{name}](#{_anchor(whole, name)})" if "properties" in known else kind(known)
+    for several in ("anyOf", "oneOf"):
+        if several in part:
+            return " or ".join(map(kind, part[several]))
+    if "const" in part:
+        return code(f'"{part["const"]}"')
     if "enum" in part:
         return " or ".join(code(f'"{word}"') for word in part["enum"])
     if part["type"] == "array" and "prefixItems" in part:
-        return "[" + ", ".join(_kind(item) for item in part["prefixItems"]) + "]"
+        return "[" + ", ".join(map(kind, part["prefixItems"])) + "]"
     if part["type"] == "array":
-        return f"list of {_kind(part['items'])}"
-    if part["type"] == "object" and "additionalProperties" in part:
-        return f"object of {_kind(part['additionalProperties'])}"
+        return f"list of {kind(part['items'])}"
+    if part["type"] == "object" and isinstance(part.get("additionalProperties"), dict):
+        return f"object of {kind(part['additionalProperties'])}"
     return str(part["type"])
 
 
@@ -396,7 +516,7 @@ def _origin(reference: str) -> str:
 
 
 class LatestFigures:
-    """Scraper for sphinx-gallery: figures of `kaidan.report`, which are not made by pyplot.
+    """Scraper for sphinx-gallery: figures of `kaidan.figures`, which are not made by pyplot.
 
     Those of pyplot are left to its own scraper, which must come after this one.
     """
@@ -451,9 +571,11 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("catalogue", Catalogue)
     app.add_directive("overview", Overview)
     app.add_directive("gross-robots", Gross)
+    app.add_directive("public-outcomes", PublicOutcomes)
     app.add_directive("sheet", SheetFields)
     app.add_directive("commands", Commands)
     app.add_directive("answer", Answer)
+    app.add_directive("answers", Answers)
     app.add_directive("formulas", Symbols)
     app.connect("autodoc-process-docstring", escape_bars)
     app.connect("missing-reference", public_name)

@@ -53,5 +53,5 @@ for text in axes.texts:
     text.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 1})
 axes.set_xlabel("load behind the front end of the main track [mm]")
 axes.set_ylabel("load above the underside [mm]")
-axes.set_title("smallest margin, allowances off; hatched: no GO", fontsize=10)
+axes.set_title("smallest margin, less allowances; hatched: no GO", fontsize=10)
 plt.show()

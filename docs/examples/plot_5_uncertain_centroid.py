@@ -18,7 +18,7 @@ kenaf = kaidan.Robot.named("kenaf")
 stairs = kaidan.Stairs.inclined(angle=radians(50), nosing_spacing=0.150)
 
 
-def asked(sigma: float) -> kaidan.Assessment:
+def judged(sigma: float) -> kaidan.Assessment:
     """Answer when the centroid along the track has a standard uncertainty [m]."""
     doubt = kenaf.uncertainty.model_copy(update={"com_from_front": sigma})
     return kaidan.assess(kenaf.model_copy(update={"uncertainty": doubt}), stairs, friction=2.0)
@@ -34,7 +34,7 @@ rate = margin_per_centroid_length(
 print(f"{degrees(rate) / 1e3:+.2f} deg per mm")
 
 sigmas = np.linspace(0, 0.020, 21)
-answers = [asked(sigma) for sigma in sigmas]
+answers = [judged(sigma) for sigma in sigmas]
 margins = [answer.margin_deg for answer in answers]
 goes = [answer.verdict == "go" for answer in answers]
 last = max(1e3 * sigma for sigma, go in zip(sigmas, goes, strict=True) if go)
@@ -52,12 +52,13 @@ axes.set_title("filled: GO; open: CAUTION", fontsize=10)
 plt.show()
 
 # %%
-# An open circle is CAUTION and not NO-GO, because the allowances were not measured: if they are
-# zero the robot holds. With a stated uncertainty there is a probability of each failure mode, too.
+# An open circle is CAUTION and not NO-GO: the allowances were not measured, so the worst case takes
+# them at their largest, and with less of them the robot may hold. With a stated uncertainty every
+# failure mode has a probability, too.
 
-answer = asked(0.015)
-print(f"probability of tipping downhill {answer.probability.tip_downhill:.3f}, worst reading")
+answer = judged(0.015)
 print(
-    f"95 % of the margins lie within {answer.margin_interval_deg[0]:+.1f} and "
-    f"{answer.margin_interval_deg[1]:+.1f} deg"
+    f"tipping downhill: probability {answer.findings['tip_downhill'].probability:.3f}, worst case"
 )
+low, high = answer.margin_interval_deg
+print(f"95 % of the margins lie within {low:+.1f} and {high:+.1f} deg")

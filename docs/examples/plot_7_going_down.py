@@ -43,13 +43,20 @@ for facing, limit in table.items():
 
 # %%
 # Absolem, flippers flat, on a code's steepest flight: its centroid lies a little behind the middle,
-# so nose first is the better way down, and turning round matters less.
+# so nose first, with the centroid further uphill, is the better way down. The closed form also says
+# how hard it may brake.
 
 for facing in ("tail-first", "nose-first"):
     answer = kaidan.assess(
-        "absolem", "ibc", direction="down", facing=facing, flippers="flat", friction=1.2
+        "absolem",
+        "ibc",
+        direction="down",
+        facing=facing,
+        flippers="flat",
+        friction=1.2,
+        model="closed-form",
     )
     print(
         f"{facing}: {answer.verdict}, {answer.margin_deg:+.1f} deg; "
-        f"hardest stop {answer.hardest_stop:.2f} m/s2"
+        f"max. braking {answer.closed_form.max_braking:.2f} m/s2"
     )

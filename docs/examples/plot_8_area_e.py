@@ -8,12 +8,10 @@ drive whose acceleration can follow the position on the stairs; Kenaf's could no
 is invented. The areas are the closed form's; the contact model knows no plan.
 """
 
-from math import degrees, radians
+from math import radians
 
 import kaidan
-from kaidan.assessment import case_of
-from kaidan.report.d_a_figure import d_a_figure
-from kaidan.report.d_a_plane import d_a_plane
+from kaidan.figures.d_a_figure import d_a_figure
 
 kenaf = kaidan.Robot.named("kenaf")
 drive = kenaf.drive.model_copy(update={"acceleration_control": True, "max_speed": 1.0})
@@ -30,7 +28,7 @@ for robot in (kenaf, agile):
 # exists if the kinetic energy can be kept between zero and what the largest speed allows, all the
 # way up.
 
-plane = d_a_plane(case_of(agile, stairs, **question), accelerate=True)
+plane = kaidan.plane(agile, stairs, accelerate=True, **question)
 print(plane.plan.reason)
 figure = d_a_figure(plane)
 
@@ -38,4 +36,4 @@ figure = d_a_figure(plane)
 # How steep could it get with any drive and any friction? Over one nosing spacing the limit must
 # leave room for a mean acceleration of zero:
 
-print(f"{degrees(plane.plan.steepest):.1f} deg")
+print(f"{plane.plan.semi_stable_angle_deg:.1f} deg")

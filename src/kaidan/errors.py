@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from difflib import get_close_matches
+from typing import Any
 
 
 class KaidanError(Exception):
@@ -15,15 +16,34 @@ class InputError(KaidanError):
     """
 
 
+def shown(value: Any) -> str:
+    """Text of any value in one short line, for the text of an error."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def short(name: object) -> str:
+    """Name of a file or a thing as it stands in an error: printable and not endless."""
+    text = "".join(c if c.isprintable() else "�" for c in str(name))
+    return text if len(text) <= 200 else f"{text[:120]}...{text[-60:]}"
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """What may have been meant, as the end of a sentence; empty if nothing is close."""
+    by_lower = {each.lower(): each for each in known}
+    close = get_close_matches(word.strip().lower(), by_lower, n=1)
+    return f"; did you mean {by_lower[close[0]]}?" if close else ""
+
+
 class UnknownNameError(InputError):
     """A name that no catalogue holds; the text lists those it does."""
 
-    def __init__(self, kind: str, name: str, known: Iterable[str]) -> None:
+    def __init__(self, kind: str, name: str, known: Iterable[str], elsewhere: str = "") -> None:
         known = sorted(known)
-        close = get_close_matches(name.lower(), known, n=1)
+        close = get_close_matches(name.strip().lower(), known, n=1)
         hint = f" Did you mean {close[0]!r}?" if close else ""
         super().__init__(
-            f"no {kind} is called {name!r} and no such file exists.{hint} "
+            f"no {kind} is called {shown(name)} and no such file exists{elsewhere}.{hint} "
             f"Known: {', '.join(known)}."
         )
 

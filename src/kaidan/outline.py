@@ -7,7 +7,9 @@ the belly (a line).
 
 import math
 from collections.abc import Iterable
-from typing import NamedTuple, Self
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +20,8 @@ from kaidan.robot import FlipperPair, Payload, Posture, Robot, Stance
 Array = NDArray[np.float64]
 
 
-class Outline(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Outline:
     """Underside of a robot in a posture."""
 
     parts: Array
@@ -71,23 +74,42 @@ class Outline(NamedTuple):
         right = np.maximum(self.parts[:, 0] + self.parts[:, 2], self.parts[:, 3] + self.parts[:, 5])
         return float(-left.min()), float(right.max())
 
+    @property
+    def trail(self) -> float:
+        """Largest distance of what lies behind the centroid, whatever the inclination [m]."""
+        discs = self.parts.reshape(-1, 3)
+        behind = discs[discs[:, 0] - discs[:, 2] < 0.0]
+        return float((np.hypot(behind[:, 0], behind[:, 1]) + behind[:, 2]).max(initial=0.0))
+
     def turned_round(self) -> Self:
         """Outline with nose and tail swapped, x counting towards the tail."""
         swapped = self.parts[:, [3, 4, 5, 0, 1, 2]] * np.array([-1.0, 1.0, 1.0, -1.0, 1.0, 1.0])
-        return self._replace(parts=swapped)
+        return replace(self, parts=swapped)
 
 
 def _main_track(robot: Robot, rear: float, front: float, bottom: float) -> list[tuple[float, ...]]:
+    """Parts of the main track: the flat, or what a gap leaves of it, then raised nose and tail.
+
+    The belt is the hull of a chain of wheels, so of its underside each two in turn are a part.
+    """
     r_rear, r_front = robot.track.rear_radius, robot.track.front_radius
-    whole = (rear, bottom + r_rear, r_rear, front, bottom + r_front, r_front)
+    tail, nose = (rear, bottom + r_rear, r_rear), (front, bottom + r_front, r_front)
     gap = robot.track.gap
-    if gap == 0:
-        return [whole]
-    half = (front - rear - gap) / 2
-    return [
-        (rear, bottom + r_rear, r_rear, rear + half, bottom + r_rear, r_rear),
-        (front - half, bottom + r_front, r_front, front, bottom + r_front, r_front),
+    parts: list[tuple[float, ...]] = [(*tail, *nose)]
+    if gap > 0:
+        half = (front - rear - gap) / 2
+        parts = [
+            (*tail, rear + half, bottom + r_rear, r_rear),
+            (front - half, bottom + r_front, r_front, *nose),
+        ]
+    raised = [
+        (front - each.from_front, bottom + each.height, each.radius) for each in robot.track.wheels
     ]
+    behind = sorted(disc for disc in raised if disc[0] < rear)
+    ahead = sorted(disc for disc in raised if disc[0] > front)
+    parts += [(*one, *two) for one, two in pairwise([*behind, tail])]
+    parts += [(*one, *two) for one, two in pairwise([nose, *ahead])]
+    return parts
 
 
 def _flipper(

@@ -4,8 +4,12 @@ From that one place come the validation, the texts of the errors, the JSON schem
 TOML files and the tables of the documentation.
 """
 
+import json
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from decimal import Decimal
+from functools import cache
+from types import NoneType
 from typing import Any, ClassVar, Self, get_args
 
 from pydantic import (
@@ -18,7 +22,8 @@ from pydantic import (
 from pydantic import model_validator as model_validator
 from pydantic.fields import FieldInfo
 
-from kaidan.errors import InputError
+from kaidan.errors import InputError, did_you_mean
+from kaidan.units import kind_of_unit, parse
 
 PLACEHOLDER = "FILL IN"
 """What stands for a value that the user has yet to fill in; no sheet accepts it."""
@@ -42,7 +47,7 @@ def quantity(
         SI unit, "1" for a pure number.
     low, high : float
         Plausible range, both ends allowed: wide enough for every real thing, narrow enough to
-        catch millimetres, feet and degrees.
+        refuse millimetres, feet and degrees.
     meaning : str
         What the quantity is.
     default : object, optional
@@ -69,13 +74,15 @@ class Sheet(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
     label: ClassVar[str] = "sheet"
     """What an error calls the owner of a wrong field."""
-    asked_for: ClassVar[frozenset[str]] = frozenset()
+    requested: ClassVar[frozenset[str]] = frozenset()
     """Optional fields that a blank sheet asks for all the same."""
 
     @model_validator(mode="wrap")
     @classmethod
     def _tell_what_is_wrong(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        wrong = [cls._text(detail) for detail in cls._no_numbers(data)]
+        wrong: list[str] = []
+        if isinstance(data, Mapping):
+            data = cls._in_si(data, wrong)
         if not wrong:
             try:
                 sheet = handler(data)
@@ -92,14 +99,32 @@ class Sheet(BaseModel):
         raise InputError("; ".join(wrong)) from None
 
     @classmethod
-    def _no_numbers(cls, data: Any) -> Iterator[dict[str, Any]]:
-        """Details of what pydantic would kindly turn into a number: true, "0.5"."""
-        for name, value in data.items() if isinstance(data, Mapping) else ():
-            many = isinstance(value, list | tuple)
-            for index, item in enumerate(value if many else (value,)):
-                if isinstance(item, bool | str) and bounds(cls.model_fields.get(name))[0]:
-                    loc = (name, index) if many else (name,)
-                    yield {"loc": loc, "type": "not_a_number", "input": item}
+    def _in_si(cls, data: Mapping[Any, Any], wrong: list[str]) -> dict[Any, Any]:
+        """Fields with quantities written as texts ("290mm") as numbers; `wrong` gets the others."""
+        read = dict(data)
+        for name, value in data.items():
+            if name not in _units_of(cls):
+                continue
+            if not is_list(cls.model_fields[name]):
+                read[name] = cls._number((name,), value, wrong)
+            elif isinstance(value, list | tuple):
+                read[name] = [cls._number((name, k), item, wrong) for k, item in enumerate(value)]
+        return read
+
+    @classmethod
+    def _number(cls, path: tuple[int | str, ...], value: Any, wrong: list[str]) -> Any:
+        """Number for a text with a unit; pydantic would turn true, "0.5" and b"0.5" into some."""
+        if not isinstance(value, bool | str | bytes | bytearray | Decimal):
+            return value
+        kind = kind_of_unit(_units_of(cls)[str(path[0])])
+        if kind is None or not isinstance(value, str) or value == PLACEHOLDER:
+            wrong.append(cls._text({"loc": path, "type": "not_a_number", "input": value}))
+            return value
+        try:
+            return parse(value, kind, option=f"{cls.label}: {_path(path)} =")
+        except InputError as error:
+            wrong.append(str(error))
+            return value
 
     @classmethod
     def _text(cls, detail: Mapping[str, Any]) -> str:
@@ -110,7 +135,9 @@ class Sheet(BaseModel):
         if kind == "missing":
             return f"{where} is missing" + (f" ({field.description})" if field else "")
         if kind == "extra_forbidden":
-            return f"{where} is not a known field; known: {', '.join(cls.model_fields)}"
+            known, hint = ", ".join(cls.model_fields), cls._meant(str(path[-1]))
+            known = f"{hint} Known: {known}" if hint else f"; known: {known}"
+            return f"{where} is not a known field{known if len(path) == 1 else ''}"
         of_unit = f" {unit}" if unit and unit != "1" else ""
         within = f"{low:g} to {high:g}{of_unit}"
         if isinstance(value, str) and value == PLACEHOLDER and field is not None:
@@ -132,6 +159,15 @@ class Sheet(BaseModel):
                 return f"{text} (in {name}? that would be {value * factor:.6g} {unit})"
         return text
 
+    @classmethod
+    def _meant(cls, key: str) -> str:
+        """Hint at the field that an unknown one may stand for, in this table or one below."""
+        for name, field in cls.model_fields.items():
+            table = table_of(field)
+            if table is not None and key in table.model_fields:
+                return f"; did you mean {name}.{key}?"
+        return did_you_mean(key, cls.model_fields)
+
     def refuse(self, text: str) -> InputError:
         """Error for a contradiction between fields, to be raised by the validators of a sheet."""
         return InputError(f"{self.label}: {text}")
@@ -152,6 +188,18 @@ class Sheet(BaseModel):
         except InputError as error:
             raise InputError(f"{origin}: {error}") from None
 
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """Sheet that `to_json` wrote, equal to the one that was written."""
+        try:
+            return cls.model_validate_json(text)
+        except ValidationError as error:  # no JSON at all; a wrong field is an InputError already
+            raise InputError(f"{cls.label}: {error.errors(include_url=False)[0]['msg']}") from None
+
+    def to_json(self) -> str:
+        """One JSON object, indented, in ASCII."""
+        return json.dumps(self.model_dump(mode="json"), indent=2, allow_nan=False)
+
     def to_toml(self) -> str:
         """TOML text that `from_text` reads back to an equal sheet."""
         lines: list[str] = []
@@ -159,9 +207,42 @@ class Sheet(BaseModel):
         return "\n".join(lines).strip() + "\n"
 
 
-def _is_unicode(value: str | dict[str, str]) -> bool:
+@cache
+def _units_of(sheet: type[Sheet]) -> dict[str, str]:
+    """Units of the fields that are quantities or lists of them."""
+    units = {name: bounds(field)[0] for name, field in sheet.model_fields.items()}
+    return {name: unit for name, unit in units.items() if unit is not None}
+
+
+def table_of(field: FieldInfo) -> type[Sheet] | None:
+    """Type of sheet that a field holds, if it holds one."""
+    kinds: tuple[Any, ...] = get_args(field.annotation) or (field.annotation,)
+    kinds = tuple(kind for kind in kinds if kind is not NoneType)
+    if len(kinds) == 1 and isinstance(kinds[0], type) and issubclass(kinds[0], Sheet):
+        return kinds[0]
+    return None
+
+
+def table_of_list(field: FieldInfo) -> type[Sheet] | None:
+    """Type of sheet of which a field holds a list, if it holds one."""
+    kinds: tuple[Any, ...] = get_args(field.annotation)
+    if len(kinds) == 2 and kinds[1] is Ellipsis and isinstance(kinds[0], type):
+        return kinds[0] if issubclass(kinds[0], Sheet) else None
+    return None
+
+
+def table_of_each(field: FieldInfo) -> type[Sheet] | None:
+    """Type of sheet that a field holds under names of the user's own, if it holds some."""
+    kinds: tuple[Any, ...] = get_args(field.annotation)
+    if len(kinds) == 2 and isinstance(kinds[1], type) and issubclass(kinds[1], Sheet):
+        return kinds[1]
+    return None
+
+
+def _is_unicode(value: str | dict[str, Any]) -> bool:
     """Whether a text, or all texts of a mapping, can be written as UTF-8."""
     texts = (value,) if isinstance(value, str) else (*value.keys(), *value.values())
+    texts = tuple(text for text in texts if isinstance(text, str))
     return not any("\ud800" <= character <= "\udfff" for text in texts for character in text)
 
 
@@ -230,13 +311,16 @@ def _key(key: str) -> str:
 
 
 def toml_value(value: Any) -> str:
-    """TOML text of a string, number, truth value or list."""
+    """TOML text of a string, number, truth value, list, or of a table within a list."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, int | float):
         return repr(value)
     if isinstance(value, str):
         return f'"{"".join(_escaped(character) for character in value)}"'
+    if isinstance(value, Mapping):
+        pairs = (f"{_key(key)} = {toml_value(item)}" for key, item in value.items())
+        return f"{{ {', '.join(pairs)} }}"
     return "[" + ", ".join(toml_value(item) for item in value) + "]"
 
 

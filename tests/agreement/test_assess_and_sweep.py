@@ -1,6 +1,6 @@
 """One robot and ten million get the same answer: assess, the plain sweep and the compiled one.
 
-assess judges by margins of `kaidan.mechanics.margins`, readings, samples and steps; the sweeps by
+assess judges by margins of `kaidan.mechanics.margins` over cases, samples and steps; the sweeps by
 `kaidan.mechanics.verdict.judged` over arrays, the compiled one through its own tan and atan2.
 """
 
@@ -11,10 +11,12 @@ import pytest
 import xarray as xr
 
 from kaidan import Robot, Stairs, assess, sweep, verdicts
-from kaidan.mechanics.margins import Mode
-from kaidan.mechanics.verdict import Judged, Verdict
+from kaidan.mechanics.verdict import Judged
+from kaidan.models.closed_form import MODES
+from kaidan.modes import FORMULAS, Undecided, Verdict
 from kaidan.robot import Drive, Track
 from kaidan.sweeps import compiled
+from kaidan.sweeps.pairs import CODES
 
 ROUNDING = 1e-12
 """Twenty operations with quotients up to 1e3 in double precision [rad, m, m/s^2]."""
@@ -57,7 +59,7 @@ def edge_pairs():
 def assert_alike(one, other, tilted):
     for name, left, right in zip(Judged._fields, one, other, strict=True):
         np.testing.assert_array_equal(np.isnan(left), np.isnan(right), err_msg=name)
-        if name in ("verdict", "governs"):
+        if name in CODES:
             # on a limit to rounding either side is right
             sharp = ~(np.abs(one.margin) < ROUNDING)
             if name == "governs":
@@ -74,7 +76,7 @@ def assert_alike(one, other, tilted):
 
 def nearest_two(answer):
     """Distance of the two smallest margins, where a tie may fall either way."""
-    modes = np.array([answer.tip_downhill, answer.tip_uphill, answer.slip_up, answer.slip_down])
+    modes = np.array([getattr(answer, mode.key) for mode in FORMULAS])
     ordered = np.sort(np.where(np.isnan(modes), np.inf, modes), axis=0)
     with np.errstate(invalid="ignore"):
         return ordered[1] - ordered[0]
@@ -88,22 +90,21 @@ def test_both_engines_agree(pairs):
     plain, fast = verdicts(pairs, engine="numpy"), verdicts(pairs, engine="compiled")
     assert_alike(plain, fast, pairs["angle"] + pairs["theta_d"] + pairs["theta_M"])
     kinds = set(plain.verdict.tolist())
-    assert kinds == set(map(int, Verdict))
-    governing = set(plain.governs[plain.verdict != Verdict.OUTSIDE_MODEL].tolist())
-    assert governing == set(map(int, Mode))
+    assert kinds == {verdict.rank for verdict in Verdict}
+    governing = set(plain.governs[plain.verdict != Verdict.OUTSIDE_MODEL.rank].tolist())
+    assert governing == set(range(len(FORMULAS)))
     # a positive margin of a known friction is what GO means, in both
     for answer in (plain, fast):
         with np.errstate(invalid="ignore"):
             go = (answer.margin > 0) & ~np.isnan(pairs["friction"])
-        np.testing.assert_array_equal(answer.verdict == Verdict.GO, go)
+        np.testing.assert_array_equal(answer.verdict == Verdict.GO.rank, go)
         outside = 2 * pairs["nosing_spacing"] > pairs["flat_length"] * (1 + 1e-15)
-        np.testing.assert_array_equal(answer.verdict == Verdict.OUTSIDE_MODEL, outside)
+        np.testing.assert_array_equal(answer.verdict == Verdict.OUTSIDE_MODEL.rank, outside)
         for name in set(Judged._fields) - {"verdict", "governs", "required_friction"}:
             assert np.isnan(getattr(answer, name)[outside]).all(), name
 
 
-WORDS = {Verdict.GO: "go", Verdict.CAUTION: "caution", Verdict.NO_GO: "no-go"}
-WORDS |= {Verdict.OUTSIDE_MODEL: "outside-model"}
+WORDS = {verdict.rank: verdict.value for verdict in Verdict}
 
 
 def random_robot(draw):
@@ -123,7 +124,7 @@ def random_robot(draw):
 
 
 def random_question(draw):
-    """What holds for all flights of one robot: ways, allowances measured or not."""
+    """What holds for all flights of one robot: direction, allowances measured or not."""
     question = {
         "direction": str(draw.choice(["up", "down"])),
         "facing": str(draw.choice(["nose-first", "tail-first"])),
@@ -146,17 +147,18 @@ def random_flights(draw, L, count):
 
 def assert_same(found, asked):
     """One flight of a table against the answer of assess."""
-    assert WORDS[Verdict(int(found["verdict"]))] == asked.verdict
+    assert WORDS[int(found["verdict"])] == asked.verdict
     if asked.verdict == "outside-model":
         assert math.isnan(found["margin_deg"])
         return
-    if asked.governs != "friction_unknown":
-        assert MODES[int(found["governs"])] == asked.governs
+    if asked.governs != Undecided.FRICTION_UNKNOWN:
+        assert MODES[int(found["governs"])].key == asked.governs
+    one = asked.closed_form
     for name, value in {
         "margin_deg": asked.margin_deg,
-        "margin_angle_deg": asked.margin_angle_deg,
+        "margin_angle_deg": one.margin_angle_deg,
         **{f"{mode}_deg": value for mode, value in asked.margins_deg.items()},
-        "margin_centroid_mm": asked.margin_centroid_mm,
+        "margin_centroid_mm": one.margin_centroid_mm,
         "required_friction": asked.required_friction,
     }.items():
         if value is None:
@@ -164,14 +166,11 @@ def assert_same(found, asked):
         else:
             # degrees and millimetres: 1e3 times the rounding of radians and metres
             assert found[name] == pytest.approx(value, rel=1e-9, abs=1e3 * ROUNDING), name
-    if asked.a_max is None:
+    if one.a_max is None:
         assert not found["a_min"] < found["a_max"]
     else:
-        assert found["a_max"] == pytest.approx(asked.a_max, rel=1e-9, abs=1e3 * ROUNDING)
-        assert found["a_min"] == pytest.approx(asked.a_min, rel=1e-9, abs=1e3 * ROUNDING)
-
-
-MODES = [mode.name.lower() for mode in Mode] + ["drive"]
+        assert found["a_max"] == pytest.approx(one.a_max, rel=1e-9, abs=1e3 * ROUNDING)
+        assert found["a_min"] == pytest.approx(one.a_min, rel=1e-9, abs=1e3 * ROUNDING)
 
 
 def test_assess_and_sweep_agree_on_certain_cases():
@@ -197,4 +196,4 @@ def test_assess_and_sweep_agree_on_certain_cases():
                 governing.add(asked.governs)
     assert sum(seen.values()) >= 2_000
     assert min(seen.values()) > 100, seen
-    assert governing == {*MODES, "friction_unknown"}
+    assert governing == {*(mode.key for mode in MODES), Undecided.FRICTION_UNKNOWN}

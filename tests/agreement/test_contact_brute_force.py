@@ -125,7 +125,7 @@ def compare(terrain, parts, x_start, x_end):
     order e and order sqrt(e). It is refined until two levels agree within 0.05 deg; if three fall
     in a steady ratio, the limit of that series is taken. Anything else is no confirmation (NaN).
     """
-    run = traverse(terrain, parts, x_start, x_end, with_margins=False, compile_kernel=True)
+    run = traverse(terrain, parts, x_start, x_end, with_margins=False)
     mine, top = VERDICT.get(run.status, run.status.name), np.degrees(run.largest_inclination())
     seen = []
     for level in LEVELS:

@@ -11,7 +11,6 @@ from scipy.optimize import linprog
 
 from contact_cases import random_robot, random_terrain, stadium, steps
 from kaidan.contact import traverse
-from kaidan.contact.forces import contacts_at
 
 pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
@@ -40,7 +39,6 @@ def poses(seed, a):
     terrain = random_terrain(rng)
     run = traverse(
         terrain, parts, terrain[0, 0] + 2, terrain[-1, 0] - 2, kinds=kinds, acceleration=a,
-        compile_kernel=True,
     )  # fmt: skip
     return run, rng
 
@@ -56,20 +54,20 @@ def test_every_accepted_pose_is_in_equilibrium():
         if len(run.poses) == 0:
             continue
         for row in rng.choice(len(run.poses), min(60, len(run.poses)), replace=False):
-            q, m = run.poses[row], run.margins[row]
-            if m[14] != 2:  # only the two-contact solution claims to be the least friction
+            q, m = run.poses, run.margins
+            if m.contacts[row] != 2:  # only then two contacts claim to need the least friction
                 continue
-            if min(m[6], m[7]) < 1e-6:  # m: over a contact, an event that is located to 1e-9 m
+            # m: over a contact, an event that is located to 1e-9 m
+            if min(m.back[row], m.front[row]) < 1e-6:
                 continue
-            com = q[1:3]
-            points = [q[6:8], q[8:10]]
-            normals = [q[10:12], q[12:14]]
-            kappa = m[17]
-            psi = q[14]
+            com = q.placements[row, :2]
+            points = [q.rear_point[row], q.front_point[row]]
+            normals = [q.rear_normal[row], q.front_normal[row]]
+            kappa, psi = m.tilt[row], q.path_direction[row]
             weight = np.array([a * np.cos(psi), G + a * np.sin(psi)])
             assert kappa == pytest.approx(weight[0] / weight[1], abs=1e-12)
-            mu = m[0]
-            walls += abs(np.arctan2(q[10], q[11])) > 1.4 or abs(np.arctan2(q[12], q[13])) > 1.4
+            mu = m.required_friction[row]
+            walls += any(abs(np.arctan2(*normal)) > 1.4 for normal in normals)
             checked += 1
             # the programme's own tolerance is 1e-7 of the forces: 1e-4 either side is resolved
             assert feasible(points, normals, com, weight, mu * (1 + 1e-4) + 1e-4), (seed, row)
@@ -84,14 +82,15 @@ def test_forces_balance():
     """The forces named with the friction do balance the weight, wherever they are finite."""
     run = traverse(steps(0.17, 0.28, 5), stadium(0.7, 0.3, 0.12, 0.09), -1.5, 1.8)
     q, m = run.poses, run.margins
-    n1, n2 = q[:, 10:12], q[:, 12:14]
+    n1, n2 = q.rear_normal, q.front_normal
     t1 = np.stack([n1[:, 1], -n1[:, 0]], 1)
     t2 = np.stack([n2[:, 1], -n2[:, 0]], 1)
-    two = (m[:, 14] == 2) & np.isfinite(m[:, 1])
-    force1 = m[:, [1]] * n1 + m[:, [2]] * t1
-    force2 = m[:, [3]] * n2 + m[:, [4]] * t2
+    two = (m.contacts == 2) & np.isfinite(m.rear_load)
+    force1 = m.rear_load[:, None] * n1 + m.rear_traction[:, None] * t1
+    force2 = m.front_load[:, None] * n2 + m.front_traction[:, None] * t2
     total = force1 + force2
-    r1, r2 = q[:, 6:8] - q[:, 1:3], q[:, 8:10] - q[:, 1:3]
+    com = q.placements[:, :2]
+    r1, r2 = q.rear_point - com, q.front_point - com
     moment = (
         r1[:, 0] * force1[:, 1] - r1[:, 1] * force1[:, 0]
         + r2[:, 0] * force2[:, 1] - r2[:, 1] * force2[:, 0]
@@ -115,21 +114,23 @@ def test_three_contacts_and_more_need_no_less():
         seed += 1
         if len(run.poses) == 0:
             continue
-        many = np.flatnonzero((run.margins[:, 14] > 2) & np.isfinite(run.margins[:, 0]))
-        leaving = np.append(False, np.diff(run.poses[:, 0]) == 0)
+        friction = run.margins.required_friction
+        many = np.flatnonzero((run.margins.contacts > 2) & np.isfinite(friction))
+        leaving = np.append(False, np.diff(run.s) == 0)
         many = many[~leaving[many]]
         for row in rng.choice(many, min(6, len(many)), replace=False) if len(many) else []:
-            q, mu = run.poses[row], run.margins[row, 0]
-            found = np.zeros((32, 7))
-            count, _ = contacts_at(run.ground, run.body, q[1], q[2], q[3], 1e-9, found, 0)
-            points, normals = found[:count, 1:3], found[:count, 3:5]
+            place, mu = run.poses.placement(row), friction[row]
+            contacts = run.contacts_at(place, 1e-9)
+            points = np.array([each.point for each in contacts])
+            normals = np.array([each.normal for each in contacts])
+            com = np.array(place[:2])
             weight = np.array([0.0, G])
             checked += 1
-            assert feasible(points, normals, q[1:3], weight, mu * (1 + 1e-4) + 1e-4), (seed, row)
-            if feasible(points, normals, q[1:3], weight, 0.0):
+            assert feasible(points, normals, com, weight, mu * (1 + 1e-4) + 1e-4), (seed, row)
+            if feasible(points, normals, com, weight, 0.0):
                 wedged += 1
             elif mu > 2e-3:
-                assert not feasible(points, normals, q[1:3], weight, mu * (1 - 1e-3) - 1e-4), (
+                assert not feasible(points, normals, com, weight, mu * (1 - 1e-3) - 1e-4), (
                     seed, row, mu,
                 )  # fmt: skip
     assert checked >= 300

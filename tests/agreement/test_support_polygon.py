@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from kaidan.assessment import case_of
-from kaidan.assessment.yaw import polygon_energy, polygon_margins
+from kaidan.models.support_polygon import energy_of, margins_of
+from kaidan.question import Question
 from kaidan.robot import Robot, Track
-from kaidan.stairs import Stairs
+from kaidan.terrain.stairs import Stairs
 
 pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
@@ -60,11 +60,9 @@ def test_the_sign_of_the_margin_is_the_polygons():
             com_height=C_N,
             track=Track(flat_length=L, front_radius=0.05, rear_radius=0.05, gauge=gauge),
         )
-        case = case_of(
-            robot, Stairs.inclined(angle=theta, nosing_spacing=p), friction=1.0, acceleration=a,
-            yaw=psi,
-        )  # fmt: skip
-        margin = float(polygon_margins(case).min())
+        flight = Stairs.inclined(angle=theta, nosing_spacing=p)
+        question = Question.of(robot, flight, friction=1.0, acceleration=a)
+        margin = float(margins_of(question, flight, np.array([psi])).min())
         load = C_N * math.tan(theta)
         z = np.array(
             [
@@ -93,7 +91,8 @@ def test_energy_is_that_of_a_turn_about_the_edge():
         track=Track(flat_length=0.7, front_radius=0.05, rear_radius=0.05, gauge=0.4),
     )
     theta, psi, p = 0.6, 0.4, 0.2
-    case = case_of(robot, Stairs.inclined(angle=theta, nosing_spacing=p), friction=1.0, yaw=psi)
+    flight = Stairs.inclined(angle=theta, nosing_spacing=p)
+    question = Question.of(robot, flight, friction=1.0)
     up = np.array(
         [math.sin(theta) * math.cos(psi), -math.sin(theta) * math.sin(psi), math.cos(theta)]
     )
@@ -110,4 +109,5 @@ def test_energy_is_that_of_a_turn_about_the_edge():
             heights.append(float((a + v) @ up))
         rises.append(max(heights))
     # m: the turn is found to 1e-4 rad, the height to its square
-    assert polygon_energy(case) == pytest.approx(min(rises), abs=1e-8)
+    found = energy_of(question, flight, np.array([psi]))
+    assert float(found[0]) == pytest.approx(min(rises), abs=1e-8)

@@ -4,11 +4,10 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
-
-pytestmark = pytest.mark.slow
 
 DOCS = Path(__file__).parents[2] / "docs"
 FETCHED = re.compile(
@@ -18,6 +17,19 @@ FETCHED = re.compile(
     r"|@import\s+(?:url\()?[\"']?(?:https?:)?//|url\([\"']?(?:https?:)?//",
 )
 """What a browser would fetch; a link that a reader may follow is not."""
+
+
+@pytest.mark.parametrize("kind", ["robots", "unweighed", "stairs", "surfaces"])
+def test_every_sheet_of_the_catalogues_is_written(kind, monkeypatch):
+    pytest.importorskip("sphinx", reason="pip install '.[docs]'")
+    monkeypatch.syspath_prepend(str(DOCS / "_ext"))
+    from kaidan_docs import CATALOG, SHEETS, _figures
+
+    for file in sorted((CATALOG / kind).glob("*.toml")):
+        content = tomllib.loads(file.read_text(encoding="utf-8"))
+        figures = [shown for _, _, shown in _figures(SHEETS[kind], content)]
+        assert figures
+        assert all(figures)
 
 
 @pytest.fixture(scope="module")
@@ -38,16 +50,19 @@ def site(tmp_path_factory):
     return folder / "html"
 
 
+@pytest.mark.slow
 def test_the_site_builds_without_warnings(site):
     assert (site / "index.html").is_file()
 
 
+@pytest.mark.slow
 def test_the_site_fetches_nothing_from_elsewhere(site):
     for path in [*site.rglob("*.html"), *site.rglob("*.css")]:
         found = FETCHED.search(path.read_text(encoding="utf-8"))
         assert found is None, f"{path.relative_to(site)}: {found.group() if found else ''}"
 
 
+@pytest.mark.slow
 def test_formulas_are_mathml(site):
     page = (site / "theory" / "margin.html").read_text(encoding="utf-8")
     assert page.count("<math ") > 20
@@ -55,6 +70,7 @@ def test_formulas_are_mathml(site):
     assert "MathJax" not in page
 
 
+@pytest.mark.slow
 def test_no_path_of_the_builder_is_in_the_site(site):
     for path in site.rglob("*.html"):
         text = path.read_text(encoding="utf-8")

@@ -12,14 +12,14 @@ from hypothesis import assume, given, reject, settings
 
 import kaidan
 from kaidan import Assessment, Payload, Robot, Stairs, Surface
+from kaidan.modes import Verdict
 from kaidan.robot import Track, Uncertainty
-from kaidan.stairs import StairsUncertainty
+from kaidan.terrain.stairs import StairsUncertainty
 
 assess = partial(kaidan.assess, model="closed-form")
 
 ROUNDING = {"rel": 1e-9, "abs": 1e-9}
 """A dozen operations with quotients up to 1e3, in degrees and millimetres."""
-RANK = ("go", "caution", "no-go", "outside-model")
 SCHEMA = jsonschema.Draft202012Validator(Assessment.json_schema())
 WAYS = st.fixed_dictionaries(
     {
@@ -31,9 +31,7 @@ WAYS = st.fixed_dictionaries(
 
 def always(examples, *strategies):
     """The same examples in every run."""
-    return lambda test: settings(max_examples=examples, deadline=None, derandomize=True)(
-        given(*strategies)(test)
-    )
+    return lambda test: settings(max_examples=examples, deadline=None)(given(*strategies)(test))
 
 
 @st.composite
@@ -79,7 +77,7 @@ def ask(shape, **question):
 
 
 def worse(one, other):
-    return RANK.index(one.verdict) > RANK.index(other.verdict)
+    return Verdict(one.verdict).rank > Verdict(other.verdict).rank
 
 
 # What an answer always is
@@ -112,39 +110,40 @@ def test_an_answer_is_consistent(shape, ways, a, friction, measured, sigma, data
         assert answer.governs == "friction_unknown"
     known = [margin for margin in answer.margins_deg.values() if margin is not None]
     assert answer.margin_deg <= min(known) + 1e-9
-    assert answer.margin_at_best_deg >= answer.margin_deg
+    assert answer.margin_best_deg >= answer.margin_deg
     # the chosen risk decides
-    if answer.probability is None:
+    chance = answer.failure_probability
+    if chance is None:
         assert answer.margin_deg == min(known)
         assert answer.margin_interval_deg is None
     else:
-        assert (answer.margin_deg > 0) == (answer.probability.any <= answer.risk)
+        assert (answer.margin_deg > 0) == (chance <= answer.question.risk)
         low, high = answer.margin_interval_deg
         assert low <= high
-        each = [answer.probability.tip_downhill, answer.probability.tip_uphill]
-        each += [chance for chance in (answer.probability.slip_up,) if chance is not None]
-        assert max(each) <= answer.probability.any <= 1
+        each = [one.probability for one in answer.findings.values()]
+        assert max(alone for alone in each if alone is not None) <= chance <= 1
     # bands: allowances and risk only take away
-    if answer.a_max_safe is not None:
-        assert answer.a_min_safe < answer.a_max_safe
-        if answer.probability is None:
-            assert answer.a_max_safe <= answer.a_max + 1e-9
-            assert answer.a_min_safe >= answer.a_min - 1e-9
+    band = answer.closed_form
+    if band.a_max_safe is not None:
+        assert band.a_min_safe < band.a_max_safe
+        if chance is None:
+            assert band.a_max_safe <= band.a_max + 1e-9
+            assert band.a_min_safe >= band.a_min - 1e-9
     # certain, no drive: GO is the safe band
-    if answer.probability is None and friction is not None:
-        inside = answer.a_max_safe is not None and answer.a_min_safe < a < answer.a_max_safe
+    if chance is None and friction is not None:
+        inside = band.a_max_safe is not None and band.a_min_safe < a < band.a_max_safe
         if abs(answer.margin_deg) > 1e-9:
             assert inside == (answer.margin_deg > 0)
-            assert (answer.area == "D") == (answer.margin_deg > 0)
-    # hardest start and stop are the ends of that band
-    if answer.a_max_safe is not None:
+            assert (band.area == "D") == (answer.margin_deg > 0)
+    # max. start acceleration and braking are the ends of that band
+    if band.a_max_safe is not None:
         up = ways["direction"] == "up"
-        start = answer.a_max_safe if up else -answer.a_min_safe
-        stop = -answer.a_min_safe if up else answer.a_max_safe
-        assert answer.hardest_start == (start if start > 0 else None)
-        assert answer.hardest_stop == (stop if stop > 0 else None)
+        start = band.a_max_safe if up else -band.a_min_safe
+        stop = -band.a_min_safe if up else band.a_max_safe
+        assert band.max_start == (start if start > 0 else None)
+        assert band.max_braking == (stop if stop > 0 else None)
     for change in answer.what_would_help:
-        rank = RANK.index(change.verdict) - RANK.index(answer.verdict)
+        rank = Verdict(change.verdict).rank - Verdict(answer.verdict).rank
         assert rank < 0 or (rank == 0 and change.margin_deg > answer.margin_deg)
 
 
@@ -170,12 +169,21 @@ def test_scaling_all_lengths_leaves_angles_and_accelerations(shape, ways, a, fri
     if small.margin_deg is not None and abs(small.margin_deg) > 1e-9:
         assert (large.verdict, large.governs) == (small.verdict, small.governs)
         assert large.falls_over == small.falls_over
-    assert large.contacts_n == small.contacts_n
-    for name in ("margin_deg", "margin_angle_deg", "a_max", "a_min_safe", "required_friction"):
-        one, other = getattr(small, name), getattr(large, name)
-        assert other == (None if one is None else pytest.approx(one, **ROUNDING)), name
-    if small.margin_centroid_mm is not None:
-        assert large.margin_centroid_mm == pytest.approx(k * small.margin_centroid_mm, **ROUNDING)
+    for name in ("margin_deg", "required_friction"):
+        assert_same(getattr(small, name), getattr(large, name), name)
+    few, many = small.closed_form, large.closed_form
+    assert (few is None) == (many is None)
+    if few is None:
+        return
+    assert many.contacts_n == few.contacts_n
+    for name in ("margin_angle_deg", "a_max", "a_min_safe"):
+        assert_same(getattr(few, name), getattr(many, name), name)
+    if few.margin_centroid_mm is not None:
+        assert many.margin_centroid_mm == pytest.approx(k * few.margin_centroid_mm, **ROUNDING)
+
+
+def assert_same(one, other, name):
+    assert other == (None if one is None else pytest.approx(one, **ROUNDING)), name
 
 
 # Mirror: nose first down is tail first up of the robot turned round
@@ -197,12 +205,13 @@ def test_down_is_up_of_the_turned_robot(shape, a, friction, facing):
             continue
         assert (up.verdict, up.governs) == (down.verdict, down.governs)
         assert up.falls_over == ends(down.falls_over)
-        for name in ("margin_deg", "margin_angle_deg", "lower_angle_deg", "a_max", "a_min_safe"):
-            one, found = getattr(down, name), getattr(up, name)
+        assert_same(down.margin_deg, up.margin_deg, "margin_deg")
+        for name in ("margin_angle_deg", "lower_angle_deg", "a_max", "a_min_safe"):
+            one, found = (getattr(each.closed_form, name, None) for each in (down, up))
             if name == "lower_angle_deg" and (one is None) != (found is None):
                 assert (one or found) < 1e-9  # at level to rounding
                 continue
-            assert found == (None if one is None else pytest.approx(one, **ROUNDING)), name
+            assert_same(one, found, name)
 
 
 def test_theta_m_is_what_mirror_images_differ_by():
@@ -229,11 +238,12 @@ def test_a_higher_centroid_never_improves_tipping_downhill(shape, ways, a, more)
     """While the equivalent slope is uphill: the limit is a slope, and it sinks with the height."""
     low = ask(shape, friction=5.0, acceleration=a, **ways)
     high = ask(shape | {"C_N": shape["C_N"] + more}, friction=5.0, acceleration=a, **ways)
-    if low.margins_deg["tip_downhill"] is None or low.paper.min_a_r0 < 0:
+    figures = low.closed_form
+    if figures is None or figures.paper.min_a_r0 < 0:
         return
-    assume(low.margin_angle_deg > 0)
-    assume(math.tan(math.radians(low.margin_angle_deg)) * 9.80665 > -a)
-    x_uphill = low.a_tip_downhill  # positive: the centroid is above its support
+    assume(figures.margin_angle_deg > 0)
+    assume(math.tan(math.radians(figures.margin_angle_deg)) * 9.80665 > -a)
+    x_uphill = figures.a_tip_downhill  # positive: the centroid is above its support
     if x_uphill > 0 and a >= 0:
         assert high.margins_deg["tip_downhill"] <= low.margins_deg["tip_downhill"] + 1e-9
 
@@ -243,11 +253,16 @@ def test_steeper_is_worse_where_theory_says_so(shape, ways, friction, more):
     """Downhill tipping and sliding get worse with the slope, uphill tipping gets better."""
     steeper = shape | {"angle": shape["angle"] + more}
     gentle, steep = (ask(each, friction=friction, **ways) for each in (shape, steeper))
-    for mode, sign in (("tip_downhill", 1), ("slip_up", 1), ("tip_uphill", -1), ("slip_down", -1)):
-        before, after = gentle.margins_deg[mode], steep.margins_deg[mode]
+    for mode, sign in (
+        ("tip_downhill", 1),
+        ("slides_down", 1),
+        ("tip_uphill", -1),
+        ("slides_up", -1),
+    ):
+        before, after = gentle.margins_deg.get(mode), steep.margins_deg.get(mode)
         if before is not None and after is not None:
             assert sign * (before - after) == pytest.approx(math.degrees(more), **ROUNDING)
-    if gentle.governs in ("tip_downhill", "slip_up"):
+    if gentle.governs in ("tip_downhill", "slides_down"):
         assert not worse(gentle, steep)
 
 
@@ -335,6 +350,6 @@ def test_a_measured_flight_is_as_bad_as_its_worst_step(shape, ways, friction, da
         return
     assert whole.margin_deg == pytest.approx(min(answer.margin_deg for answer in each), **ROUNDING)
     assert whole.required_friction == max(answer.required_friction for answer in each)
-    for name, tightest in (("a_tip_downhill", min), ("a_tip_uphill", max), ("a_slip_up", min)):
-        expected = tightest(getattr(answer, name) for answer in each)
-        assert getattr(whole, name) == pytest.approx(expected, **ROUNDING)
+    for name, tightest in (("a_tip_downhill", min), ("a_tip_uphill", max), ("a_slides_down", min)):
+        expected = tightest(getattr(answer.closed_form, name) for answer in each)
+        assert getattr(whole.closed_form, name) == pytest.approx(expected, **ROUNDING)

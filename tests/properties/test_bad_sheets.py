@@ -10,8 +10,8 @@ from kaidan import catalog
 from kaidan.errors import InputError
 from kaidan.robot import Payload, Posture, Robot
 from kaidan.sheet import Sheet
-from kaidan.stairs import Stairs
 from kaidan.surface import Surface
+from kaidan.terrain.stairs import Stairs
 
 SHEETS = {"robots": Robot, "stairs": Stairs, "surfaces": Surface}
 by_sheet = pytest.mark.parametrize("sheet", SHEETS.values(), ids=SHEETS)

@@ -30,9 +30,7 @@ ROUNDING = {"rel": 1e-9, "abs": 1e-9}
 
 def always(*strategies):
     """Two hundred examples, the same in every run."""
-    return lambda test: settings(max_examples=200, deadline=None, derandomize=True)(
-        given(*strategies)(test)
-    )
+    return lambda test: settings(max_examples=200, deadline=None)(given(*strategies)(test))
 
 
 lengths = st.floats(0.3, 2.0)
@@ -158,7 +156,7 @@ def test_margins_mirror(robot, theta_s, a, mu_s):
     up = margins(**robot, theta_s=theta_s, a=a, mu_s=mu_s)
     down = margins(**swapped(robot), theta_s=-theta_s, a=-a, mu_s=mu_s)
     assert up.tip_downhill == pytest.approx(down.tip_uphill, **ROUNDING)
-    assert up.slip_up == pytest.approx(down.slip_down, **ROUNDING)
+    assert up.slides_down == pytest.approx(down.slides_up, **ROUNDING)
     assert up.theta_s_sup == pytest.approx(-down.theta_s_inf, **ROUNDING)
     assert up.worst == pytest.approx(down.worst, **ROUNDING)
 
@@ -286,8 +284,8 @@ def test_friction_only_helps(robot, theta_s, a, mu_s, more):
     pose = {"theta_s": theta_s, "a": a}
     rough = margins(**robot, **pose, mu_s=mu_s + more)
     smooth = margins(**robot, **pose, mu_s=mu_s)
-    assert rough.slip_up > smooth.slip_up
-    assert rough.slip_down > smooth.slip_down
+    assert rough.slides_down > smooth.slides_down
+    assert rough.slides_up > smooth.slides_up
     assert rough.worst >= smooth.worst
 
 
@@ -353,7 +351,7 @@ EXAMPLES = {
     "M": 12.0, "a": 0.7, "theta_s": 0.6, "mu_s": 0.9, "traction": 60.0, "normal": 90.0,
     "d": 0.03, "k": 2.0, "n": 3.0, "p": 0.15, "L": 0.47, "C_L": 0.196, "C_N": 0.071, "s": 0.35,
     "alpha": 0.3, "beta": 0.3, "theta_alpha": 0.6, "theta_beta": 0.8, "min_a_r0": 3.0,
-    "max_a_rn": -4.0, "a_S": 2.0, "a_slip_down": -9.0, "a_r0": 8.0, "a_rn": -7.0, "grip": 0.8,
+    "max_a_rn": -4.0, "a_S": 2.0, "a_slides_up": -9.0, "a_r0": 8.0, "a_rn": -7.0, "grip": 0.8,
     "theta_s_sup": 1.0, "theta_d": 0.05, "theta_M": 0.02, "spare_d": 0.03,
     "spare_M": 0.01, "x": 0.2, "slope": 0.1, "kappa": 0.1,
     "share": 0.4, "x_0": 0.4, "x_n": 0.05,

@@ -11,13 +11,15 @@ from kaidan import catalog
 
 CATALOG = Path(catalog.__file__).parent
 FILES = sorted(
-    path for kind in ("robots", "stairs", "surfaces") for path in (CATALOG / kind).iterdir()
+    path
+    for kind in ("robots", "unweighed", "stairs", "surfaces")
+    for path in (CATALOG / kind).iterdir()
 )
 STATUS = ("V: ", "C: ", "D: ", "U: ")
 
 
 def numbers(table: dict[str, Any], path: str = "") -> Iterator[str]:
-    """Dotted names of everything in a file that is a number, a list or a truth value.
+    """Dotted names of everything in a file that is a number, a list, a truth value or a belt.
 
     A truth value is a fact too, but one the code or drawing shows at a glance: it needs none.
     """
@@ -26,7 +28,9 @@ def numbers(table: dict[str, Any], path: str = "") -> Iterator[str]:
             continue
         if isinstance(value, dict):
             yield from numbers(value, f"{path}{key}.")
-        elif isinstance(value, int | float | list) and not isinstance(value, bool):
+        elif key == "belt" or (
+            isinstance(value, int | float | list) and not isinstance(value, bool)
+        ):
             yield path + key
 
 

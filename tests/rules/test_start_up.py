@@ -99,6 +99,13 @@ def test_every_command_is_found_by_its_name():
         assert name in typer.main.get_command(cli.app_for([name])).commands
 
 
+def test_a_question_to_the_closed_form_loads_no_contact_model():
+    modules = imported(RUN, *ASSESS, "--model", "closed-form")[1]
+    assert "kaidan.models.closed_form" in modules
+    for name in ("kaidan.contact", "kaidan.traversal", "kaidan.physics", "kaidan.models.spread"):
+        assert name not in modules
+
+
 def test_a_command_loads_its_own_module_alone():
     modules = imported(RUN, "robots")[1]
     assert "kaidan.cli.catalogs" in modules

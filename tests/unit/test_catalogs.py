@@ -9,15 +9,15 @@ import pytest
 from kaidan import catalog
 from kaidan.errors import InputError, UnknownNameError
 from kaidan.robot import Posture, Robot
-from kaidan.stairs import Stairs
 from kaidan.surface import Surface
+from kaidan.terrain.stairs import Stairs
 
 # L, C_L, C_N, R front, R rear [mm], mass [kg]: the table of kaidan's fact sheet, row by row.
 ROBOTS = {
     "kenaf": (470, 196, 71, 65, 65, None),
     "absolem": (500, 279, 184, 89, 89, 38.7),
     "absolem-flat": (1141, 599, 180, 29, 29, 38.7),
-    "marv": (1106, 551, 186, 78, 78, 60.4),
+    "marv": (512, 254, 161, 116.5, 116.5, 60.4),
     "ozbot-atr": (1045, 438, 308, 140, 110, 146.3),
     "csiro-dtr": (518, 155, 159, 64, 84, 37.8),
     "superdroid-hd2": (720, 358, 172, 129, 129, 34.0),
@@ -164,7 +164,7 @@ def test_surfaces_have_the_published_ranges():
     [
         ("superdroid-hd2", ["55 mm to the side", "swapped"]),
         ("csiro-dtr", ["about 30 kg", "37.8 kg"]),
-        ("marv", ["no main track", "convex hull"]),
+        ("marv", ["no main track", "closed form"]),
         ("absolem-flat", ["hull", "absolem --flippers flat", "discs"]),
         ("kenaf", ["not published", "inferred"]),
         ("marmotte", ["assumption"]),
@@ -196,22 +196,16 @@ def test_unknown_names_list_the_known_ones():
 
 def test_a_gross_robot_says_why_it_cannot_be_judged():
     with pytest.raises(InputError) as caught:
-        Robot.named("packbot-510")
+        Robot.named("teodor")
     assert str(caught.value) == (
-        "iRobot PackBot 510: no centroid is published, so no margin can be computed; "
-        "weigh and tilt the robot and fill in a sheet: kaidan new robot"
+        "tEODor: neither length nor centroid is published, so no margin can be computed; "
+        "measure the robot: kaidan measure robot --help"
     )
 
 
-def test_gross_robots_are_those_of_the_fact_sheet():
-    assert set(catalog.gross_robots()) == {
-        "packbot-510",
-        "teodor",
-        "athena",
-        "sakura-2",
-        "quince",
-        "taurob-tracker",
-    }
+def test_robots_that_nobody_weighed_have_sheets_and_others_gross_figures():
+    assert set(catalog.gross_robots()) == {"teodor", "athena", "sakura-2", "survey-runner"}
+    assert catalog.names("unweighed") == ("packbot-510", "quince", "talon", "taurob-tracker")
 
 
 SURFACE = "friction_low = 0.5\nfriction_high = 0.6\n"
@@ -278,13 +272,64 @@ def test_folders_and_devices_are_refused(tmp_path):
 
 @pytest.mark.parametrize(
     "name",
-    ["", " ", "\x00", "a\nb", "x" * 5000, "no/such/file.toml", "con", "\ud800", "C:\\x.toml"],
+    ["", " ", "\x00", "a\nb", "x" * 5000, "con", "\ud800"],
 )
 def test_odd_names_are_unknown_names(name):
     with pytest.raises(UnknownNameError) as caught:
         Robot.named(name)
-    assert repr(name) in str(caught.value)
-    assert "\n" not in str(caught.value)
+    assert repr(name)[:50] in str(caught.value)
+    assert len(str(caught.value)) < 300
+    assert str(caught.value).isprintable()
+
+
+@pytest.mark.parametrize("name", ["stairs.toml", "no/such/file", "./kenaf", "C:\\x.toml"])
+def test_a_missing_path_is_no_unknown_name(name):
+    for kind in (Robot, Stairs, Surface):
+        with pytest.raises(InputError) as caught:
+            kind.named(name)
+        assert str(caught.value) == f"{name}: no such file"
+
+
+def test_a_name_of_another_catalogue():
+    with pytest.raises(UnknownNameError, match=r"^no robot is called 'ibc' and no such file "):
+        Robot.named("ibc")
+    with pytest.raises(UnknownNameError, match=r"exists, but a robot is. Known: "):
+        Stairs.named("kenaf")
+
+
+@pytest.mark.parametrize("given", ["robot", "staircase", "surface"])
+@pytest.mark.parametrize("wanted", ["robot", "staircase", "surface"])
+def test_a_sheet_of_another_kind_is_told(given, wanted, tmp_path):
+    kinds = {"robot": Robot, "staircase": Stairs, "surface": Surface}
+    sheets = {"robot": "kenaf", "staircase": "ibc", "surface": "concrete-dry"}
+    path = tmp_path / "sheet.toml"
+    path.write_text(kinds[given].named(sheets[given]).to_toml(), encoding="utf-8")
+    if given == wanted:
+        kinds[wanted].named(str(path))
+        return
+    with pytest.raises(InputError) as caught:
+        kinds[wanted].named(str(path))
+    assert str(caught.value) == f"{path}: is the sheet of a {given}, not of a {wanted}"
+
+
+def test_a_sheet_with_units(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        'rises = ["180mm", "7 1/2in", 0.18]\ngoings = ["28cm", "11\\""]\n'
+        'uncertainty = { angle = "0.5deg" }\n',
+        encoding="utf-8",
+    )
+    flight = Stairs.named(str(path))
+    assert flight.rises == (0.18, 0.1905, 0.18)
+    assert flight.goings == pytest.approx((0.28, 0.2794), rel=1e-15)
+    assert flight.uncertainty.angle == pytest.approx(math.radians(0.5), rel=1e-15)
+    path.write_text('rise = "180"\ngoing = "0.28kg"\n', encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        Stairs.named(str(path))
+    assert str(caught.value) == (
+        f"{path}: stairs: rise = '180' has no unit; write 180mm or 180cm or 180m; "
+        "stairs: going = '0.28kg': 'kg' is no unit of length; known: mm, cm, m, in, ft"
+    )
 
 
 def test_a_file_nobody_may_read(tmp_path, monkeypatch):

@@ -15,9 +15,10 @@ from kaidan import catalog
 from kaidan.catalog.template import blank_toml, required_fields
 from kaidan.cli import app, main
 from kaidan.errors import InputError
+from kaidan.question import Question
 from kaidan.robot import Robot
-from kaidan.stairs import Stairs
 from kaidan.surface import Surface
+from kaidan.terrain.stairs import Stairs
 
 SHEETS = {"robot": Robot, "stairs": Stairs, "surface": Surface}
 LISTS = {"robot": "robots", "stairs": "stairs", "surface": "surfaces"}
@@ -25,6 +26,8 @@ FILLED = {
     "com_from_front": 0.25,
     "com_height": 0.1,
     "flat_length": 0.5,
+    "front_radius": 0.09,
+    "rear_radius": 0.09,
     "rise": 0.18,
     "going": 0.28,
     "friction_low": 0.5,
@@ -66,10 +69,15 @@ def test_robots_are_listed_with_their_key_figures():
 
 
 def test_robots_without_a_centroid_are_listed_apart():
-    judged, apart = run("robots").split("No centroid published, so no margin can be computed:")
+    judged, rest = run("robots").split("Nobody measured the centroid, a range is stated: ")
+    ranged, apart = rest.split("No length published either, so nothing can be computed:")
     for name in catalog.gross_robots():
-        assert name not in judged
+        assert name not in judged + ranged
         assert row(apart, name)
+    for name in catalog.names("unweighed"):
+        assert name not in judged
+        assert row(ranged, name)
+    assert row(ranged, "quince")[2:5] == ["436", "131 to 262", "112 to 269"]
 
 
 def test_stairs_are_listed_with_their_key_figures():
@@ -163,10 +171,10 @@ def test_a_measured_flight_is_shown_with_its_own_count(tmp_path):
 
 
 def test_a_gross_robot_is_shown_with_what_is_missing():
-    text = run("robots", "Quince")
-    assert "body 0.66 x 0.48 m" in text
-    assert "No centroid is published" in text
-    assert run_json("robots", "quince")["kind"] == "gross"
+    text = run("robots", "Athena")
+    assert "step 0.41 m" in text
+    assert "No length is published" in text
+    assert run_json("robots", "athena")["kind"] == "gross"
 
 
 def test_what_a_file_says_does_not_steer_the_terminal(tmp_path):
@@ -211,7 +219,7 @@ def test_a_new_sheet_explains_every_field(what):
             meaning = " ".join(field["description"].split())
             comments = " ".join(text.replace("\n# ", " ").split())
             assert meaning.split(";")[0] in comments, name
-            assert re.search(rf"^#?\[?\"?{name}\b", text, flags=re.M), name
+            assert re.search(rf"^#?\[*([\w.]*\.)?\"?{name}\b", text, flags=re.M), name
             if "unit" in field and field["unit"] != "1":
                 assert f"{meaning}" in comments
                 assert re.search(rf"; {re.escape(field['unit'])}, \S+ to \S+", comments), name
@@ -220,14 +228,17 @@ def test_a_new_sheet_explains_every_field(what):
 def test_a_robot_with_everything_taken_into_use_loads():
     """Each remaining value is the low end of the range in the comment above it."""
     chosen = FILLED | {
-        "mass": 30, "length": 0.33, "root_radius": 0.09, "tip_radius": 0.03, "pivot_height": 0.09,
+        "belt": '"grousers"', "mass": 30, "length": 0.33, "root_radius": 0.09, "tip_radius": 0.03,
+        "pivot_height": 0.09,
     }  # fmt: skip
     text = re.sub(r"^#(?! |$)", "", blank_toml(Robot, name="whole", title="y"), flags=re.M)
+    text = text.replace('from_front = ["FILL IN"]', "from_front = [0.2, 0.3]")
+    text = text.replace('height = ["FILL IN"]', "height = [0.1, 0.2]")
     lines = text.splitlines()
     for index, line in enumerate(lines):
         if line.endswith('= "FILL IN"'):
             name = line.split()[0]
-            low = re.search(r"(\S+) to \S+$", lines[index - 1]).group(1)
+            low = re.search(r"(\S+) (?:to|or) \S+$", lines[index - 1]).group(1)
             lines[index] = f"{name} = {chosen.get(name, low)}"
     robot = Robot.from_text("\n".join(lines), origin="whole")
     assert robot.front_flippers is not None
@@ -319,10 +330,19 @@ def test_the_schema_accepts_the_catalogue_and_names_units_and_symbols(what):
         text = SHEETS[what].named(name).to_toml()
         validator(schema).validate(tomllib.loads(text))
     assert not validator(schema).is_valid({"rise": 180, "going": 280, "friction_low": 60})
+
     text = json.dumps(schema)
     assert '"unit": ' in text
     for symbol in {"robot": ("L", "C_L", "C_N", "R"), "surface": ("mu_s",)}.get(what, ()):
         assert f'"symbol": "{symbol}"' in text
+
+
+def test_the_schema_of_a_question_accepts_what_assess_echoes():
+    schema = json.loads(run("schema", "question"))
+    assert schema.pop("$schema") == "https://json-schema.org/draft/2020-12/schema"
+    assert schema == Question.model_json_schema()
+    answer = json.loads(run("assess", "kenaf", "ibc", "--model", "closed-form", "--json"))
+    jsonschema.Draft202012Validator(schema).validate(answer["question"])
 
 
 def test_main_refuses_in_one_line_with_exit_code_2(monkeypatch, capsys):
@@ -354,3 +374,13 @@ def test_the_whole_process_in_a_terminal_that_knows_few_characters(tmp_path):
         )
         assert (done.returncode, done.stderr) == (0, b"")
         assert seen in done.stdout.decode("latin-1")
+
+
+@pytest.mark.parametrize("what", LISTS)
+def test_the_catalogues_fit_a_screen_of_80_columns(what, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    lines = run(LISTS[what]).splitlines()
+    assert max(map(len, lines)) <= 80
+    for name in catalog.names(LISTS[what]):
+        at = next(k for k, line in enumerate(lines) if line.split()[:1] == [name])
+        assert lines[at + 1] == f"    {SHEETS[what].named(name).title}"

@@ -10,15 +10,14 @@ from typer.testing import CliRunner
 
 from kaidan.cli import app
 from kaidan.errors import InputError
-from kaidan.neighbours.samples import samples_of
-from kaidan.neighbours.tipover_monitor import readings
 from kaidan.robot import Robot
-from kaidan.stairs import Stairs
+from kaidan.terrain.stairs import Stairs
+from kaidan.verbs.monitor import MonitorAnswer, MonitorState, monitor
 
 SHAPE = ("--angle", "50deg", "--nosing-spacing", "150mm")
 HEAD = "t,inclination,inclination_rate,acceleration\n"
 CALM = HEAD + "0,0.8,0,0\n0.1,0.81,0.01,0\n"
-SWING = HEAD + "0,0.8,0,0\n0.1,0.9,1.0,0\n0.2,,1,0\n0.3,1.0,0.5,0\n0.4,0.8,-0.5,0\n"
+ROCKING = HEAD + "0,0.8,0,0\n0.1,0.9,1.0,0\n0.2,,1,0\n0.3,1.0,0.5,0\n0.4,0.8,-0.5,0\n"
 
 
 def run(*arguments, text=None):
@@ -32,15 +31,15 @@ def refusal(*arguments, text=None):
 
 
 @pytest.fixture
-def swing(tmp_path):
-    file = tmp_path / "swing.csv"
-    file.write_text(SWING)
+def rocking(tmp_path):
+    file = tmp_path / "rocking.csv"
+    file.write_text(ROCKING)
     return file
 
 
-def test_lines_for_people(swing):
+def test_lines_for_people(rocking):
     # hand: 60.205 degrees less 45.84, 51.57, 57.30, 45.84; (60.205 - 51.566) / 57.3 s
-    result = run("kenaf", *SHAPE, swing)
+    result = run("kenaf", *SHAPE, rocking)
     assert result.exit_code == 1
     assert result.stdout.splitlines() == [
         "     t [s]  margin [deg]  over its  tips in [s]  alarm",
@@ -50,39 +49,37 @@ def test_lines_for_people(swing):
         "     0.300          +2.9  downhill         0.10  ALARM",
         "     0.400         +14.4  downhill            -  no",
         "",
-        "5 samples, 1 not judged; least margin +2.9 deg at t = 0.300 s; alarm raised once, first "
-        "at t = 0.100 s",
+        "5 samples, 1 not judged (20 %); lowest margin +2.9 deg at t = 0.300 s; alarm raised "
+        "once, first at t = 0.100 s",
+        "The first not judged: inclination is nan",
     ]
 
 
 def test_no_alarm(tmp_path):
     result = run("kenaf", *SHAPE, "-", text=CALM)
     assert result.exit_code == 0
-    assert result.stdout.endswith("least margin +13.8 deg at t = 0.100 s; alarm never raised\n")
+    assert result.stdout.endswith("lowest margin +13.8 deg at t = 0.100 s; alarm never raised\n")
 
 
-def test_json_lines_are_the_readings(swing):
-    result = run("kenaf", *SHAPE, swing, "--json")
+def test_json_lines_are_the_states_and_the_answer(rocking):
+    result = run("kenaf", *SHAPE, rocking, "--json")
     assert result.exit_code == 1
-    lines = [json.loads(line) for line in result.stdout.splitlines()]
+    *lines, total = result.stdout.splitlines()
     stairs = Stairs.inclined(angle=math.radians(50), nosing_spacing=0.15)
-    expected = list(
-        readings(samples_of(SWING.splitlines(), origin="x"), Robot.named("kenaf"), stairs)
-    )
-    assert [line["alarm"] for line in lines] == [reading.alarm for reading in expected]
-    assert lines[1]["margin_deg"] == pytest.approx(math.degrees(expected[1].margin))
-    assert lines[1]["time_to_tip_s"] == expected[1].time_to_tip
-    assert lines[1]["row"] == 3
-    assert lines[0]["time_to_tip_s"] is None
-    assert (lines[2]["status"], lines[2]["margin_deg"]) == ("not-finite", None)
+    answer = monitor(Robot.named("kenaf"), stairs, rocking)
+    assert tuple(map(MonitorState.model_validate_json, lines)) == answer.states
+    summary = MonitorAnswer.from_json(total)
+    assert summary == answer.model_copy(update={"states": (), "stairs": summary.stairs})
+    assert json.loads(lines[1])["row"] == 3
+    assert json.loads(lines[0])["time_to_tip_s"] is None
 
 
-def test_only_changes(swing):
-    result = run("kenaf", *SHAPE, swing, "--changes", "--json")
-    rows = [json.loads(line)["row"] for line in result.stdout.splitlines()]
+def test_only_changes(rocking):
+    result = run("kenaf", *SHAPE, rocking, "--changes", "--json")
+    rows = [json.loads(line)["row"] for line in result.stdout.splitlines()[:-1]]
     assert rows == [2, 3, 4, 5, 6]
     calm = run("kenaf", *SHAPE, "-", "--changes", "--json", text=CALM)
-    assert len(calm.stdout.splitlines()) == 1
+    assert len(calm.stdout.splitlines()) == 2
 
 
 def test_outside_the_model():
@@ -117,12 +114,12 @@ def test_own_limits():
     assert keen.exit_code == 1
     blind = run(
         "kenaf", *SHAPE, "-", "--alarm-margin", "0deg", "--alarm-time", "0s", "--clear-time",
-        "100ms", "--horizon", "0.1s", text=SWING,
+        "100ms", "--horizon", "0.1s", text=ROCKING,
     )  # fmt: skip
     assert blind.exit_code == 0
 
 
-def test_refusals(swing, tmp_path):
+def test_refusals(rocking, tmp_path):
     assert refusal("kenaf", *SHAPE, tmp_path / "nope.csv").endswith(
         "nope.csv: cannot be read: No such file or directory"
     )
@@ -130,19 +127,38 @@ def test_refusals(swing, tmp_path):
     assert refusal("kenaf", *SHAPE, tmp_path / "photo.csv").endswith(
         "photo.csv: cannot be read: not a text file"
     )
-    assert refusal("kenaf", *SHAPE, "-", text=HEAD) == "-: holds no samples"
-    assert refusal("kenaf", *SHAPE, "-", text=HEAD + "0,nan,0,0\n") == (
-        "-: no sample could be judged; the first: inclination is nan"
-    )
-    assert refusal("kenaf", *SHAPE, swing, "--strict") == "samples, row 4: inclination is nan"
+    assert refusal("kenaf", *SHAPE, "-", text=HEAD) == "no samples came"
+    assert refusal("kenaf", *SHAPE, rocking, "--strict") == "samples, row 4: inclination is nan"
     assert refusal("kenaf", *SHAPE, "-", text="0,1,2,3\n").startswith(
         "standard input, line 1: columns t, inclination, inclination_rate, acceleration are missing"
     )
-    assert refusal("kenaf", "ibc", swing, swing).startswith("too many arguments: ibc ")
-    assert refusal("kenaf", *SHAPE, swing, "--alarm-time", "1") == (
+    assert refusal("kenaf", "ibc", rocking, rocking).startswith("too many arguments: ibc ")
+    assert refusal("kenaf", *SHAPE, rocking, "--alarm-time", "1") == (
         "--alarm-time '1' has no unit; write 1s or 1ms"
     )
-    assert refusal("kenaf", "ibc", *SHAPE, swing).startswith("give either the stairs 'ibc' or ")
+    assert refusal("kenaf", "ibc", *SHAPE, rocking).startswith("give either the stairs 'ibc' or ")
+
+
+def test_most_samples_not_judged_is_no_answer(tmp_path):
+    result = run("kenaf", *SHAPE, "-", text=CALM + "0.2,x,0,0\n0.3,,0,0\n0.4,0.8,0\n")
+    assert result.exit_code == 2
+    assert result.stdout.splitlines()[-3:] == [
+        "5 samples, 3 not judged (60 %); lowest margin +13.8 deg at t = 0.100 s; alarm never "
+        "raised",
+        "The first not judged: inclination = 'x' is not a number",
+        "NO ANSWER  Fewer than half of the samples could be judged: no alarm means nothing.",
+    ]
+
+
+def test_a_garbled_row_is_counted_and_the_next_one_taken(tmp_path):
+    file = tmp_path / "garbled.csv"
+    file.write_bytes((CALM + "0.2,\0\xff,1\n").encode("latin-1") + b"0.3,1.05,0,0\n")
+    result = run("kenaf", *SHAPE, file, "--changes")
+    assert result.exit_code == 1
+    assert "The first not judged: cells: 3, the head names 4" in result.stdout
+    assert refusal("kenaf", *SHAPE, file, "--strict") == (
+        "samples, row 4: cells: 3, the head names 4"
+    )
 
 
 def test_a_stream_is_answered_line_by_line():

@@ -1,6 +1,7 @@
 """`kaidan traverse`: the page, the JSON object, own points, files and refusals."""
 
 import json
+import re
 
 import pytest
 from typer.testing import CliRunner
@@ -8,7 +9,7 @@ from typer.testing import CliRunner
 from kaidan.assessment import assess
 from kaidan.cli import app
 from kaidan.errors import InputError
-from kaidan.stairs import Stairs
+from kaidan.terrain.stairs import Stairs
 
 pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
@@ -27,12 +28,12 @@ def refusal(*arguments):
 
 
 def test_the_page_for_people():
-    result = run("marmotte", *SHORT)
+    result = run("marmotte", *SHORT, "--fall-reserve", "3deg")
     assert result.exit_code == 0
     assert result.stdout.startswith("CAUTION  marmotte on 178mm x 279mm, up nose first\n")
     text = result.stdout
-    assert "without rotation: no   caught: yes   caught with momentum: yes" in text
-    assert "nose drops by 3.1 deg about nosing 2, caught by nosing 3" in text
+    assert "without rotation: no   arrested: yes   arrested with momentum: yes" in text
+    assert "nose drops by 3.1 deg about nosing 2, arrested by nosing 3" in text
     assert "stands on the landing" in text
     for phase in ("enter", "traverse", "land"):
         assert any(line.startswith(phase) and "at step" in line for line in text.splitlines())
@@ -56,16 +57,18 @@ def test_json_agrees_with_assess():
     asked = Stairs(name="178mm x 279mm", rise=0.178, going=0.279, steps=4)
     answer = assess("marmotte", asked, friction=1.0, model="contact")
     for name in ("verdict", "governs", "reason", "phase", "step", "margin_deg"):
-        assert found[name] == getattr(answer, name)
+        assert found["assessment"][name] == getattr(answer, name)
     assert result.exit_code == answer.exit_code
-    assert [each["phase"] for each in found["phases"]] == ["enter", "traverse", "land"]
+    phases = found["assessment"]["contact"]["phases"]
+    assert [each["phase"] for each in phases] == ["enter", "traverse", "land"]
 
 
-def test_catches_can_be_accepted():
-    result = run("marmotte", *SHORT, "--friction", "1.2", "--accept", "caught", "--json")
-    assert json.loads(result.stdout)["grades"]["accepted"] == "caught"
+def test_arrested_rotations_can_be_accepted():
+    result = run("marmotte", *SHORT, "--friction", "1.2", "--accept", "arrested", "--json")
+    question = json.loads(result.stdout)["assessment"]["question"]
+    assert question["accept"] == "arrested"
     assert refusal("marmotte", *SHORT, "--accept", "luck") == (
-        "accept = 'luck' is not known; known: no-rotation, caught"
+        "accept = 'luck' is not known; known: no-rotation, arrested"
     )
 
 
@@ -77,9 +80,10 @@ def test_own_points_are_the_same_stairs(tmp_path):
         run("marmotte", "--rise", "178mm", "--going", "279mm", "--steps", "3", "--friction", "1",
             "--json").stdout
     )  # fmt: skip
-    assert own["stairs"] == "scan.csv"
+    own, flight = own["assessment"], flight["assessment"]
+    assert own["question"]["terrain"]["name"] == "scan.csv"
     assert own["verdict"] == flight["verdict"]
-    for one, other in zip(own["phases"], flight["phases"], strict=True):
+    for one, other in zip(own["contact"]["phases"], flight["contact"]["phases"], strict=True):
         # the same corners: rounding of 0.178 + 0.178 only
         assert one["required_friction"] == pytest.approx(other["required_friction"], abs=1e-6)
         assert one["required_friction_step"] == other["required_friction_step"]
@@ -90,8 +94,11 @@ def test_own_points_are_the_same_stairs(tmp_path):
     [
         ("x,z\n0,0\n1,apples\n", "line 3: '1,apples' is not two numbers x,z in metres"),
         ("", "holds no points; write rows x,z in metres"),
-        ("0,0\n0,nan\n1,0\n", "profile: point 1 is [0.0, nan], not two finite numbers"),
-        ("0,0\n0,0\n", "profile: needs at least two different points that lead ahead in x"),
+        ("0,0\n0,nan\n1,0\n", "bad.csv: profile: point 2 is [0.0, nan], not two finite numbers"),
+        (
+            "0,0\n0,0\n",
+            "bad.csv: profile: needs at least two different points that lead ahead in x",
+        ),
     ],
 )
 def test_bad_points(tmp_path, content, told):
@@ -114,10 +121,19 @@ def test_what_is_refused(tmp_path):
 
 
 def test_files_are_written(tmp_path):
-    figure, landscape = tmp_path / "side.svg", tmp_path / "land.png"
-    result = run("kenaf", *SHORT, "--figure", figure, "--landscape", landscape, "--json")
-    assert json.loads(result.stdout)["verdict"] == "no-go"
-    assert result.stderr == f"wrote {figure}\nwrote {landscape}\n"
+    figure, pose_map = tmp_path / "side.svg", tmp_path / "map.png"
+    result = run("kenaf", *SHORT, "--figure", figure, "--pose-map", pose_map, "--json")
+    assert json.loads(result.stdout)["assessment"]["verdict"] == "no-go"
+    side, poses = result.stderr.splitlines()
+    assert re.fullmatch(rf"wrote {re.escape(str(figure))} \(\d+ kB\)", side)
+    assert re.fullmatch(rf"wrote {re.escape(str(pose_map))} \(\d+ x \d+ pixels, \d+ kB\)", poses)
     assert figure.read_bytes().startswith(b"<?xml")
-    assert landscape.read_bytes().startswith(b"\x89PNG")
-    assert sorted(tmp_path.iterdir()) == sorted([figure, landscape])
+    assert pose_map.read_bytes().startswith(b"\x89PNG")
+    assert sorted(tmp_path.iterdir()) == sorted([figure, pose_map])
+
+
+def test_the_side_view_alone(tmp_path):
+    file = tmp_path / "side.png"
+    result = run("kenaf", *SHORT, "--side", file, "--json")
+    assert result.stderr.startswith(f"wrote {file} (1400 x ")
+    assert file.read_bytes().startswith(b"\x89PNG")

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from kaidan.errors import InputError
-from kaidan.profile import Profile
-from kaidan.stairs import Stairs
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import Stairs
 
 ROUNDING = 1e-12  # m: sums of a few numbers of about a metre
 
@@ -77,6 +77,41 @@ def test_an_overhang_becomes_its_upper_envelope():
     np.testing.assert_allclose(profile.nosings, [(-0.02, 0.2)], atol=ROUNDING)
 
 
+def test_a_scan_that_goes_back_again_and_again_becomes_its_upper_envelope():
+    """Of every place the highest point of the line, by brute force; x never runs backwards.
+
+    The second return leads behind the first: the two windows are one.
+    """
+    there, back = (0.3, 0.6, 0.8, 1.0), (0.0, 0.25, 0.5, 0.1)
+    nested = [(x, 0.05 * k) for k, pair in enumerate(zip(back, there, strict=True)) for x in pair]
+    assert Profile.of_points(nested).overhangs
+    lines = [np.array(nested)]
+    for seed in range(300):
+        rng = np.random.default_rng(seed)
+        steps = rng.normal(0.01, rng.choice([0.004, 0.01, 0.02]), int(rng.integers(5, 60)))
+        rises = rng.normal(0.003, 0.005, len(steps))
+        lines.append(np.cumsum(np.stack([steps, rises], 1), axis=0))
+    seen = 0
+    for line in lines:
+        try:
+            profile = Profile.of_points(line)
+        except InputError:  # it crosses itself, or leads nowhere
+            continue
+        x, z = profile.points.T
+        assert (np.diff(x) >= 0).all()
+        places = np.linspace(x[0], x[-1], 211)[1:-1]
+        places = places[np.abs(places[:, None] - x).min(axis=1) > 1e-9]  # faces have two heights
+        heights = np.full(len(places), -np.inf)
+        for (x0, z0), (x1, z1) in pairwise(line):
+            over = (places - x0) * (places - x1) <= 0
+            heights[over] = np.maximum(
+                heights[over], z0 + (z1 - z0) * (places[over] - x0) / (x1 - x0)
+            )
+        np.testing.assert_allclose(np.interp(places, x, z), heights, atol=1e-9)
+        seen += profile.overhangs
+    assert seen > 50
+
+
 def test_reflected_twice_is_the_same():
     profile = Profile.of_stairs(Stairs(rise=0.2, going=0.3, steps=3))
     np.testing.assert_array_equal(profile.reflected().reflected().points, profile.points)
@@ -98,8 +133,8 @@ def test_nothing_can_be_written_into_it():
     ("points", "text"),
     [
         ([(0, 0), (1, 0), (1, 1), (0.5, -0.5), (2, 2)], "crosses itself"),
-        ([(0, 0), (np.nan, 1)], r"point 1 is \[nan, 1.0\], not two finite numbers"),
-        ([(0, 0), (np.inf, 1)], "point 1"),
+        ([(0, 0), (np.nan, 1)], r"point 2 is \[nan, 1.0\], not two finite numbers"),
+        ([(0, 0), (np.inf, 1)], "point 2"),
         ("abc", "must be numbers"),
         ([(0, 0, 0)], r"shape \(1, 3\), not \(n, 2\)"),
         ([], "shape"),
@@ -160,3 +195,47 @@ def test_a_noisy_scan_has_the_nosings_of_its_flight():
     np.testing.assert_allclose(profile.nosings, at, atol=0.015)  # the roughness it is blind to
     assert 0.003 < profile.roughness <= 0.015
     assert Profile.of_points(corners).roughness == 0.0
+
+
+def test_what_falls_is_driven_down_or_given_the_other_way_round():
+    """By hand: three risers of 0.2 down, goings 0.3."""
+    falling = [(-1, 0.6), (0, 0.6), (0, 0.4), (0.3, 0.4), (0.3, 0.2), (0.6, 0.2), (0.6, 0), (2, 0)]
+    profile = Profile.of_points(falling)
+    assert profile.rise == pytest.approx(-0.6, abs=ROUNDING)
+    assert not profile.is_level
+    upward = profile.upward(descending=True)
+    assert upward.rise == pytest.approx(0.6, abs=ROUNDING)
+    np.testing.assert_allclose(upward.nosings, [(-0.6, 0.2), (-0.3, 0.4), (0, 0.6)], atol=ROUNDING)
+    with pytest.raises(InputError) as refused:
+        profile.upward(descending=False)
+    assert str(refused.value) == (
+        "profile: it falls by 0.60 m from left to right: drive it down, or give the points the "
+        "other way round"
+    )
+    rising = Profile.of_stairs(Stairs(rise=0.2, going=0.3, steps=3))
+    assert rising.upward(descending=False) is rising
+    assert rising.upward(descending=True) is rising
+
+
+@pytest.mark.parametrize(("height", "level"), [(0.0, True), (0.014, True), (0.016, False)])
+def test_a_floor_is_level_within_the_roughness(height, level):
+    """15 mm make no step."""
+    assert Profile.of_points([(0, 0), (1, 0), (1, height), (2, height)]).is_level is level
+
+
+def test_edges_rise_or_fall():
+    """By hand: a gap 0.7 m wide, its far side a nosing, its near side none."""
+    gap = Profile.of_points([(-2, 0), (0, 0), (0, -0.3), (0.7, -0.3), (0.7, 0), (2.7, 0)])
+    np.testing.assert_allclose(gap.nosings, [(0.7, 0)], atol=ROUNDING)
+    np.testing.assert_allclose(gap.edges, [(0, 0), (0.7, 0)], atol=ROUNDING)
+    np.testing.assert_allclose(gap.reflected().edges, [(-0.7, 0), (0, 0)], atol=ROUNDING)
+    flight = Profile.of_stairs(Stairs(rise=0.2, going=0.3, steps=3))
+    np.testing.assert_array_equal(flight.edges, flight.nosings)
+    np.testing.assert_array_equal(flight.reflected().edges, flight.reflected().nosings)
+
+
+def test_a_question_about_a_profile_is_the_same_after_json():
+    from kaidan.question import Question
+
+    question = Question.of("kenaf", Profile.of_points([(-1, 0), (0, 0), (0, 0.2), (1, 0.2)]))
+    assert Question.model_validate_json(question.model_dump_json()) == question

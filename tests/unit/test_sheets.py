@@ -9,8 +9,8 @@ from kaidan import catalog
 from kaidan.errors import InputError
 from kaidan.robot import Drive, FlipperPair, Payload, Posture, Robot, Track, Uncertainty
 from kaidan.sheet import PLACEHOLDER
-from kaidan.stairs import Stairs, StairsUncertainty
 from kaidan.surface import Surface
+from kaidan.terrain.stairs import Stairs, StairsUncertainty
 
 TRACK = {"flat_length": 0.5}
 ROBOT = {"name": "r", "com_from_front": 0.25, "com_height": 0.1, "track": TRACK}
@@ -18,8 +18,9 @@ FLIPPER = {"length": 0.33, "root_radius": 0.089, "tip_radius": 0.029, "pivot_hei
 FLIGHT = {"rise": 0.18, "going": 0.28}
 SURFACE = {"friction_low": 0.5, "friction_high": 0.6}
 ROBOT_FIELDS = (
-    "name, title, mass, com_from_front, com_height, inertia, track, front_flippers, "
-    "rear_flippers, drive, uncertainty, sources, notes"
+    "name, title, mass, com_from_front, com_height, com_range, inertia, max_impact_speed, "
+    "fall_reserve, track, front_flippers, rear_flippers, states, theta_d, theta_M, drive, "
+    "uncertainty, sources, notes"
 )
 
 
@@ -59,15 +60,28 @@ def refusal(sheet, data):
             {"mass": 10**400},
             "robot: mass = a number of more than 300 digits kg is not within 0.1 to 5000 kg",
         ),
-        ({"com_height": "0.1"}, 'robot: com_height = "0.1" is not a number'),
+        (
+            {"com_height": "0.1"},
+            "robot: com_height = '0.1' has no unit; write 0.1mm or 0.1cm or 0.1m",
+        ),
+        (
+            {"com_height": "0,1m"},
+            "robot: com_height = '0,1m' has a decimal comma; write 0.1m",
+        ),
+        (
+            {"com_height": "290mm", "mass": "4kN"},
+            "robot: mass = '4kN': 'kN' is no unit of mass; known: g, kg, lb",
+        ),
+        ({"com_height": "-9m"}, "robot: com_height = -9 m is not within 0.005 to 3 m"),
+        ({"drive": {"efficiency": "0.9"}}, 'robot: drive: efficiency = "0.9" is not a number'),
         ({"com_height": True}, "robot: com_height = true is not a number"),
         ({"com_height": None}, "robot: com_height = None is not a number"),
         ({"com_height": [0.1]}, "robot: com_height = a list is not a number"),
         ({"com_height": {"mm": 100}}, "robot: com_height = a table is not a number"),
         (
             {"com_height": "100 millimetres, measured by tilting " * 9},
-            'robot: com_height = "100 millimetres, measured by tilting 100 millimetres, me..." '
-            "is not a number",
+            "robot: com_height = '100 millimetres, measured by tilting 100 millimetres, me... "
+            "is no length; write for example 180mm",
         ),
         ({"name": 5}, "robot: name = 5: Input should be a valid string"),
         ({"track": 5}, "robot: track = 5 is not a table of fields"),
@@ -83,7 +97,12 @@ def refusal(sheet, data):
         ),
         (
             {"com_hight": 0.1},
-            f"robot: com_hight is not a known field; known: {ROBOT_FIELDS}",
+            f"robot: com_hight is not a known field; did you mean com_height? Known: "
+            f"{ROBOT_FIELDS}",
+        ),
+        (
+            {"gauge": 0.3},
+            f"robot: gauge is not a known field; did you mean track.gauge? Known: {ROBOT_FIELDS}",
         ),
         (
             {"a\n\x1b[31m": 0.1},
@@ -167,6 +186,13 @@ def test_a_robot_of_nothing_says_what_it_needs():
     )
 
 
+def test_the_tolerated_impact_is_the_sheets_or_that_of_an_end_let_go_from_100_mm():
+    """By hand: a thin even body falls flat about its other edge with v^2 = 3 g h."""
+    robot = Robot(**ROBOT)
+    assert robot.tolerated_impact == pytest.approx(math.sqrt(3 * 9.80665 * 0.1), abs=0.05)  # stated
+    assert Robot(**ROBOT, max_impact_speed=0.8).tolerated_impact == 0.8
+
+
 @pytest.mark.parametrize("data", [5, "kenaf", None, [1, 2]])
 def test_what_is_no_table_is_no_sheet(data):
     assert refusal(Surface, data).endswith(" is not a table of fields")
@@ -220,7 +246,8 @@ def test_what_is_no_table_is_no_sheet(data):
         ),
         (
             {"rises": [0.18, "0.18"], "goings": [True]},
-            'stairs: rises[1] = "0.18" is not a number; stairs: goings[0] = true is not a number',
+            "stairs: rises[1] = '0.18' has no unit; write 0.18mm or 0.18cm or 0.18m; "
+            "stairs: goings[0] = true is not a number",
         ),
         (
             {"rises": [0.18], "goings": [0.28]},
@@ -253,7 +280,8 @@ def test_what_is_no_table_is_no_sheet(data):
         (
             {**FLIGHT, "run": 0.28},
             "stairs: run is not a known field; known: name, title, rise, going, steps, "
-            "first_rise, last_rise, rises, goings, nosing_overhang, open_risers, lower_landing, "
+            "first_rise, last_rise, rises, goings, nosing_overhang, nosing_radius_low, "
+            "nosing_radius_high, open_risers, lower_landing, "
             "upper_landing, direction, uncertainty, sources, notes",
         ),
         (
@@ -297,7 +325,7 @@ def test_surface_refuses_to_the_letter(change, text):
         (
             Posture,
             {"front": "up"},
-            "posture: front = 'up'; allowed: an angle in rad, 'flat' or none",
+            "posture: front = 'up' is no angle; write for example 50deg",
         ),
         (Posture, {"rear": 90.0}, "posture: rear = 90 rad is not within -3.14159 to 3.14159 rad"),
     ],
@@ -405,3 +433,101 @@ def test_the_schema_of_a_list_bounds_its_items():
     rises = Stairs.model_json_schema()["properties"]["rises"]
     assert rises["unit"] == "m"
     assert rises["anyOf"][0]["items"] == {"maximum": 0.6, "minimum": 0.005, "type": "number"}
+
+
+ABSOLEM = Robot.named("absolem")
+REAR_ONLY = ABSOLEM.model_copy(update={"front_flippers": None})
+KENAF = Robot.named("kenaf")
+
+
+@pytest.mark.parametrize(
+    ("text", "robot", "posture"),
+    [
+        ("stowed", KENAF, Posture()),
+        ("stowed", ABSOLEM, Posture()),
+        ("flat", ABSOLEM, Posture(front="flat", rear="flat")),
+        ("flat", REAR_ONLY, Posture(rear="flat")),
+        ("20deg,-5deg", ABSOLEM, Posture(front=math.radians(20), rear=math.radians(-5))),
+        (" flat , stowed ", ABSOLEM, Posture(front="flat")),
+        ("20deg", REAR_ONLY, Posture(rear=math.radians(20))),
+    ],
+)
+def test_postures_from_texts(text, robot, posture):
+    assert Posture.parse(text, robot) == posture
+
+
+def test_postures_with_texts_for_angles():
+    assert Posture(front="20deg", rear="stowed") == Posture(front=math.radians(20))
+    for front in (True, "20", [1.0], math.inf, 4):
+        with pytest.raises(InputError, match=r"^posture: front = "):
+            Posture(front=front)
+
+
+@pytest.mark.parametrize(
+    ("change", "error"),
+    [
+        ({"angle": None}, "angle = None is not a number"),
+        ({"angle": "35"}, "angle '35' has no unit; write 35deg or 35° or 35rad"),
+        ({"angle": 35}, "angle = 35 rad (2005 deg) is not within 0 to 89 deg"),
+        ({"angle": 0}, "angle = 0 rad (0 deg) is not within 0 to 89 deg"),
+        ({"nosing_spacing": None}, "nosing_spacing = None is not a number"),
+        ({"nosing_spacing": math.nan}, "nosing_spacing = nan is not a finite number"),
+        (
+            {"nosing_spacing": 0.05},
+            "20.0535 deg at 50 mm: stairs: rise = 0.0171448903728 m is not within 0.02 to 0.6 m",
+        ),
+    ],
+)
+def test_inclined_stairs_refuse_to_the_letter(change, error):
+    with pytest.raises(InputError) as caught:
+        Stairs.inclined(**{"angle": 0.35, "nosing_spacing": 0.3} | change)
+    assert str(caught.value) == error
+
+
+def test_inclined_stairs_with_units():
+    assert Stairs.inclined(angle="35deg", nosing_spacing="290mm") == Stairs.inclined(
+        angle=math.radians(35), nosing_spacing=0.29
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "robot", "error"),
+    [
+        ("flat", KENAF, "robot 'kenaf' has no flippers"),
+        ("up", REAR_ONLY, "--flippers 'up' is no angle; write for example 50deg"),
+        ("20", REAR_ONLY, "--flippers '20' has no unit; write 20deg or 20° or 20rad"),
+        (
+            "20deg",
+            ABSOLEM,
+            "--flippers '20deg' is one angle for two pairs; write FRONT,REAR, for example "
+            "20deg,-5deg",
+        ),
+        (
+            "1deg,2deg,3deg",
+            ABSOLEM,
+            "--flippers '1deg,2deg,3deg': write FRONT,REAR, for example 20deg,-5deg",
+        ),
+        (
+            "400deg,stowed",
+            ABSOLEM,
+            "posture: front = 6.98132 rad is not within -3.14159 to 3.14159 rad",
+        ),
+    ],
+)
+def test_postures_that_are_none(text, robot, error):
+    with pytest.raises(InputError) as caught:
+        Posture.parse(text, robot, option="--flippers")
+    assert str(caught.value) == error
+
+
+@pytest.mark.parametrize("friction", [(0.6, 1.0), [0.6, 1], "0.6..1.0", "0.6-1.0", "0.6 to 1.0"])
+def test_one_surface_of_a_friction_however_it_is_written(friction):
+    surface = Surface.of_friction(friction)
+    assert (surface.friction_low, surface.friction_high) == (0.6, 1.0)
+    assert surface.name == "friction 0.6..1"
+
+
+def test_a_friction_past_its_bounds_is_refused_once():
+    with pytest.raises(InputError) as caught:
+        Surface.of_friction(7)
+    assert str(caught.value) == "friction = 7 is not within 0 to 5"

@@ -11,10 +11,12 @@ import xarray as xr
 import kaidan
 from kaidan import InputError, Payload, Posture, Robot, Stairs, Surface, stream, sweep, verdicts
 from kaidan.errors import MissingExtraError
-from kaidan.mechanics.verdict import Judged, Verdict
+from kaidan.mechanics.verdict import Judged
+from kaidan.modes import Verdict
 from kaidan.sweeps import compiled, elementary
 from kaidan.sweeps.pairs import CODES, INPUTS
 
+RIG = Robot.named("kenaf").model_copy(update={"theta_d": None, "theta_M": None})
 KENAF = {"flat_length": 0.470, "com_from_uphill": 0.196, "com_height": 0.071}
 PAIR = KENAF | {"angle": math.radians(40), "nosing_spacing": 0.150, "friction": 2.0}
 SHAPE = {"angle": math.radians(40), "nosing_spacing": 0.150, "friction": 2.0}
@@ -34,7 +36,7 @@ with_each_engine = pytest.mark.parametrize("engine", ENGINES)
 def test_a_sequence_is_a_dimension():
     # hand: atan((470 - p - 196) / 71)
     spacings, angles = [0.150, 0.180, 0.220], np.radians([20, 40])
-    table = sweep("kenaf", angle=angles, nosing_spacing=spacings, friction=2.0)
+    table = sweep(RIG, angle=angles, nosing_spacing=spacings, friction=2.0)
     assert table.verdict.dims == ("angle", "nosing_spacing")
     np.testing.assert_array_equal(table.angle, angles)
     np.testing.assert_array_equal(table.nosing_spacing, spacings)
@@ -57,7 +59,7 @@ def test_names_units_and_meanings():
         **dict.fromkeys(
             [
                 *("margin_deg", "margin_angle_deg", "tip_downhill_deg", "tip_uphill_deg"),
-                *("slip_up_deg", "slip_down_deg", "drive_deg"),
+                *("slides_down_deg", "slides_up_deg", "drive_deg"),
             ],
             "deg",
         ),
@@ -74,7 +76,7 @@ def test_names_units_and_meanings():
     }
     assert table.governs.attrs == {
         "flag_values": [0, 1, 2, 3, 4],
-        "flag_meanings": "tip-downhill tip-uphill slip-up slip-down drive",
+        "flag_meanings": "tip-downhill tip-uphill slides-down slides-up drive",
     }
     assert table.attrs == {
         "robot": "kenaf",
@@ -139,19 +141,28 @@ def test_allowances_unless_swept():
     # hand: unmeasured 2.6 deg each, given back at best: CAUTION between; measured, GO or NO-GO
     angles = np.radians([54, 58, 61])
     rest = {"nosing_spacing": 0.150, "friction": 3.0}
-    assert sweep("kenaf", angle=angles, **rest).verdict.values.tolist() == [0, 1, 2]
+    assert sweep(RIG, angle=angles, **rest).verdict.values.tolist() == [0, 1, 2]
     measured = {"theta_d": math.radians(1), "theta_M": math.radians(2)}
-    assert sweep("kenaf", angle=angles, **rest, **measured).verdict.values.tolist() == [0, 2, 2]
+    assert sweep(RIG, angle=angles, **rest, **measured).verdict.values.tolist() == [0, 2, 2]
     # going down only theta_d
-    down = sweep("kenaf", angle=angles, **rest, direction="down", facing="tail-first")
+    down = sweep(RIG, angle=angles, **rest, direction="down", facing="tail-first")
     assert float(down.margin_deg[0]) == pytest.approx(60.2053827958 - 54 - 2.6, abs=1e-9)
+
+
+def test_a_sweep_without_stairs_reaches_as_far_as_its_parameters():
+    # hand: no flight of stairs is level or rises by 89 deg, but the formulas speak of both: on the
+    # level 60.205 - 5.2 deg are left, at 89 deg it falls
+    table = sweep("kenaf", angle=[0.0, 1.55], nosing_spacing=0.150, friction=2.0)
+    assert table.verdict.values.tolist() == [Verdict.GO.rank, Verdict.NO_GO.rank]
+    assert float(table.margin_angle_deg[0] - 5.2) == pytest.approx(55.0053827958, abs=1e-9)
+    assert sweep("kenaf", angle=[], nosing_spacing=0.150).verdict.shape == (0,)
 
 
 def test_unknown_friction_gives_no_go():
     table = sweep("kenaf", angle=math.radians(40), nosing_spacing=0.150)
-    assert int(table.verdict) == Verdict.CAUTION
-    assert np.isnan(table.slip_up_deg)
-    assert int(sweep("kenaf", **SHAPE).verdict) == Verdict.GO
+    assert int(table.verdict) == Verdict.CAUTION.rank
+    assert np.isnan(table.slides_down_deg)
+    assert int(sweep("kenaf", **SHAPE).verdict) == Verdict.GO.rank
 
 
 def test_no_go_where_assess_says_no():
@@ -162,7 +173,7 @@ def test_no_go_where_assess_says_no():
         update={"mass": 30.0, "drive": kaidan.robot.Drive(max_traction=60.0)}
     )
     table = sweep(weak, **asked)
-    assert (int(table.verdict), int(table.governs)) == (Verdict.NO_GO, 4)
+    assert (int(table.verdict), int(table.governs)) == (Verdict.NO_GO.rank, 4)
     assert float(table.drive_deg) == pytest.approx(
         math.degrees(math.asin(60 / 30 / 9.80665) - 0.5), abs=1e-9
     )
@@ -176,12 +187,12 @@ def test_no_go_where_assess_says_no():
     )
     short = sweep("kenaf", Stairs(rise=0.1, going=0.1, steps=3), friction=2.0)
     for table in (lowered, gapped, short):
-        assert int(table.verdict) == Verdict.OUTSIDE_MODEL
+        assert int(table.verdict) == Verdict.OUTSIDE_MODEL.rank
         for name in set(table.data_vars) - {"verdict", "governs"}:
             assert np.isnan(table[name]), name
     # past the vertical no place of the centroid holds
     steep = sweep("kenaf", angle=1.5, nosing_spacing=0.150, friction=2.0)
-    assert int(steep.verdict) == Verdict.NO_GO
+    assert int(steep.verdict) == Verdict.NO_GO.rank
     assert np.isnan(steep.margin_centroid_mm)
 
 
@@ -276,7 +287,7 @@ def test_pairs_by_hand(engine):
     # hand: 60.205, minus 40 and twice 2 deg; friction atan 2 = 63.4 deg
     found = verdicts(PAIR | {"theta_d": math.radians(2), "theta_M": math.radians(2)}, engine=engine)
     assert isinstance(found, Judged)
-    assert int(found.verdict) == Verdict.GO
+    assert int(found.verdict) == Verdict.GO.rank
     sup = math.atan(124 / 71)
     theta = math.radians(40)
     assert float(found.theta_s_sup) == pytest.approx(sup, rel=1e-14)
@@ -284,8 +295,8 @@ def test_pairs_by_hand(engine):
     assert float(found.tip_uphill) == pytest.approx(
         theta + math.atan(46 / 71) - math.radians(2), rel=1e-13
     )
-    assert float(found.slip_up) == pytest.approx(math.atan(2) - theta, rel=1e-13)
-    assert float(found.slip_down) == pytest.approx(math.atan(2) + theta, rel=1e-13)
+    assert float(found.slides_down) == pytest.approx(math.atan(2) - theta, rel=1e-13)
+    assert float(found.slides_up) == pytest.approx(math.atan(2) + theta, rel=1e-13)
     g, cos, sin = 9.80665, math.cos(theta), math.sin(theta)
     assert float(found.a_max) == pytest.approx(g * (124 / 71 * cos - sin), rel=1e-13)
     assert float(found.a_min) == pytest.approx(-g * (46 / 71 * cos + sin), rel=1e-13)
@@ -427,9 +438,9 @@ def test_every_input_is_checked_unless_told_otherwise():
         for value in (-99.0, 99.0):
             with pytest.raises(InputError, match=f"^{name} = {value:g} "):
                 verdicts(PAIR | {name: value})
-    assert int(verdicts(PAIR | {"friction": 99.0}, checked=False).verdict) == Verdict.GO
+    assert int(verdicts(PAIR | {"friction": 99.0}, checked=False).verdict) == Verdict.GO.rank
     # limit: a spacing beyond the half track is outside whatever else is asked
-    assert int(verdicts(PAIR | {"nosing_spacing": 0.3}).verdict) == Verdict.OUTSIDE_MODEL
+    assert int(verdicts(PAIR | {"nosing_spacing": 0.3}).verdict) == Verdict.OUTSIDE_MODEL.rank
 
 
 # Streams
@@ -558,5 +569,7 @@ def test_smaller_and_larger_as_numpy_has_them():
 def test_the_surface_of_a_sweep_counts_with_its_smallest_friction():
     ground = Surface(friction_low=0.5, friction_high=2.0)
     table = sweep("kenaf", angle=0.6, nosing_spacing=0.150, surface=ground)
-    assert int(table.verdict) == Verdict.NO_GO  # tan 0.6 = 0.68
-    assert float(table.slip_up_deg) == pytest.approx(math.degrees(math.atan(0.5) - 0.6), abs=1e-9)
+    assert int(table.verdict) == Verdict.NO_GO.rank  # tan 0.6 = 0.68
+    assert float(table.slides_down_deg) == pytest.approx(
+        math.degrees(math.atan(0.5) - 0.6), abs=1e-9
+    )

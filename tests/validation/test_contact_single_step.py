@@ -1,4 +1,4 @@
-"""Single step and riser start against the closed forms of theory section 4 (after Guo et al. 2010).
+"""Single step and riser start against the closed forms of docs/theory/transitions.md.
 
 The cubic and the riser-start friction were derived by hand there; nothing here comes from the
 kernel but the answer under test.
@@ -27,9 +27,7 @@ def highest_step(L, C_L, C_N, R):
 
 
 def climbs(robot, h):
-    run = traverse(
-        steps(h, 1.0, 1, 4.0, 4.0), robot, -2.0, 1.5, with_margins=False, compile_kernel=True
-    )
+    run = traverse(steps(h, 1.0, 1, 4.0, 4.0), robot, -2.0, 1.5, with_margins=False)
     return run.status is Status.OK
 
 
@@ -72,12 +70,10 @@ def test_riser_start_friction():
         h = R * rng.uniform(1.1, 2.0)
         l_c = L - C_L
         expected = (-R + np.sqrt(R**2 + 4 * l_c * (C_L + R))) / (2 * (C_L + R))
-        run = traverse(
-            steps(h, 1.0, 1, 4.0, 4.0), stadium(L, C_L, C_N, R), -2.0, 0.2, compile_kernel=True
-        )
-        face = np.flatnonzero(run.poses[:, 12] < -0.999)
+        run = traverse(steps(h, 1.0, 1, 4.0, 4.0), stadium(L, C_L, C_N, R), -2.0, 0.2)
+        face = np.flatnonzero(run.poses.front_normal[:, 0] < -0.999)
         assert len(face), "the nose never met the face"
-        got = run.margins[face[0], 0]
+        got = run.margins.required_friction[face[0]]
         # the pose is recorded where the face is met, still level: rounding of a quadratic's root;
         # the brief asks for 1 %
         assert got == pytest.approx(expected, rel=1e-6)

@@ -11,7 +11,7 @@ from kaidan.mechanics.transitions import (
     best_inclination,
     crest_energy,
     crest_progress,
-    entry_catch_margin,
+    entry_arrest_margin,
     entry_energy,
     largest_step_height,
     riser_start_friction,
@@ -80,4 +80,4 @@ def test_entry_from_above_by_hand():
     # hand: drop 0.08 * 0.2 = 16 mm; 200 mm of flat ahead of the edge catch a nosing at 180 mm
     slope = np.arctan(0.75)
     assert entry_energy(M=20.0, C_N=0.08, theta_s=slope, g=10.0) == pytest.approx(3.2, abs=1e-12)
-    assert entry_catch_margin(C_L=0.2, p=0.18) == pytest.approx(0.02, abs=ROUNDING)
+    assert entry_arrest_margin(C_L=0.2, p=0.18) == pytest.approx(0.02, abs=ROUNDING)

@@ -21,15 +21,15 @@ from kaidan.physics import (
     run,
 )
 from kaidan.physics.engine import engine, quiet
-from kaidan.physics.trial import Simulation
+from kaidan.physics.simulation import Simulation
 from physics_cases import FORMULA, QUASI_STATIC, SPACINGS, climbs_up_to, margin, spec
 
 MEASURED = dict(zip(SPACINGS, (63.5, 58.7, 54.8, 50.4), strict=True))
-"""Issue 4: smooth rigid belt, R = 60 mm, 100 mm/s [deg]; another model's figures."""
+"""docs/physics.md: another model by others, smooth rigid belt, R = 60 mm, 100 mm/s [deg]."""
 
 
 @pytest.mark.parametrize("spacing", SPACINGS)
-def test_smooth_belt_is_within_a_degree_of_the_figures_asked_for(spacing):
+def test_smooth_belt_is_within_a_degree_of_the_figures_required(spacing):
     # 1 deg: the issue's own tolerance
     assert climbs_up_to(MEASURED[spacing] - 1.0, MEASURED[spacing] + 1.0, spacing)
 
@@ -76,7 +76,7 @@ def test_smooth_belt_against_the_chain():
 def test_static_stiffness_of_a_nosing(stiffness):
     trial = spec(30.0, track=SprungNoses(stiffness=stiffness))
     with quiet():
-        simulation = Simulation(model_of(trial), keep=False)
+        simulation = Simulation(model_of(trial))
         assert simulation.settle()
         simulation.drive(0.0, 2000, on=False)
         forces = simulation.forces.read(simulation.data)[0]
@@ -98,7 +98,7 @@ def test_static_stiffness_of_the_grousers():
     stiffness = 2e4
     trial = spec(30.0, track=DrivenGrousers(stiffness=stiffness), begin="landing")
     with quiet():
-        simulation = Simulation(model_of(trial), keep=False)
+        simulation = Simulation(model_of(trial))
         simulation.drive(0.0, 2000, on=False)
         normal = simulation.forces.read(simulation.data)[1]
     pressed = sum(
@@ -119,9 +119,9 @@ def test_energy_does_not_grow_in_a_passive_drop(track, tilt):
     mujoco = engine()
     model = model_of(spec(30.0, track=track))
     model.compiled.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_ENERGY)
-    simulation = Simulation(model, keep=False)
+    simulation = Simulation(model)
     data = simulation.data
-    simulation._set_surface(0.0)
+    simulation.set_surface(0.0)
     data.joint("z").qpos[0] += 0.15
     data.joint("phi").qpos[0] += tilt
     if model.motion is not None:
@@ -132,10 +132,10 @@ def test_energy_does_not_grow_in_a_passive_drop(track, tilt):
         mujoco.mj_energyPos(model.compiled, data)
         mujoco.mj_energyVel(model.compiled, data)
         energy.append(float(data.energy.sum()))
-    released = 20.0 * 9.80665 * 0.15
+    given = 20.0 * 9.80665 * 0.15
     # 1 %: in free fall the integrator, of first order, is off by m g v h/2, 0.6 % here
-    assert max(energy) < energy[0] + 0.01 * released
-    assert energy[-1] < energy[0] - 0.5 * released
+    assert max(energy) < energy[0] + 0.01 * given
+    assert energy[-1] < energy[0] - 0.5 * given
 
 
 @pytest.mark.slow
@@ -194,8 +194,8 @@ def test_figures_of_compliance_and_descent(capsys):
         print("\ndown tail first: " + ", ".join(f"{each:.2f}" for each in down))
         print("17 kN/m, R = 20 mm: " + ", ".join(f"{each:.2f}" for each in soft))
         print("extra at 56.8 deg: " + ", ".join(f"{each:.2f}" for each in turns))
-    assert turns == sorted(turns)  # a softer track turns further
-    assert min(down) > max(QUASI_STATIC.values())  # going down the tail is caught by every step
+    assert turns == sorted(turns)  # a softer track rotates further
+    assert min(down) > max(QUASI_STATIC.values())  # going down every step arrests the tail
 
 
 @pytest.mark.slow

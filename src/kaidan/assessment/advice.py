@@ -1,252 +1,265 @@
-"""What would help: the same question with something changed, asked again."""
+"""What would help: the same question with something changed, judged by the same model again."""
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterator
 from typing import NamedTuple
 
-import numpy as np
-
-from kaidan.assessment.allowance import Allowance
-from kaidan.assessment.answer import Change, Verdict
-from kaidan.assessment.case import Case
-from kaidan.assessment.closed_form import Judgement, at_risk, judge
+from kaidan.allowance import Allowance
+from kaidan.assessment.answer import Change
+from kaidan.assessment.verdict import Conclusion, conclude
 from kaidan.errors import InputError
 from kaidan.mechanics import STANDARD_GRAVITY
-from kaidan.mechanics.slipping import required_friction
+from kaidan.models import judge
+from kaidan.models.centroid import shift_of_centroid
+from kaidan.models.findings import Findings
+from kaidan.models.traction_figures import USUAL
+from kaidan.modes import (
+    DRIVE,
+    ENERGY,
+    FALLS,
+    IMPACT,
+    MOMENTUM,
+    ROTATION,
+    SUPPLIES,
+    TIP_DOWNHILL,
+    TIPS,
+    UNWEIGHED,
+    FailureMode,
+    Phase,
+    Undecided,
+    Verdict,
+)
+from kaidan.question import Question
 from kaidan.robot import Posture
 from kaidan.sheet import bounds
 from kaidan.surface import Surface
+from kaidan.text import advice as text
+from kaidan.text import unweighed as weighing
 
 RAISED = math.radians(45.0)
 """Angle of leading flippers that reach for a first riser: half-way between flat and upright."""
 SLOWEST = 0.01
-"""Slowest speed that is worth telling an operator [m/s]."""
+"""Slowest speed that an operator is advised [m/s]."""
 LARGEST_FRICTION = bounds(Surface.model_fields["friction_low"])[2]
 """Beyond it no surface is known."""
-_RANK = {"go": 0, "caution": 1, "no-go": 2, "outside-model": 3}
-_MARGIN_WORTH_TELLING = math.radians(0.05)
-
-Candidate = tuple[str, Case]
-
-
-class Outcome(NamedTuple):
-    """What a model says of a case."""
-
-    verdict: Verdict
-    margin: float
-    """[rad]; NaN: not known."""
+WORTH_TELLING = math.radians(0.05)
+"""Gain of margin that counts as help [rad]."""
+_ROTATES = {mode.key for mode in (*TIPS, *FALLS, ROTATION, MOMENTUM, IMPACT)}
+_SLIPS = {mode.key for mode in SUPPLIES if mode is not DRIVE} | {Undecided.FRICTION_UNKNOWN.value}
 
 
-def improvements(
-    candidates: Iterable[Candidate], now: Outcome, ask: Callable[[Case], Outcome]
+class Candidate(NamedTuple):
+    """Something to try."""
+
+    change: str
+    """What to do, for people."""
+    question: Question
+
+
+def what_would_help(
+    question: Question, found: Findings, conclusion: Conclusion, *, searched: bool = False
 ) -> tuple[Change, ...]:
-    """Candidates that raise the verdict or the margin, the best first.
+    """Changes that raise the verdict or the margin, the best first; nothing for a GO.
 
     Parameters
     ----------
-    candidates : iterable of (str, Case)
-        What to do, and the question with it.
-    now : Outcome
-        As asked.
-    ask : callable
-        The model.
+    question : Question
+    found : Findings
+        Of the question.
+    conclusion : Conclusion
+        Of the findings.
+    searched : bool
+        Whether postures and facing were searched already, so that none of them would help.
 
     Returns
     -------
     tuple of Change
     """
+    if conclusion.verdict in (Verdict.GO,):
+        return ()
     better = []
-    for text, changed in candidates:
+    known = found if question.robot.com_range is None else None
+    for change, changed in _candidates(question, found, conclusion, searched):
         try:
-            then = ask(changed)
-        except InputError:  # a posture or place of the centroid that the robot cannot have
+            then = conclude(changed, judge(changed, known=known))
+        except InputError:  # a posture or a place of the centroid that the robot cannot have
             continue
-        if _better(then, now):
-            margin = math.degrees(then.margin) if math.isfinite(then.margin) else None
-            better.append(Change(change=text, verdict=then.verdict, margin_deg=margin))
+        if _is_better(then, conclusion):
+            better.append((then, change))
+    better.sort(key=lambda each: _rank(each[0]))
     return tuple(
-        sorted(better, key=lambda change: (_RANK[change.verdict], -(change.margin_deg or 0.0)))
+        Change(
+            change=change,
+            verdict=then.verdict.value,
+            margin_deg=math.degrees(then.margin),
+        )
+        for then, change in better
     )
 
 
-def _better(then: Outcome, now: Outcome) -> bool:
-    if _RANK[then.verdict] != _RANK[now.verdict]:
-        return _RANK[then.verdict] < _RANK[now.verdict]
-    return then.margin > now.margin + _MARGIN_WORTH_TELLING
+def _number(margin: float) -> float:
+    return 0.0 if math.isnan(margin) else margin
 
 
-def by_closed_form(case: Case, found: Judgement) -> tuple[Change, ...]:
-    """Changes that would help, by the closed form; nothing for a plain GO."""
-    if found.verdict == "go":
-        return ()
-    candidates = [*_turned_round(case), *_flippers_flat(case), *_gentler(case)]
-    if found.governs in ("slip_up", "slip_down", "friction_unknown"):
-        needed = required_friction(theta_s=found.nominal.theta_s, a=case.acceleration)
-        candidates += _more_friction(case, float(needed.max()))
-    if found.governs in ("tip_downhill", "tip_uphill"):
-        if found.margin_at_best > 0:
-            candidates += _measured(case)
-        candidates += _centroid_moved(case, found, found.governs)
-
-    def ask(changed: Case) -> Outcome:
-        then = judge(changed)
-        return Outcome(then.verdict, then.margin)
-
-    return improvements(candidates, Outcome(found.verdict, found.margin), ask)
+def _is_better(then: Conclusion, now: Conclusion) -> bool:
+    if then.verdict is not now.verdict:
+        return then.verdict.rank < min(now.verdict.rank, Verdict.NO_GO.rank)
+    return then.margin > now.margin + WORTH_TELLING
 
 
-class WholeWay(NamedTuple):
-    """What the contact model's advice goes by."""
-
-    governs: str
-    entering_or_landing: bool
-    """Whether it governs there, not on the flight."""
-    friction: float
-    """Required friction [1]."""
-    energy: float
-    """Energy margin [m]."""
-    kind: bool
-    """Whether the kindest reading holds."""
-
-
-def by_contact_model(
-    case: Case, found: WholeWay, flat: Judgement, now: Outcome, ask: Callable[[Case], Outcome]
-) -> tuple[Change, ...]:
-    """Changes that would help, by the contact model; nothing for a plain GO.
-
-    Only what can change the governing failure is asked, because each way is driven anew.
-
-    Parameters
-    ----------
-    case : Case
-        The question.
-    found : WholeWay
-        What governs.
-    flat : Judgement
-        The closed form's, which knows where the centroid should be.
-    now : Outcome
-        As asked.
-    ask : callable
-        The contact model.
-
-    Returns
-    -------
-    tuple of Change
-    """
-    if now.verdict == "go":
-        return ()
-    slips = found.governs in ("slip", "friction_unknown", "drive")
-    candidates: list[Candidate] = []
-    if case.yaw:
-        candidates.append(("Head straight along the stairs", case.changed(yaw=0.0)))
-    if found.governs != "friction_unknown":
-        candidates += _gentler(case)
-        if not slips:
-            candidates += _flippers_flat(case)
-        if not slips or found.entering_or_landing:
-            candidates += [*_turned_round(case), *_flippers_raised(case)]
-    if found.governs in ("slip", "friction_unknown"):
-        candidates += _more_friction(case, found.friction)
-    if found.governs == "energy":
-        candidates += _slower(case, found.energy)
-    tips = ("tip_downhill", "tip_uphill")
-    if found.governs in tips and found.kind:
-        candidates += _measured(case)
-    over = flat.governs if found.governs in ("catch", "momentum") else found.governs
-    if over in tips and case.profile is None and not case.yaw:
-        candidates += _centroid_moved(case, flat, over)
-    return improvements(candidates, now, ask)
+def _candidates(
+    question: Question, found: Findings, conclusion: Conclusion, searched: bool
+) -> Iterator[Candidate]:
+    """Only what can change what governs, because each may be driven anew."""
+    governs = conclusion.governs
+    if governs == UNWEIGHED.key:
+        yield _weighed(found)
+        return
+    slips = governs in _SLIPS
+    if question.yaw:
+        yield Candidate(text.STRAIGHT, question.changed(yaw=0.0))
+    if governs != Undecided.FRICTION_UNKNOWN:
+        if question.acceleration:
+            yield Candidate(text.STEADY, question.changed(acceleration=0.0))
+        at_an_end = conclusion.phase in (Phase.ENTER, Phase.LAND)
+        if not slips and not searched:
+            yield from _flippers_flat(question)
+        if not searched and (not slips or at_an_end):
+            other = "tail-first" if question.facing == "nose-first" else "nose-first"
+            yield Candidate(
+                text.turned_round(question.direction, other), question.changed(facing=other)
+            )
+            yield from _flippers_raised(question)
+    if slips:
+        yield from _more_friction(question, found)
+        yield from _grousers(question)
+    energy = found.of(ENERGY)
+    if governs == ENERGY.key and energy is not None:
+        yield from _slower(question, float(energy.worst[0]) + question.energy_threshold)
+    if governs in _ROTATES:
+        if conclusion.margin_best > 0:
+            yield from _measured(question)
+        yield from _centroid_moved(question, found, conclusion)
 
 
-def _turned_round(case: Case) -> list[Candidate]:
-    if case.facing == "nose-first":
-        return [(f"Go {case.direction} tail first", case.changed(facing="tail-first"))]
-    return [(f"Go {case.direction} nose first", case.changed(facing="nose-first"))]
+def _weighed(found: Findings) -> Candidate:
+    """The robot weighed, and its centroid at the best place of its range."""
+    best = min(
+        (each for each in found.basis if not each.found.outside),
+        key=lambda each: _rank(conclude(each.question, each.found)),
+    )
+    return Candidate(weighing.weigh(best.com_from_front, best.com_height), best.question)
 
 
-def _flippers_flat(case: Case) -> list[Candidate]:
+def _rank(conclusion: Conclusion) -> tuple[int, float]:
+    return conclusion.verdict.rank, -_number(conclusion.margin)
+
+
+def _flippers_flat(question: Question) -> Iterator[Candidate]:
+    robot = question.robot
     flat = Posture(
-        front="flat" if case.robot.front_flippers else None,
-        rear="flat" if case.robot.rear_flippers else None,
+        front="flat" if robot.front_flippers else None,
+        rear="flat" if robot.rear_flippers else None,
     )
-    if flat in (case.posture, Posture()):
-        return []
-    return [("Lay the flippers flat, in line with the track", case.changed(posture=flat))]
+    if flat not in (question.posture, Posture()):
+        yield Candidate(text.FLAT, question.changed(posture=flat))
 
 
-def _flippers_raised(case: Case) -> list[Candidate]:
+def _flippers_raised(question: Question) -> Iterator[Candidate]:
     """Leading flippers raised to meet the first riser from above; going up only."""
-    end = "front" if case.facing == "nose-first" else "rear"
-    pair = getattr(case.robot, f"{end}_flippers")
-    if pair is None or case.direction == "down" or getattr(case.posture, end) == RAISED:
-        return []
-    posture = case.posture.model_copy(update={end: RAISED})
-    text = f"Raise the {end} flippers to {math.degrees(RAISED):.0f} deg"
-    return [(text, case.changed(posture=posture))]
+    end = "front" if question.facing == "nose-first" else "rear"
+    pair = getattr(question.robot, f"{end}_flippers")
+    if pair is None or question.direction == "down" or getattr(question.posture, end) == RAISED:
+        return
+    posture = Posture(**dict(question.posture) | {end: RAISED})
+    yield Candidate(text.raised(end, RAISED), question.changed(posture=posture))
 
 
-def _gentler(case: Case) -> list[Candidate]:
-    if case.acceleration == 0:
-        return []
-    return [("Keep the speed constant", case.changed(acceleration=0.0))]
-
-
-def _slower(case: Case, energy: float) -> list[Candidate]:
-    """Speed whose kinetic energy the energy margin outdoes."""
-    if not energy > 0:
-        return []
-    speed = math.ceil(1e2 * math.sqrt(2 * STANDARD_GRAVITY * energy)) / 1e2 - 0.01
-    if speed < SLOWEST:
-        return []
-    return [(f"Drive at {speed:.2f} m/s or less", case.changed(speed=speed))]
-
-
-def _more_friction(case: Case, required: float) -> list[Candidate]:
+def _more_friction(question: Question, found: Findings) -> Iterator[Candidate]:
+    required = found.required_friction
     if not math.isfinite(required):
-        return []
-    needed = math.ceil(100 * required + 1)
-    if needed / 100 > LARGEST_FRICTION:
-        return []
-    surface = Surface.of_friction(needed / 100)
-    if case.surface is None:
-        text = f"Make sure of a friction of {needed / 100:.2f} or more"
-    else:
-        text = f"A surface with a friction of {needed / 100:.2f} or more"
-    return [(text, case.changed(surface=surface))]
+        return
+    enough = math.ceil(100 * required + 1) / 100
+    if question.uncertain and enough <= LARGEST_FRICTION:
+        enough = _enough_at_the_risk(question, found, enough)
+    if enough > LARGEST_FRICTION:
+        return
+    surface = Surface.of_friction(enough)
+    known = question.surface is not None
+    yield Candidate(text.friction(enough, known=known), question.changed(surface=surface))
 
 
-def _measured(case: Case) -> list[Candidate]:
-    unmeasured = [
-        name for name in ("theta_d", "theta_M") if getattr(case, name).source == "default"
-    ]
-    if not unmeasured:
-        return []
-    zero = Allowance(low=0.0, high=0.0)
-    text = f"Measure {' and '.join(unmeasured)}: at best, if they are zero"
-    return [(text, case.changed(**dict.fromkeys(unmeasured, zero)))]
+def _enough_at_the_risk(question: Question, found: Findings, nominal: float) -> float:
+    """Friction that is enough for all but the accepted share of what is uncertain [1]."""
+    known = found if question.robot.com_range is None else None
+    then = judge(question.changed(surface=Surface.of_friction(nominal)), known=known)
+    slides = [one.margin(question.risk) for one in then.each if one.mode.key in _SLIPS]
+    lacks = -min((each for each in slides if math.isfinite(each)), default=0.0)
+    if lacks <= 0 or math.atan(nominal) + lacks >= math.pi / 2:
+        return nominal
+    return math.ceil(100 * math.tan(math.atan(nominal) + lacks) + 1) / 100
 
 
-def _centroid_moved(case: Case, found: Judgement, governs: str) -> list[Candidate]:
-    """Shift of the centroid that would give a tip margin of zero, if the track is long enough."""
-    short = -at_risk(found.worst.centroid, case.risk)
-    at, step, tilt = found.nominal, found.step, case.theta_d.high + case.theta_M.high
-    L, p, C_N = float(at.L[0, 0]), float(at.p[0, step]), float(at.C_N[0, 0])
-    theta = float(at.theta_s[0, step])
-    room = L - 2 * p - C_N * (math.tan(theta + tilt) - math.tan(theta - case.theta_d.high))
-    if not np.isfinite(short) or short <= 0 or room < 0:
-        return []
-    shift = math.ceil(1e3 * short + 1) / 1e3
-    uphill = governs == "tip_downhill"
-    end = "front" if uphill == case.nose_up else "rear"
-    sign = -1.0 if end == "front" else 1.0
-    robot = case.robot
-    share = 1.0
-    if robot.mass is not None and found.stance.mass is not None:
-        share = robot.mass / found.stance.mass  # a payload stays where it is
-    moved = robot.com_from_front + sign * shift / share
-    changed = robot.model_copy(update={"com_from_front": moved})
-    text = f"Move the centroid {1e3 * shift:.0f} mm towards the {end}"
-    load = sum(payload.mass for payload in case.payload)
-    if load > 0 and found.stance.mass is not None:
-        text += f" (the payload by {1e3 * shift * found.stance.mass / load:.0f} mm)"
-    return [(text, case.changed(robot=changed))]
+def _grousers(question: Question) -> Iterator[Candidate]:
+    """Belts with grousers, where they have none."""
+    track = question.robot.track
+    if track.has_grousers:
+        return
+    belts = track.model_copy(
+        update={
+            "belt": "grousers",
+            "grouser_height": USUAL.grouser_height,
+            "grouser_spacing": USUAL.grouser_spacing,
+        }
+    )
+    robot = question.robot.model_copy(update={"track": belts})
+    yield Candidate(text.grousers(), question.changed(robot=robot))
+
+
+def _slower(question: Question, energy: float) -> Iterator[Candidate]:
+    """Speed whose kinetic energy is below the energy margin [m]."""
+    if not energy > 0:
+        return
+    speed = math.ceil(1e2 * math.sqrt(2 * STANDARD_GRAVITY * energy)) / 1e2 - 0.01
+    if speed >= SLOWEST:
+        yield Candidate(text.slower(speed), question.changed(speed=speed))
+
+
+def _measured(question: Question) -> Iterator[Candidate]:
+    defaults = {"theta_d": question.allowance_d, "theta_M": question.allowance_M}
+    names = [name for name, allowance in defaults.items() if allowance.source == "default"]
+    if names:
+        zero = Allowance(low=0.0, high=0.0)
+        yield Candidate(text.measured(names), question.changed(**dict.fromkeys(names, zero)))
+
+
+def _centroid_moved(
+    question: Question, found: Findings, conclusion: Conclusion
+) -> Iterator[Candidate]:
+    """Shift of the centroid that gives a tip margin of zero, if the track is long enough."""
+    over = _tips_over(question, found, conclusion)
+    shift = None if over is None else shift_of_centroid(question, downhill=over is TIP_DOWNHILL)
+    if over is None or shift is None:
+        return
+    shift = math.ceil(1e3 * shift + 1) / 1e3
+    end = "front" if (over is TIP_DOWNHILL) == question.nose_up else "rear"
+    robot, mass = question.robot, question.stance.mass
+    share = 1.0 if robot.mass is None or mass is None else robot.mass / mass  # a payload stays
+    moved = robot.com_from_front + (-shift if end == "front" else shift) / share
+    load = sum(payload.mass for payload in question.payload)
+    of_payload = shift * mass / load if load > 0 and mass is not None else None
+    try:
+        changed = type(robot)(**dict(robot) | {"com_from_front": moved})
+    except InputError:  # outside the robot
+        return
+    yield Candidate(
+        text.centroid(shift, end, of_payload=of_payload), question.changed(robot=changed)
+    )
+
+
+def _tips_over(question: Question, found: Findings, conclusion: Conclusion) -> FailureMode | None:
+    """End over which the robot tips; None: neither is known to."""
+    failing = [one for one in conclusion.doubts if one.mode in TIPS[:2]]
+    known = failing or [one for mode in TIPS[:2] if (one := found.of(mode)) is not None]
+    known = [one for one in known if not math.isnan(one.margin(question.risk))]
+    return min(known, key=lambda one: one.margin(question.risk)).mode if known else None

@@ -6,13 +6,13 @@
 
 from kaidan.campaign.campaign import PlanProgress, carry_out, progress_of, resume
 from kaidan.campaign.cluster import DaskWorkers
-from kaidan.campaign.conducting import Tally, conduct
+from kaidan.campaign.job import CRASHED, FAILED, Work
 from kaidan.campaign.local import LocalWorkers, Workers
-from kaidan.campaign.plans import Condition, Grid, Plan, VerificationTest
-from kaidan.campaign.reading import State, export, read_batches, read_table, state_of
+from kaidan.campaign.plans import Condition, Grid, Plan, Setting, VerificationTest
+from kaidan.campaign.query import State, export, read_batches, read_table, state_of
+from kaidan.campaign.runner import Tally, conduct
 from kaidan.campaign.store import Store
 from kaidan.campaign.trials import TRIALS
-from kaidan.campaign.work import CRASHED, FAILED, Work
 
 __all__ = [
     "CRASHED",
@@ -24,6 +24,7 @@ __all__ = [
     "LocalWorkers",
     "Plan",
     "PlanProgress",
+    "Setting",
     "State",
     "Store",
     "Tally",

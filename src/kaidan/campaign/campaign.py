@@ -5,13 +5,14 @@ from pathlib import Path
 from typing import NamedTuple
 
 from kaidan.campaign.cluster import DaskWorkers
-from kaidan.campaign.conducting import Tally, conduct
-from kaidan.campaign.known import Known
+from kaidan.campaign.id_set import Known
 from kaidan.campaign.local import LocalWorkers, Workers
 from kaidan.campaign.plans import Grid, VerificationTest, as_stored, plan_from
 from kaidan.campaign.progress import Progress
-from kaidan.campaign.reading import read_batches
-from kaidan.campaign.store import Store, about_store
+from kaidan.campaign.query import read_batches
+from kaidan.campaign.runner import Tally, conduct
+from kaidan.campaign.store import Store
+from kaidan.campaign.store_files import about_store
 from kaidan.campaign.trials import TRIALS
 
 
@@ -53,10 +54,10 @@ def carry_out(
     with (
         Store(Path(store), TRIALS) as opened,
         _workers(workers, scheduler) as hands,
-        Progress(len(plan), shown=progress) as told,
+        Progress(len(plan), shown=progress) as bar,
     ):
         opened.note_plan(as_stored(plan))
-        return conduct(plan.specs(), opened, hands, told=told)
+        return conduct(plan.specs(), opened, hands, listener=bar)
 
 
 def resume(

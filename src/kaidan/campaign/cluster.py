@@ -3,6 +3,7 @@
 import asyncio
 import concurrent.futures
 import itertools
+import re
 import time
 from collections import deque
 from contextlib import suppress
@@ -11,14 +12,15 @@ from queue import Empty, SimpleQueue
 from types import TracebackType
 from typing import Any, Self
 
+from kaidan.campaign.job import CRASHED, FAILED, Ended, Reply, Task, Work, perform
 from kaidan.campaign.local import TRIES
-from kaidan.campaign.work import CRASHED, FAILED, Ended, Reply, Task, Work, perform
-from kaidan.errors import InputError, MissingExtraError
+from kaidan.errors import InputError, MissingExtraError, shown
 
 PATIENCE = 60.0
 """Time without any worker, or without the scheduler, after which a campaign ends [s]."""
 CONNECT = 10.0
 """Time within which the scheduler has to answer [s]."""
+_ADDRESS = re.compile(r"(?:(?:tcp|tls|wss?|ucx)://)?[^\s/]+:\d{1,5}")
 _AHEAD = 3
 """Tasks in flight for each thread of the workers; the scheduler hands them out."""
 _LOOK = 2.0
@@ -73,11 +75,17 @@ class DaskWorkers:
     ) -> None:
         self.work, self.tries, self.version = work, tries, work.version()
         self.address, self.patience = address, patience
+        client = distributed().Client
+        if not _ADDRESS.fullmatch(address):
+            raise InputError(
+                f"{shown(address)} is no address of a Dask scheduler; write for example "
+                "tcp://10.0.0.1:8786"
+            )
         try:
-            self.client = distributed().Client(address, timeout=CONNECT, set_as_default=False)
+            self.client = client(address, timeout=CONNECT, set_as_default=False)
         except (OSError, ValueError, TypeError) as error:
             why = str(error).partition("\n")[0] or type(error).__name__
-            raise InputError(f"no Dask scheduler answers at {address!r}: {why}") from None
+            raise InputError(f"no Dask scheduler answers at {shown(address)}: {why}") from None
         self._tasks: dict[str, tuple[Any, Task]] = {}
         self._done: SimpleQueue[str] = SimpleQueue()
         self._deaths: dict[str, int] = {}
@@ -173,7 +181,7 @@ class DaskWorkers:
             return {}
         try:
             found = self.client.gather([self._tasks[key][0] for key in keys], errors="skip")
-        except _ANY:  # each is asked for by itself then
+        except _ANY:  # each is fetched by itself then
             return {}
         return dict(zip(keys, found, strict=True)) if len(found) == len(keys) else {}
 

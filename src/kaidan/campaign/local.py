@@ -12,7 +12,7 @@ from multiprocessing import connection
 from types import TracebackType
 from typing import Protocol, Self
 
-from kaidan.campaign.work import CRASHED, FAILED, Ended, Reply, Task, Work, perform
+from kaidan.campaign.job import CRASHED, FAILED, Ended, Reply, Task, Work, perform
 from kaidan.errors import InputError
 
 TRIES = 3
@@ -128,8 +128,8 @@ class LocalWorkers:
     def room(self) -> int:
         """How many more tasks it wants now."""
         self._place_suspects()
-        wanted = sum(0 if slot.alone else _AHEAD - len(slot.futures) for slot in self._slots)
-        return max(0, wanted - _AHEAD * len(self._suspects))
+        free = sum(0 if slot.alone else _AHEAD - len(slot.futures) for slot in self._slots)
+        return max(0, free - _AHEAD * len(self._suspects))
 
     def submit(self, task: Task) -> None:
         """Take a task."""

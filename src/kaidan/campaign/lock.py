@@ -21,7 +21,7 @@ class Lock:
     """
 
     def __init__(self, folder: Path) -> None:
-        self.file: IO[str] = (folder / FILE).open("a+", encoding="utf-8")
+        self.file: IO[str] = (folder / FILE).open("a+", encoding="utf-8", errors="replace")
         for _ in range(4):
             if _try_to_lock(self.file):
                 break
@@ -43,9 +43,9 @@ class Lock:
 def holder(folder: Path) -> str | None:
     """Who holds the lock on a folder; None if nobody does."""
     try:
-        with (folder / FILE).open(encoding="utf-8") as file:
+        with (folder / FILE).open(encoding="utf-8", errors="replace") as file:
             return None if _try_to_lock(file) else file.read(200).strip() or "another process"
-    except FileNotFoundError:
+    except OSError:  # none, or none that may be looked at
         return None
 
 

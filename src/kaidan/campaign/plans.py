@@ -5,13 +5,17 @@ from itertools import product
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
-from pydantic import Field, TypeAdapter
+from pydantic import BaseModel, Field, TypeAdapter, field_validator
 
 from kaidan.errors import InputError
 from kaidan.physics import SmoothBelt, TrackModel, TrialSpec
+from kaidan.question import Question
 from kaidan.robot import Payload, Posture, Robot
 from kaidan.sheet import Sheet, model_validator, quantity
-from kaidan.stairs import Stairs
+from kaidan.spelling import OVERRIDES, figures, overridden, payloads_of, posture_of, sheet_of
+from kaidan.surface import Surface
+from kaidan.terrain.stairs import Stairs
+from kaidan.units import parse, range_of
 
 
 def seed_of(*parts: int) -> int:
@@ -29,11 +33,96 @@ class Condition(Sheet):
     direction: Literal["up", "down"] = "up"
 
 
+class Setting(Sheet):
+    """What all trials of an experiment share, whatever their condition.
+
+    The nose points up the stairs, whichever way the robot goes: it comes down tail first, so that
+    the same centroid is lost over the same end.
+    """
+
+    label: ClassVar[str] = "setting"
+
+    robot: Robot
+    posture: Posture = Posture()
+    payload: tuple[Payload, ...] = ()
+    track: TrackModel = SmoothBelt()
+    friction: float | None = quantity(
+        "1", 0.0, 5.0, "track on nosings; as a trial takes it without", default=None
+    )
+    speed: float = quantity("m/s", 0.001, 5.0, "of the belt", default=0.1)
+    ground: Literal["steps", "noses"] = "steps"
+
+    @classmethod
+    def of(
+        cls,
+        robot: Any,
+        *,
+        flippers: Any = "stowed",
+        payload: Any = (),
+        override: Any = (),
+        friction: Any = None,
+        speed: Any = 0.1,
+        **others: Any,
+    ) -> Self:
+        """Setting of what people write.
+
+        Parameters
+        ----------
+        robot, flippers, payload, override, friction, speed
+            As `kaidan.Question.of` has them; of a range of friction the low end counts.
+        **others
+            Other fields.
+
+        Raises
+        ------
+        InputError
+            An input without physical meaning; the text names it.
+        """
+        own = figures(override, OVERRIDES, "override")
+        sheet = overridden(sheet_of(robot, Robot), own).weighed
+        return cls(
+            robot=sheet,
+            posture=posture_of(flippers, sheet),
+            payload=tuple(payloads_of(payload)),
+            friction=None
+            if friction is None
+            else range_of(friction, "number", option="friction")[0],
+            speed=parse(speed, "speed", option="speed") if isinstance(speed, str) else speed,
+            **others,
+        )
+
+    def trial(self, condition: Condition, seed: int, **others: Any) -> TrialSpec:
+        """Trial at a condition on a long flight.
+
+        Parameters
+        ----------
+        condition : Condition
+        seed : int
+            Of what is random.
+        **others
+            Other fields of the trial.
+        """
+        p, down = condition.nosing_spacing, condition.direction == "down"
+        within = self.robot.stance(self.posture, self.payload).flat_length / p
+        question = Question(
+            robot=self.robot,
+            terrain=Stairs.inclined(
+                angle=condition.angle, nosing_spacing=p, steps=max(12, 8 + int(within))
+            ),
+            surface=None if self.friction is None else Surface.of_friction(self.friction),
+            direction=condition.direction,
+            facing="tail-first" if down else "nose-first",
+            speed=self.speed,
+            posture=self.posture,
+            payload=self.payload,
+        )
+        return TrialSpec(
+            question=question, track=self.track, ground=self.ground, seed=seed, **others
+        )
+
+
 class VerificationTest(Sheet):
     """The paper's verification test: spacings, inclinations, some trials a condition.
-
-    The nose points up the stairs, whichever way it goes: it comes down tail first, so that the
-    same centroid is lost over the same end.
 
     References
     ----------
@@ -43,10 +132,10 @@ class VerificationTest(Sheet):
     label: ClassVar[str] = "verification test"
 
     kind: Literal["verification-test"] = "verification-test"
-    robot: Robot
-    posture: Posture = Posture()
-    payload: tuple[Payload, ...] = ()
-    conditions: tuple[Condition, ...] = Field(min_length=1, max_length=100_000)
+    setting: Setting = Field(description="robot, track, friction and speed of all trials")
+    conditions: tuple[Condition, ...] = Field(
+        min_length=1, max_length=100_000, description="spacings and slopes, one after the other"
+    )
     trials: int = Field(
         default=5,
         ge=1,
@@ -54,10 +143,6 @@ class VerificationTest(Sheet):
         description="a condition",
         json_schema_extra={"unit": "trials"},
     )
-    track: TrackModel = SmoothBelt()
-    friction: float = quantity("1", 0.0, 5.0, "track on nosings", default=3.0)
-    speed: float = quantity("m/s", 0.001, 5.0, "of the belt", default=0.1)
-    ground: Literal["steps", "noses"] = "steps"
     seed: int = Field(default=0, ge=0, le=2**63 - 1, description="of start offsets and phases")
 
     def __len__(self) -> int:
@@ -72,23 +157,7 @@ class VerificationTest(Sheet):
 
     def spec(self, condition: Condition, trial: int) -> TrialSpec:
         """One trial; its seed depends on the condition, not on which others there are."""
-        p, down = condition.nosing_spacing, condition.direction == "down"
-        within = self.robot.stance(self.posture, self.payload).flat_length / p
-        return TrialSpec(
-            robot=self.robot,
-            stairs=Stairs.inclined(
-                angle=condition.angle, nosing_spacing=p, steps=max(12, 8 + int(within))
-            ),
-            posture=self.posture,
-            payload=self.payload,
-            friction=self.friction,
-            speed=self.speed,
-            direction=condition.direction,
-            facing="tail-first" if down else "nose-first",
-            track=self.track,
-            ground=self.ground,
-            seed=self._seed(condition, trial),
-        )
+        return self.setting.trial(condition, self._seed(condition, trial))
 
     def _seed(self, condition: Condition, trial: int) -> int:
         p, angle = round(1e6 * condition.nosing_spacing), round(1e6 * condition.angle)
@@ -100,22 +169,21 @@ class Grid(Sheet):
 
     Examples
     --------
-    >>> from kaidan.robot import Robot
-    >>> base = TrialSpec(
-    ...     robot=Robot.named("kenaf"), stairs=Stairs.inclined(angle=0.9, nosing_spacing=0.15)
-    ... )
-    >>> axes = (("friction", (0.8, 2.0)), ("robot.com_height", (0.07, 0.1)))
-    >>> grid = Grid(base=base, axes=axes)
-    >>> len(grid), [(each.friction, each.robot.com_height) for each in grid.specs()][1]
-    (4, (0.8, 0.1))
+    >>> question = Question.of("kenaf", Stairs.inclined(angle=0.9, nosing_spacing=0.15))
+    >>> surfaces = tuple(Surface.of_friction(mu) for mu in (0.8, 2.0))
+    >>> axes = (("question.surface", surfaces), ("question.robot.com_height", (0.07, 0.1)))
+    >>> grid = Grid(base=TrialSpec(question=question), axes=axes)
+    >>> trials = list(grid.specs())
+    >>> len(grid), trials[1].static_friction, trials[1].question.robot.com_height
+    (4, 0.8, 0.1)
     """
 
     label: ClassVar[str] = "grid"
 
     kind: Literal["grid"] = "grid"
-    base: TrialSpec
+    base: TrialSpec = Field(description="trial of which fields are changed")
     axes: tuple[tuple[str, tuple[Any, ...]], ...] = Field(
-        description="dotted names of fields, each with its values"
+        description="dotted names of fields, each with its values: numbers, texts or whole sheets"
     )
     trials: int = Field(
         default=1,
@@ -125,9 +193,15 @@ class Grid(Sheet):
         json_schema_extra={"unit": "trials"},
     )
 
+    @field_validator("axes")
+    @classmethod
+    def _plain(cls, axes: tuple[tuple[str, tuple[Any, ...]], ...]) -> Any:
+        """Axes with sheets as tables, as a store keeps them."""
+        return tuple((name, tuple(map(_table, values))) for name, values in axes)
+
     @model_validator(mode="after")
     def _known_fields(self) -> Self:
-        sheet = self.base.model_dump()
+        sheet = self.base.model_dump(mode="json")
         for name, values in self.axes:
             _set(sheet, name, None)
             if not values:
@@ -143,7 +217,7 @@ class Grid(Sheet):
     def specs(self) -> Iterator[TrialSpec]:
         """Trials, one after the other."""
         for values in product(*(values for _, values in self.axes)):
-            sheet = self.base.model_dump()
+            sheet = self.base.model_dump(mode="json")
             for (name, _), value in zip(self.axes, values, strict=True):
                 _set(sheet, name, value)
             spec = TrialSpec.model_validate(sheet)
@@ -151,11 +225,15 @@ class Grid(Sheet):
                 yield spec.model_copy(update={"seed": seed_of(spec.seed, trial)})
 
 
+def _table(value: Any) -> Any:
+    return value.model_dump(mode="json") if isinstance(value, BaseModel) else value
+
+
 def _set(sheet: dict[str, Any], name: str, value: Any) -> None:
     """Set a field by its dotted name."""
-    *way, last = name.split(".")
+    *path, last = name.split(".")
     place: Any = sheet
-    for part in way:
+    for part in path:
         place = place.get(part) if isinstance(place, dict) else None
     if not isinstance(place, dict) or last not in place:
         known = f"; known there: {', '.join(place)}" if isinstance(place, dict) else ""
@@ -178,8 +256,8 @@ def plan_from(stored: Any) -> VerificationTest | Grid:
     """
     try:
         return _PLAN.validate_python(stored)
-    except InputError:
-        raise
+    except InputError as error:
+        raise InputError(f"plan in the store: {error}") from None
     except ValueError as error:
         first = str(error).partition("\n")[0]
         raise InputError(f"plan in the store: cannot be read: {first}") from None

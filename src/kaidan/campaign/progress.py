@@ -14,9 +14,9 @@ class Progress:
     Parameters
     ----------
     total : int
-        Trials of the plan; those found done are taken off it, so that the time left is right.
+        Trials of the plan; those done before are subtracted, so that the time left is right.
     shown : bool
-        Whether it is wanted at all.
+        Whether to show it at all.
     """
 
     def __init__(self, total: int, *, shown: bool) -> None:
@@ -59,7 +59,7 @@ class Progress:
             self._bar.stop()
 
     def advance(self, done: int, skipped: int) -> None:
-        """So many trials were done, or found done, since the last time."""
+        """So many trials were done, or skipped as done before, since the last time."""
         if self._bar is None or self._task is None or not (done or skipped):
             return
         self._total -= skipped

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from kaidan import physics
-from kaidan.campaign.work import Kind, Work
+from kaidan.campaign.job import Kind, Work
 from kaidan.errors import MissingExtraError
 from kaidan.physics import DrivenGrousers, TrialSpec
 
@@ -46,8 +46,9 @@ _INPUTS: dict[str, Kind] = {
 """Inputs by column; `spec` holds all of them as JSON, what is assumed for a missing one too."""
 _FIGURES: dict[str, Kind] = {
     "largest_extra_deg": "number",
-    "release": "count",
-    "releases": "count",
+    "phase": "text",
+    "step": "count",
+    "nosings_passed": "count",
     "largest_normal_N": "number",
     "largest_traction_N": "number",
     "largest_torque_Nm": "number",
@@ -65,52 +66,36 @@ _FIGURES: dict[str, Kind] = {
 def run(spec: TrialSpec) -> dict[str, Any]:
     """Outcome and figures of a trial."""
     result = physics.run(spec)
-    return {
-        "outcome": result.outcome.value,
-        "largest_extra_deg": result.largest_extra_deg,
-        "release": result.release,
-        "releases": result.releases,
-        "largest_normal_N": result.largest_normal,
-        "largest_traction_N": result.largest_traction,
-        "largest_torque_Nm": result.largest_torque,
-        "largest_power_W": result.largest_power,
-        "slip_m": result.slip,
-        "time_s": result.time,
-        "mass_assumed": result.mass_assumed,
-        "inertia_estimated": result.inertia_estimated,
-        "wall_time_s": result.wall_time,
-        "kaidan": result.versions["kaidan"],
-        "mujoco": result.versions["mujoco"],
-    }
+    figures = result.model_dump(mode="json", include=set(_FIGURES) | {"outcome"})
+    return figures | result.versions
 
 
 def inputs(spec: TrialSpec) -> dict[str, Any]:
     """Columns of what a trial depends on."""
-    profile = spec.profile()
-    stance = spec.outline().stance
+    question, profile, stance = spec.question, spec.profile(), spec.question.stance
     offset, phase = spec.drawn()
     track = spec.track
     grousers = track if isinstance(track, DrivenGrousers) else None
     return {
-        "robot": spec.robot.name,
+        "robot": question.robot.name,
         "flat_length_m": stance.flat_length,
         "com_from_front_m": stance.com_from_front,
         "com_height_m": stance.com_height,
-        "front_radius_m": spec.robot.track.front_radius,
-        "rear_radius_m": spec.robot.track.rear_radius,
+        "front_radius_m": question.robot.track.front_radius,
+        "rear_radius_m": question.robot.track.rear_radius,
         "mass_kg": spec.mass()[0],
-        "stairs": spec.stairs.name,
+        "stairs": question.terrain_name,
         "angle_deg": math.degrees(abs(profile.angle)),
         "nosing_spacing_m": profile.nosing_spacing,
-        "friction": spec.friction,
+        "friction": spec.static_friction,
         "speed_m_s": spec.speed,
-        "acceleration_m_s2": spec.acceleration,
-        "direction": spec.direction,
-        "facing": spec.facing,
+        "acceleration_m_s2": question.acceleration,
+        "direction": question.direction,
+        "facing": question.facing,
         "begin": spec.begin,
         "ground": spec.ground,
         "dimensions": spec.dimensions,
-        "yaw_deg": math.degrees(spec.yaw),
+        "yaw_deg": math.degrees(question.yaw),
         "lateral_offset_m": spec.lateral_offset,
         "track": track.kind,
         "stiffness_N_m": grousers.stiffness if grousers else spec.stiffness,
@@ -144,7 +129,7 @@ def physics_version() -> str:
         raise MissingExtraError("the physics model", "physics") from None
     package = Path(__file__).parents[1]
     sources = [*sorted((package / "physics").glob("*.py"))]
-    sources += [package / "outline.py", package / "profile.py"]
+    sources += [package / "outline.py", package / "terrain" / "profile.py"]
     digest = hashlib.sha256(b"\0".join(source.read_bytes() for source in sources)).hexdigest()
     return f"kaidan {version('kaidan')}, MuJoCo {engine}, models {digest[:12]}"
 

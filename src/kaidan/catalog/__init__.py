@@ -1,30 +1,39 @@
 """The catalogues: TOML files with a source for every number, by kind and name.
 
 ``robots``, ``stairs`` and ``surfaces`` are folders of this package; a file's stem is the name.
-``gross.toml`` holds the robots of which no centroid is published. Sources begin with a status
+``unweighed`` holds robots of which no centroid is published, with a stated range of it, and
+``gross.toml`` those of which not even the length is. Sources begin with a status
 letter: V read in the named source, C computed from a public robot model, D derived, U recalled
-and unconfirmed.
+and unconfirmed. ``outcomes.toml`` holds robots on stairs whose outcome is public.
 """
 
+import os
 import tomllib
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from typing import Literal, TypeVar
+from typing import Any, Literal, TypeVar
 
-from kaidan.errors import InputError, UnknownNameError
+from kaidan.errors import InputError, UnknownNameError, short
 
 Kind = Literal["robots", "stairs", "surfaces"]
+Folder = Kind | Literal["unweighed"]
 T = TypeVar("T")
 
 _HERE = Path(__file__).parent
-_SINGULAR = {"robots": "robot", "stairs": "staircase", "surfaces": "surface"}
+_SINGULAR: dict[Kind, str] = {"robots": "robot", "stairs": "staircase", "surfaces": "surface"}
+_MARKS: dict[Kind, set[str]] = {
+    "robots": {"track", "com_from_front", "com_height", "front_flippers", "rear_flippers", "drive"},
+    "stairs": {"rise", "going", "rises", "goings", "steps", "nosing_overhang"},
+    "surfaces": {"friction_low", "friction_high", "friction_uncertainty"},
+}
+"""Fields by which a sheet is known."""
 _LARGEST_FILE = 1_000_000
 
 
 @cache
-def names(kind: Kind) -> tuple[str, ...]:
-    """Names of a catalogue, sorted."""
+def names(kind: Folder) -> tuple[str, ...]:
+    """Names of a catalogue, sorted; "unweighed" are robots whose centroid is a range."""
     return tuple(sorted(path.stem for path in (_HERE / kind).glob("*.toml")))
 
 
@@ -32,6 +41,12 @@ def names(kind: Kind) -> tuple[str, ...]:
 def gross_robots() -> dict[str, dict[str, str]]:
     """Robots of which only gross figures are published, by name: title, figures, source."""
     return tomllib.loads((_HERE / "gross.toml").read_text(encoding="utf-8"))
+
+
+@cache
+def outcomes() -> dict[str, Any]:
+    """Robots on stairs whose outcome is public: pairs, sources, and reports without a geometry."""
+    return tomllib.loads((_HERE / "outcomes.toml").read_text(encoding="utf-8"))
 
 
 def load(kind: Kind, name: str, read: Callable[..., T]) -> T:
@@ -54,17 +69,21 @@ def load(kind: Kind, name: str, read: Callable[..., T]) -> T:
     Raises
     ------
     UnknownNameError
-        No such name and no such file.
+        No such name.
     InputError
-        A robot of which no centroid is published, or a file that cannot be read.
+        No such file, one that cannot be read, a sheet of another kind, or a robot of which no
+        centroid is published.
     """
     stem = name.strip().lower()
-    if stem in names(kind):
-        return read((_HERE / kind / f"{stem}.toml").read_text(encoding="utf-8"), origin=stem)
+    folders: tuple[Folder, ...] = ("robots", "unweighed") if kind == "robots" else (kind,)
+    for folder in folders:
+        if stem in names(folder):
+            text = (_HERE / folder / f"{stem}.toml").read_text(encoding="utf-8")
+            return read(text, origin=stem)
     if kind == "robots" and stem in gross_robots():
         raise InputError(
-            f"{gross_robots()[stem]['title']}: no centroid is published, so no margin can be "
-            "computed; weigh and tilt the robot and fill in a sheet: kaidan new robot"
+            f"{gross_robots()[stem]['title']}: neither length nor centroid is published, so no "
+            "margin can be computed; measure the robot: kaidan measure robot --help"
         )
     path = Path(name)
     try:
@@ -72,13 +91,40 @@ def load(kind: Kind, name: str, read: Callable[..., T]) -> T:
     except (OSError, ValueError):
         exists = False
     if not exists:
-        raise UnknownNameError(_SINGULAR[kind], name, names(kind))
-    origin = name if name.isprintable() else repr(name)
-    return read(_text(path, origin), origin=origin)
+        if path.suffix.lower() == ".toml" or not {"/", os.sep}.isdisjoint(name):
+            raise InputError(f"{short(name)}: no such file")
+        elsewhere = [f", but a {_SINGULAR[each]} is" for each in _SINGULAR if stem in names(each)]
+        raise UnknownNameError(_SINGULAR[kind], name, names(kind), "".join(elsewhere))
+    origin = short(name)
+    text = text_of(path)
+    try:
+        return read(text, origin=origin)
+    except InputError:
+        for other in _SINGULAR:
+            if other != kind and _is_sheet_of(other, text) and not _is_sheet_of(kind, text):
+                raise InputError(
+                    f"{origin}: is the sheet of a {_SINGULAR[other]}, not of a {_SINGULAR[kind]}"
+                ) from None
+        raise
 
 
-def _text(path: Path, origin: str) -> str:
-    """Text of a user's file, with or without a byte order mark."""
+def _is_sheet_of(kind: Kind, text: str) -> bool:
+    """Whether a TOML text has a field that only sheets of a kind have."""
+    try:
+        return not _MARKS[kind].isdisjoint(tomllib.loads(text))
+    except (ValueError, RecursionError):
+        return False
+
+
+def text_of(path: Path) -> str:
+    """Text of a user's file, with or without a byte order mark.
+
+    Raises
+    ------
+    InputError
+        No such file, or one that cannot be a sheet.
+    """
+    origin = short(path)
     try:
         if path.is_dir():
             raise InputError(f"{origin}: cannot be read: a folder, not a TOML file")

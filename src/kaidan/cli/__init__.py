@@ -1,14 +1,20 @@
 """The command line: degrees and millimetres in, verdicts and pictures out.
 
-Exit codes: 0 go or caution, 1 no-go, 2 bad input, 3 outside the model.
+Exit codes: 0 go or caution, 1 no-go, 2 bad input, 3 outside the model, 70 a fault of kaidan's own,
+130 after Ctrl-C.
 """
 
+import errno
 import os
+import re
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
+from difflib import get_close_matches
 from importlib import import_module
-from typing import Annotated, Any, NoReturn
+from pathlib import Path
+from traceback import extract_tb, print_exc
+from typing import Annotated, Any, NoReturn, TextIO
 
 import typer
 
@@ -17,24 +23,39 @@ _COMMANDS = {
     "assess": ("assess",),
     "calibrate": ("calibrate",),
     "campaign": ("campaign",),
-    "catalogs": ("robots", "stairs", "surfaces", "new", "schema"),
+    "catalogs": ("robots", "stairs", "surfaces", "new"),
+    "compare": ("compare",),
     "experiment": ("experiment",),
+    "margin": ("margin",),
+    "measure": ("measure",),
     "monitor": ("monitor",),
+    "outcomes": ("outcomes",),
     "physics": ("physics",),
+    "plane": ("plane",),
     "posture": ("posture",),
-    "reports": ("margin", "plane", "compare", "reproduce"),
+    "reproduce": ("reproduce",),
+    "schema": ("schema",),
     "traverse": ("traverse",),
 }
-"""Commands by the module that registers them: one that is asked for is loaded alone."""
+"""Commands by the module that registers them: a requested one is loaded alone."""
 
 _START_LIGHTLY = {
     "OPENBLAS_NUM_THREADS": "1",  # no matrix here is worth the threads numpy would start
     "PYDANTIC_DISABLE_PLUGINS": "__all__",  # kaidan uses none, and looking for some takes time
 }
 
+COMPLETE = "_KAIDAN_COMPLETE"
+"""Variable by which the completion script of a shell calls."""
+INTERNAL = 70
+"""Exit code of a fault of kaidan's own: EX_SOFTWARE of sysexits.h."""
+_CANNOT_BE_WRITTEN = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EBADF, errno.EFBIG)
+_ENDLESS = re.compile(r"\S{300,}")
+_UsageError: type[Exception] = typer.BadParameter.__mro__[1]
+"""Of click, which typer brings along under different names."""
 
-def _print_version(wanted: bool) -> None:
-    if wanted:
+
+def _print_version(requested: bool) -> None:
+    if requested:
         from kaidan import __version__
 
         typer.echo(__version__)
@@ -43,25 +64,32 @@ def _print_version(wanted: bool) -> None:
 
 def kaidan(
     version: Annotated[
-        bool, typer.Option("--version", callback=_print_version, help="Show the version and exit.")
+        bool,
+        typer.Option("--version", "-V", callback=_print_version, help="Show the version and exit."),
     ] = False,
 ) -> None:
-    """Can this tracked robot take these stairs?"""
+    """Can this tracked robot take these stairs?
+
+    Robots and stairs are names (kaidan robots, kaidan stairs) or sheets of your own: kaidan
+    measure robot -h and kaidan measure stairs -h say how to get there with scales, tape and level.
+    Then ask: kaidan assess ROBOT STAIRS.
+    """
 
 
 def app_for(words: Sequence[str]) -> typer.Typer:
     """Command line with the command that comes first, or with all if that is none of them."""
+    command = words[0] if words else ""
+    known = {each for commands in _COMMANDS.values() for each in commands}
     app = typer.Typer(
         name="kaidan",
         no_args_is_help=True,
-        add_completion=False,
+        add_completion=command not in known,
         pretty_exceptions_enable=False,
         rich_markup_mode=None,
         context_settings={"help_option_names": ["-h", "--help"]},
     )
     app.callback()(kaidan)
-    asked = words[0] if words else ""
-    modules = [name for name, commands in _COMMANDS.items() if asked in commands] or _COMMANDS
+    modules = [name for name, commands in _COMMANDS.items() if command in commands] or _COMMANDS
     for name in modules:
         import_module(f"kaidan.cli.{name}").register(app)
     return app
@@ -74,25 +102,116 @@ def __getattr__(name: str) -> Any:
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-def main() -> None:
-    """Run the command line; what kaidan refuses ends with exit code 2 and one line."""
+def main() -> NoReturn:
+    """Run the command line and end the process with its exit code."""
+    sys.exit(run(sys.argv[1:]))
+
+
+def run(words: Sequence[str]) -> int:
+    """Exit code of a command line; whatever goes wrong is said in one line on standard error.
+
+    Parameters
+    ----------
+    words : sequence of str
+        Command and its arguments.
+
+    Returns
+    -------
+    int
+        What the command ends with; 2 for what kaidan refuses, 70 for a fault of kaidan's own, 130
+        after Ctrl-C, 0 if nobody reads the answer to its end (a closed pipe).
+    """
     for name, value in _START_LIGHTLY.items():
         os.environ.setdefault(name, value)
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # closed by who started it
+            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
     from kaidan.errors import KaidanError
 
     try:
-        app_for(sys.argv[1:])()
+        code = _outcome(words)
+        sys.stdout.flush()
+        return code
     except KaidanError as error:
-        _complain(str(error))
+        return _complain(str(error))
+    except _UsageError as error:
+        if type(error).__name__ == "NoArgsIsHelpError":
+            return _say(str(error), 2)
+        return _complain(_usage(error))
+    except (KeyboardInterrupt, typer.Abort):
+        return _complain("interrupted", 130)
     except BrokenPipeError:
-        sys.stderr.close()
-        sys.exit(0)
-    except OSError as error:  # a full disk behind standard output, for example
-        _complain(f"the answer cannot be written: {error.strerror or error}")
+        _read_by_nobody(sys.stdout)
+        return 0
+    except Exception as error:
+        if isinstance(error, OSError) and error.errno in _CANNOT_BE_WRITTEN:
+            _read_by_nobody(sys.stdout)
+            return _complain(f"the answer cannot be written: {error.strerror}")
+        if os.environ.get("KAIDAN_DEBUG"):
+            print_exc()
+        return _complain(_fault(error), INTERNAL)
 
 
-def _complain(text: str) -> NoReturn:
-    """Say in one line what is wrong, if anybody listens, and end with exit code 2."""
-    with suppress(OSError):
-        print(f"kaidan: {text}", file=sys.stderr, flush=True)  # noqa: T201
-    sys.exit(2)
+def _outcome(words: Sequence[str]) -> int:
+    """Run a command; the exit code that it asks for."""
+    if COMPLETE in os.environ:  # a shell asks what may follow
+        whole = typer.main.get_command(app_for(()))
+        try:
+            whole.main(list(words), prog_name="kaidan", complete_var=COMPLETE)
+        except SystemExit as ended:
+            return int(ended.code or 0)
+    command = typer.main.get_command(app_for(words))
+    try:
+        with command.make_context("kaidan", list(words)) as context:
+            command.invoke(context)
+    except typer.Exit as ended:
+        return ended.exit_code
+    return 0
+
+
+def _usage(error: Exception) -> str:
+    """Refusal of a word of the command line, with what may have been meant and where to look."""
+    context = getattr(error, "ctx", None)
+    text = error.format_message().strip().replace("Value error, ", "")  # type: ignore[attr-defined]
+    if type(error).__name__ == "NoSuchOption":
+        option, known = (getattr(error, name) or () for name in ("option_name", "possibilities"))
+        close = get_close_matches(option, known, n=1, cutoff=0.7)
+        text = f"no such option: {option}{f'; did you mean {close[0]}?' if close else ''}"
+    where = "kaidan" if context is None else context.command_path
+    return f"{text[:1].lower()}{text[1:].rstrip('.')} (see {where} -h)"
+
+
+def _fault(error: Exception) -> str:
+    """What an error is that nobody foresaw, where, and what to do."""
+    frames = extract_tb(error.__traceback__)
+    own = [frame for frame in frames if "kaidan" in frame.filename] or frames
+    place = f"{Path(own[-1].filename).name}:{own[-1].lineno}"
+    return (
+        f"a fault of kaidan itself, {type(error).__name__} in {place}: {error}; please report it "
+        "with the command and what it prints with KAIDAN_DEBUG=1"
+    )
+
+
+def _complain(text: str, code: int = 2) -> int:
+    """Say in one line what is wrong; the exit code."""
+    from kaidan.text.tables import printable
+
+    line = printable(" ".join(text.split()))
+    return _say("kaidan: " + _ENDLESS.sub(lambda word: f"{word.group()[:57]}...", line), code)
+
+
+def _say(text: str, code: int) -> int:
+    """Print on standard error, if anybody listens; the exit code."""
+    try:
+        print(text, file=sys.stderr, flush=True)  # noqa: T201
+    except OSError:
+        _read_by_nobody(sys.stderr)
+    return code
+
+
+def _read_by_nobody(stream: TextIO) -> None:
+    """Let what a stream still holds go nowhere, so that the end of the process is silent."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    with suppress(OSError, ValueError):
+        os.dup2(nowhere, stream.fileno())
+    os.close(nowhere)

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kaidan.cli import options
-from kaidan.cli.calibrated import show_calibration, show_effects
+from kaidan.cli import options, output
 
 if TYPE_CHECKING:
-    from kaidan.calibration.bench import Bench
+    from kaidan.studies.calibration.bench import Bench
 
 group = typer.Typer(
     name="calibrate",
@@ -39,12 +38,6 @@ Judged = Annotated[
     int, typer.Option(min=0, max=50, help="Fits that predict blind, the likeliest first.")
 ]
 Step = Annotated[str, typer.Option(help="Between the slopes at which margins are looked for.")]
-FigureFile = Annotated[
-    Path | None, typer.Option("--figure", metavar="FILE", help="Drawn: .png, .svg or .pdf.")
-]
-CsvFile = Annotated[
-    Path | None, typer.Option("--csv", metavar="FILE", help="Write a row a kind of grousers.")
-]
 Friction = Annotated[float, typer.Option(min=0.0, max=5.0, help="Of grousers on the nosings.")]
 
 
@@ -71,15 +64,15 @@ def compliance(
     step: Step = "2deg",
     store: StoreFolder = None,
     workers: Workers = None,
-    figure: FigureFile = None,
+    figure: output.FigureFiles = None,
     as_json: options.AsJson = False,
 ) -> None:
     """Fit the stiffness of sprung nosings to theta_d and to the fall zone at 150 mm.
 
     Exit code: 0 done, whatever is reproduced; 2 bad input.
     """
-    from kaidan.calibration import fitting
     from kaidan.errors import InputError
+    from kaidan.studies.calibration import fitting
 
     stiff = _list(stiffness, "stiffness", "--stiffness")
     radii = _list(end_radius, "length", "--end-radius")
@@ -87,7 +80,9 @@ def compliance(
     for text in grounds:
         if text not in fitting.GROUND:
             raise InputError(f"--ground {text!r} is not known; known: steps, noses")
-    sheet = options.robot_of(robot, None)
+    from kaidan.robot import Robot
+
+    sheet = Robot.named(robot)
     grid = fitting.compliance_grid(sheet, stiff, radii, grounds)
     _calibrate("sprung-noses", sheet.name, grid, trials, seed, judged, step, store, workers,
                figure, as_json)  # fmt: skip
@@ -109,16 +104,17 @@ def grousers(
     step: Step = "2deg",
     store: StoreFolder = None,
     workers: Workers = None,
-    figure: FigureFile = None,
+    figure: output.FigureFiles = None,
     as_json: options.AsJson = False,
 ) -> None:
     """Fit height and stiffness of driven grousers to the same two figures.
 
     Exit code: 0 done, whatever is reproduced; 2 bad input.
     """
-    from kaidan.calibration import fitting
+    from kaidan.robot import Robot
+    from kaidan.studies.calibration import fitting
 
-    sheet = options.robot_of(robot, None)
+    sheet = Robot.named(robot)
     grid = fitting.grouser_grid(
         sheet,
         _list(height, "length", "--height"),
@@ -147,21 +143,20 @@ def effects(
     step: Step = "2deg",
     store: StoreFolder = None,
     workers: Workers = None,
-    figure: FigureFile = None,
-    csv: CsvFile = None,
+    figure: output.FigureFiles = None,
+    csv: output.CsvFile = None,
     as_json: options.AsJson = False,
 ) -> None:
     """Vary height, spacing and stiffness of grousers, and tell theta_M: the paper's open question.
 
     Exit code: 0 done, 2 bad input.
     """
-    from kaidan.calibration.effects import as_columns
-    from kaidan.calibration.effects import effects as found_by
+    from kaidan import files
     from kaidan.errors import InputError
-    from kaidan.report import files
+    from kaidan.studies.calibration.effects import effects as found_by
     from kaidan.units import parse
 
-    form = None if figure is None else files.figure_format(figure)
+    pictures = output.checked(figure, csv)
     parts = about.split(",")
     if len(parts) != 3:
         raise InputError(f"--about {about!r}: write HEIGHT,SPACING,STIFFNESS")
@@ -170,8 +165,10 @@ def effects(
         round(parse(text.strip(), kind, option="--about"), 9)
         for text, kind in zip(parts, kinds, strict=True)
     ]
-    sheet = options.robot_of(robot, None)
-    asked: dict[str, Any] = {
+    from kaidan.robot import Robot
+
+    sheet = Robot.named(robot)
+    options_of: dict[str, Any] = {
         "base": dict(zip(("height", "spacing", "stiffness"), base, strict=True)),
         "varied": {
             "height": _list(height, "length", "--height"),
@@ -183,22 +180,17 @@ def effects(
         "step": _step(step),
     }
     with _bench(store, workers, seed, trials) as bench:
-        found = found_by(bench, sheet, **asked)
-    contents: dict[Path, bytes | str] = {}
+        found = found_by(bench, sheet, **options_of)
+    contents: output.Contents = {}
     if csv is not None:
-        contents[csv] = files.csv_text(as_columns(found))
-    if figure is not None and form is not None:
-        from kaidan.report.calibration_figure import effects_figure
+        contents[csv] = files.csv_text(found.columns())
 
-        contents[figure] = files.figure_bytes(effects_figure(found), form)
-    files.write_all(contents)
-    if as_json:
-        told = {"robot": sheet.name, "seed": seed, "trials": trials, **asked}
-        typer.echo(files.json_text({**told, "effects": as_columns(found)}), nl=False)
-    else:
-        show_effects(sheet.name, found, seed, trials)
-    for path in contents:
-        typer.echo(f"wrote {path}", err=as_json)
+    def draw() -> "output.Figure":
+        from kaidan.figures.calibration_figure import effects_figure
+
+        return effects_figure(found)
+
+    output.put_out(found, contents | output.drawn(pictures, draw), as_json=as_json)
 
 
 def _calibrate(
@@ -211,31 +203,27 @@ def _calibrate(
     step: str,
     store: Path | None,
     workers: int | None,
-    figure: Path | None,
+    figure: output.FigureFiles,
     as_json: bool,
 ) -> None:
-    from kaidan.calibration.report import calibrate
-    from kaidan.report import files
+    from kaidan.studies.calibration.report import calibrate
 
-    form = None if figure is None else files.figure_format(figure)
+    pictures = output.checked(figure)
     width = _step(step)
     with _bench(store, workers, seed, trials) as bench:
         found = calibrate(bench, robot, kind, grid, judged=judged, step=width)
-    if figure is not None and form is not None:
-        from kaidan.report.calibration_figure import calibration_figure
 
-        files.write_all({figure: files.figure_bytes(calibration_figure(found), form)})
-    if as_json:
-        typer.echo(files.json_text(found.as_dict()), nl=False)
-    else:
-        show_calibration(found)
-    if figure is not None:
-        typer.echo(f"wrote {figure}", err=as_json)
+    def draw() -> "output.Figure":
+        from kaidan.figures.calibration_figure import calibration_figure
+
+        return calibration_figure(found)
+
+    output.put_out(found, output.drawn(pictures, draw), as_json=as_json)
 
 
 @contextmanager
 def _bench(store: Path | None, workers: int | None, seed: int, trials: int) -> "Iterator[Bench]":
-    from kaidan.calibration.bench import Bench, in_store
+    from kaidan.studies.calibration.bench import Bench, in_store
 
     with tempfile.TemporaryDirectory() as passing:
         folder = store or Path(passing) / "store"

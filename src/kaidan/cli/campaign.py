@@ -24,8 +24,8 @@ def register(app: typer.Typer) -> None:
 @group.command("status")
 def status(store: Folder, as_json: options.AsJson = False) -> None:
     """Tell what a store holds and what is missing of its plans."""
+    from kaidan import files
     from kaidan.campaign import progress_of, state_of
-    from kaidan.report import files
 
     state = state_of(store)
     plans = progress_of(store)

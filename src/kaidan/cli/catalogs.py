@@ -1,4 +1,4 @@
-"""``kaidan robots|stairs|surfaces|new|schema``: the catalogues and sheets to fill in."""
+"""``kaidan robots|stairs|surfaces|new``: the catalogues and sheets to fill in."""
 
 import math
 from collections.abc import Iterable, Iterator
@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kaidan.cli import output
 from kaidan.cli.options import AsJson
-from kaidan.cli.tables import echo, echo_json, echo_table, human, plain, unit_of
+from kaidan.cli.tables import echo, echo_json, echo_table
+from kaidan.text.tables import human, printable, unit_of
 
 if TYPE_CHECKING:
     from kaidan.robot import Robot
     from kaidan.sheet import Sheet
-    from kaidan.stairs import Stairs
     from kaidan.surface import Surface
+    from kaidan.terrain.stairs import Stairs
 
 Name = Annotated[str | None, typer.Argument(help="Catalogue name or TOML file to show whole.")]
 
@@ -29,31 +31,27 @@ class What(StrEnum):
     SURFACE = "surface"
 
 
-class Schema(StrEnum):
-    """What has a JSON schema."""
-
-    ROBOT = "robot"
-    STAIRS = "stairs"
-    SURFACE = "surface"
-    ANSWER = "answer"
-
-
 def register(app: typer.Typer) -> None:
     """Add the commands of this module to the command line."""
     app.command("robots")(robots)
     app.command("stairs")(stairs)
     app.command("surfaces")(surfaces)
     app.command("new")(new)
-    app.command("schema")(schema)
 
 
-def robots(name: Name = None, as_json: AsJson = False) -> None:
+def robots(name: Name = None, figure: output.FigureFiles = None, as_json: AsJson = False) -> None:
     """List the robots, or show one.
 
-    One is shown whole: figures, units, symbols, sources and what follows from them.
+    One is shown whole: figures, units, symbols, sources and what follows from them; --figure draws
+    it from the side with L, C_L, C_N and R.
     """
     from kaidan import catalog
+    from kaidan.errors import InputError
     from kaidan.robot import Robot
+
+    pictures = output.checked(figure)
+    if pictures and name is None:
+        raise InputError("--figure needs the NAME of a robot")
 
     gross = catalog.gross_robots()
     if name is not None and name.strip().lower() in gross:
@@ -62,11 +60,13 @@ def robots(name: Name = None, as_json: AsJson = False) -> None:
     elif name is not None:
         robot = Robot.named(name)
         _show(robot, _of_robot(robot), as_json)
+        output.write(output.drawn(pictures, lambda: _drawing(robot)), aside=as_json)
     else:
         rows = [_robot_row(Robot.named(each)) for each in catalog.names("robots")]
+        unweighed = [_unweighed_row(Robot.named(each)) for each in catalog.names("unweighed")]
         apart = [{"name": each, **entry} for each, entry in gross.items()]
         if as_json:
-            echo_json({"robots": rows, "no_centroid_published": apart})
+            echo_json({"robots": rows, "unweighed": unweighed, "no_centroid_published": apart})
             return
         echo_table(
             rows,
@@ -81,8 +81,24 @@ def robots(name: Name = None, as_json: AsJson = False) -> None:
                 "flippers": "flippers",
                 "centroid_status": "centroid",
             },
+            below="title",
         )
-        echo("\nNo centroid published, so no margin can be computed:")
+        echo("\nNobody measured the centroid, a range is stated: CAUTION until weighed:")
+        echo_table(
+            unweighed,
+            {
+                "name": "name",
+                "title": "title",
+                "flat_length_m": "L [mm]",
+                "from_front": "C_L [mm]",
+                "height": "C_N [mm]",
+                "radius_m": "R [mm]",
+                "mass_kg": "mass [kg]",
+                "flippers": "flippers",
+            },
+            below="title",
+        )
+        echo("\nNo length published either, so nothing can be computed:")
         echo_table(apart, {"name": "name", "title": "title", "figures": "figures"})
         echo(f"\n{_STATUS}\nR: front/rear end radius. One whole: kaidan robots NAME")
 
@@ -93,7 +109,7 @@ def stairs(name: Name = None, as_json: AsJson = False) -> None:
     One is shown whole: figures, units, sources and what follows from them.
     """
     from kaidan import catalog
-    from kaidan.stairs import Stairs
+    from kaidan.terrain.stairs import Stairs
 
     if name is not None:
         flight = Stairs.named(name)
@@ -116,6 +132,7 @@ def stairs(name: Name = None, as_json: AsJson = False) -> None:
             "risers": "risers",
             "open_risers": "open",
         },
+        below="title",
     )
     echo("\nspacing: from nosing to nosing along the slope. One whole: kaidan stairs NAME")
 
@@ -147,6 +164,7 @@ def surfaces(name: Name = None, as_json: AsJson = False) -> None:
             "slope_high_deg": "at best [deg]",
             "status": "status",
         },
+        below="title",
     )
     echo(f"\n{_STATUS}\nOne whole: kaidan surfaces NAME")
 
@@ -154,42 +172,73 @@ def surfaces(name: Name = None, as_json: AsJson = False) -> None:
 def new(
     what: Annotated[What, typer.Argument(help="Kind of sheet.")],
     file: Annotated[Path, typer.Argument(help="TOML file to write.")],
+    asked: Annotated[
+        bool,
+        typer.Option("--ask", help="Ask for each figure; answers may be piped in, one a line."),
+    ] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace a file that is there.")] = False,
 ) -> None:
-    """Write a commented sheet to fill in.
+    """Write a commented sheet, to fill in by hand or by questions (--ask).
 
-    Filled in, the file works wherever a name of the catalogue does.
+    Filled in, the file works wherever a name of the catalogue does. Scales, a tape and a level
+    give the figures: kaidan measure robot --help, with a drawing of L, C_L, C_N and R.
     """
-    import os
-
+    from kaidan.catalog.completing import completed
     from kaidan.catalog.template import blank_toml
-    from kaidan.errors import InputError
-    from kaidan.report.files import write_all
+    from kaidan.files import write_all
 
-    shown = plain(str(file))
-    if file.suffix.lower() != ".toml":
-        raise InputError(f"{shown}: a sheet is a TOML file; write {plain(file.stem)}.toml")
-    if os.path.lexists(file) and not force:
-        raise InputError(f"{shown} is there already; --force replaces it")
-    listing, use = _COMMANDS[what]
-    title = f"{use}\nSee what kaidan makes of it: kaidan {listing} {plain(file.name)}"
+    shown = checked_sheet_file(file, force=force)
     name = file.stem.encode(errors="replace").decode()
-    write_all({file: blank_toml(_model(what), name=name, title=title)})
+    text = blank_toml(_model(what), name=name, title=title_of(what, file.name))
+    listing, _ = _COMMANDS[what]
+    if asked:
+        from kaidan.cli.asking import ask
+
+        write_all({file: completed(text, ask(_model(what)), origin=shown)})
+        echo(f"wrote {shown}; look at it: kaidan {listing} {shown}")
+        say_next(file, _model(what))
+        return
+    write_all({file: text})
     echo(f"wrote {shown}: fill it in, then look at it: kaidan {listing} {shown}")
 
 
-def schema(what: Annotated[Schema, typer.Argument(help="Kind of sheet, or answer.")]) -> None:
-    """Print the JSON schema of a sheet, or of the answer of kaidan assess --json.
+def say_next(file: Path, kind: "type[Sheet]", *, aside: bool = False) -> None:
+    """Say what a sheet still asks for, or how to use it."""
+    from kaidan.catalog import text_of
+    from kaidan.errors import InputError
 
-    Every quantity of a sheet has its unit, its symbol where the paper has one, and its range.
-    """
-    dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
-    if what is Schema.ANSWER:
-        from kaidan.assessment import Assessment
+    shown = printable(str(file))
+    try:
+        kind.from_text(text_of(file), origin=shown)
+    except InputError as error:
+        typer.echo(f"to do: {error}", err=aside)
+        return
+    uses = {
+        "robot": f"{shown} STAIRS",
+        "stairs": f"ROBOT {shown}",
+        "surface": f"ROBOT STAIRS --surface {shown}",
+    }
+    typer.echo(f"next: kaidan assess {uses[kind.label]}", err=aside)
 
-        echo_json(dialect | Assessment.json_schema())
-    else:
-        echo_json(dialect | _model(What(what.value)).model_json_schema())
+
+def checked_sheet_file(file: Path, *, force: bool) -> str:
+    """Name of a sheet's file as it is shown, once it is sure that it may be written."""
+    import os
+
+    from kaidan.errors import InputError
+
+    shown = printable(str(file))
+    if file.suffix.lower() != ".toml":
+        raise InputError(f"{shown}: a sheet is a TOML file; write {printable(file.stem)}.toml")
+    if os.path.lexists(file) and not force:
+        raise InputError(f"{shown} is there already; --force replaces it")
+    return shown
+
+
+def title_of(what: str, file: str) -> str:
+    """First lines of a sheet: what it is, and how it is used."""
+    listing, use = _COMMANDS[What(what)]
+    return f"{use}\nSee what kaidan makes of it: kaidan {listing} {printable(file)}"
 
 
 _COMMANDS = {
@@ -197,13 +246,13 @@ _COMMANDS = {
     What.STAIRS: ("stairs", "A straight flight of stairs. Used by: kaidan assess ROBOT THIS.toml"),
     What.SURFACE: ("surfaces", "A surface. Used by: kaidan assess ... --surface THIS.toml"),
 }
-_STATUS = "Status: V read in a named source, C computed from a model, D derived, U unconfirmed."
+_STATUS = "V: read in a named source, C: computed from a model, D: derived, U: unconfirmed."
 
 
 def _model(what: What) -> "type[Sheet]":
     from kaidan.robot import Robot
-    from kaidan.stairs import Stairs
     from kaidan.surface import Surface
+    from kaidan.terrain.stairs import Stairs
 
     models: dict[What, type[Sheet]] = {
         What.ROBOT: Robot,
@@ -225,6 +274,27 @@ def _robot_row(robot: "Robot") -> dict[str, Any]:
         "flippers": robot.front_flippers is not None or robot.rear_flippers is not None,
         "centroid_status": _status(robot.sources, ("com_from_front", "com_height")),
     }
+
+
+def _drawing(robot: "Robot") -> "output.Figure":
+    from kaidan.figures.dimensions_figure import dimensions_figure
+    from kaidan.figures.robot_sketch import Sketch
+
+    track = robot.track
+    lengths = Sketch(
+        track.flat_length, robot.com_from_front, robot.com_height, track.front_radius,
+        track.rear_radius,
+    )  # fmt: skip
+    return dimensions_figure(robot.title or robot.name, lengths)
+
+
+def _unweighed_row(robot: "Robot") -> dict[str, Any]:
+    span = robot.com_range
+    assert span is not None
+    row = _robot_row(robot)
+    for name, (low, high) in (("from_front", span.from_front), ("height", span.height)):
+        row[name] = f"{1e3 * low:.0f} to {1e3 * high:.0f}"
+    return {key: value for key, value in row.items() if not key.startswith("com_")}
 
 
 def _of_robot(robot: "Robot") -> dict[str, Any]:
@@ -364,6 +434,6 @@ def _show_gross(name: str, entry: dict[str, str], as_json: bool) -> None:
         return
     echo(f"{name}: {entry['title']}\n{entry['figures']}\n{entry['source']}")
     echo(
-        "No centroid is published, so no margin can be computed: weigh and tilt the robot, then "
-        "kaidan new robot"
+        "No length is published, so nothing can be computed: measure the robot (kaidan measure "
+        "robot --help)"
     )

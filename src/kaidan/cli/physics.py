@@ -5,24 +5,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kaidan.cli import options
-from kaidan.cli.tables import echo
+from kaidan.cli import options, output
+from kaidan.cli.question import question_of, question_options, shared
 
 if TYPE_CHECKING:
-    from kaidan.physics import TrackModel, TrialResult, TrialSpec
+    from kaidan.physics import TrackModel, TrialSpec
 
 group = typer.Typer(
     name="physics", help="A trial in MuJoCo, and its model.", no_args_is_help=True
 )  # fmt: skip
 
-Names = Annotated[
-    list[str],
-    typer.Argument(
-        metavar="[STAIRS] FILE.xml",
-        help="Catalogue name or TOML file of the stairs, unless options give their shape; and the "
-        "file to write.",
-    ),
-]
 Track = Annotated[
     str,
     typer.Option(help="Model: smooth-belt, sprung-noses, driven-grousers or shoe-chain."),
@@ -35,9 +27,10 @@ GrouserHeight = Annotated[str | None, typer.Option(help="Above the belt, for exa
 GrouserSpacing = Annotated[str | None, typer.Option(help="Along the belt, for example 33mm.")]
 Shoes = Annotated[int | None, typer.Option(help="Number of shoes of the chain [40].")]
 Begin = Annotated[
-    str, typer.Option(help="Where it begins: flight (as in the paper) or landing (the whole way).")
+    str,
+    typer.Option(help="Where it begins: flight (as in the paper) or landing, from end to end."),
 ]
-Releases = Annotated[
+Nosings = Annotated[
     int, typer.Option(help="Nosings that the downhill end passes, beginning on the flight.")
 ]
 Ground = Annotated[str, typer.Option(help="steps, or noses: a rig of nosings and nothing else.")]
@@ -53,18 +46,18 @@ StartOffset = Annotated[
 Seed = Annotated[int, typer.Option(min=0, help="Of the start offset and the grousers' phase.")]
 Timestep = Annotated[str | None, typer.Option(help="Of the simulation, for example 0.5ms.")]
 Speed = Annotated[str, typer.Option(help="Of the belt, for example 0.1m/s.")]
+ModelFile = Annotated[
+    Path, typer.Option("--file", metavar="FILE.xml", help="File to write.", show_default=False)
+]
 LogFile = Annotated[
     Path | None, typer.Option("--log", metavar="FILE", help="Log over time: .csv or .parquet.")
-]
-FigureFile = Annotated[
-    Path | None, typer.Option("--figure", metavar="FILE", help="Log drawn: .png, .svg or .pdf.")
 ]
 VideoFile = Annotated[
     Path | None, typer.Option("--video", metavar="FILE", help="Film: .mp4 or .gif.")
 ]
 PictureFile = Annotated[
     Path | None,
-    typer.Option("--picture", metavar="FILE", help="Where it was turned furthest: .png."),
+    typer.Option("--picture", metavar="FILE", help="Robot at its largest inclination: .png."),
 ]
 
 
@@ -73,102 +66,98 @@ def register(app: typer.Typer) -> None:
     app.add_typer(group)
 
 
-@group.command("export")
-def export(
-    robot: options.RobotName,
-    names: Names,
-    rise: options.Rise = None,
-    going: options.Going = None,
-    angle: options.Angle = None,
-    nosing_spacing: options.NosingSpacing = None,
-    steps: options.Steps = None,
-    surface: options.SurfaceName = None,
-    friction: options.Friction = None,
-    speed: Speed = "0.1m/s",
-    direction: options.Direction = None,
-    facing: options.Facing = "nose-first",
-    flippers: options.Flippers = "stowed",
-    payload: options.PayloadText = None,
-    override: options.Override = None,
+def _options(
     track: Track = "smooth-belt",
     stiffness: Stiffness = None,
     grouser_height: GrouserHeight = None,
     grouser_spacing: GrouserSpacing = None,
     shoes: Shoes = None,
     begin: Begin = "flight",
+    nosings: Nosings = 2,
     ground: Ground = "steps",
     dimensions: Dimensions = 2,
-    yaw: options.Yaw = "0deg",
     lateral_offset: LateralOffset = "0mm",
     start_offset: StartOffset = None,
     seed: Seed = 0,
     timestep: Timestep = None,
 ) -> None:
+    """Only its signature counts: the options of a trial beside those of its question."""
+
+
+def _spec(
+    *,
+    track: str,
+    stiffness: str | None,
+    grouser_height: str | None,
+    grouser_spacing: str | None,
+    shoes: int | None,
+    begin: str,
+    nosings: int,
+    ground: str,
+    dimensions: int,
+    lateral_offset: str,
+    start_offset: float | None,
+    seed: int,
+    timestep: str | None,
+    **of_question: Any,
+) -> "TrialSpec":
+    """Trial of the options' values."""
+    from kaidan.physics import TrialSpec
+    from kaidan.units import parse
+
+    return TrialSpec.model_validate(
+        {
+            "question": question_of(**of_question),
+            "track": track_model(track, stiffness, grouser_height, grouser_spacing, shoes),
+            "begin": begin,
+            "nosings": nosings,
+            "ground": ground,
+            "dimensions": dimensions,
+            "lateral_offset": parse(lateral_offset, "length", option="--lateral-offset"),
+            "start_offset": start_offset,
+            "seed": seed,
+            "timestep": None if timestep is None else parse(timestep, "time", option="--timestep"),
+        }
+    )
+
+
+_trial = shared(
+    (question_options, _options),
+    _spec,
+    without=("theta_d", "theta_m", "uncertainty", "risk", "accept", "model"),
+    speed="0.1m/s",
+)
+"""Decorator of a command whose first argument is a `TrialSpec`."""
+
+
+@group.command("export")
+@_trial
+def export(spec: "TrialSpec", file: ModelFile) -> None:
     """Write the model of a trial as MJCF, which MuJoCo's own viewer opens.
 
     A belt runs at once; what drives grousers and chains is no part of MJCF, so they stand still.
     """
+    from kaidan import files
     from kaidan.errors import InputError
     from kaidan.physics import mjcf
-    from kaidan.report import files
 
-    *stairs, file = names
-    if len(stairs) > 1:
-        raise InputError(f"kaidan physics export ROBOT STAIRS FILE.xml: {len(names)} names given")
-    path = Path(file)
-    if path.suffix.lower() != ".xml":
-        raise InputError(f"model {file!r}: a file of MuJoCo ends in .xml")
-    spec = _spec(
-        robot, stairs[0] if stairs else None, rise, going, angle, nosing_spacing, steps,
-        surface=surface, friction=friction, acceleration="0m/s2", speed=speed,
-        direction=direction, facing=facing, flippers=flippers, payload=payload, override=override,
-        track=track_model(track, stiffness, grouser_height, grouser_spacing, shoes), begin=begin,
-        releases=2, ground=ground, dimensions=dimensions, yaw=yaw, lateral_offset=lateral_offset,
-        start_offset=start_offset, seed=seed, timestep=timestep,
-    )  # fmt: skip
-    files.write_all({path: mjcf(spec)})
-    typer.echo(f"wrote {path}")
+    if file.suffix.lower() != ".xml":
+        raise InputError(f"model {str(file)!r}: a file of MuJoCo ends in .xml")
+    files.write_all({file: mjcf(spec)})
+    typer.echo(f"wrote {file}")
 
 
 @group.command("trial")
+@_trial
 def trial(
-    robot: options.RobotName,
-    stairs: options.StairsName = None,
-    rise: options.Rise = None,
-    going: options.Going = None,
-    angle: options.Angle = None,
-    nosing_spacing: options.NosingSpacing = None,
-    steps: options.Steps = None,
-    surface: options.SurfaceName = None,
-    friction: options.Friction = None,
-    acceleration: options.Acceleration = "0m/s2",
-    speed: Speed = "0.1m/s",
-    direction: options.Direction = None,
-    facing: options.Facing = "nose-first",
-    flippers: options.Flippers = "stowed",
-    payload: options.PayloadText = None,
-    override: options.Override = None,
-    track: Track = "smooth-belt",
-    stiffness: Stiffness = None,
-    grouser_height: GrouserHeight = None,
-    grouser_spacing: GrouserSpacing = None,
-    shoes: Shoes = None,
-    begin: Begin = "flight",
-    releases: Releases = 2,
-    ground: Ground = "steps",
-    dimensions: Dimensions = 2,
-    yaw: options.Yaw = "0deg",
-    lateral_offset: LateralOffset = "0mm",
-    start_offset: StartOffset = None,
-    seed: Seed = 0,
-    timestep: Timestep = None,
+    spec: "TrialSpec",
     log: LogFile = None,
-    figure: FigureFile = None,
+    figure: output.FigureFiles = None,
     picture: PictureFile = None,
     video: VideoFile = None,
     as_json: options.AsJson = False,
 ) -> None:
-    """Drive ROBOT over STAIRS in MuJoCo and tell what happens.
+    """Drive ROBOT over STAIRS in MuJoCo.
 
     Without a surface friction is 3, which isolates tipping (grousers: 0.8); of a range the low end
     counts.
@@ -176,43 +165,31 @@ def trial(
     Exit code: 0 climbed, 1 not, 2 bad input, 3 the simulation diverged.
     """
     from kaidan.errors import InputError
-    from kaidan.physics import Outcome, run
-    from kaidan.report import files, trial_files
+    from kaidan.films import film_format
+    from kaidan.physics import record, trial_files
 
-    form = None if figure is None else files.figure_format(figure)
+    pictures = output.checked(figure, log, picture, video)
     write_log = None if log is None else trial_files.log_writer(log)
-    film = None if video is None else trial_files.film_writer(video)
+    film = None if video is None else film_format(video, "video")
     if picture is not None and picture.suffix.lower() != ".png":
         raise InputError(f"picture {str(picture)!r}: a picture ends in .png")
-    spec = _spec(
-        robot, stairs, rise, going, angle, nosing_spacing, steps,
-        surface=surface, friction=friction, acceleration=acceleration, speed=speed,
-        direction=direction, facing=facing, flippers=flippers, payload=payload, override=override,
-        track=track_model(track, stiffness, grouser_height, grouser_spacing, shoes), begin=begin,
-        releases=releases, ground=ground, dimensions=dimensions, yaw=yaw,
-        lateral_offset=lateral_offset, start_offset=start_offset, seed=seed, timestep=timestep,
-    )  # fmt: skip
-    result = run(spec, log=any(path is not None for path in (log, figure, picture, video)))
-    contents: dict[Path, bytes | str] = {}
+    found = record(spec)
+    contents: output.Contents = {}
     if log is not None and write_log is not None:
-        contents[log] = write_log(result)
-    if figure is not None and form is not None:
-        from kaidan.report.trial_figure import trial_figure
+        contents[log] = write_log(found)
 
-        contents[figure] = files.figure_bytes(trial_figure(result), form)
+    def draw() -> "output.Figure":
+        from kaidan.figures.trial_figure import trial_figure
+
+        return trial_figure(found)
+
+    contents |= output.drawn(pictures, draw)
     if picture is not None:
-        contents[picture] = trial_files.picture_bytes(result)
+        contents[picture] = trial_files.picture_bytes(found)
     if video is not None and film is not None:
-        contents[video] = film(result)
-    files.write_all(contents)
-    if as_json:
-        typer.echo(files.json_text(result.as_dict()), nl=False)
-    else:
-        _show(result)
-    for path in contents:
-        typer.echo(f"wrote {path}", err=as_json)
-    climbed = result.outcome is Outcome.CLIMBED
-    raise typer.Exit(0 if climbed else 3 if result.outcome is Outcome.UNSTABLE else 1)
+        contents[video] = trial_files.trial_film(found, film)
+    output.put_out(found.result, contents, as_json=as_json)
+    raise typer.Exit(found.result.outcome.exit_code)
 
 
 def track_model(
@@ -238,83 +215,3 @@ def track_model(
             raise InputError(f"{option} does not go with --track {kind}")
         given[field] = parse(str(text), what, option=option) if what else text
     return KINDS[kind](**given)
-
-
-def _spec(
-    robot: str,
-    stairs: str | None,
-    rise: str | None,
-    going: str | None,
-    angle: str | None,
-    nosing_spacing: str | None,
-    steps: int | None,
-    *,
-    track: "TrackModel",
-    begin: str,
-    releases: int,
-    ground: str,
-    dimensions: int,
-    lateral_offset: str,
-    start_offset: float | None,
-    seed: int,
-    timestep: str | None,
-    **shared: Any,
-) -> "TrialSpec":
-    """Trial from the texts of the options."""
-    from kaidan.physics import TrialSpec
-    from kaidan.units import parse
-
-    flight = options.stairs_of(
-        stairs, rise=rise, going=going, angle=angle, nosing_spacing=nosing_spacing, steps=steps
-    )
-    case = options.case_from(robot, flight, **shared)
-    friction = {} if case.surface is None else {"friction": case.surface.friction_low}
-    return TrialSpec(
-        robot=case.robot,
-        stairs=case.stairs,
-        posture=case.posture,
-        payload=case.payload,
-        speed=case.speed,
-        acceleration=case.acceleration,
-        direction=case.direction,
-        facing=case.facing,
-        track=track,
-        begin=begin,
-        releases=releases,
-        ground=ground,
-        dimensions=dimensions,
-        yaw=case.yaw,
-        lateral_offset=parse(lateral_offset, "length", option="--lateral-offset"),
-        start_offset=start_offset,
-        seed=seed,
-        timestep=None if timestep is None else parse(timestep, "time", option="--timestep"),
-        **friction,
-    )
-
-
-def _show(result: "TrialResult") -> None:
-    spec = result.spec
-    told = result.outcome.value.replace("_", " ")
-    where = "" if result.release is None else f" at release {result.release}"
-    echo(
-        f"{told.upper()}{where}  {spec.robot.name} on {spec.stairs.name}, {spec.direction} "
-        f"{spec.facing.replace('-', ' ')}"
-    )
-    assumed = ", assumed: the sheet gives none" if result.mass_assumed else ""
-    estimated = ", inertia estimated" if result.inertia_estimated else ""
-    torque = "" if result.largest_torque is None else f", {result.largest_torque:.1f} N m"
-    rows = (
-        ("model", f"{spec.track.kind}, {spec.dimensions}-D, steps of {1e3 * spec.step:g} ms"),
-        ("friction", f"{spec.static_friction:g}"),
-        ("speed", f"{spec.speed:g} m/s, {spec.acceleration:g} m/s2 up the stairs"),
-        ("mass", f"{result.mass:g} kg{assumed}{estimated}"),
-        ("extra inclination", f"{result.largest_extra_deg:.2f} deg at most"),
-        ("releases", f"{result.releases}, begun at {result.start_offset:.3f} of a spacing"),
-        ("largest forces", f"{result.largest_normal:.0f} N on a nosing, traction "
-                           f"{result.largest_traction:.0f} N{torque}"),
-        ("slip", f"{1e3 * result.slip:.1f} mm"),
-        ("time", f"{result.time:.2f} s"),
-        ("made with", f"MuJoCo {result.versions['mujoco']}, seed {spec.seed}"),
-    )  # fmt: skip
-    for name, text in rows:
-        echo(f"  {name:<18} {text}")

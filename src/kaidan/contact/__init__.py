@@ -1,41 +1,90 @@
 """Quasi-static contact of a tracked robot with any two-dimensional profile, numbers only."""
 
-from kaidan.contact.compiling import numba_is_installed, numba_is_loaded
-from kaidan.contact.driving import (
-    STEP,
-    Demand,
+from kaidan.contact.codes import (
+    BELLY,
+    FLIPPER,
+    TRACK,
     Event,
-    GradeOne,
-    Settled,
+    Feature,
+    FeatureKind,
+    FeatureTable,
+    PartKind,
+    RotationOutcome,
     Status,
-    Traverse,
-    grade_one,
-    settle,
-    steepest_flight,
-    traverse,
-    traverse_many,
 )
-from kaidan.contact.tables import BELLY, FLIPPER, TRACK, body_table, ground_table, mirror
+from kaidan.contact.contacts import Contact, PairForces, pair_forces, spring_loads
+from kaidan.contact.heights import TouchingHeights, touching_heights
+from kaidan.contact.kernel.reserves import ROCKING
+from kaidan.contact.margin_records import Job, Margins, Summaries, Tilts
+from kaidan.contact.path import Path, joined
+from kaidan.contact.records import (
+    Body,
+    EventRecord,
+    Events,
+    Ground,
+    Placement,
+    Poses,
+    RotationRecord,
+    Rotations,
+)
+from kaidan.contact.rest import Settled, resting_height, settle
+from kaidan.contact.steepest import steepest_flight
+from kaidan.contact.switch import (
+    expected_work,
+    kernel_in_use,
+    numba_is_installed,
+    use_kernel,
+    using_kernel,
+)
+from kaidan.contact.tables import body_table, ground_table, mirror
+from kaidan.contact.traversing import STEP, plain_seconds, traverse, traverse_many
 
 __all__ = [
     "BELLY",
     "FLIPPER",
+    "ROCKING",
     "STEP",
     "TRACK",
-    "Demand",
+    "Body",
+    "Contact",
     "Event",
-    "GradeOne",
+    "EventRecord",
+    "Events",
+    "Feature",
+    "FeatureKind",
+    "FeatureTable",
+    "Ground",
+    "Job",
+    "Margins",
+    "PairForces",
+    "PartKind",
+    "Path",
+    "Placement",
+    "Poses",
+    "RotationOutcome",
+    "RotationRecord",
+    "Rotations",
     "Settled",
     "Status",
-    "Traverse",
+    "Summaries",
+    "Tilts",
+    "TouchingHeights",
     "body_table",
-    "grade_one",
+    "expected_work",
     "ground_table",
+    "joined",
+    "kernel_in_use",
     "mirror",
     "numba_is_installed",
-    "numba_is_loaded",
+    "pair_forces",
+    "plain_seconds",
+    "resting_height",
     "settle",
+    "spring_loads",
     "steepest_flight",
+    "touching_heights",
     "traverse",
     "traverse_many",
+    "use_kernel",
+    "using_kernel",
 ]

@@ -12,6 +12,7 @@ import hashlib
 import importlib
 import importlib.util
 import sys
+import threading
 from collections.abc import Callable
 from functools import lru_cache, wraps
 from pathlib import Path
@@ -20,26 +21,36 @@ from typing import Any, TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 
+from kaidan.contact import codes, columns, switch
+from kaidan.contact.compiler_cache import cache_folder, filling, log
 from kaidan.contact.tables import FloatArray, FloatRow, IntArray
+from kaidan.errors import MissingExtraError
 
 _F = TypeVar("_F", bound=Callable[..., Any])
 
 #: Kernel modules in the order in which they import one another.
 KERNEL_MODULES = (
     "gaps",
-    "scan",
+    "nearest_feature",
     "settling",
-    "branch",
-    "turning",
-    "release",
-    "course",
+    "continuation",
+    "event_location",
+    "advance",
+    "rotation",
+    "closing",
+    "first_closing",
+    "toppling",
+    "reserves",
+    "recording",
+    "renaming",
+    "contact_changes",
+    "driver",
     "forces",
     "margins",
-    "no_rotation",
     "batch",
 )
 
-_PACKAGE = "kaidan.contact"
+_PACKAGE = "kaidan.contact.kernel"
 
 
 def kernel(function: _F) -> _F:
@@ -80,13 +91,15 @@ def _signature(function: Callable[..., Any]) -> Any:
         FloatRow: float64[::1],
         IntArray: int64[::1],
     }
+
+    def typed(hint: Any) -> Any:
+        if get_origin(hint) is tuple:
+            return types.Tuple([typed(part) for part in get_args(hint)])  # type: ignore[no-untyped-call]
+        return simple[hint]
+
     hints = get_type_hints(function)
-    answer = hints.pop("return")
-    if get_origin(answer) is tuple:
-        result = types.Tuple([simple[part] for part in get_args(answer)])  # type: ignore[no-untyped-call]
-    else:
-        result = simple[answer]  # type: ignore[assignment]
-    return result(*(simple[hint] for hint in hints.values()))
+    answer = typed(hints.pop("return"))
+    return answer(*(typed(hint) for hint in hints.values()))
 
 
 def _callees_first(functions: dict[str, Any]) -> list[str]:
@@ -104,16 +117,6 @@ def _callees_first(functions: dict[str, Any]) -> list[str]:
     for name in functions:
         visit(name)
     return order
-
-
-def numba_is_installed() -> bool:
-    """Whether the optional compiler is there (it is not imported to find out)."""
-    return importlib.util.find_spec("numba") is not None
-
-
-def numba_is_loaded() -> bool:
-    """Whether this process has loaded the compiler already."""
-    return "numba" in sys.modules
 
 
 def plain(module: str) -> ModuleType:
@@ -151,46 +154,43 @@ def _through_views(function: Callable[..., Any]) -> Callable[..., Any]:
     return call
 
 
-def _tell() -> None:
-    """Say why it takes a while; silenced as any other logger."""
-    import logging
+def _loaded(name: str) -> ModuleType:
+    """Load the source of a kernel module a second time, under another name."""
+    original = plain(name)
+    alias = f"{_PACKAGE}._compiled_{name}"
+    spec = importlib.util.spec_from_file_location(alias, original.__file__)
+    if spec is None or spec.loader is None:
+        raise ImportError(f"cannot load the source of {original.__name__}")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[alias] = module
+    spec.loader.exec_module(module)
+    return module
 
-    logging.getLogger(_PACKAGE).warning(
-        "kaidan: compiling the contact kernel, once on this machine: about 20 seconds"
-    )
 
+def _source_mark() -> str:
+    """Mark of all sources together.
 
-@lru_cache(maxsize=1)
-def _compiled_modules() -> dict[str, ModuleType]:
-    try:
-        from numba import njit
-    except ImportError as error:
-        raise ImportError(
-            "the compiled contact kernel needs numba: pip install 'kaidan[fast]'"
-        ) from error
-    # numba's cache looks at one file only: name the functions after all sources, so that no
-    # compiled caller outlives a change of what it calls
+    Numba's cache looks at one file only: functions are named after all, so that no compiled caller
+    outlives a change of what it calls.
+    """
     digest = hashlib.sha256()
-    for name in KERNEL_MODULES:
-        digest.update(Path(str(plain(name).__file__)).read_bytes())
-    mark = digest.hexdigest()[:12]
-    told = False
+    for source in (columns, codes, *map(plain, KERNEL_MODULES)):
+        digest.update(Path(str(source.__file__)).read_bytes())
+    return digest.hexdigest()[:12]
+
+
+def _compile_all(njit: Callable[..., Any], *, cache: bool) -> dict[str, ModuleType]:
+    mark = _source_mark()
+    said = False
     fast: dict[int, Any] = {}
     modules: dict[str, ModuleType] = {}
     for name in KERNEL_MODULES:
-        original = plain(name)
-        alias = f"{_PACKAGE}._compiled_{name}"
-        spec = importlib.util.spec_from_file_location(alias, original.__file__)
-        if spec is None or spec.loader is None:
-            raise ImportError(f"cannot load the source of {original.__name__}")
-        module = importlib.util.module_from_spec(spec)
-        sys.modules[alias] = module
-        spec.loader.exec_module(module)
+        module = modules[name] = _loaded(name)
         own: dict[str, Any] = {}
         for key, value in list(vars(module).items()):
             if not hasattr(value, "_kaidan_kernel"):
                 continue
-            if value.__module__ == alias:
+            if value.__module__ == module.__name__:
                 own[key] = value
             else:
                 setattr(module, key, fast[id(value)])
@@ -199,46 +199,74 @@ def _compiled_modules() -> dict[str, ModuleType]:
             value.__qualname__ = f"{key}_{mark}"
             # numpy's division: no branch to an exception behind every "/"
             options: dict[str, Any] = {
-                "cache": True,
+                "cache": cache,
                 "error_model": "numpy",
                 "no_cpython_wrapper": not hasattr(value, "_kaidan_entry"),
                 "no_cfunc_wrapper": True,
                 "forceinline": hasattr(value, "_kaidan_leaf"),
+                # what makes no array counts no references: twice as fast
+                "_nrt": "np" in value.__code__.co_names,
             }
             compiled_function = njit(_signature(value), **options)(value)
-            if not told and not compiled_function.stats.cache_hits:
-                _tell()
-                told = True
-            fast[id(vars(original)[key])] = compiled_function
+            if cache and not said and not compiled_function.stats.cache_hits:
+                log.warning("compiling the contact kernel, once on this machine: about 20 seconds")
+                said = True
+            fast[id(vars(plain(name))[key])] = compiled_function
             setattr(module, key, compiled_function)
-        modules[name] = module
     return modules
+
+
+_compiled: dict[str, ModuleType] = {}
+_compiling = threading.Lock()
 
 
 def compiled(module: str) -> ModuleType:
     """Return the same kernel module with every marked function compiled (on first call, cached).
 
+    Where no cache can be written it is compiled anew in every process.
+
     Raises
     ------
-    ImportError
-        If numba is not installed; the text names the install line.
+    MissingExtraError
+        If numba is not installed.
     """
-    return _compiled_modules()[module]
+    with _compiling:
+        if not _compiled:
+            _compiled.update(_compiled_modules())
+    return _compiled[module]
 
 
-def kernel_module(
-    module: str, *, compile_kernel: bool | None = None
-) -> ModuleType | SimpleNamespace:
-    """Return a kernel module, compiled or plain.
+def _compiled_modules() -> dict[str, ModuleType]:
+    if not switch.numba_is_installed():
+        raise MissingExtraError("the compiled contact kernel", "fast")
+    from numba import njit
 
-    Parameters
-    ----------
-    module
-        One of :data:`KERNEL_MODULES`.
-    compile_kernel
-        True: compiled; False: plain Python; None: compiled if numba is already imported in this
-        process, else plain, so that a single question never waits for a compiler.
+    folder = cache_folder(njit, plain(KERNEL_MODULES[0]).gap)
+    if folder is not None:
+        try:
+            with filling(folder):
+                return _compile_all(njit, cache=True)
+        except OSError as error:
+            log.warning("the compiled contact kernel cannot be kept in %s: %s", folder, error)
+    log.warning("compiling the contact kernel for this process alone: set NUMBA_CACHE_DIR")
+    return _compile_all(njit, cache=False)
+
+
+def kernel_module(module: str) -> ModuleType | SimpleNamespace:
+    """Return a kernel module (one of :data:`KERNEL_MODULES`), of the kernel in use.
+
+    Raises
+    ------
+    MissingExtraError
+        If the compiled kernel was chosen and numba is not installed.
     """
-    if compile_kernel is None:
-        compile_kernel = numba_is_loaded()
-    return compiled(module) if compile_kernel else _plain_with_views(module)
+    if switch.kernel_in_use() == "plain":
+        return _plain_with_views(module)
+    if switch.is_chosen():
+        return compiled(module)
+    try:
+        return compiled(module)
+    except Exception as error:  # whatever is wrong with the compiler, the plain kernel answers
+        switch.compiler_is_broken()
+        log.warning("the plain contact kernel answers, numba does not work here: %s", error)
+        return _plain_with_views(module)

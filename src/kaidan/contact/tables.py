@@ -13,19 +13,41 @@
 
 from __future__ import annotations
 
+import math
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kaidan.contact.codes import PartKind
+from kaidan.contact.columns import (
+    BODY_COLUMNS,
+    CONVEX,
+    DISC,
+    GROUND_COLUMNS,
+    LENGTH,
+    R1,
+    R2,
+    U_X,
+    U_Z,
+    X1,
+    X2,
+    Z1,
+    Z2,
+    X,
+    Z,
+)
+
 #: In the kernel: a table (rows, columns), a list of numbers, a list of indices, contiguous all.
-#: The three are told apart by type, for the compiler's signatures are read from the annotations.
+#: Three types, because the compiler's signatures are read from the annotations.
 FloatArray = NDArray[np.float64]
 FloatRow = np.ndarray[tuple[int], np.dtype[np.float64]]
 IntArray = NDArray[np.int64]
+#: Numbers that belong together, in the kernel: four, or x, z, cosine, sine and a point.
+Four = tuple[float, float, float, float]
+Pose = tuple[float, float, float, float, float, float]
 
-#: Kinds of parts.
-TRACK, FLIPPER, BELLY = 0, 1, 2
-
-#: Points closer to the line of their neighbours than this are dropped [m]; far below any scan,
+#: Points closer than this to the line of those beside them are dropped [m]; far below any scan,
 #: far above the rounding of coordinates of some metres.
 COLLINEAR = 1e-11
 #: Discs are never sharper than this [m]: a rounding of a millimetre, drawn inside the part so that
@@ -38,7 +60,7 @@ BEYOND = 30.0
 def ground_table(terrain: ArrayLike) -> FloatArray:
     """Terrain polyline as the kernel's table.
 
-    Repeated points and points on the line of their neighbours are dropped, so that refining a
+    Repeated points and points on the line of those beside them are dropped, so that refining a
     profile changes nothing; the first and the last segment are continued by 30 m (level, if the
     profile begins or ends with a riser).
 
@@ -49,8 +71,8 @@ def ground_table(terrain: ArrayLike) -> FloatArray:
 
     Returns
     -------
-    ndarray (k, 6)
-        x, z, unit vector to the next point (2), length of that segment, 1.0 if the point is convex.
+    ndarray (k, GROUND_COLUMNS)
+        Columns in ``kaidan.contact.columns``.
 
     Raises
     ------
@@ -59,7 +81,7 @@ def ground_table(terrain: ArrayLike) -> FloatArray:
 
     Examples
     --------
-    >>> ground_table([[0, 0], [1, 0], [2, 0], [2, 0.2], [3, 0.2]])[:, 5]
+    >>> ground_table([[0, 0], [1, 0], [2, 0], [2, 0.2], [3, 0.2]])[:, CONVEX]
     array([0., 0., 1., 0.])
     """
     points = np.array(terrain, dtype=np.float64)
@@ -67,50 +89,48 @@ def ground_table(terrain: ArrayLike) -> FloatArray:
         raise ValueError(f"terrain: expected points of shape (n, 2), got {points.shape}")
     if not np.isfinite(points).all():
         raise ValueError("terrain: every coordinate must be finite")
-    if (np.diff(points[:, 0]) < 0).any():
-        where = int(np.argmax(np.diff(points[:, 0]) < 0))
+    if (np.diff(points[:, X]) < 0).any():
+        where = int(np.argmax(np.diff(points[:, X]) < 0))
         raise ValueError(f"terrain: x runs backwards after point {where}")
-    keep = [points[0]]
-    for point in points[1:]:
-        if np.hypot(*(point - keep[-1])) > COLLINEAR:
-            keep.append(point)
+    keep = [(float(points[0, X]), float(points[0, Z]))]
+    for x, z in points[1:].tolist():
+        if math.dist((x, z), keep[-1]) > COLLINEAR:
+            keep.append((x, z))
     if len(keep) < 2:
         raise ValueError("terrain: at least two different points are needed")
-    if keep[1][0] - keep[0][0] > 0:
-        u = (keep[0] - keep[1]) / np.hypot(*(keep[0] - keep[1]))
-    else:
-        u = np.array([-1.0, 0.0])
-    keep.insert(0, keep[0] + BEYOND * u)
-    if keep[-1][0] - keep[-2][0] > 0:
-        u = (keep[-1] - keep[-2]) / np.hypot(*(keep[-1] - keep[-2]))
-    else:
-        u = np.array([1.0, 0.0])
-    keep.append(keep[-1] + BEYOND * u)
+    keep = [_beyond(keep[1], keep[0], -1.0), *keep, _beyond(keep[-2], keep[-1], 1.0)]
     corners = [keep[0]]
-    for k in range(1, len(keep) - 1):
-        before = keep[k] - corners[-1]
-        after = keep[k + 1] - keep[k]
+    for here, then in pairwise(keep[1:]):
+        before = (here[0] - corners[-1][0], here[1] - corners[-1][1])
+        after = (then[0] - here[0], then[1] - here[1])
         across = before[0] * after[1] - before[1] * after[0]
         along = before[0] * after[0] + before[1] * after[1]
-        short = min(np.hypot(*before), np.hypot(*after))
-        if (
-            along <= 0
-            or abs(across) > COLLINEAR * max(np.hypot(*before), np.hypot(*after))
-            or (abs(across) > 1e-7 * short * max(np.hypot(*before), np.hypot(*after)))
-        ):
-            corners.append(keep[k])
+        short, long = sorted((math.hypot(*before), math.hypot(*after)))
+        if along <= 0 or abs(across) > min(COLLINEAR, 1e-7 * short) * long:
+            corners.append(here)
     corners.append(keep[-1])
     xy = np.array(corners)
-    table = np.zeros((len(xy), 6))
-    table[:, :2] = xy
+    table = np.zeros((len(xy), GROUND_COLUMNS))
+    table[:, [X, Z]] = xy
     step = np.diff(xy, axis=0)
     length = np.hypot(step[:, 0], step[:, 1])
-    table[:-1, 2:4] = step / length[:, None]
-    table[-1, 2:4] = table[-2, 2:4]
-    table[:-1, 4] = length
-    turn = table[:-2, 2] * table[1:-1, 3] - table[:-2, 3] * table[1:-1, 2]
-    table[1:-1, 5] = turn < 0
+    table[:-1, [U_X, U_Z]] = step / length[:, None]
+    table[-1, [U_X, U_Z]] = table[-2, [U_X, U_Z]]
+    table[:-1, LENGTH] = length
+    turn = table[:-2, U_X] * table[1:-1, U_Z] - table[:-2, U_Z] * table[1:-1, U_X]
+    table[1:-1, CONVEX] = turn < 0
     return table
+
+
+def _beyond(
+    last: tuple[float, float], end: tuple[float, float], level: float
+) -> tuple[float, float]:
+    """Point to which the terrain is continued over an end: straight on, or level over a riser."""
+    u_x, u_z = level, 0.0
+    if last[0] != end[0]:
+        away = math.dist(last, end)
+        u_x, u_z = (end[0] - last[0]) / away, (end[1] - last[1]) / away
+    return end[0] + BEYOND * u_x, end[1] + BEYOND * u_z
 
 
 def body_table(parts: ArrayLike, kinds: ArrayLike | None = None) -> FloatArray:
@@ -126,9 +146,8 @@ def body_table(parts: ArrayLike, kinds: ArrayLike | None = None) -> FloatArray:
 
     Returns
     -------
-    ndarray (m, 14)
-        c1 (2), r1, c2 (2), r2, e (2), distance, sine and cosine of the taper, length of the flat,
-        side of the underside, kind.
+    ndarray (m, BODY_COLUMNS)
+        Columns in ``kaidan.contact.columns``.
 
     Raises
     ------
@@ -137,20 +156,21 @@ def body_table(parts: ArrayLike, kinds: ArrayLike | None = None) -> FloatArray:
 
     Examples
     --------
-    >>> round(float(body_table([[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]])[0, 11]), 9)
+    >>> from kaidan.contact.columns import FLAT
+    >>> round(float(body_table([[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]])[0, FLAT]), 9)
     0.47
     """
     rows = np.array(parts, dtype=np.float64)
-    if rows.ndim != 2 or rows.shape[1] != 6 or not 1 <= len(rows) <= 16:
+    if rows.ndim != 2 or rows.shape[1] != 2 * DISC or not 1 <= len(rows) <= 16:
         raise ValueError(f"parts: expected shape (m, 6) with 1 <= m <= 16, got {rows.shape}")
     if not np.isfinite(rows).all():
         raise ValueError("parts: every number must be finite")
-    if (rows[:, [2, 5]] < 0).any():
+    if (rows[:, [R1, R2]] < 0).any():
         raise ValueError("parts: radii must not be negative")
     kind = np.zeros(len(rows)) if kinds is None else np.array(kinds, dtype=np.float64)
-    if kind.shape != (len(rows),) or not np.isin(kind, (TRACK, FLIPPER, BELLY)).all():
+    if kind.shape != (len(rows),) or not np.isin(kind, tuple(PartKind)).all():
         raise ValueError("kinds: one of 0 (track), 1 (flipper), 2 (belly) for each part")
-    table = np.zeros((len(rows), 14))
+    table = np.zeros((len(rows), BODY_COLUMNS))
     for row, (x1, z1, r1, x2, z2, r2) in enumerate(rows.tolist()):
         table[row] = _body_row(x1, z1, r1, x2, z2, r2, kind[row])
     return table
@@ -196,5 +216,5 @@ def mirror(terrain: ArrayLike, parts: ArrayLike) -> tuple[FloatArray, FloatArray
     """
     points = np.array(terrain, dtype=np.float64)[::-1] * np.array([-1.0, 1.0])
     rows = np.array(parts, dtype=np.float64)
-    swapped = rows[:, [3, 4, 5, 0, 1, 2]] * np.array([-1.0, 1.0, 1.0, -1.0, 1.0, 1.0])
+    swapped = rows[:, [X2, Z2, R2, X1, Z1, R1]] * np.array([-1.0, 1.0, 1.0, -1.0, 1.0, 1.0])
     return points + 0.0, swapped + 0.0

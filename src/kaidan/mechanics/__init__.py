@@ -7,9 +7,11 @@ equation has no solution. Read the modules in the order of the paper:
 
 ``slipping`` (Eqs. 1-4, 14), ``triangle`` (8-10, 13, 20-23), ``tipping`` (5-7, 11-12, 15-18),
 ``plane`` (the states A-D and the five areas of the d-a plane), ``margin`` (19-24), ``loads``
-(how the contacts share the weight), ``measures`` (the neighbours' stability measures),
-``transitions`` (entering, riser start, crest), ``drive`` (traction, torque, power), ``oblique``
-(approach with a yaw), ``margins`` (every failure mode at once).
+(how the contacts share the weight), ``measures`` (published stability measures),
+``transitions`` (entering, riser start, crest), ``rearing`` (a tail in the corner of a tread),
+``drive`` (traction, torque, power), ``oblique``
+(approach with a yaw), ``margins`` (every failure mode at once), ``weighing`` (the centroid from
+scales, tape and level), ``grousers`` and ``cones`` (what a belt with grousers holds).
 
 Symbols: the glossary in the documentation has them all; ``theta_s`` stair angle [rad],
 ``p`` nosing spacing [m], ``L`` flat length of the track [m], ``C_L`` centroid behind the uphill

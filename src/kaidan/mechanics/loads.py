@@ -21,7 +21,7 @@ from kaidan.mechanics import STANDARD_GRAVITY, Number
 from kaidan.mechanics.slipping import equivalent_slope
 
 ROUNDING = 1e-12
-"""A share down to minus this counts as zero: the contact just touches and is not let go. Shares
+"""A share down to minus this counts as zero: the contact just touches and stays. Shares
 are sums of numbers of order one, good to about 1e-15."""
 
 
@@ -76,7 +76,7 @@ def _springs(x: Number, x_z: Number, loaded: Number) -> tuple[Number, Number]:
 
 
 def _loaded(x: Number, x_z: Number) -> Number:
-    """Return which contacts stay loaded when those that would pull are let go, again and again."""
+    """Return which contacts stay loaded when those that would pull are dropped, again and again."""
     loaded = np.isfinite(x) & np.isfinite(x_z)
     for _ in range(np.shape(x)[-1]):
         share, _ = _springs(x, x_z, loaded)
@@ -97,8 +97,8 @@ def load_shares(*, x: Number, x_z: Number) -> Number:
 
     ``N_i / sum N = 1/m + (x_z - mean x)(x_i - mean x) / sum_j (x_j - mean x)^2``
 
-    over the m contacts that press; a contact that would have to pull is let go and the rest
-    solved again. A contact once let go never presses again later, so what remains is the one
+    over the m contacts that press; a contact that would have to pull is dropped and the rest
+    solved again. A contact once dropped never presses again later, so what remains is the one
     solution with no contact pulling and no free contact pressed into.
 
     Assumptions: rigid underside on springs along its normal, all of the same stiffness and with
@@ -114,7 +114,7 @@ def load_shares(*, x: Number, x_z: Number) -> Number:
     Returns
     -------
     array, shape (..., m)
-        Shares [1], sum 1; 0 for a contact that is let go or absent; NaN for all of them where
+        Shares [1], sum 1; 0 for a contact that is dropped or absent; NaN for all of them where
         x_z lies beyond the outermost contacts and nothing can hold the robot.
 
     Examples

@@ -168,7 +168,7 @@ def theta_s_inf(
 
 
 def theta_s_sup_corrected(*, theta_s_sup: Number, theta_d: Number, theta_M: Number) -> Number:
-    """Margin with the deformation of the track and the moment of the grousers taken off.
+    """Margin less the deformation of the track and the moment of the grousers.
 
     ``theta_s_sup - theta_d - theta_M``
 

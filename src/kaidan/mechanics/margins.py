@@ -1,10 +1,9 @@
-"""Every failure mode at once: the margins, the bounds of acceleration and what governs.
+"""Every failure mode at once: the margins and the bounds of acceleration.
 
 One pass over numbers or arrays; `kaidan.assess` and `kaidan.sweep` both stand on it, so that one
 robot and ten million get the same answer.
 """
 
-from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
@@ -15,19 +14,6 @@ from kaidan.mechanics.plane import two_contacts_remain
 from kaidan.mechanics.slipping import slip_acceleration_down, slip_acceleration_up
 from kaidan.mechanics.tipping import a_max, a_min_with_slip, max_a_rn, min_a_r0
 from kaidan.mechanics.validity import validity
-
-
-class Mode(IntEnum):
-    """Failure modes, named by what the limit does; ties go to the first."""
-
-    TIP_DOWNHILL = 0
-    """Turns over about the lowest contact (the paper's falling backward, nose up the stairs)."""
-    TIP_UPHILL = 1
-    """Turns over about the highest contact (the paper's falling forward)."""
-    SLIP_UP = 2
-    """Friction cannot give the traction up the stairs: the robot slides down (Eq. 4)."""
-    SLIP_DOWN = 3
-    """Friction cannot give the braking force down the stairs: the robot slides on upward."""
 
 
 class Margins(NamedTuple):
@@ -41,14 +27,12 @@ class Margins(NamedTuple):
     """theta_s_sup - theta_d - theta_M - theta_s."""
     tip_uphill: Number
     """theta_s - theta_s_inf - theta_d."""
-    slip_up: Number
+    slides_down: Number
     """Slope at which friction is used up, minus theta_s; NaN where friction is unknown."""
-    slip_down: Number
+    slides_up: Number
     """theta_s minus the slope below which braking slips; NaN where friction is unknown."""
     worst: Number
     """The smallest of the four, leaving out what is unknown."""
-    governs: Number
-    """`Mode` of the smallest."""
     inside: Number
     """1 where the model holds, NaN where p > L / 2."""
 
@@ -56,8 +40,8 @@ class Margins(NamedTuple):
 class AccelerationBounds(NamedTuple):
     """Bounds of the acceleration up the stairs [m/s^2], without allowances."""
 
-    slip_up: Number
-    slip_down: Number
+    slides_down: Number
+    slides_up: Number
     tip_downhill: Number
     tip_uphill: Number
     a_max: Number
@@ -79,9 +63,9 @@ def margins(
     theta_M: Number = 0.0,
     g: Number = STANDARD_GRAVITY,
 ) -> Margins:
-    """Margins of slope of every failure mode, the smallest of them and which it is.
+    """Margins of slope of every failure mode and the smallest of them.
 
-    Assumptions: regular nosings, p <= L / 2, constant acceleration. theta_d is taken off both
+    Assumptions: regular nosings, p <= L / 2, constant acceleration. theta_d lowers both
     tip limits, because the contact that carries most yields at either end; theta_M only off the
     downhill one, where the grousers of the lowest contact act.
 
@@ -112,8 +96,8 @@ def margins(
     Examples
     --------
     >>> m = margins(L=0.470, C_L=0.196, C_N=0.071, theta_s=np.radians(50.0), p=0.150, mu_s=2.0)
-    >>> print(round(np.degrees(m.worst), 3), Mode(int(m.governs)).name)
-    10.205 TIP_DOWNHILL
+    >>> print(np.degrees([m.tip_downhill, m.tip_uphill, m.slides_down, m.worst]).round(3))
+    [10.205 82.939 13.435 10.205]
 
     References
     ----------
@@ -125,16 +109,12 @@ def margins(
     inf = inside * theta_s_inf(p=p, C_L=C_L, C_N=C_N, a=a, g=g)
     tip_downhill = sup - theta_d - theta_M - theta_s
     tip_uphill = theta_s - inf - theta_d
-    slip_up = inside * (slope_limit(grip=mu_s, a=a, g=g) - theta_s)
-    slip_down = inside * (theta_s - slope_limit(grip=-mu_s, a=a, g=g))
+    slides_down = inside * (slope_limit(grip=mu_s, a=a, g=g) - theta_s)
+    slides_up = inside * (theta_s - slope_limit(grip=-mu_s, a=a, g=g))
     tip = np.minimum(tip_downhill, tip_uphill)
-    slip = np.minimum(slip_up, slip_down)
+    slip = np.minimum(slides_down, slides_up)
     worst = np.fmin(tip, slip) + 0.0 * tip  # an unknown slip is left out, an unknown tip is not
-    slips = slip < tip
-    governs = slips * (Mode.SLIP_UP + (slip_down < slip_up)) + (1 - slips) * (
-        tip_uphill < tip_downhill
-    )
-    return Margins(sup, inf, tip_downhill, tip_uphill, slip_up, slip_down, worst, governs, inside)
+    return Margins(sup, inf, tip_downhill, tip_uphill, slides_down, slides_up, worst, inside)
 
 
 def acceleration_bounds(
@@ -181,15 +161,15 @@ def acceleration_bounds(
     Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eqs. (14)-(18); downhill slip derived.
     """
     inside = validity(holds=two_contacts_remain(L=L, p=p))
-    slip_up = inside * slip_acceleration_up(mu_s=mu_s, theta_s=theta_s, g=g)
-    slip_down = inside * slip_acceleration_down(mu_s=mu_s, theta_s=theta_s, g=g)
+    slides_down = inside * slip_acceleration_up(mu_s=mu_s, theta_s=theta_s, g=g)
+    slides_up = inside * slip_acceleration_down(mu_s=mu_s, theta_s=theta_s, g=g)
     tip_downhill = inside * min_a_r0(L=L, p=p, theta_s=theta_s, C_L=C_L, C_N=C_N, g=g)
     tip_uphill = inside * max_a_rn(p=p, theta_s=theta_s, C_L=C_L, C_N=C_N, g=g)
     return AccelerationBounds(
-        slip_up,
-        slip_down,
+        slides_down,
+        slides_up,
         tip_downhill,
         tip_uphill,
-        a_max(a_S=slip_up, min_a_r0=tip_downhill),
-        a_min_with_slip(a_slip_down=slip_down, max_a_rn=tip_uphill),
+        a_max(a_S=slides_down, min_a_r0=tip_downhill),
+        a_min_with_slip(a_slides_up=slides_up, max_a_rn=tip_uphill),
     )

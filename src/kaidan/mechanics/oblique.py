@@ -120,7 +120,7 @@ def oblique_friction(
     ``sqrt(tan(theta_eff)^2 + (tan(theta_s) sin(psi))^2)``, at a = 0 just ``|tan(theta_s)|``
 
     A yaw takes load off the direction of the track and puts it across: at constant speed the
-    friction asked for stays the same.
+    friction required stays the same.
 
     Assumptions: the same Coulomb friction along and across the track.
 

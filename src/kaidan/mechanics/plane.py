@@ -173,7 +173,7 @@ def area(
     a_S: Number,
     a_r0: Number,
     a_rn: Number,
-    a_slip_down: Number,
+    a_slides_up: Number,
     min_a_r0: Number,
     max_a_rn: Number,
 ) -> Number:
@@ -185,7 +185,7 @@ def area(
     ----------
     a : float or array
         Acceleration up the stairs [m/s^2].
-    a_S, a_slip_down : float or array
+    a_S, a_slides_up : float or array
         Slip limits [m/s^2].
     a_r0, a_rn : float or array
         Tip limits at this progress [m/s^2].
@@ -199,7 +199,7 @@ def area(
 
     Examples
     --------
-    >>> limits = dict(a_S=5.0, a_r0=4.0, a_rn=-4.0, a_slip_down=-9.0, min_a_r0=1.0, max_a_rn=-2.0)
+    >>> limits = dict(a_S=5.0, a_r0=4.0, a_rn=-4.0, a_slides_up=-9.0, min_a_r0=1.0, max_a_rn=-2.0)
     >>> [Area(int(area(a=a, **limits))).name for a in (6.0, 4.5, -5.0, -10.0, 0.0, 2.0, 1.0)]
     ['A', 'B', 'C', 'C', 'D', 'E', 'E']
 
@@ -211,8 +211,8 @@ def area(
     slip area does not exist there.
     """
     slips, falls_back, falls_forward = a >= a_S, a > a_r0, a < a_rn
-    slips_down = a <= a_slip_down
-    stable = (a < np.minimum(a_S, min_a_r0)) & (a > np.maximum(a_slip_down, max_a_rn))
+    slips_down = a <= a_slides_up
+    stable = (a < np.minimum(a_S, min_a_r0)) & (a > np.maximum(a_slides_up, max_a_rn))
     # one step further for every area that it is not in: the first that holds is the answer
     return (1 - slips) * (
         1 + (1 - falls_back) * (1 + (1 - falls_forward) * (1 + (1 - slips_down) * (2 - stable)))

@@ -74,7 +74,7 @@ def normal_sum(*, M: Number, theta_s: Number, g: Number = STANDARD_GRAVITY) -> N
 
 
 def friction_reserve(*, traction: Number, normal: Number, mu_s: Number) -> Number:
-    """Friction that is left over the traction asked for; positive means no slip.
+    """Friction that is left over the traction required; positive means no slip.
 
     ``mu_s sum f_kN - sum f_kL > 0``
 

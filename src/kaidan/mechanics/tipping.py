@@ -106,7 +106,7 @@ def moment_about_highest(
 def tip_acceleration_downhill(
     *, theta_alpha: Number, theta_s: Number, g: Number = STANDARD_GRAVITY
 ) -> Number:
-    """Acceleration a_r0 above which the robot turns over about the lowest contact.
+    """Acceleration a_r0 above which it tips over about the lowest contact.
 
     ``a_r0 = (cos(theta_s) / tan(theta_alpha) - sin(theta_s)) g``; safe up to and including it.
 
@@ -139,7 +139,7 @@ def tip_acceleration_downhill(
 def tip_acceleration_uphill(
     *, theta_beta: Number, theta_s: Number, g: Number = STANDARD_GRAVITY
 ) -> Number:
-    """Acceleration a_rn (usually negative) below which the robot turns over the highest contact.
+    """Acceleration a_rn (usually negative) below which it tips over about the highest contact.
 
     ``a_rn = -(cos(theta_s) / tan(theta_beta) + sin(theta_s)) g``; safe down to and including it.
 
@@ -382,24 +382,24 @@ def a_min(*, max_a_rn: Number) -> Number:
     return max_a_rn
 
 
-def a_min_with_slip(*, a_slip_down: Number, max_a_rn: Number) -> Number:
+def a_min_with_slip(*, a_slides_up: Number, max_a_rn: Number) -> Number:
     """Lower end of the stable band of acceleration with downhill slip in it.
 
-    ``max(max(a_rn), a_slip_down)``
+    ``max(max(a_rn), a_slides_up)``
 
     Parameters
     ----------
-    a_slip_down, max_a_rn : float or array
+    a_slides_up, max_a_rn : float or array
         Downhill slip limit and largest uphill tip limit [m/s^2].
 
     Returns
     -------
     float or array
-        Lower end [m/s^2]. An unknown (NaN) a_slip_down is left out.
+        Lower end [m/s^2]. An unknown (NaN) a_slides_up is left out.
 
     Examples
     --------
-    >>> print(a_min_with_slip(a_slip_down=-8.0, max_a_rn=-9.0))
+    >>> print(a_min_with_slip(a_slides_up=-8.0, max_a_rn=-9.0))
     -8.0
 
     References
@@ -407,4 +407,4 @@ def a_min_with_slip(*, a_slip_down: Number, max_a_rn: Number) -> Number:
     Derived: Eq. (18) of Endo & Nagatani 2016 (doi:10.1186/s40648-016-0058-y) with the slip bound
     it lacks.
     """
-    return np.fmax(a_slip_down, max_a_rn)
+    return np.fmax(a_slides_up, max_a_rn)

@@ -184,7 +184,7 @@ def riser_start_friction(*, l_c: Number, C_L: Number, R: Number) -> Number:
 def crest_progress(
     *, C_L: Number, C_N: Number, theta_s: Number, a: Number, g: Number = STANDARD_GRAVITY
 ) -> Number:
-    """How far the top edge is behind the uphill tip when the robot turns over it to land.
+    """How far the top edge is behind the uphill tip when the robot rotates about it to land.
 
     ``C_L + C_N (tan(theta_s) + a / (g cos(theta_s)))``
 
@@ -335,8 +335,8 @@ def entry_energy(
     return M * g * C_N * (1.0 - np.cos(theta_s))
 
 
-def entry_catch_margin(*, C_L: Number, p: Number) -> Number:
-    """Length of flat beyond the next nosing when the robot has turned down over the top edge.
+def entry_arrest_margin(*, C_L: Number, p: Number) -> Number:
+    """Length of flat beyond the next nosing when the robot has come down over the top edge.
 
     ``C_L - p``
 
@@ -358,7 +358,7 @@ def entry_catch_margin(*, C_L: Number, p: Number) -> Number:
 
     Examples
     --------
-    >>> print(round(entry_catch_margin(C_L=0.196, p=0.15), 12))
+    >>> print(round(entry_arrest_margin(C_L=0.196, p=0.15), 12))
     0.046
 
     References

@@ -1,38 +1,36 @@
 """The verdict of one pair of robot and stairs, and of ten million, by the same operators."""
 
-from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
 from kaidan.mechanics import STANDARD_GRAVITY, Number
 from kaidan.mechanics.margins import margins
+from kaidan.modes import FORMULAS, SLIDES_DOWN, Verdict
 
-
-class Verdict(IntEnum):
-    """What the numbers say, from best to worst; the words of `kaidan.assess` in code."""
-
-    GO = 0
-    CAUTION = 1
-    NO_GO = 2
-    OUTSIDE_MODEL = 3
+CAUTION, NO_GO = Verdict.CAUTION.rank, Verdict.NO_GO.rank
+_SLIDES_DOWN = FORMULAS.index(SLIDES_DOWN)
+"""Code of sliding down; sliding up has the next, tipping the first two."""
+_FAR = 10.0
+"""More than any two margins differ by [rad]."""
 
 
 class Judged(NamedTuple):
     """Verdict and every margin; angles in rad, lengths in m, accelerations in m/s^2."""
 
     verdict: Number
-    """`Verdict`."""
+    """``kaidan.modes.Verdict`` by its rank."""
     governs: Number
-    """`kaidan.mechanics.margins.Mode` of the smallest margin."""
+    """Mode of the smallest margin, of a NO-GO of those that fail with the spare given back too; by
+    its place in ``kaidan.modes.FORMULAS``, ties go to the first."""
     margin: Number
     """Smallest margin of slope of all modes, allowances off; unknown friction left out."""
     theta_s_sup: Number
     """Steepest slope for this acceleration, without allowances."""
     tip_downhill: Number
     tip_uphill: Number
-    slip_up: Number
-    slip_down: Number
+    slides_down: Number
+    slides_up: Number
     a_max: Number
     """Upper end of the band of acceleration, without allowances."""
     a_min: Number
@@ -78,10 +76,10 @@ def judged(
     a : float or array
         Acceleration up the stairs [m/s^2].
     theta_d, theta_M : float or array
-        Allowances of Eq. (24), their worst reading [rad].
+        Allowances of Eq. (24) in the worst case [rad].
     spare_d, spare_M : float or array
-        What the kindest reading of theta_d and theta_M gives back [rad]: all of it where nobody
-        measured them and they may be zero, nothing where they are known.
+        What the best case of theta_d and theta_M gives back [rad]: all of it where nobody measured
+        them and they may be zero, nothing where they are known.
     g : float
         Gravity [m/s^2].
 
@@ -115,12 +113,21 @@ def judged(
         theta_M=theta_M,
         g=g,
     )
-    tip_at_best = np.minimum(m.tip_downhill + (spare_d + spare_M), m.tip_uphill + spare_d)
-    at_best = np.fmin(tip_at_best, np.minimum(m.slip_up, m.slip_down))
+    downhill_at_best, uphill_at_best = m.tip_downhill + (spare_d + spare_M), m.tip_uphill + spare_d
+    slip = np.minimum(m.slides_down, m.slides_up)
+    at_best = np.fmin(np.minimum(downhill_at_best, uphill_at_best), slip)
     holds, holds_at_best = m.worst > 0, at_best > 0
-    unknown, outside = m.slip_up != m.slip_up, m.worst != m.worst
-    verdict = holds * unknown * Verdict.CAUTION + (1 - holds) * (
-        holds_at_best * Verdict.CAUTION + (1 - holds_at_best) * (Verdict.NO_GO + outside)
+    unknown, outside = m.slides_down != m.slides_down, m.worst != m.worst
+    verdict = holds * unknown * CAUTION + (1 - holds) * (
+        holds_at_best * CAUTION + (1 - holds_at_best) * (NO_GO + outside)
+    )
+    # what may hold does not decide a NO-GO
+    fails = at_best <= 0
+    over_downhill = m.tip_downhill + (fails & (downhill_at_best > 0)) * _FAR
+    over_uphill = m.tip_uphill + (fails & (uphill_at_best > 0)) * _FAR
+    slips = slip < np.minimum(over_downhill, over_uphill)
+    governs = slips * (_SLIDES_DOWN + (m.slides_up < m.slides_down)) + (1 - slips) * (
+        over_uphill < over_downhill
     )
     # sin and cos from the tangent: over arrays the trigonometry is what costs
     x, y = L - p - C_L, p - C_L
@@ -136,13 +143,13 @@ def judged(
     )
     return Judged(
         verdict,
-        m.governs,
+        governs,
         m.worst,
         m.theta_s_sup,
         m.tip_downhill,
         m.tip_uphill,
-        m.slip_up,
-        m.slip_down,
+        m.slides_down,
+        m.slides_up,
         weight * (np.fmin(mu_s, x / C_N) - t),
         weight * (np.fmax(-mu_s, y / C_N) - t),
         centroid,

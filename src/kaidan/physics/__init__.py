@@ -6,16 +6,16 @@ is built.
 
 from kaidan.physics.model import Model, mjcf, model_of
 from kaidan.physics.outcome import Outcome, TrialLog, TrialResult
-from kaidan.physics.spec import (
+from kaidan.physics.spec import TrialSpec
+from kaidan.physics.tracks import (
     KINDS,
     DrivenGrousers,
     ShoeChain,
     SmoothBelt,
     SprungNoses,
     TrackModel,
-    TrialSpec,
 )
-from kaidan.physics.trial import run
+from kaidan.physics.trial import record, run
 
 __all__ = [
     "KINDS",
@@ -31,5 +31,6 @@ __all__ = [
     "TrialSpec",
     "mjcf",
     "model_of",
+    "record",
     "run",
 ]

@@ -28,7 +28,7 @@ _ACROSS = [math.sqrt(0.5), -math.sqrt(0.5), 0.0, 0.0]
 """Turns z to y: an axle."""
 _BELLY_HEIGHT = 0.01
 HIDDEN = 3
-"""Group of geoms that MuJoCo's viewers do not show unless asked."""
+"""Group of geoms that MuJoCo's viewers do not show by default."""
 NARROW = 0.4
 """Overall width of a robot in the plane of which none is known [m]."""
 _COLOURS = {TRACK: (0.20, 0.22, 0.25, 1.0), BELLY: (0.9, 0.62, 0.0, 1.0)}
@@ -45,12 +45,13 @@ class Lane(NamedTuple):
 
 def lanes_of(spec: TrialSpec) -> tuple[Lane, ...]:
     """One belt as wide as the robot in the plane, two tracks in space; y from the centroid."""
-    track = spec.robot.track
+    track = spec.question.robot.track
     if spec.dimensions == 3:
         assert track.gauge is not None
         assert track.width is not None
         side, half = track.gauge / 2, track.width / 2
-        flip = 1.0 if spec.facing == "nose-first" else -1.0  # left of the robot as it drives
+        # left of the robot as it drives
+        flip = 1.0 if spec.question.facing == "nose-first" else -1.0
         middle = -flip * spec.lateral_offset
         return (Lane("left_", middle + side, half), Lane("right_", middle - side, half))
     width = NARROW if track.gauge is None else track.gauge + (track.width or 0.0)
@@ -170,7 +171,7 @@ def _plate(
     look: dict[str, Any],
     speed: float = 0.0,
 ) -> float:
-    """Add the box under a tangent; which way along it the belt moves."""
+    """Add the box under a tangent; in which direction along it the belt moves."""
     start, end, normal = tangent(part, side)
     along = end - start
     length = float(np.hypot(*along))

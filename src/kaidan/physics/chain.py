@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from kaidan.physics.belts import Lane
 from kaidan.physics.engine import engine
-from kaidan.physics.spec import ShoeChain, TrialSpec
+from kaidan.physics.spec import TrialSpec
+from kaidan.physics.tracks import ShoeChain
 
 Array = NDArray[np.float64]
 

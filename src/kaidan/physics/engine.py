@@ -1,4 +1,4 @@
-"""MuJoCo, imported when a trial or a model is asked for and not before."""
+"""MuJoCo, imported when a model is built and not before."""
 
 import os
 import sys

@@ -24,7 +24,7 @@ class Forces:
 
         Returns
         -------
-        force on the robot from each nosing along the way and normal to it [N], shape (nosings, 2)
+        force on the robot from each nosing along their line and normal to it [N], (nosings, 2)
         sum of the magnitudes of all normal forces [N]
         traction [N]: what drives the robot along the surface of its track
         number of contacts

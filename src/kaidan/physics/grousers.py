@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from kaidan.physics.belts import Lane
 from kaidan.physics.engine import engine
-from kaidan.physics.spec import DrivenGrousers, TrialSpec
+from kaidan.physics.spec import TrialSpec
+from kaidan.physics.tracks import DrivenGrousers
 from kaidan.robot import Track
 
 Array = NDArray[np.float64]
@@ -70,7 +71,7 @@ class Motion(NamedTuple):
 def standing_out(spec: TrialSpec) -> float:
     """How far the track stands out of the outline [m]."""
     if isinstance(spec.track, DrivenGrousers):
-        return grouser_height(spec.track, spec.robot.track)
+        return grouser_height(spec.track, spec.question.robot.track)
     return 0.0
 
 
@@ -86,10 +87,10 @@ def add_grousers(
     mujoco = engine()
     track = spec.track
     assert isinstance(track, DrivenGrousers)
-    height = grouser_height(track, spec.robot.track)
+    height = grouser_height(track, spec.question.robot.track)
     rear, front, radius, z = part[0], part[3], part[2], part[1]
     length = 2 * (front - rear) + 2 * math.pi * radius
-    spacing = track.spacing or spec.robot.track.grouser_spacing or length / COUNT
+    spacing = track.spacing or spec.question.robot.track.grouser_spacing or length / COUNT
     count = max(4, round(length / spacing))
     places = (np.arange(count) + spec.drawn()[1]) * length / count
     motion = Motion(

@@ -1,6 +1,6 @@
 """The whole model: stairs, robot, track, ready to be simulated or written as MJCF.
 
-The world is that of the way: x ahead, z up, the robot drives to +x, uphill or downhill. In the
+The world is as the robot drives: x ahead, z up, to +x whether uphill or downhill. In the
 plane the robot has the joints x, z and phi (nose up); their values are the centroid's place [m] and
 the inclination [rad].
 """
@@ -16,14 +16,15 @@ from kaidan.physics.belts import add_belts, half_width, lanes_of
 from kaidan.physics.chain import add_chain
 from kaidan.physics.engine import engine
 from kaidan.physics.grousers import Motion, add_grousers, standing_out
-from kaidan.physics.spec import DrivenGrousers, ShoeChain, TrialSpec
-from kaidan.physics.start import Course, course_of
+from kaidan.physics.initial_pose import Course, course_of
+from kaidan.physics.spec import TrialSpec
 from kaidan.physics.terrain import add_terrain, turned
+from kaidan.physics.tracks import DrivenGrousers, ShoeChain
 
 Array = NDArray[np.float64]
 
 CLEARANCE = 1e-4
-"""Height above the resting pose at which the robot is let go [m]."""
+"""Height above the resting pose at which the robot starts [m]."""
 _SOLIMP = [0.95, 0.99, 0.001, 0.5, 2.0]
 _IMPRATIO = 10.0
 """Friction is this much stiffer than the normal direction: less creep under load."""
@@ -42,7 +43,7 @@ class Model(NamedTuple):
     field: Array
     """Surface velocity of each geom for a belt speed of 1 m/s, shape (ngeom, 6)."""
     number_of: NDArray[np.int64]
-    """Number of each geom's nosing along the way from 0; -1: other ground; -2: of the robot."""
+    """Number of each geom's nosing as it drives, from 0; -1: other ground; -2: of the robot."""
     driven: NDArray[np.bool_]
     """Geoms whose surface drives the robot; grousers do it through their servos."""
     motion: Motion | None
@@ -59,10 +60,10 @@ def model_of(spec: TrialSpec) -> Model:
     mujoco = engine()
     course = course_of(spec)
     scene = mujoco.MjSpec()
-    scene.modelname = f"kaidan {spec.robot.name} on {spec.stairs.name}"
+    scene.modelname = f"kaidan {spec.question.robot.name} on {spec.question.terrain_name}"
     _set_options(scene, spec)
     wide = half_width(spec) + (0.1 if spec.dimensions == 2 else 1.0)
-    wide += 0.0 if spec.dimensions == 2 else course.distance * abs(math.sin(spec.yaw))
+    wide += 0.0 if spec.dimensions == 2 else course.distance * abs(math.sin(spec.question.yaw))
     numbers = add_terrain(scene, spec, course.profile, course.window, wide)
     body = _robot(scene, spec, course)
     contacts = {"contype": 2, "conaffinity": 1, "condim": 3}
@@ -121,7 +122,7 @@ def _set_options(scene: Any, spec: TrialSpec) -> None:
 def _robot(scene: Any, spec: TrialSpec, course: Course) -> Any:
     """Body of the robot at its start, with its joints and its inertia."""
     mujoco = engine()
-    lift = CLEARANCE + (standing_out(spec) if course.held or spec.begin == "flight" else 0.0)
+    lift = CLEARANCE + (standing_out(spec) if course.stands or spec.begin == "flight" else 0.0)
     x = course.x - lift * math.sin(course.phi)
     z = course.z + lift * math.cos(course.phi)
     body = scene.worldbody.add_body(name=ROBOT, pos=[x, 0.0, z], quat=turned(course.phi))
@@ -135,7 +136,7 @@ def _robot(scene: Any, spec: TrialSpec, course: Course) -> Any:
     body.mass, body.ipos = mass, [0.0, 0.0, 0.0]
     body.inertia, body.explicitinertial = [about_x, about_y, about_z], True
     if spec.dimensions == 3:
-        half = spec.yaw / 2
+        half = spec.question.yaw / 2
         yaw, rise = np.array([math.cos(half), 0.0, 0.0, math.sin(half)]), turned(course.phi)
         whole = np.zeros(4)
         mujoco.mju_mulQuat(whole, np.array(rise), yaw)  # turned in the plane it stands on

@@ -3,12 +3,13 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from types import MappingProxyType
-from typing import Any
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from kaidan.answer import Answer
+from kaidan.modes import Phase
 from kaidan.physics.spec import TrialSpec
 
 Array = NDArray[np.float64]
@@ -20,9 +21,9 @@ class Outcome(StrEnum):
     CLIMBED = "climbed"
     """It came to the end of its course, upward or downward."""
     FELL_BACKWARD = "fell_backward"
-    """It turned over its tail."""
+    """It tipped over its tail."""
     FELL_FORWARD = "fell_forward"
-    """It turned over its nose."""
+    """It tipped over its nose."""
     SLID = "slid"
     """The track ran on without the robot."""
     TIMED_OUT = "timed_out"
@@ -32,18 +33,84 @@ class Outcome(StrEnum):
     START_FALL = "start_fall"
     """It fell before the track moved: it was placed where it cannot stand."""
 
+    @property
+    def exit_code(self) -> int:
+        """Code with which a command ends: 0 climbed, 3 diverged, 1 anything else."""
+        return {"climbed": 0, "unstable": 3}.get(self.value, 1)
+
+
+class TrialResult(Answer):
+    """Result of a trial, with all that it came from."""
+
+    text_module: ClassVar[str] = "trial"
+
+    spec: TrialSpec
+    """All that it depends on."""
+    outcome: Outcome
+    """How it ended."""
+    phase: Phase | None
+    """Part of the traverse in which it fell, slid or was given up; null if it did not."""
+    step: int | None
+    """Nosing that the leading end had reached then, counted from the bottom; null likewise."""
+    nosings_passed: int
+    """Nosings passed by the downhill end."""
+    largest_extra_deg: float
+    """Largest inclination beyond the line of the nosings, towards the downhill end [deg]."""
+    largest_normal_N: float
+    """Largest force from one nosing, normal to the line of the nosings [N]."""
+    largest_traction_N: float
+    """Largest sum of the tractive forces [N]."""
+    largest_torque_Nm: float | None
+    """Largest torque at the sprockets [N m]; null without a sprocket or an end's radius."""
+    largest_power_W: float
+    """Largest power at the track [W]."""
+    slip_m: float
+    """How much further the belt ran than the robot drove [m]."""
+    time_s: float
+    """Time simulated, from the start of the drive [s]."""
+    friction: float
+    """Static friction that was simulated [1]."""
+    stiffness_N_m: float | None
+    """Stiffness of a nosing [N/m]; null where it is rigid."""
+    speed_m_s: float
+    """Speed of the belt, the lowest if it changes [m/s]."""
+    timestep_s: float
+    """Time step [s]."""
+    contact_time_s: float
+    """Time in which a contact pushes back what has sunk in [s]."""
+    start_offset: float
+    """Share of a spacing by which the downhill end hung over its nosing at the start [1]."""
+    grouser_phase: float
+    """Share of a grouser spacing at the start [1]."""
+    mass_kg: float
+    """Mass that was simulated [kg]."""
+    mass_assumed: bool
+    """Whether the sheet gives no mass."""
+    inertia_estimated: bool
+    """Whether the sheet gives no inertia."""
+    wall_time_s: float
+    """Time it took [s]; the only figure that is not the same every time."""
+    versions: dict[str, str]
+    """Of kaidan and MuJoCo."""
+
+    @property
+    def fell(self) -> bool:
+        """Whether it fell while driving."""
+        return self.outcome in (Outcome.FELL_BACKWARD, Outcome.FELL_FORWARD)
+
 
 @dataclass(frozen=True, kw_only=True)
 class TrialLog:
     """A trial over time; every column has a row each `TrialSpec.log_interval`."""
 
+    result: TrialResult
     columns: Mapping[str, Array]
     """By name, the unit at its end: `time_s`, `belt_m`, `x_m`, `z_m`, `inclination_deg`,
-    `extra_deg`, `way_m`, `slip_m`, `speed_m_s`, `normal_N`, `traction_N`, `torque_Nm`, `power_W`,
+    `extra_deg`, `path_m`, `slip_m`, `speed_m_s`, `normal_N`, `traction_N`, `torque_Nm`, `power_W`,
     `contacts`, and in space `yaw_deg`, `roll_deg`, `y_m`."""
     forces: Array
-    """Force on the robot from each nosing [N], shape (rows, nosings, 2): up along the line of
-    the nosings' way, and normal to it."""
+    """Force on the robot from each nosing [N], shape (rows, nosings, 2): along the line of the
+    nosings as it drives, and normal to it."""
     poses: Array
     """State of the model at each row, shape (rows, nq): for pictures."""
 
@@ -58,77 +125,3 @@ class TrialLog:
                 whole[f"nosing{k + 1}_along_N"] = self.forces[:, k, 0]
                 whole[f"nosing{k + 1}_normal_N"] = self.forces[:, k, 1]
         return whole
-
-
-@dataclass(frozen=True, kw_only=True)
-class TrialResult:
-    """Result of a trial, with all that it came from."""
-
-    spec: TrialSpec
-    outcome: Outcome
-    largest_extra_deg: float
-    """Largest turn beyond the line of the nosings, towards the downhill end [deg]."""
-    release: int | None
-    """Nosing passed last by the downhill end when it fell or slid, 1 the first of the course;
-    0 before the first; None if it did neither."""
-    releases: int
-    """Nosings passed by the downhill end."""
-    largest_normal: float
-    """Largest force from one nosing, normal to the line of the nosings [N]."""
-    largest_traction: float
-    """Largest sum of the tractive forces [N]."""
-    largest_torque: float | None
-    """Largest torque at the sprockets [N m]; None without a sprocket or an end's radius."""
-    largest_power: float
-    """Largest power at the track [W]."""
-    slip: float
-    """How much further the belt ran than the robot drove [m]."""
-    time: float
-    """Time simulated, from the start of the drive [s]."""
-    start_offset: float
-    grouser_phase: float
-    """What was drawn from the seed [1]."""
-    mass: float
-    """Mass that was simulated [kg]."""
-    mass_assumed: bool
-    inertia_estimated: bool
-    wall_time: float
-    """Time it took [s]; the only figure that is not the same every time."""
-    versions: Mapping[str, str]
-    """Of kaidan and MuJoCo."""
-    log: TrialLog | None = None
-
-    @property
-    def fell(self) -> bool:
-        """Whether it fell while driving."""
-        return self.outcome in (Outcome.FELL_BACKWARD, Outcome.FELL_FORWARD)
-
-    def as_dict(self) -> dict[str, Any]:
-        """Everything but the log, ready for JSON; what the specification leaves open, as used."""
-        plain = {
-            name: getattr(self, name)
-            for name in self.__dataclass_fields__
-            if name not in ("spec", "log", "versions", "outcome")
-        }
-        return {
-            "outcome": self.outcome.value,
-            **plain,
-            "friction": self.spec.static_friction,
-            "stiffness": self.spec.stiffness,
-            "timestep": self.spec.step,
-            "contact_time": self.spec.softness,
-            "versions": dict(self.versions),
-            "spec": self.spec.model_dump(mode="json"),
-        }
-
-    def __reduce__(self) -> Any:
-        fields = {name: getattr(self, name) for name in self.__dataclass_fields__}
-        fields["versions"] = dict(self.versions)
-        return _again, (fields,)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "versions", MappingProxyType(dict(self.versions)))
-
-
-def _again(fields: dict[str, Any]) -> TrialResult:
-    return TrialResult(**fields)

@@ -1,6 +1,7 @@
 """The stairs as solid boxes, only as many as the robot can reach."""
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -9,7 +10,7 @@ from numpy.typing import NDArray
 
 from kaidan.physics.engine import engine
 from kaidan.physics.spec import TrialSpec
-from kaidan.profile import Profile
+from kaidan.terrain.profile import Profile
 
 Array = NDArray[np.float64]
 
@@ -17,8 +18,10 @@ NOSE = (0.001, 0.02)
 """Width and height of a nosing that stands alone [m]: a blade, on which no tail can rest."""
 _THICK = 0.05
 _PLATE = 0.01
-"""Thickness of what slopes [m]: little of its square ends sticks out of its neighbours."""
+"""Thickness of what slopes [m]: little of its square ends sticks out beside it."""
 _OVERLAP = 0.01
+MOST_BLOCKS = 5000
+"""Boxes of a terrain; with that many a second of the robot's time costs a third of a second."""
 _COLOURS = ((0.78, 0.76, 0.72, 1.0), (0.70, 0.68, 0.64, 1.0))
 
 
@@ -31,7 +34,7 @@ class Block(NamedTuple):
     half_height: float
     angle: float
     nosing: int
-    """Number of its nosing counted along the way from 0; -1: none."""
+    """Number of its nosing counted as the robot drives, from 0; -1: none."""
 
 
 def blocks_of(profile: Profile, *, down: bool, noses_only: bool) -> list[Block]:
@@ -40,9 +43,9 @@ def blocks_of(profile: Profile, *, down: bool, noses_only: bool) -> list[Block]:
     Parameters
     ----------
     profile : Profile
-        Along the way (reflected when going down).
+        As driven (reflected when going down).
     down : bool
-        Whether the way goes down, so that nosings are the far corners of their treads.
+        Whether the robot goes down, so that nosings are the far corners of their treads.
     noses_only : bool
         Blades of `NOSE` at the nosings, and nothing else.
     """
@@ -113,19 +116,33 @@ def with_landings(profile: Profile, room: float) -> Profile:
         beyond = joined[2 if end == 0 else -3]
         if abs(inner[1] - beyond[1]) < 1e-12:
             joined = np.delete(joined, 1 if end == 0 else len(joined) - 2, axis=0)
-    return profile._replace(points=joined)
+    return replace(profile, points=joined)
 
 
 def add_terrain(
     scene: Any, spec: TrialSpec, profile: Profile, window: tuple[float, float], half_width: float
 ) -> dict[str, int]:
-    """Add the boxes within a window of x [m] to a scene; numbers of the nosings by geom name."""
+    """Add the boxes within a window of x [m] to a scene; numbers of the nosings by geom name.
+
+    Raises
+    ------
+    InputError
+        More boxes than `MOST_BLOCKS`.
+    """
     mujoco = engine()
-    blocks = blocks_of(profile, down=spec.downhill, noses_only=spec.ground == "noses")
+    reached = [
+        (k, block)
+        for k, block in enumerate(
+            blocks_of(profile, down=spec.downhill, noses_only=spec.ground == "noses")
+        )
+        if block.x + block.half_length >= window[0] and block.x - block.half_length <= window[1]
+    ]
+    if len(reached) > MOST_BLOCKS:
+        raise spec.refuse(
+            f"the terrain is {len(reached)} boxes, more than {MOST_BLOCKS}: cut or thin it"
+        )
     numbers = {}
-    for k, block in enumerate(blocks):
-        if block.x + block.half_length < window[0] or block.x - block.half_length > window[1]:
-            continue
+    for k, block in reached:
         name = f"step{block.nosing + 1}" if block.nosing >= 0 else f"ground{k}"
         if name in numbers:
             name = f"{name}.{k}"

@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.errors import InputError
+from kaidan.errors import InputError, shown
 from kaidan.mechanics.verdict import Judged, judged
 from kaidan.sweeps import compiled
 
@@ -169,9 +169,11 @@ def stream(
 
 
 def _broadcast(inputs: Mapping[str, Any]) -> tuple[dict[str, Array], tuple[int, ...]]:
-    unknown = set(inputs) - set(INPUTS)
+    if not isinstance(inputs, Mapping):
+        raise InputError(f"inputs = {shown(inputs)} is not a mapping of names to numbers")
+    unknown = inputs.keys() - INPUTS.keys()
     if unknown:
-        raise InputError(f"unknown input {sorted(unknown)[0]!r}; known: {', '.join(INPUTS)}")
+        raise InputError(f"unknown input {min(map(shown, unknown))}; known: {', '.join(INPUTS)}")
     missing = [name for name in INPUTS if name not in inputs and name not in _DEFAULTS]
     if missing:
         raise InputError(f"missing input: {', '.join(missing)}")
@@ -280,8 +282,8 @@ def _compiled_kernel() -> Any:
         theta_s_sup,
         tip_downhill,
         tip_uphill,
-        slip_up,
-        slip_down,
+        slides_down,
+        slides_up,
     ):
         for i in range(L.size):
             answer = formula(
@@ -303,8 +305,8 @@ def _compiled_kernel() -> Any:
             theta_s_sup[i] = answer.theta_s_sup
             tip_downhill[i] = answer.tip_downhill
             tip_uphill[i] = answer.tip_uphill
-            slip_up[i] = answer.slip_up
-            slip_down[i] = answer.slip_down
+            slides_down[i] = answer.slides_down
+            slides_up[i] = answer.slides_up
 
     @njit
     def others(  # type: ignore[no-untyped-def]
@@ -347,7 +349,7 @@ def _compiled_kernel() -> Any:
     def blocks(inputs, outputs):  # type: ignore[no-untyped-def]
         (L, C_L, C_N, theta_s, p, mu_s, a, theta_d, theta_M, spare_d, spare_M) = inputs
         (
-            verdict, governs, margin, theta_s_sup, tip_downhill, tip_uphill, slip_up, slip_down,
+            verdict, governs, margin, theta_s_sup, tip_downhill, tip_uphill, slides_down, slides_up,
             a_max, a_min, centroid, required_friction,
         ) = outputs  # fmt: skip
         for i in range(0, L.size, _BLOCK):
@@ -356,7 +358,7 @@ def _compiled_kernel() -> Any:
                 L[i:j], C_L[i:j], C_N[i:j], theta_s[i:j], p[i:j], mu_s[i:j], a[i:j],
                 theta_d[i:j], theta_M[i:j], spare_d[i:j], spare_M[i:j],
                 verdict[i:j], governs[i:j], margin[i:j], theta_s_sup[i:j], tip_downhill[i:j],
-                tip_uphill[i:j], slip_up[i:j], slip_down[i:j],
+                tip_uphill[i:j], slides_down[i:j], slides_up[i:j],
             )  # fmt: skip
             others(
                 L[i:j], C_L[i:j], C_N[i:j], theta_s[i:j], p[i:j], mu_s[i:j], a[i:j],

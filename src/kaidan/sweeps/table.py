@@ -6,16 +6,19 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from kaidan.assessment import case_of
-from kaidan.assessment.case import Case
-from kaidan.assessment.closed_form import MODES, gap_below, steepest_for_drive
 from kaidan.errors import InputError
 from kaidan.mechanics.plane import contact_count
-from kaidan.mechanics.verdict import Judged, Verdict
+from kaidan.mechanics.verdict import Judged
+from kaidan.models.closed_form import MODES, gap_below
+from kaidan.models.drive_limits import steepest_for_drive
+from kaidan.modes import DRIVE, FORMULAS, Verdict
+from kaidan.question import Question
 from kaidan.robot import Payload, Posture, Robot
-from kaidan.stairs import Stairs
+from kaidan.spelling import sheet_of
 from kaidan.surface import Surface
 from kaidan.sweeps.pairs import CODES, Engine, numbers_of, verdicts
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import Stairs
 
 if TYPE_CHECKING:
     import xarray
@@ -40,11 +43,14 @@ _ANGLES = {
     "theta_s_sup": ("margin_angle_deg", "steepest slope for this acceleration, without allowances"),
     "tip_downhill": ("tip_downhill_deg", "margin against tipping over the downhill end"),
     "tip_uphill": ("tip_uphill_deg", "margin against tipping over the uphill end"),
-    "slip_up": ("slip_up_deg", "margin against sliding down for lack of friction"),
-    "slip_down": ("slip_down_deg", "margin against sliding up when braking"),
+    "slides_down": ("slides_down_deg", "margin against sliding down for lack of friction"),
+    "slides_up": ("slides_up_deg", "margin against sliding up when braking"),
     "drive": ("drive_deg", "margin of the drive's traction"),
 }
-DRIVE = MODES.index("drive")
+DRIVE_CODE = MODES.index(DRIVE)
+SWEPT = Profile.of_points([(0.0, 0.0), (1.0, 0.0)], name="swept flights")
+"""Terrain of the question where no stairs are given: level, because none of its steps may count;
+the flights are the parameters'."""
 _OTHERS = {
     "a_max": ("a_max", "m/s^2", 1.0, "upper end of the band of acceleration, without allowances"),
     "a_min": ("a_min", "m/s^2", 1.0, "lower end of the band of acceleration"),
@@ -121,20 +127,22 @@ def sweep(
         xarray.align(*given.values(), join="exact")
     except ValueError as error:
         raise InputError(f"parameters share a dimension but not its labels: {error}") from None
-    base = case_of(
+    flight = None if stairs is None else sheet_of(stairs, Stairs)
+    base = Question.of(
         robot,
-        _placeholder(stairs),
+        SWEPT if flight is None else flight,
         surface=surface,
         flippers=flippers,
         payload=payload,
         direction=direction,
         facing=facing,
     )
-    flight = None if stairs is None else base.stairs
     angle, nosing_spacing = _shape(given, flight)
     stance = base.stance
     length = given.get("flat_length", stance.flat_length)
     com = given.get("com_from_front", stance.com_from_front)
+    if not {"com_from_front", "com_height"} <= given.keys():
+        _ = base.robot.weighed
     _centroid_inside(base.robot, com, length)
     known = base.surface.friction_low if base.surface else math.nan
     inputs = {
@@ -147,14 +155,14 @@ def sweep(
         "acceleration": given.get("acceleration", 0.0),
     }
     for name in ("theta_d", "theta_M"):
-        allowance = getattr(base, name)
+        allowance = getattr(base, {"theta_d": "allowance_d", "theta_M": "allowance_M"}[name])
         measured = given.get(name)
         inputs[name] = allowance.high if measured is None else measured
         inputs[f"{name}_spare"] = (allowance.high - allowance.low) if measured is None else 0.0
     arrays = xarray.broadcast(*(xarray.DataArray(value) for value in inputs.values()))
     plain = {name: array.values for name, array in zip(inputs, arrays, strict=True)}
     answer = verdicts(plain, engine=engine)
-    drive = steepest_for_drive(base, stance, plain["acceleration"]) - plain["angle"]
+    drive = steepest_for_drive(base, plain["acceleration"]) - plain["angle"]
     answer, drive = _beyond_the_formulas(base, flight, plain, answer, drive)
     table = _dataset(answer, drive, arrays[0].dims)
     labels = {k: v for value in given.values() for k, v in value.coords.items() if v.dims}
@@ -203,11 +211,6 @@ def _shape(given: dict[str, Any], sheet: Stairs | None) -> tuple[Any, Any]:
     return shape["angle"], shape["nosing_spacing"]
 
 
-def _placeholder(stairs: Any) -> Any:
-    """Stairs for the parts of a case that no sweep replaces: direction and checks."""
-    return Stairs(rise=0.18, going=0.28) if stairs is None else stairs
-
-
 def _centroid_inside(robot: Robot, com: Any, length: Any) -> None:
     """Refuse a centroid outside the robot, as the robot's sheet does."""
     track = robot.track
@@ -221,28 +224,31 @@ def _centroid_inside(robot: Robot, com: Any, length: Any) -> None:
 
 
 def _beyond_the_formulas(
-    case: Case, flight: Stairs | None, inputs: dict[str, Any], answer: Judged, drive: Any
+    question: Question, flight: Stairs | None, inputs: dict[str, Any], answer: Judged, drive: Any
 ) -> tuple[Judged, Any]:
     """Put into an answer what `kaidan.assess` judges beside the margins of the formulas.
 
     The drive's traction; and outside the model are nosings that nothing carries, and flights
     with fewer nosings than the track holds at once.
     """
-    outside = np.full(np.shape(answer.margin), bool(gap_below(case, case.stance)))
+    outside = np.full(np.shape(answer.margin), bool(gap_below(question)))
     if flight is not None:
         held = contact_count(L=inputs["flat_length"], p=inputs["nosing_spacing"]) + 1
         outside |= len(flight.step_rises) < held
     numbers = answer._asdict()
     for name in set(numbers) - set(CODES):
         numbers[name] = np.where(outside, np.nan, numbers[name])
-    beyond = outside | (answer.verdict == Verdict.OUTSIDE_MODEL)
+    beyond = outside | (answer.verdict == Verdict.OUTSIDE_MODEL.rank)
     drive = np.where(beyond, np.nan, drive)
-    codes = np.where(drive <= 0, Verdict.NO_GO, answer.verdict)
+    stalls, failed = drive <= 0, answer.verdict == Verdict.NO_GO.rank
+    codes = np.where(stalls, Verdict.NO_GO.rank, answer.verdict)
+    governing = np.choose(answer.governs, [numbers[mode.key] for mode in FORMULAS])
+    by_drive = (drive < governing) | (stalls & ~failed)
     return answer._replace(
         **numbers
         | {
-            "verdict": np.where(beyond, Verdict.OUTSIDE_MODEL, codes).astype(np.int8),
-            "governs": np.where(drive < numbers["margin"], DRIVE, answer.governs).astype(np.int8),
+            "verdict": np.where(beyond, Verdict.OUTSIDE_MODEL.rank, codes).astype(np.int8),
+            "governs": np.where(by_drive, DRIVE_CODE, answer.governs).astype(np.int8),
             "margin": np.fmin(numbers["margin"], drive),
             "centroid": np.where(_past_vertical(inputs), np.nan, numbers["centroid"]),
         }
@@ -258,8 +264,8 @@ def _dataset(answer: Judged, drive: Any, dims: Any) -> "xarray.Dataset":
     import xarray
 
     variables: dict[str, Any] = {
-        "verdict": (dims, answer.verdict, _codes(word.name for word in Verdict)),
-        "governs": (dims, answer.governs, _codes(MODES)),
+        "verdict": (dims, answer.verdict, _codes(word.value for word in Verdict)),
+        "governs": (dims, answer.governs, _codes(mode.key for mode in MODES)),
     }
     for field, (name, meaning) in _ANGLES.items():
         values = np.degrees(drive if field == "drive" else getattr(answer, field))

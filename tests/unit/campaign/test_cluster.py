@@ -158,8 +158,18 @@ def test_a_scheduler_without_workers(tmp_path):
     )
 
 
-@pytest.mark.parametrize("address", ["tcp://127.0.0.1:1", "nonsense://x"])
-def test_no_scheduler_there(address, monkeypatch):
+def test_no_scheduler_there(monkeypatch):
+    address = "tcp://127.0.0.1:1"
     monkeypatch.setattr("kaidan.campaign.cluster.CONNECT", 1.0)
     with pytest.raises(InputError, match=f"^no Dask scheduler answers at {address!r}: "):
         DaskWorkers(FAKE, address)
+
+
+@pytest.mark.parametrize("address", ["nonsense", "", "tcp://", "foo://x:1", "x" * 10_000])
+def test_an_address_that_is_none_is_refused_at_once(address):
+    with pytest.raises(InputError) as caught:
+        DaskWorkers(FAKE, address)
+    assert str(caught.value).endswith(
+        " is no address of a Dask scheduler; write for example tcp://10.0.0.1:8786"
+    )
+    assert len(str(caught.value)) < 200

@@ -136,7 +136,7 @@ def test_planning_is_lazy(tmp_path):
         LocalWorkers(FAKE, 2) as workers,
         pytest.raises(EnoughError),
     ):
-        conduct(endless(), store, workers, told=Stop())
+        conduct(endless(), store, workers, listener=Stop())
     assert len(numbers(tmp_path)) >= 20, "what is done is kept when a campaign is broken off"
 
 
@@ -174,14 +174,14 @@ def test_kill_9_of_the_campaign_and_the_same_command_again(tmp_path):
 def test_progress_is_shown_on_a_terminal_and_nowhere_else(capsys, monkeypatch):
     for variable in ("FORCE_COLOR", "TTY_COMPATIBLE", "TTY_INTERACTIVE"):
         monkeypatch.delenv(variable, raising=False)
-    with Progress(5, shown=True) as told:
-        told.advance(2, 0)
+    with Progress(5, shown=True) as bar:
+        bar.advance(2, 0)
     assert capsys.readouterr() == ("", "")
     monkeypatch.setenv("FORCE_COLOR", "1")
     monkeypatch.setenv("TERM", "xterm")
-    with Progress(5, shown=True) as told:
-        told.advance(0, 2)
-        told.advance(3, 0)
+    with Progress(5, shown=True) as bar:
+        bar.advance(0, 2)
+        bar.advance(3, 0)
     out, err = capsys.readouterr()
     assert out == ""
     assert "3/3" in err, "what was found done is no work"

@@ -1,6 +1,8 @@
 """Minutes: the command itself killed in mid-campaign with real trials; a store of many rows."""
 
 import json
+import os
+import random
 import subprocess
 import sys
 import time
@@ -11,8 +13,8 @@ pytest.importorskip("mujoco")
 pytest.importorskip("pyarrow")
 
 from campaign_cases import FAKE, specs, wait_until
-from kaidan.campaign import Store, conduct, state_of
-from kaidan.campaign.work import Ended
+from kaidan.campaign import Store, conduct, read_table, state_of
+from kaidan.campaign.job import Ended
 from kaidan.errors import InputError
 
 pytestmark = pytest.mark.slow
@@ -79,3 +81,35 @@ def test_a_store_of_many_rows_is_gone_on_with_quickly_and_in_little_memory(tmp_p
     grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) * 1024
     assert grown < 100e6, "16 bytes a trial, and what reading takes"
     assert state_of(tmp_path).trials == count + 1
+
+
+WRITER = """
+import itertools, os, sys, time
+from campaign_cases import FAKE
+from kaidan.campaign import Store, store
+
+store.SOON = store.LATE = 0.03  # so that kills fall into settling too
+opened = Store(sys.argv[1], FAKE)
+for n in itertools.count(int(sys.argv[2])):
+    opened.add([{"id": f"{n:032x}", "outcome": "climbed", "version": "fake 1", "n": n}])
+    os.write(1, f"{n}\\n".encode())
+    time.sleep(0.001)
+"""
+
+
+def test_48_kills_lose_nothing_that_was_taken_in(tmp_path):
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    draw = random.Random(4)
+    kept = 0
+    for _ in range(48):
+        command = [sys.executable, "-c", WRITER, str(tmp_path), str(kept)]
+        writer = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE)
+        writer.stdout.readline()
+        time.sleep(draw.uniform(0.0, 0.2))
+        writer.kill()
+        rest = writer.communicate()[0].split()
+        numbers = sorted(read_table(tmp_path, ["n"]).column("n").to_pylist())
+        assert numbers == list(range(len(numbers))), "each once"
+        assert len(numbers) > (int(rest[-1]) if rest else kept)
+        kept = len(numbers)
+    assert len(list((tmp_path / "parts").iterdir())) >= 48

@@ -13,6 +13,7 @@ from kaidan.campaign import (
     TRIALS,
     Condition,
     Grid,
+    Setting,
     VerificationTest,
     carry_out,
     read_table,
@@ -21,7 +22,9 @@ from kaidan.campaign import (
 from kaidan.campaign.plans import as_stored, plan_from
 from kaidan.campaign.trials import physics_version
 from kaidan.errors import InputError
-from kaidan.physics import SprungNoses, TrialSpec, run
+from kaidan.physics import DrivenGrousers, SprungNoses, TrialSpec, run
+from kaidan.robot import Posture
+from kaidan.surface import Surface
 
 OF_ITS_OWN = {"host", "wall_time_s"}
 """Columns that are not the same every time."""
@@ -31,9 +34,8 @@ def plan(**fields):
     conditions = [
         Condition(nosing_spacing=0.15, angle=math.radians(angle)) for angle in (55.0, 70.0)
     ]
-    return VerificationTest(
-        **{"robot": physics_cases.robot(), "conditions": conditions, "trials": 2} | fields
-    )
+    setting = Setting(robot=physics_cases.robot())
+    return VerificationTest(**{"setting": setting, "conditions": conditions, "trials": 2} | fields)
 
 
 def rows(folder):
@@ -55,9 +57,13 @@ def test_same_seed_same_rows_and_what_stands_in_them(tmp_path):
         assert row["largest_extra_deg"] == result.largest_extra_deg
         assert row["seed"] == spec.seed
         assert row["start_offset"] == result.start_offset
-        assert row["angle_deg"] == pytest.approx(math.degrees(spec.stairs.angle), abs=1e-9)
+        assert row["angle_deg"] == pytest.approx(
+            math.degrees(spec.question.terrain.angle), abs=1e-9
+        )
         assert row["nosing_spacing_m"] == pytest.approx(0.15, abs=1e-12)
-        assert row["mass_kg"] == result.mass
+        assert row["mass_kg"] == result.mass_kg
+        assert (row["phase"], row["step"]) == (result.phase, result.step)
+        assert row["nosings_passed"] == result.nosings_passed
         assert row["version"] == physics_version()
         assert row["mujoco"] == result.versions["mujoco"]
 
@@ -76,7 +82,7 @@ def test_seeds_belong_to_conditions_not_to_the_plan():
 def test_it_comes_down_tail_first():
     down = plan(conditions=[Condition(nosing_spacing=0.15, angle=1.0, direction="down")])
     spec = next(down.specs())
-    assert (spec.direction, spec.facing) == ("down", "tail-first")
+    assert (spec.question.direction, spec.question.facing) == ("down", "tail-first")
 
 
 def test_identity_depends_on_every_input_and_on_the_version(monkeypatch):
@@ -95,12 +101,16 @@ def test_identity_depends_on_every_input_and_on_the_version(monkeypatch):
 def test_grid():
     grid = Grid(
         base=physics_cases.spec(55.0, track=SprungNoses(stiffness=3e4)),
-        axes=(("track.stiffness", (1e4, 2e4)), ("friction", (1.0, 2.0, 3.0))),
+        axes=(
+            ("track.stiffness", (1e4, 2e4)),
+            ("question.surface", [Surface.of_friction(mu) for mu in (1.0, 2.0, 3.0)]),
+        ),
         trials=4,
     )
     specs = list(grid.specs())
     assert len(specs) == len(grid) == 24
     assert [spec.track.stiffness for spec in specs[::12]] == [1e4, 2e4]
+    assert [spec.static_friction for spec in specs[:12:4]] == [1.0, 2.0, 3.0]
     assert len({TRIALS.identity(spec) for spec in specs}) == 24
     assert plan_from(json.loads(json.dumps(as_stored(grid)))) == grid, "a store can keep it"
 
@@ -111,11 +121,11 @@ def test_grid_refusals():
         Grid(base=base, axes=(("track.shoes", (30,)),))
     assert str(caught.value) == "grid: 'track.shoes' is no field of a trial; known there: kind"
     with pytest.raises(InputError) as caught:
-        Grid(base=base, axes=(("friction", ()),))
-    assert str(caught.value) == "grid: friction has no value"
+        Grid(base=base, axes=(("seed", ()),))
+    assert str(caught.value) == "grid: seed has no value"
 
 
-def test_missing_mujoco_is_told_before_anything_is_begun(tmp_path, monkeypatch):
+def test_missing_mujoco_is_refused_before_anything_is_begun(tmp_path, monkeypatch):
     from importlib.metadata import PackageNotFoundError
 
     def nowhere(name):
@@ -132,3 +142,31 @@ def test_missing_mujoco_is_told_before_anything_is_begun(tmp_path, monkeypatch):
         "the physics model needs an optional package: pip install 'kaidan[physics]'"
     )
     assert not (tmp_path / "store").exists()
+
+
+def test_a_setting_of_texts_is_that_of_numbers():
+    texts = Setting.of("absolem", flippers="20deg,-5deg", friction="0.8", speed="0.2m/s")
+    flippers = Posture(front=math.radians(20.0), rear=math.radians(-5.0))
+    assert texts == Setting.of("absolem", flippers=flippers, friction=0.8, speed=0.2)
+
+
+def test_without_a_friction_a_setting_has_that_of_its_track():
+    (condition,) = plan(conditions=[Condition(nosing_spacing=0.15, angle=0.7)]).conditions
+    kinds = (Setting.of("kenaf"), Setting.of("kenaf", track=DrivenGrousers()))
+    assert [setting.trial(condition, 0).static_friction for setting in kinds] == [3.0, 0.8]
+    assert Setting.of("kenaf", friction="0.5..1").trial(condition, 0).static_friction == 0.5
+
+
+def test_a_store_of_other_columns_is_refused_in_one_line(tmp_path):
+    from kaidan.campaign.store_files import write_about
+
+    store = tmp_path / "store"
+    carry_out(plan(trials=1), store, workers=1)
+    columns = {**TRIALS.all_columns(), "release": "count"}
+    write_about(store, {"work": TRIALS.name, "columns": columns, "plans": []})
+    with pytest.raises(InputError) as refused:
+        carry_out(plan(trials=1), store, workers=1)
+    assert str(refused.value) == (
+        f"store {str(store)!r}: another version of kaidan wrote it, with other columns; export it "
+        "and begin a new store"
+    )

@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 
 from contact_cases import random_robot, steps
-from kaidan.climb import climb
-from kaidan.contact import traverse
+from kaidan import contact
+from kaidan.contact import columns as at
 from kaidan.outline import Outline
-from kaidan.profile import Profile
 from kaidan.robot import Posture, Robot, Track
-from kaidan.stairs import Stairs
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import Stairs
+from kaidan.traversal import traverse
 
 pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
@@ -20,37 +21,41 @@ def run_of(seed, **how):
     rng = np.random.default_rng(seed)
     parts, kinds = random_robot(rng)
     terrain = steps(rng.uniform(0.05, 0.2), rng.uniform(0.15, 0.4), 5)
-    return traverse(terrain, parts, -1.0, 1.2, kinds=kinds, compile_kernel=True, **how)
+    return contact.traverse(terrain, parts, -1.0, 1.2, kinds=kinds, **how)
+
+
+def energy_of(margins):
+    return margins.energy, margins.energy_side
 
 
 @pytest.mark.parametrize("seed", range(12))
 def test_energy_equals_the_full_table(seed):
     """Bit by bit: the same function on the same poses, whichever are asked and in which order."""
     whole, bare = run_of(seed), run_of(seed, with_energy=False)
-    assert np.isfinite(whole.margins[:, 10]).all()
-    assert np.isnan(bare.margins[:, [10, 11]]).all()
-    assert (bare.margins[:, 18] == 0).all()
-    rest = [k for k in range(21) if k not in (10, 11, 18)]
-    np.testing.assert_array_equal(whole.margins[:, rest], bare.margins[:, rest])
+    assert np.isfinite(whole.margins.energy).all()
+    assert np.isnan([bare.margins.energy, bare.margins.energy_side]).all()
+    assert not bare.margins.bounded.any()
+    rest = np.setdiff1d(range(at.MARGIN_COLUMNS), [at.ENERGY, at.ENERGY_SIDE, at.BOUNDED])
+    np.testing.assert_array_equal(whole.margins.table[:, rest], bare.margins.table[:, rest])
     some = RNG.permutation(len(bare.poses))[:20]
-    np.testing.assert_array_equal(bare.energy(some), whole.margins[some, 10:12])
-    np.testing.assert_array_equal(bare.margins[some, 18], whole.margins[some, 18])
+    np.testing.assert_array_equal(bare.energy(some), energy_of(whole.margins[some]))
+    np.testing.assert_array_equal(bare.margins.bounded[some], whole.margins.bounded[some])
     others = np.setdiff1d(np.arange(len(bare.poses)), some)
-    assert np.isnan(bare.margins[others, 10]).all(), "only what was asked is worked out"
+    assert np.isnan(bare.margins.energy[others]).all(), "only what was asked is worked out"
     np.testing.assert_array_equal(bare.energy(some), whole.energy(some))  # asked again
-    np.testing.assert_array_equal(bare.energy(np.arange(len(bare.poses))), whole.margins[:, 10:12])
-    assert bare.energy(3).shape == (1, 2)
+    np.testing.assert_array_equal(bare.energy(np.arange(len(bare.poses))), energy_of(whole.margins))
+    assert [each.shape for each in bare.energy(3)] == [(1,), (1,)]
 
 
 def test_energy_is_never_less_than_the_pivots():
     """Rolling and new contacts lie farther out than a point that stays; the search relies on it."""
     for seed in range(30):
         margins = run_of(seed).margins
-        back, front = np.abs(margins[:, 8]), np.abs(margins[:, 9])
-        side = np.where(margins[:, 11] == 1.0, back, front)
-        assert set(np.unique(margins[:, 11])) <= {-1.0, 1.0}
-        bounded = margins[:, 18] == 1.0
-        assert (margins[bounded, 10] >= side[bounded] - 1e-9).all()  # m, rounding
+        back, front = np.abs(margins.back_rise), np.abs(margins.front_rise)
+        side = np.where(margins.energy_side == 1.0, back, front)
+        assert set(np.unique(margins.energy_side)) <= {-1.0, 1.0}
+        bounded = margins.bounded
+        assert (margins.energy[bounded] >= side[bounded] - 1e-9).all()  # m, rounding
 
 
 def test_energy_needs_margins():
@@ -58,7 +63,7 @@ def test_energy_needs_margins():
         run_of(0, with_margins=False).energy([0])
 
 
-def random_climb(rng):
+def random_traverse(rng):
     """A robot, sometimes with flippers, on a random flight."""
     if rng.random() < 0.5:
         robot = Robot.named("absolem")
@@ -86,11 +91,11 @@ def random_climb(rng):
 @pytest.mark.parametrize("seed", range(30))
 def test_phases_are_the_same_with_every_energy_worked_out(seed):
     """The least energy of a phase, found by bound, is the least of all poses."""
-    profile, outline, how = random_climb(np.random.default_rng(3000 + seed))
-    bare = climb(profile, outline, **how)
-    whole = climb(profile, outline, with_energy=True, **how)
+    profile, outline, how = random_traverse(np.random.default_rng(3000 + seed))
+    bare = traverse(profile, outline, **how)
+    whole = traverse(profile, outline, with_energy=True, **how)
     assert bare.phases == whole.phases
     assert bare.status is whole.status
-    assert np.isfinite(whole.run.margins[:, 10]).all()
-    if len(bare.run.poses) > 200:
-        assert np.isnan(bare.run.margins[:, 10]).any(), "by bound, not at every pose"
+    assert np.isfinite(whole.path.margins.energy).all()
+    if len(bare.path.poses) > 200:
+        assert np.isnan(bare.path.margins.energy).any(), "by bound, not at every pose"

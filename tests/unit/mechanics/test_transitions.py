@@ -6,7 +6,7 @@ from kaidan.mechanics.transitions import (
     best_inclination,
     crest_energy,
     crest_progress,
-    entry_catch_margin,
+    entry_arrest_margin,
     entry_energy,
     entry_progress,
     largest_step_height,
@@ -155,7 +155,7 @@ def test_entry_energy_is_the_fall_of_the_centroid():
     assert entry_energy(M=1.0, C_N=2.0, theta_s=np.pi / 3) == pytest.approx(9.80665, abs=1e-12)
 
 
-def test_entry_catch_margin():
+def test_entry_arrest_margin():
     # hand: Kenaf catches the next nosing at 180 mm, not at 200 mm
-    assert entry_catch_margin(C_L=0.196, p=0.18) == pytest.approx(0.016, abs=1e-15)
-    assert entry_catch_margin(C_L=0.196, p=0.2) == pytest.approx(-0.004, abs=1e-15)
+    assert entry_arrest_margin(C_L=0.196, p=0.18) == pytest.approx(0.016, abs=1e-15)
+    assert entry_arrest_margin(C_L=0.196, p=0.2) == pytest.approx(-0.004, abs=1e-15)

@@ -10,13 +10,23 @@ pytest.importorskip("mujoco", reason="skipped: mujoco not installed")
 import mujoco
 
 from kaidan.outline import Outline
-from kaidan.physics import DrivenGrousers, ShoeChain, SmoothBelt, SprungNoses, mjcf, model_of
+from kaidan.physics import (
+    DrivenGrousers,
+    ShoeChain,
+    SmoothBelt,
+    SprungNoses,
+    TrialSpec,
+    mjcf,
+    model_of,
+)
 from kaidan.physics.belts import rounded, tangent
 from kaidan.physics.grousers import Motion
+from kaidan.physics.initial_pose import course_of
 from kaidan.physics.terrain import blocks_of
-from kaidan.profile import Profile
+from kaidan.question import Question
 from kaidan.robot import Posture, Robot
-from kaidan.stairs import Stairs
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import Stairs
 from physics_cases import robot, spec
 
 STAIRS = Stairs(rise=0.18, going=0.28, steps=4)
@@ -133,7 +143,7 @@ def test_mass_and_inertia_are_the_sheets():
 def test_flippers_are_hulls_of_two_discs_at_their_angle(facing):
     sheet = Robot.named("absolem")
     posture = Posture(front=0.5, rear="flat")
-    model = model_of(spec(30.0, 0.3, robot=sheet, posture=posture, facing=facing)).compiled
+    model = model_of(spec(30.0, 0.3, robot=sheet, flippers=posture, facing=facing)).compiled
     outline = Outline.of(sheet, posture)
     outline = outline if facing == "nose-first" else outline.turned_round()
     discs = {(round(x, 9), round(z, 9), r) for x, z, r in outline.parts.reshape(-1, 3)}
@@ -172,3 +182,14 @@ def test_two_tracks_in_space_stand_apart_by_the_gauge():
     assert model.geom("left_track_under").pos[1] == pytest.approx(0.15 - 0.02)
     assert model.geom("right_track_under").pos[1] == pytest.approx(-0.15 - 0.02)
     assert model.nv == 6
+
+
+@pytest.mark.parametrize("direction", ["up", "down"])
+def test_the_line_of_the_nosings_is_that_of_the_steepest_flight(direction):
+    gentle, steep = (
+        Stairs(rise=rise, going=0.3, steps=4, upper_landing=1.5) for rise in (0.1, 0.2)
+    )
+    question = Question.of(robot(), (gentle, steep), direction=direction)
+    course = course_of(TrialSpec(question=question, begin="landing"))
+    assert abs(course.slope) == pytest.approx(steep.angle)
+    assert course.down == (direction == "down")

@@ -5,12 +5,17 @@ import pytest
 from kaidan.errors import InputError
 from kaidan.physics import DrivenGrousers, ShoeChain, SmoothBelt, SprungNoses, TrialSpec
 from kaidan.robot import Robot
+from kaidan.terrain.profile import Profile
 from physics_cases import robot, spec
+
+FLOOR = Profile.of_points([(0.0, 0.0), (1.0, 0.0)])
 
 
 def test_a_trial_is_the_same_after_json_and_pickle():
     trial = spec(50.0, track=SprungNoses(stiffness=3e4), seed=7)
     assert TrialSpec.model_validate_json(trial.model_dump_json()) == trial
+    scanned = spec(50.0, terrain=Profile.of_points(trial.question.profile.points))
+    assert TrialSpec.model_validate_json(scanned.model_dump_json()) == scanned
     assert pickle.loads(pickle.dumps(trial)) == trial
 
 
@@ -67,15 +72,28 @@ def test_an_old_mujoco_is_told_apart(monkeypatch):
         ),
         (
             {"dimensions": 3},
-            "trial: dimensions = 3 needs gauge and width of the tracks; 'kenaf-like' states none",
+            "trial: dimensions = 3 needs gauge and width of the tracks; 'kenaf-like' does not "
+            "state both",
         ),
-        ({"yaw": 0.1}, "trial: yaw and lateral_offset need dimensions = 3"),
+        (
+            {"robot": robot(gauge=0.3), "yaw": 0.1},
+            "trial: yaw and lateral_offset need dimensions = 3",
+        ),
+        (
+            {"robot": robot(gauge=0.3, width=0.08), "yaw": 1.0, "dimensions": 3},
+            "trial: yaw = 1 rad is not within -0.8 to 0.8 rad",
+        ),
         (
             {"ground": "noses", "begin": "landing"},
             "trial: a rig of nosings alone has no landing to begin on",
         ),
-        ({"points": ((0.0, 0.0), (1.0, 0.0))}, "trial: the profile has fewer than two nosings"),
-        ({"speed": 100.0}, "trial: speed = 100 m/s is not within 0.001 to 5 m/s"),
+        ({"terrain": FLOOR}, "trial: the terrain has fewer than two nosings"),
+        (
+            {"terrain": ("ibc", "ibc")},
+            "trial: several flights are driven from the landing; give begin = landing",
+        ),
+        ({"speed": 20.0}, "trial: speed = 20 m/s is not within 0.001 to 5 m/s"),
+        ({"speed": 0.0}, "trial: speed = 0 m/s is not within 0.001 to 5 m/s"),
         (
             {"robot": Robot.named("ozbot-atr"), "track": ShoeChain()},
             "trial: shoe-chain needs ends of one radius, of at least 10 mm; 'ozbot-atr' has 0.14 "
@@ -119,3 +137,26 @@ def test_friction_isolates_tipping_unless_stated_or_held_by_grousers():
     assert spec(50.0).static_friction == 3.0
     assert spec(50.0, track=DrivenGrousers()).static_friction == 0.8
     assert spec(50.0, track=DrivenGrousers(), friction=1.2).static_friction == 1.2
+
+
+def test_of_a_range_of_friction_the_low_end_counts():
+    assert spec(50.0, friction=(0.6, 1.0)).static_friction == 0.6
+
+
+def test_what_plays_no_part_in_a_trial_makes_no_other_trial():
+    asked = spec(50.0, theta_d=0.02, theta_M=(0.0, 0.01), risk=0.05, accept="arrested")
+    assert asked == spec(50.0)
+    assert asked.model_dump_json() == spec(50.0, model="closed-form").model_dump_json()
+
+
+def test_a_falling_profile_is_driven_down():
+    falling = Profile.of_points([(-1, 0.4), (0, 0.4), (0, 0.2), (0.3, 0.2), (0.3, 0), (1.3, 0)])
+    with pytest.raises(InputError, match="drive it down"):
+        spec(40.0, terrain=falling)
+
+
+def test_trials_can_be_compared_whatever_they_have_worked_out():
+    one, other = spec(50.0), spec(50.0)
+    assert one.outline().reach == other.outline().reach
+    assert one == other
+    assert one != spec(50.0, seed=1)

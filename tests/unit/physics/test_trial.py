@@ -1,66 +1,82 @@
 """Trials: what they tell, and that they tell it twice."""
 
-import json
 import math
 import pickle
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
+import jsonschema
 import numpy as np
 import pytest
 
 pytest.importorskip("mujoco", reason="skipped: mujoco not installed")
 
-from kaidan.physics import DrivenGrousers, Outcome, ShoeChain, SprungNoses, TrialSpec, model_of, run
-from kaidan.physics.pace import Belt
-from kaidan.physics.trial import Simulation
-from kaidan.robot import Posture, Robot
-from kaidan.stairs import Stairs
+from kaidan.errors import InputError
+from kaidan.modes import Phase
+from kaidan.physics import (
+    DrivenGrousers,
+    Outcome,
+    ShoeChain,
+    SprungNoses,
+    TrialResult,
+    TrialSpec,
+    model_of,
+    record,
+    run,
+)
+from kaidan.physics.belt_speed import Belt
+from kaidan.physics.simulation import Simulation
+from kaidan.question import Question
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import Stairs
 from physics_cases import robot, spec
 
 WEIGHT = 20.0 * 9.80665
 
 
 def plain(result):
-    return {key: value for key, value in result.as_dict().items() if key != "wall_time"}
+    return {key: value for key, value in result.to_dict().items() if key != "wall_time_s"}
 
 
 def test_it_climbs_and_its_forces_balance_its_weight():
-    result = run(spec(50.0), log=True)
+    log = record(spec(50.0))
+    result = log.result
     assert result.outcome is Outcome.CLIMBED
-    assert result.releases == 2
-    assert result.release is None
+    assert result.nosings_passed == 2
+    assert (result.phase, result.step) == (None, None)
     assert not result.fell
-    columns, theta = result.log.columns, math.radians(50.0)
+    columns, theta = log.columns, math.radians(50.0)
     # smooth driving at constant speed: 0.5 % for the blows of a nosing that comes or goes
     assert np.median(columns["traction_N"]) == pytest.approx(WEIGHT * math.sin(theta), rel=5e-3)
-    along, normal = np.median(result.log.forces.sum(axis=1), axis=0)
+    along, normal = np.median(log.forces.sum(axis=1), axis=0)
     assert along == pytest.approx(WEIGHT * math.sin(theta), rel=5e-3)
     assert normal == pytest.approx(WEIGHT * math.cos(theta), rel=5e-3)
     assert np.median(columns["power_W"]) == pytest.approx(0.1 * WEIGHT * math.sin(theta), rel=5e-3)
     assert np.median(columns["torque_Nm"]) == pytest.approx(
         0.06 * WEIGHT * math.sin(theta), rel=5e-3
     )
-    assert abs(result.slip) < 1e-3
-    assert len(result.log) == len(columns["time_s"]) == len(result.log.poses)
-    assert result.log.table().keys() > columns.keys()
+    assert abs(result.slip_m) < 1e-3
+    assert len(log) == len(columns["time_s"]) == len(log.poses)
+    assert log.table().keys() > columns.keys()
 
 
 @pytest.mark.parametrize(
     "track", [SprungNoses(stiffness=3e4), DrivenGrousers(), ShoeChain()], ids=lambda each: each.kind
 )
 def test_other_tracks_pull_as_much(track):
-    log = run(spec(40.0, track=track), log=True).log
+    log = record(spec(40.0, track=track))
     driven = log.columns["traction_N"][log.columns["time_s"] > 0.5]
-    # 2 %: springs and grousers swing about it
+    # 2 %: springs and grousers rock about it
     assert driven.mean() == pytest.approx(WEIGHT * math.sin(math.radians(40.0)), rel=0.02)
 
 
 def test_it_falls_over_its_tail_and_says_where():
-    result = run(spec(68.0), log=True)
+    result = run(spec(68.0))
     assert result.outcome is Outcome.FELL_BACKWARD
     assert result.fell
-    assert result.release == 1
+    assert result.nosings_passed == 1
+    # it begins with its tail before nosing 2, its front end 0.47/0.15 spacings ahead
+    assert (result.phase, result.step) == (Phase.TRAVERSE, 4)
     assert result.largest_extra_deg > 45.0
 
 
@@ -77,21 +93,19 @@ def test_going_down_nose_first_it_falls_over_its_nose():
 def test_too_smooth_it_slides():
     result = run(spec(50.0, friction=0.8))
     assert result.outcome is Outcome.SLID
-    assert result.slip > 0.15
+    assert result.slip_m > 0.15
 
 
 def test_too_smooth_it_runs_away_downhill():
     result = run(spec(30.0, direction="down", facing="tail-first", friction=0.4))
     assert result.outcome is Outcome.SLID
-    assert result.slip < -0.07
+    assert result.slip_m < -0.07
 
 
-def test_a_swing_on_the_way_is_no_sliding():
-    # it swings by 14 degrees at each nosing, and loses 0.15 m each time
-    stairs = Stairs.named("ibc")
-    trial = TrialSpec(
-        robot=Robot.named("superdroid-hd2"), stairs=stairs, friction=1.0, speed=0.3, releases=4
-    )
+def test_a_rotation_on_the_path_is_no_sliding():
+    # it rotates by 14 degrees at each nosing, and loses 0.15 m each time
+    question = Question.of("superdroid-hd2", "ibc", friction=1.0, speed=0.3)
+    trial = TrialSpec(question=question, nosings=4)
     assert run(trial).outcome is Outcome.CLIMBED
 
 
@@ -108,8 +122,6 @@ def test_what_takes_too_long_is_timed_out(monkeypatch):
 
 
 def test_a_simulation_that_diverges_is_an_outcome(monkeypatch):
-    from kaidan.physics import trial
-
     before = Simulation.drive
 
     def burst(self, time, steps, on):
@@ -117,17 +129,17 @@ def test_a_simulation_that_diverges_is_an_outcome(monkeypatch):
         if on:
             self.data.qvel[0] = math.nan
 
-    monkeypatch.setattr(trial.Simulation, "drive", burst)
+    monkeypatch.setattr(Simulation, "drive", burst)
     result = run(spec(50.0))
     assert result.outcome is Outcome.UNSTABLE
-    assert json.dumps(result.as_dict(), allow_nan=False)
+    assert TrialResult.from_json(result.to_json()) == result
 
 
 @pytest.mark.parametrize(
     "track", [None, SprungNoses(stiffness=3e4), DrivenGrousers(), ShoeChain()], ids=str
 )
 def test_the_same_seed_gives_the_same_result(track):
-    fields = {"start_offset": None, "releases": 1} | ({"track": track} if track else {})
+    fields = {"start_offset": None, "nosings": 1} | ({"track": track} if track else {})
     one, two = (run(spec(50.0, seed=5, **fields)) for _ in range(2))
     assert plain(one) == plain(two)
     other = run(spec(50.0, seed=6, **fields))
@@ -135,27 +147,28 @@ def test_the_same_seed_gives_the_same_result(track):
 
 
 def test_another_process_comes_to_the_same_result():
-    trial = spec(55.0, releases=1, track=SprungNoses(stiffness=3e4), seed=9)
+    trial = spec(55.0, nosings=1, track=SprungNoses(stiffness=3e4), seed=9)
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
         there = pool.submit(run, trial).result()
     assert plain(there) == plain(run(trial))
 
 
 def test_a_result_can_be_pickled_and_written_as_json():
-    result = run(spec(50.0, releases=1), log=True)
-    again = pickle.loads(pickle.dumps(result))
-    assert again.as_dict() == result.as_dict()
-    assert np.array_equal(again.log.poses, result.log.poses)
-    told = json.loads(json.dumps(result.as_dict(), allow_nan=False))
-    assert TrialSpec.model_validate(told["spec"]) == result.spec
-    assert set(told["versions"]) == {"kaidan", "mujoco"}
-    used = {key: told[key] for key in ("friction", "stiffness", "timestep", "contact_time")}
-    assert used == {"friction": 3.0, "stiffness": None, "timestep": 1e-3, "contact_time": 2e-3}
+    log = record(spec(50.0, nosings=1))
+    again = pickle.loads(pickle.dumps(log))
+    assert again.result == log.result
+    assert np.array_equal(again.poses, log.poses)
+    result = log.result
+    assert TrialResult.from_json(result.to_json()) == result
+    jsonschema.validate(result.to_dict(), TrialResult.json_schema())
+    assert set(result.versions) == {"kaidan", "mujoco"}
+    used = (result.friction, result.stiffness_N_m, result.timestep_s, result.contact_time_s)
+    assert used == (3.0, None, 1e-3, 2e-3)
 
 
 def test_a_trial_leaves_no_file_behind(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    run(spec(50.0, releases=1, track=ShoeChain(), timestep=5e-3))
+    run(spec(50.0, nosings=1, track=ShoeChain(), timestep=5e-3))
     assert list(tmp_path.iterdir()) == []
 
 
@@ -175,32 +188,59 @@ def test_the_belt_keeps_to_the_acceleration_asked_for(acceleration, direction):
 
 
 def test_acceleration_needs_its_own_traction():
-    fields = {"acceleration": 0.5, "releases": 1}
+    fields = {"acceleration": 0.5, "nosings": 1}
     theta = math.radians(40.0)
-    result = run(spec(40.0, **fields), log=True)
+    log = record(spec(40.0, **fields))
     # 1 %: nosings come and go
-    assert np.median(result.log.columns["traction_N"]) == pytest.approx(
+    assert np.median(log.columns["traction_N"]) == pytest.approx(
         20.0 * (9.80665 * math.sin(theta) + 0.5), rel=1e-2
     )
 
 
-def test_the_whole_way_from_landing_to_landing():
+def test_from_landing_to_landing():
     stairs = Stairs(rise=0.1, going=0.2, steps=4)
     for direction in ("up", "down"):
-        result = run(
-            TrialSpec(
-                robot=robot(), stairs=stairs, begin="landing", direction=direction, friction=1.0
-            )
-        )
+        question = Question.of(robot(), stairs, direction=direction, friction=1.0)
+        result = run(TrialSpec(question=question, begin="landing"))
         assert result.outcome is Outcome.CLIMBED, direction
+
+
+def test_several_flights_from_landing_to_landing():
+    stairs = Stairs(rise=0.1, going=0.2, steps=3, upper_landing=1.2)
+    question = Question.of(robot(), (stairs, stairs), friction=1.0)
+    assert run(TrialSpec(question=question, begin="landing")).outcome is Outcome.CLIMBED
+
+
+def test_where_it_fails_is_told_by_phase_and_step():
+    question = Question.of("absolem", "ibc", friction=1.0)
+    result = run(TrialSpec(question=question, begin="landing"))
+    assert result.outcome is Outcome.FELL_BACKWARD
+    assert (result.phase, result.step) == (Phase.ENTER, 1)
 
 
 def test_flippers_decide():
     stairs = Stairs(rise=0.178, going=0.279)
-    flat = Posture(front="flat", rear="flat")
-    fields = {"robot": Robot.named("absolem"), "stairs": stairs, "friction": 1.0, "speed": 0.4}
-    assert run(TrialSpec(**fields, posture=flat)).outcome is Outcome.CLIMBED
-    assert run(TrialSpec(**fields)).outcome is not Outcome.CLIMBED
+    flat, stowed = (
+        Question.of("absolem", stairs, friction=1.0, speed=0.4, flippers=flippers)
+        for flippers in ("flat", "stowed")
+    )
+    assert run(TrialSpec(question=flat)).outcome is Outcome.CLIMBED
+    assert run(TrialSpec(question=stowed)).outcome is not Outcome.CLIMBED
+
+
+def test_what_takes_too_long_to_simulate_is_refused():
+    long = Question.of(robot(), Stairs(rise=0.1, going=0.2, steps=400), speed=0.01)
+    with pytest.raises(InputError) as refused:
+        run(TrialSpec(question=long, begin="landing"))
+    assert str(refused.value) == "trial: it takes 2.5 h at 0.01 m/s; at most 1 h is simulated"
+
+
+def test_a_terrain_of_too_many_boxes_is_refused():
+    x = np.linspace(0.0, 6.0, 6001)
+    rough = np.floor(x / 0.3) * 0.15 + 1e-3 * np.sin(7000 * x)
+    question = Question.of(robot(), Profile.of_points(np.column_stack([x, rough])))
+    with pytest.raises(InputError, match="boxes, more than 5000: cut or thin it"):
+        run(TrialSpec(question=question, begin="landing"))
 
 
 def test_in_space_straight_ahead_it_is_as_in_the_plane():
@@ -211,14 +251,14 @@ def test_in_space_straight_ahead_it_is_as_in_the_plane():
 
 def test_in_space_a_centroid_to_the_left_loads_the_left_track():
     sheet = robot(gauge=0.3, width=0.08)
-    result = run(spec(30.0, robot=sheet, dimensions=3, lateral_offset=0.1), log=True)
-    assert result.outcome is Outcome.CLIMBED
-    assert abs(result.log.columns["roll_deg"]).max() < 0.5
-    assert {"y_m", "yaw_deg", "roll_deg"} <= result.log.columns.keys()
+    log = record(spec(30.0, robot=sheet, dimensions=3, lateral_offset=0.1))
+    assert log.result.outcome is Outcome.CLIMBED
+    assert abs(log.columns["roll_deg"]).max() < 0.5
+    assert {"y_m", "yaw_deg", "roll_deg"} <= log.columns.keys()
 
 
 def test_in_space_it_climbs_obliquely():
     sheet = robot(gauge=0.3, width=0.08)
-    result = run(spec(30.0, robot=sheet, dimensions=3, yaw=0.15), log=True)
-    assert result.outcome is Outcome.CLIMBED
-    assert result.log.columns["y_m"][-1] > 0.02, "to the left"
+    log = record(spec(30.0, robot=sheet, dimensions=3, yaw=0.15))
+    assert log.result.outcome is Outcome.CLIMBED
+    assert log.columns["y_m"][-1] > 0.02, "to the left"

@@ -1,0 +1,88 @@
+"""Columns of the kernel's tables and the packing of features: the memory layout, named once.
+
+Plain integers, so that the compiler treats each as the literal that it stands for. Only this
+package reads tables by column; everybody else reads the records of :mod:`kaidan.contact.records`.
+
+::
+
+    feature = POINT * point + PART * part + kind      kind: VERTEX, DISC_1 or DISC_2
+"""
+
+# Ground, a row a point: place [m], unit vector to the next point, length of that segment [m],
+# 1.0 if the point is convex.
+X, Z, U_X, U_Z, LENGTH, CONVEX = range(6)
+GROUND_COLUMNS = 6
+
+# Body, a row a part: disc 1 (centre, radius [m]), disc 2, unit vector and distance between them,
+# sine and cosine of the taper, length of the flat [m], side of the underside, kind of the part.
+X1, Z1, R1, X2, Z2, R2, E_X, E_Z, AXIS, SINE, COSINE, FLAT, SIDE, KIND = range(14)
+BODY_COLUMNS = 14
+# A disc within a row of the body: DISC * (0 or 1) + one of these.
+DISC_X, DISC_Z, DISC_R = range(3)
+DISC = 3
+
+# Features: what can touch what.
+VERTEX, DISC_1, DISC_2 = range(3)
+KIND_MASK = 3
+PART, PART_BITS, PART_MASK = 4, 2, 15
+POINT, POINT_BITS = 64, 6
+NO_FEATURE = -1
+
+# Poses: arclength [m], centroid [m], inclination [rad], the two features, their points [m] and
+# normals, direction of the path [rad], number of the line of poses.
+(
+    POSE_S, POSE_X, POSE_Z, POSE_PHI, POSE_REAR, POSE_FRONT,
+    REAR_X, REAR_Z, FRONT_X, FRONT_Z, REAR_N_X, REAR_N_Z, FRONT_N_X, FRONT_N_Z,
+    POSE_PSI, POSE_LEG,
+) = range(16)  # fmt: skip
+POSE_COLUMNS = 16
+
+# Events: kind, arclength [m], centroid [m], inclination [rad], feature, other feature, row of the
+# pose.
+(
+    EVENT_KIND, EVENT_S, EVENT_X, EVENT_Z, EVENT_PHI, EVENT_FEATURE, EVENT_OTHER, EVENT_POSE,
+) = range(8)  # fmt: skip
+EVENT_COLUMNS = 8
+
+# Rotations: see kaidan.contact.records.Rotation.
+(
+    ROTATION_SENSE, ROTATION_S, ROTATION_PIVOT, START_X, START_Z, START_PHI,
+    END_X, END_Z, END_PHI, ROTATION_ANGLE, RATE_BEFORE, RATE_AFTER, KINETIC, BARRIER, TOPPLES,
+    OUTCOME, PIVOT_X, PIVOT_Z,
+) = range(18)  # fmt: skip
+ROTATION_COLUMNS = 18
+
+# Margins: see kaidan.contact.records.Margins.
+(
+    FRICTION, REAR_N, REAR_T, FRONT_N, FRONT_T, TRACTION, BACK, FRONT, BACK_RISE, FRONT_RISE,
+    ENERGY, ENERGY_SIDE, FORCE_ANGLE, ZMP, CONTACTS, BELLY_TOUCHES, STEEPEST, TILT, BOUNDED,
+    OUTER_REAR, OUTER_FRONT,
+) = range(21)  # fmt: skip
+MARGIN_COLUMNS = 21
+
+# Tilts of one pose to one side: see kaidan.contact.records.Tilts.
+CARRIED_TO, ROCKS_BY = range(2)
+TILT_COLUMNS = 2
+
+# Contacts of one pose: feature, point [m], normal, gap [m], kind of the part.
+(
+    CONTACT_FEATURE, CONTACT_X, CONTACT_Z, CONTACT_N_X, CONTACT_N_Z, CONTACT_GAP, CONTACT_KIND,
+) = range(7)  # fmt: skip
+CONTACT_COLUMNS = 7
+
+# Jobs of a batch and the summary of each.
+(
+    JOB_TERRAIN, JOB_ROBOT, JOB_START, JOB_END, JOB_PHI, JOB_ACCELERATION, JOB_GYRATION,
+    JOB_REFERENCE,
+) = range(8)  # fmt: skip
+JOB_COLUMNS = 8
+(
+    SUMMARY_STATUS, SUMMARY_POSES, SUMMARY_EVENTS, SUMMARY_ROTATIONS, SUMMARY_HIGHEST,
+    SUMMARY_LOWEST, SUMMARY_EXTRA, SUMMARY_ANGLE, SUMMARY_TOPPLES, SUMMARY_REACHED,
+    SUMMARY_FRICTION, SUMMARY_STABILITY, SUMMARY_ENERGY, SUMMARY_BELLY,
+) = range(14)  # fmt: skip
+SUMMARY_COLUMNS = 14
+
+# Poses settled one by one: found, height [m], inclination [rad], the two features.
+SETTLED_FOUND, SETTLED_Z, SETTLED_PHI, SETTLED_REAR, SETTLED_FRONT = range(5)
+SETTLED_COLUMNS = 5

@@ -1,0 +1,362 @@
+"""Which feature closes first within a rotation about one contact."""
+
+from __future__ import annotations
+
+import math
+
+from kaidan.contact.columns import (
+    CONVEX,
+    COSINE,
+    DISC,
+    DISC_1,
+    DISC_R,
+    E_X,
+    E_Z,
+    KIND_MASK,
+    LENGTH,
+    NO_FEATURE,
+    PART,
+    PART_BITS,
+    PART_MASK,
+    POINT,
+    POINT_BITS,
+    R1,
+    R2,
+    SIDE,
+    SINE,
+    U_X,
+    U_Z,
+    VERTEX,
+    X1,
+    X2,
+    Z1,
+    Z2,
+    X,
+    Z,
+)
+from kaidan.contact.compiling import kernel, leaf
+from kaidan.contact.kernel.closing import (
+    BESIDE,
+    FROM_DISC_1,
+    FROM_DISC_2,
+    RESTING,
+    TO_ARC_1,
+    TO_ARC_2,
+    closing_angle,
+    crossing_angle,
+    on_piece,
+    separation,
+)
+from kaidan.contact.kernel.event_location import PENETRATED
+from kaidan.contact.kernel.gaps import gap, on_flat
+from kaidan.contact.kernel.nearest_feature import first_index
+from kaidan.contact.kernel.rotation import turned
+from kaidan.contact.tables import FloatArray, Four, Pose
+
+#: A pivot this close to an end disc [m] lies on it: five times the gap at which a rotation ends.
+#: One that lies farther off closes with the segment sqrt(2 off / R) later, at a gap of zero.
+SAME_ARC = 1e-11
+
+
+@leaf
+def out_of_reach(
+    ground: FloatArray, k: int, o_x: float, o_z: float, q_x: float, q_z: float, sense: float,
+    lifts: bool,
+) -> bool:  # fmt: skip
+    """Whether the pivot's own part never meets point k.
+
+    That part lies above its supporting line: what lies below that line, and on the side that is
+    lifted (rolling upward: on either side), is never met.
+    """
+    v_x = ground[k, X] - o_x
+    v_z = ground[k, Z] - o_z
+    return v_x * q_x + v_z * q_z <= 1e-12 and (lifts or sense * (v_x * q_z - v_z * q_x) > 0.0)
+
+
+@leaf
+def vertex_closing(
+    ground: FloatArray, body: FloatArray, k: int, part: int, pivot: int,
+    x: float, z: float, phi: float, o_x: float, o_z: float, sense: float, ce: float, se: float,
+    n_x: float, n_z: float, flat_level: float, centres: Four, best: float, which: int,
+) -> tuple[float, int]:  # fmt: skip
+    """Point k meets the flat or the end discs of a part that turns about (o_x, o_z).
+
+    Returns
+    -------
+    angle [rad], feature: those given unless one of these closes before.
+    """
+    v_x = ground[k, X] - o_x
+    v_z = ground[k, Z] - o_z
+    even = v_x * n_x + v_z * n_z
+    at = crossing_angle(flat_level, even, sense * (v_z * n_x - v_x * n_z), ce, se, PENETRATED)
+    if at < best:
+        y_x, y_z = turned(ground, body, pivot, x, z, phi, sense * at)
+        angle = phi + sense * at
+        feature = POINT * k + PART * part
+        if on_flat(ground, body, feature, y_x, y_z, math.cos(angle), math.sin(angle)):
+            best = at
+            which = feature
+    square = v_x * v_x + v_z * v_z
+    a_x, a_z, b_x, b_z = centres
+    for disc in range(2):
+        r_x = a_x - o_x
+        r_z = a_z - o_z
+        if disc == 1:
+            r_x = b_x - o_x
+            r_z = b_z - o_z
+        radius = body[part, DISC * disc + DISC_R]
+        away = r_x * r_x + r_z * r_z
+        level = square + away - radius * radius
+        if level > 0.0 and level * level >= 4.0 * square * away:
+            continue
+        # law of cosines: |V - C|^2 - r^2
+        at = crossing_angle(
+            level, -2.0 * (r_x * v_x + r_z * v_z), -2.0 * sense * (r_x * v_z - r_z * v_x), ce, se,
+            2.0 * radius * PENETRATED,
+        )  # fmt: skip
+        if at < best:
+            best = at
+            which = POINT * k + PART * part
+    return best, which
+
+
+@leaf
+def segment_closing(
+    ground: FloatArray, body: FloatArray, k: int, part: int, pivot: int,
+    o_x: float, o_z: float, sense: float, ce: float, se: float,
+    centres: Four, ranges: Four, best: float, which: int,
+) -> tuple[float, int]:  # fmt: skip
+    """End discs of a part that turns about (o_x, o_z) meet segment k.
+
+    Returns
+    -------
+    angle [rad], feature: those given unless one of these closes before.
+    """
+    at_k = pivot >> POINT_BITS
+    a_x, a_z, b_x, b_z = centres
+    left1, right1, left2, right2 = ranges
+    u_x = ground[k, U_X]
+    u_z = ground[k, U_Z]
+    here = ground[k, X]
+    ahead = ground[k + 1, X]
+    v_x = here - o_x
+    v_z = ground[k, Z] - o_z
+    for disc in range(2):
+        r_x = a_x - o_x
+        r_z = a_z - o_z
+        if disc == 0:
+            if ahead < left1 or here > right1:
+                continue
+        else:
+            if ahead < left2 or here > right2:
+                continue
+            r_x = b_x - o_x
+            r_z = b_z - o_z
+        radius = body[part, DISC * disc + DISC_R]
+        if (k == at_k or k == at_k - 1) and abs(
+            math.sqrt(r_x * r_x + r_z * r_z) - radius
+        ) < SAME_ARC:
+            # the pivot is this segment's end and lies under the disc: it rolls on along the
+            # segment ahead as soon as its centre stands over the end
+            if (k == at_k) == (sense > 0.0):
+                continue
+            at = sense * (math.atan2(u_x, -u_z) - math.atan2(r_z, r_x))
+            if at < -1e-9:
+                at += 2.0 * math.pi
+            if at < best:
+                best = max(at, 0.0)
+                which = POINT * k + PART * part + DISC_1 + disc
+            continue
+        even = u_x * r_z - u_z * r_x
+        level = u_z * v_x - u_x * v_z - radius
+        rate = sense * (r_x * u_x + r_z * u_z)
+        at = crossing_angle(level, even, rate, ce, se, PENETRATED)
+        if at < best:
+            # along the segment: the centre, turned
+            foot = (
+                math.cos(at) * (r_x * u_x + r_z * u_z)
+                - sense * math.sin(at) * even
+                - v_x * u_x
+                - v_z * u_z
+            )
+            if foot >= 0.0 and foot <= ground[k, LENGTH]:
+                best = at
+                which = POINT * k + PART * part + DISC_1 + disc
+    return best, which
+
+
+@leaf
+def rolling_closing(
+    ground: FloatArray, body: FloatArray, k: int, part: int, pivot: int, free: bool,
+    phi: float, start: Pose, finish: Pose, sense: float, end: float, rolled: float,
+    centres: Four, ranges: Four, best: float, which: int,
+) -> tuple[float, int]:  # fmt: skip
+    """Point k or segment k meets a part that rolls: no sinusoid, found between two looks.
+
+    Parameters
+    ----------
+    free
+        Whether the part never meets point k.
+    start, finish
+        x, z, cosine and sine of the inclination, and the point of the pivot, at both ends of the
+        rotation by ``end``.
+    rolled
+        Way that the disc rolls [m].
+
+    Returns
+    -------
+    angle [rad], feature: those given unless one of these closes before.
+    """
+    x, z, c0, s0, o_x, o_z = start
+    x1, z1, c1, s1, f_x, f_z = finish
+    a_x, a_z, b_x, b_z = centres
+    left1, right1, left2, right2 = ranges
+    here = ground[k, X]
+    ahead = ground[k + 1, X]
+    convex = ground[k, CONVEX] == 1.0
+    v_x = here - o_x
+    v_z = ground[k, Z] - o_z
+    reach = math.sqrt(v_x * v_x + v_z * v_z) + rolled
+    for piece in range(FROM_DISC_2 + 1):
+        if piece < FROM_DISC_1:
+            if free or not convex:
+                continue
+            if piece == TO_ARC_1 and (here < left1 or here > right1):
+                continue
+            if piece == TO_ARC_2 and (here < left2 or here > right2):
+                continue
+            feature = POINT * k + PART * part
+        else:
+            feature = POINT * k + PART * part + DISC_1 + piece - FROM_DISC_1
+            if feature == pivot:
+                continue
+            r_x = a_x - o_x
+            r_z = a_z - o_z
+            if piece == FROM_DISC_1:
+                if ahead < left1 or here > right1:
+                    continue
+            else:
+                if ahead < left2 or here > right2:
+                    continue
+                r_x = b_x - o_x
+                r_z = b_z - o_z
+            reach = math.sqrt(r_x * r_x + r_z * r_z) + rolled
+        g0, rate0 = separation(ground, body, k, part, piece, x, z, c0, s0, o_x, o_z, sense)
+        if g0 > reach * best or g0 < -BESIDE:
+            continue
+        g1, rate1 = separation(ground, body, k, part, piece, x1, z1, c1, s1, f_x, f_z, sense)
+        if g1 >= -PENETRATED and rate0 >= -RESTING:
+            continue
+        at = closing_angle(
+            ground, body, k, part, piece, pivot, x, z, phi, o_x, o_z, sense, end,
+            g0, rate0, g1, rate1, reach,
+        )  # fmt: skip
+        if at < best:
+            y_x, y_z = turned(ground, body, pivot, x, z, phi, sense * at)
+            c = math.cos(phi + sense * at)
+            s = math.sin(phi + sense * at)
+            if on_piece(ground, body, k, part, piece, y_x, y_z, c, s):
+                best = at
+                which = feature
+    return best, which
+
+
+@kernel
+def first_closing(
+    ground: FloatArray,
+    body: FloatArray,
+    pivot: int,
+    x: float,
+    z: float,
+    phi: float,
+    sense: float,
+    end: float,
+    hint: int,
+) -> tuple[int, float, int]:
+    """First feature that closes within a rotation of ``end`` about a pivot.
+
+    Returns
+    -------
+    feature (-1: none), angle [rad], hint for the next call
+    """
+    c0 = math.cos(phi)
+    s0 = math.sin(phi)
+    x1, z1 = turned(ground, body, pivot, x, z, phi, sense * end)
+    c1 = math.cos(phi + sense * end)
+    s1 = math.sin(phi + sense * end)
+    _, q_x, q_z, o_x, o_z = gap(ground, body, pivot, x, z, c0, s0)
+    rolls = pivot & KIND_MASK != VERTEX
+    own = (pivot >> PART_BITS) & PART_MASK
+    at_k = pivot >> POINT_BITS
+    f_x = o_x
+    f_z = o_z
+    rolled = 0.0
+    lifts = False
+    if rolls:
+        # the part's other end goes up, away from the segment
+        other = c0 * body[own, E_X] - s0 * body[own, E_Z]
+        away = s0 * body[own, E_X] + c0 * body[own, E_Z]
+        ahead = other * ground[at_k, U_X] + away * ground[at_k, U_Z]
+        lifts = sense * ahead * (1.0 if pivot & KIND_MASK == DISC_1 else -1.0) > 0.0
+        rolled = end * body[own, DISC * ((pivot & KIND_MASK) - DISC_1) + DISC_R]
+        f_x -= sense * rolled * ground[at_k, U_X]
+        f_z -= sense * rolled * ground[at_k, U_Z]
+    start = (x, z, c0, s0, o_x, o_z)
+    finish = (x1, z1, c1, s1, f_x, f_z)
+    bend = 0.125 * end * end
+    ce = math.cos(end)
+    se = math.sin(end)
+    n = ground.shape[0]
+    which = NO_FEATURE
+    best = end
+    new_hint = n
+    for part in range(body.shape[0]):
+        a_x = x + c0 * body[part, X1] - s0 * body[part, Z1]
+        a_z = z + s0 * body[part, X1] + c0 * body[part, Z1]
+        b_x = x + c0 * body[part, X2] - s0 * body[part, Z2]
+        b_z = z + s0 * body[part, X2] + c0 * body[part, Z2]
+        centres = (a_x, a_z, b_x, b_z)
+        e_x = body[part, E_X]
+        e_z = body[part, E_Z] * body[part, SIDE]
+        n_x = body[part, SINE] * e_x + body[part, COSINE] * e_z
+        e_z = body[part, SINE] * body[part, E_Z] - body[part, COSINE] * e_x * body[part, SIDE]
+        n_z = s0 * n_x + c0 * e_z
+        n_x = c0 * n_x - s0 * e_z
+        flat_level = (o_x - a_x) * n_x + (o_z - a_z) * n_z - body[part, R1]
+        # x range swept: chord of each disc's centre, plus the sagitta of its arc
+        e_x = x1 + c1 * body[part, X1] - s1 * body[part, Z1]
+        sag = bend * (abs(a_x - o_x) + abs(a_z - o_z)) + body[part, R1]
+        left1 = min(a_x, e_x) - sag
+        right1 = max(a_x, e_x) + sag
+        e_x = x1 + c1 * body[part, X2] - s1 * body[part, Z2]
+        sag = bend * (abs(b_x - o_x) + abs(b_z - o_z)) + body[part, R2]
+        left2 = min(b_x, e_x) - sag
+        right2 = max(b_x, e_x) + sag
+        ranges = (left1, right1, left2, right2)
+        right = max(right1, right2)
+        k = first_index(ground, min(left1, left2), hint)
+        hint = k
+        if k < new_hint:
+            new_hint = k
+        while k < n - 1 and ground[k, X] <= right:
+            free = part == own and out_of_reach(ground, k, o_x, o_z, q_x, q_z, sense, lifts)
+            if free and out_of_reach(ground, k + 1, o_x, o_z, q_x, q_z, sense, lifts):
+                k += 1
+                continue
+            if rolls:
+                best, which = rolling_closing(
+                    ground, body, k, part, pivot, free, phi, start, finish, sense, end, rolled,
+                    centres, ranges, best, which,
+                )  # fmt: skip
+            else:
+                if not free and ground[k, CONVEX] == 1.0 and not (k == at_k and part == own):
+                    best, which = vertex_closing(
+                        ground, body, k, part, pivot, x, z, phi, o_x, o_z, sense, ce, se,
+                        n_x, n_z, flat_level, centres, best, which,
+                    )  # fmt: skip
+                best, which = segment_closing(
+                    ground, body, k, part, pivot, o_x, o_z, sense, ce, se,
+                    centres, ranges, best, which,
+                )  # fmt: skip
+            k += 1
+    return which, best, new_hint

@@ -1,0 +1,248 @@
+"""Features and their signed gaps: what can touch what, and how far it is from touching.
+
+::
+
+    feature (vertex, part)            feature (end disc, segment)
+
+      .---------------------.             ,---.
+     (   flat    | n         )           (  c  )
+      '----------+----------'             `-+-'   gap = m.(c - P) - r,
+                 | gap                 m ^  | gap  while the foot of c lies in the segment
+                 o vertex               P o-+--------o
+
+A vertex is measured to the whole outline of a part (arc, flat, arc): the gap is C1 from flat to
+arc.  From vertex to segment it is C1 as well, so a contact may be relabelled without a jump.
+
+A feature is one integer, see :mod:`kaidan.contact.columns`: the vertex or the start of the segment,
+the part, and VERTEX (vertex on part), DISC_1 or DISC_2 (end disc on segment).
+"""
+
+from __future__ import annotations
+
+import math
+
+from kaidan.contact.columns import (
+    AXIS,
+    CONVEX,
+    COSINE,
+    DISC,
+    DISC_1,
+    DISC_2,
+    DISC_R,
+    DISC_X,
+    DISC_Z,
+    E_X,
+    E_Z,
+    FLAT,
+    KIND_MASK,
+    LENGTH,
+    PART,
+    PART_BITS,
+    PART_MASK,
+    POINT,
+    POINT_BITS,
+    R1,
+    R2,
+    SIDE,
+    SINE,
+    U_X,
+    U_Z,
+    VERTEX,
+    X1,
+    X2,
+    Z1,
+    Z2,
+    X,
+    Z,
+)
+from kaidan.contact.compiling import kernel, leaf
+from kaidan.contact.tables import FloatArray
+
+#: Parts thinner than this are given that much inside below their axis [m], so that a step of some
+#: millimetres into a thin part is still seen as "too deep" and not as "through".
+INSIDE = 0.01
+FAR = 1e9
+
+
+@leaf
+def is_above(
+    ground: FloatArray,
+    body: FloatArray,
+    part: int,
+    k: int,
+    x: float,
+    c: float,
+    s: float,
+    below: float,
+) -> bool:
+    """Whether a vertex beyond the axis of a part is outside it, above, and not deep inside.
+
+    The ground reaches down from every vertex, so a vertex just above a thin part has gone through
+    it if the part lies under it; a vertex ahead of a lowered nose, or behind a lowered tail, is
+    simply above.
+    """
+    if below < min(body[part, R1], body[part, R2]) - INSIDE:
+        return True
+    x1 = x + c * body[part, X1] - s * body[part, Z1]
+    x2 = x + c * body[part, X2] - s * body[part, Z2]
+    v = ground[k, X]
+    left = min(x1 - body[part, R1], x2 - body[part, R2])
+    right = max(x1 + body[part, R1], x2 + body[part, R2])
+    return bool(v <= left or v >= right)
+
+
+@leaf
+def gap(
+    ground: FloatArray,
+    body: FloatArray,
+    feature: int,
+    x: float,
+    z: float,
+    c: float,
+    s: float,
+) -> tuple[float, float, float, float, float]:
+    """Signed gap of one feature, its normal and its contact point.
+
+    The gradient of the gap to (x, z, phi) is ``(n_x, n_z, (p_x - x) n_z - (p_z - z) n_x)``.
+
+    Parameters
+    ----------
+    ground, body
+        Tables of :mod:`kaidan.contact.tables`.
+    feature
+        Code of the feature.
+    x, z
+        Centroid [m].
+    c, s
+        Cosine and sine of the inclination.
+
+    Returns
+    -------
+    gap [m], n_x, n_z (unit, from the ground into the robot), p_x, p_z [m]
+    """
+    kind = feature & KIND_MASK
+    part = (feature >> PART_BITS) & PART_MASK
+    k = feature >> POINT_BITS
+    if kind == VERTEX:
+        g_x = ground[k, X]
+        g_z = ground[k, Z]
+        d_x = g_x - x
+        d_z = g_z - z
+        a_x = c * d_x + s * d_z - body[part, X1]
+        a_z = c * d_z - s * d_x - body[part, Z1]
+        e_x = body[part, E_X]
+        e_z = body[part, E_Z]
+        sine = body[part, SINE]
+        cosine = body[part, COSINE]
+        side = body[part, SIDE]
+        along = a_x * e_x + a_z * e_z
+        below = side * (a_x * e_z - a_z * e_x)
+        if below < 0.0 and is_above(ground, body, part, k, x, c, s, below):
+            below = -below
+            side = -side
+        w = along * cosine - below * sine
+        if w > 0.0 and w < body[part, FLAT]:
+            distance = along * sine + below * cosine - body[part, R1]
+            nu = sine
+            nv = cosine
+        else:
+            radius = body[part, R1]
+            if w > 0.0:
+                along -= body[part, AXIS]
+                radius = body[part, R2]
+            rho = math.sqrt(along * along + below * below)
+            distance = rho - radius
+            if rho > 1e-15:
+                nu = along / rho
+                nv = below / rho
+            else:
+                nu = sine
+                nv = cosine
+        b_x = nu * e_x + nv * side * e_z
+        b_z = nu * e_z - nv * side * e_x
+        return distance, s * b_z - c * b_x, -s * b_x - c * b_z, g_x, g_z
+    j = DISC * (kind - DISC_1)
+    b_x = body[part, j + DISC_X]
+    b_z = body[part, j + DISC_Z]
+    c_x = x + c * b_x - s * b_z
+    c_z = z + s * b_x + c * b_z
+    radius = body[part, j + DISC_R]
+    n_x = -ground[k, U_Z]
+    n_z = ground[k, U_X]
+    distance = n_x * (c_x - ground[k, X]) + n_z * (c_z - ground[k, Z]) - radius
+    reach = radius + distance
+    return distance, n_x, n_z, c_x - reach * n_x, c_z - reach * n_z
+
+
+@leaf
+def relabelled(
+    ground: FloatArray, body: FloatArray, feature: int, x: float, z: float, c: float, s: float
+) -> int:
+    """Name the same contact as it is called at this pose.
+
+    A disc whose foot has run past the end of its segment stands on the vertex there; a vertex
+    under an end disc whose centre has come over one of the vertex's segments is a contact with that
+    segment.  Both changes are C1, so they are no events.
+    """
+    kind = feature & KIND_MASK
+    part = (feature >> PART_BITS) & PART_MASK
+    k = feature >> POINT_BITS
+    if kind == VERTEX:
+        g_x = ground[k, X]
+        g_z = ground[k, Z]
+        d_x = g_x - x
+        d_z = g_z - z
+        a_x = c * d_x + s * d_z - body[part, X1]
+        a_z = c * d_z - s * d_x - body[part, Z1]
+        e_x = body[part, E_X]
+        e_z = body[part, E_Z]
+        along = a_x * e_x + a_z * e_z
+        below = body[part, SIDE] * (a_x * e_z - a_z * e_x)
+        if below < 0.0 and is_above(ground, body, part, k, x, c, s, below):
+            below = -below
+        w = along * body[part, COSINE] - below * body[part, SINE]
+        if w > 0.0 and w < body[part, FLAT]:
+            return feature
+        kind = DISC_1
+        if w > 0.0:
+            kind = DISC_2
+        j = DISC * (kind - DISC_1)
+        b_x = body[part, j + DISC_X]
+        b_z = body[part, j + DISC_Z]
+        to_x = x + c * b_x - s * b_z - g_x
+        to_z = z + s * b_x + c * b_z - g_z
+        if to_x * ground[k, U_X] + to_z * ground[k, U_Z] > 0.0:
+            return POINT * k + PART * part + kind
+        if to_x * ground[k - 1, U_X] + to_z * ground[k - 1, U_Z] < 0.0:
+            return POINT * (k - 1) + PART * part + kind
+        return feature
+    j = DISC * (kind - DISC_1)
+    b_x = body[part, j + DISC_X]
+    b_z = body[part, j + DISC_Z]
+    to_x = x + c * b_x - s * b_z - ground[k, X]
+    to_z = z + s * b_x + c * b_z - ground[k, Z]
+    foot = to_x * ground[k, U_X] + to_z * ground[k, U_Z]
+    if foot < 0.0 and ground[k, CONVEX] == 1.0:
+        return POINT * k + PART * part
+    if foot > ground[k, LENGTH] and ground[k + 1, CONVEX] == 1.0:
+        return POINT * (k + 1) + PART * part
+    return feature
+
+
+@kernel
+def on_flat(
+    ground: FloatArray, body: FloatArray, feature: int, x: float, z: float, c: float, s: float
+) -> bool:
+    """Whether a feature is a vertex under the straight underside of its part."""
+    if feature & KIND_MASK != VERTEX:
+        return False
+    part = (feature >> PART_BITS) & PART_MASK
+    k = feature >> POINT_BITS
+    d_x = ground[k, X] - x
+    d_z = ground[k, Z] - z
+    a_x = c * d_x + s * d_z - body[part, X1]
+    a_z = c * d_z - s * d_x - body[part, Z1]
+    along = a_x * body[part, E_X] + a_z * body[part, E_Z]
+    below = body[part, SIDE] * (a_x * body[part, E_Z] - a_z * body[part, E_X])
+    w = along * body[part, COSINE] - below * body[part, SINE]
+    return bool(0.0 <= w <= body[part, FLAT])

@@ -1,0 +1,408 @@
+r"""Every margin at every pose of a traverse.
+
+::
+
+              C
+             /|\         back: to the rear contact       front: to the front contact
+        rear  |  front    static stability: distance of the gravity line from each contact
+      ----o---+---o----   energy: rise of C before it stands over that contact
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from kaidan.contact.codes import BELLY
+from kaidan.contact.columns import (
+    BACK,
+    BACK_RISE,
+    BELLY_TOUCHES,
+    BOUNDED,
+    CARRIED_TO,
+    CONTACT_COLUMNS,
+    CONTACT_FEATURE,
+    CONTACT_GAP,
+    CONTACT_KIND,
+    CONTACT_N_X,
+    CONTACT_N_Z,
+    CONTACT_X,
+    CONTACT_Z,
+    CONTACTS,
+    ENERGY,
+    ENERGY_SIDE,
+    FORCE_ANGLE,
+    FRICTION,
+    FRONT,
+    FRONT_N,
+    FRONT_N_X,
+    FRONT_N_Z,
+    FRONT_RISE,
+    FRONT_T,
+    FRONT_X,
+    FRONT_Z,
+    MARGIN_COLUMNS,
+    OUTER_FRONT,
+    OUTER_REAR,
+    POSE_FRONT,
+    POSE_PHI,
+    POSE_PSI,
+    POSE_REAR,
+    POSE_S,
+    POSE_X,
+    POSE_Z,
+    REAR_N,
+    REAR_N_X,
+    REAR_N_Z,
+    REAR_T,
+    REAR_X,
+    REAR_Z,
+    ROCKS_BY,
+    STEEPEST,
+    TILT,
+    TRACTION,
+    ZMP,
+    X,
+    Z,
+)
+from kaidan.contact.compiling import entry, kernel
+from kaidan.contact.kernel.continuation import gap_rate, tangent
+from kaidan.contact.kernel.forces import contacts_at, two_contact_forces
+from kaidan.contact.kernel.reserves import ROCKING, barrier, carrying_tilt
+from kaidan.contact.tables import FloatArray, IntArray
+
+#: A gap that changes by less than this along a line of poses stays closed [1]: a hundred times the
+#: rounding of the line's direction, a hundredth of the flattest way in which contacts close.
+STAYS = 1e-6
+#: Poses closer than this [m] stand at one place, where several contacts are exchanged.
+ONE_PLACE = 1e-8
+
+
+@kernel
+def pivot_rise(p_x: float, p_z: float, x: float, z: float, kappa: float) -> float:
+    """Rise of the centroid until it stands over a fixed point (Hirose's energy margin) [m].
+
+    alpha [1 - sin(angle)], angle of the line point to centroid above the effective horizontal.
+    """
+    return math.hypot(x - p_x, z - p_z) - (z - p_z + kappa * (x - p_x)) / math.sqrt(
+        1.0 + kappa * kappa
+    )
+
+
+@kernel
+def lasting(
+    ground: FloatArray,
+    body: FloatArray,
+    poses: FloatArray,
+    row: int,
+    sense: float,
+    found: FloatArray,
+    many: int,
+) -> int:
+    """Keep those contacts of a pose that stay closed along its line of poses.
+
+    ``sense`` +1 ahead, -1 back. All are kept where one would be run into: the line does not lead
+    that way, but is left at once.
+
+    Returns
+    -------
+    number of contacts kept, at the head of ``found``
+    """
+    x = poses[row, POSE_X]
+    z = poses[row, POSE_Z]
+    c = math.cos(poses[row, POSE_PHI])
+    s = math.sin(poses[row, POSE_PHI])
+    t_x, t_z, t_w, _ = tangent(
+        ground, body, int(poses[row, POSE_REAR]), int(poses[row, POSE_FRONT]), x, z, c, s
+    )
+    for k in range(many):
+        found[k, CONTACT_GAP] = sense * gap_rate(
+            ground, body, int(found[k, CONTACT_FEATURE]), x, z, c, s, t_x, t_z, t_w
+        )
+        if found[k, CONTACT_GAP] < -STAYS:
+            return many
+    kept = 0
+    for k in range(many):
+        if found[k, CONTACT_GAP] < STAYS:
+            for column in range(CONTACT_COLUMNS):
+                found[kept, column] = found[k, column]
+            kept += 1
+    return kept
+
+
+@kernel
+def margins_at(
+    poses: FloatArray,
+    row: int,
+    a: float,
+    g: float,
+    found: FloatArray,
+    many: int,
+    margins: FloatArray,
+) -> None:
+    """Work out forces and margins at one pose, with its contacts; see :func:`pose_margins`."""
+    x = poses[row, POSE_X]
+    z = poses[row, POSE_Z]
+    psi = poses[row, POSE_PSI]
+    kappa = 0.0
+    gravity = g
+    if a != 0.0:
+        kappa = a * math.cos(psi) / (g + a * math.sin(psi))
+        gravity = math.sqrt(g * g + a * a + 2.0 * g * a * math.sin(psi))
+    down = math.sqrt(1.0 + kappa * kappa)
+    p_x = poses[row, REAR_X]
+    p_z = poses[row, REAR_Z]
+    o_x = poses[row, FRONT_X]
+    o_z = poses[row, FRONT_Z]
+    mu, n1, t1, n2, t2 = two_contact_forces(
+        p_x, p_z, poses[row, REAR_N_X], poses[row, REAR_N_Z],
+        o_x, o_z, poses[row, FRONT_N_X], poses[row, FRONT_N_Z],
+        x, z, gravity * kappa / down, gravity / down,
+    )  # fmt: skip
+    back = -(p_x - x + kappa * (z - p_z)) / down
+    front = (o_x - x + kappa * (z - o_z)) / down
+    belly = 0.0
+    steepest = max(
+        abs(math.atan2(poses[row, REAR_N_X], poses[row, REAR_N_Z])),
+        abs(math.atan2(poses[row, FRONT_N_X], poses[row, FRONT_N_Z])),
+    )
+    r_x, r_z, f_x, f_z = p_x, p_z, o_x, o_z
+    # all contacts press one way: the active pair's friction, the slope, is the least already
+    one_plane = abs(poses[row, REAR_N_X] - poses[row, FRONT_N_X]) < 1e-12
+    for k in range(many):
+        if abs(found[k, CONTACT_N_X] - poses[row, REAR_N_X]) > 1e-12:
+            one_plane = False
+        if int(found[k, CONTACT_KIND]) == BELLY:
+            belly = 1.0
+        if many > 2:
+            steepest = max(steepest, abs(math.atan2(found[k, CONTACT_N_X], found[k, CONTACT_N_Z])))
+            ahead = (found[k, CONTACT_X] - x + kappa * (z - found[k, CONTACT_Z])) / down
+            # more than two: the outermost contacts bound the margins
+            if ahead > front:
+                front = ahead
+                f_x = found[k, CONTACT_X]
+                f_z = found[k, CONTACT_Z]
+            elif -ahead > back:
+                back = -ahead
+                r_x = found[k, CONTACT_X]
+                r_z = found[k, CONTACT_Z]
+            for j in range(0 if one_plane else k):
+                other = (found[j, CONTACT_X] - x + kappa * (z - found[j, CONTACT_Z])) / down
+                mu2, m1, u1, m2, u2 = two_contact_forces(
+                    found[j, CONTACT_X], found[j, CONTACT_Z],
+                    found[j, CONTACT_N_X], found[j, CONTACT_N_Z],
+                    found[k, CONTACT_X], found[k, CONTACT_Z],
+                    found[k, CONTACT_N_X], found[k, CONTACT_N_Z],
+                    x, z, gravity * kappa / down, gravity / down,
+                )  # fmt: skip
+                if mu2 < mu - 1e-12:
+                    mu, n1, t1, n2, t2 = mu2, m1, u1, m2, u2
+                    if ahead < other:
+                        n1, t1, n2, t2 = m2, u2, m1, u1
+    margins[row, FRICTION] = mu
+    margins[row, REAR_N] = n1
+    margins[row, REAR_T] = t1
+    margins[row, FRONT_N] = n2
+    margins[row, FRONT_T] = t2
+    margins[row, TRACTION] = g * math.sin(psi) + a
+    margins[row, BACK] = back
+    margins[row, FRONT] = front
+    rise_back = pivot_rise(r_x, r_z, x, z, kappa)
+    rise_front = pivot_rise(f_x, f_z, x, z, kappa)
+    margins[row, BACK_RISE] = rise_back if back >= 0.0 else -rise_back
+    margins[row, FRONT_RISE] = rise_front if front >= 0.0 else -rise_front
+    angle_back = math.atan2(back, (z - r_z + kappa * (x - r_x)) / down)
+    angle_front = math.atan2(front, (z - f_z + kappa * (x - f_x)) / down)
+    margins[row, FORCE_ANGLE] = min(
+        angle_back * abs(back) * gravity, angle_front * abs(front) * gravity
+    )
+    margins[row, ZMP] = back / (back + front) if back + front > 0.0 else math.nan
+    margins[row, CONTACTS] = max(many, 2)
+    margins[row, BELLY_TOUCHES] = belly
+    margins[row, STEEPEST] = steepest
+    margins[row, TILT] = kappa
+    margins[row, OUTER_REAR] = poses[row, POSE_REAR]
+    margins[row, OUTER_FRONT] = poses[row, POSE_FRONT]
+    for k in range(many if many > 2 else 0):
+        if found[k, CONTACT_X] == r_x and found[k, CONTACT_Z] == r_z:
+            margins[row, OUTER_REAR] = found[k, CONTACT_FEATURE]
+        if found[k, CONTACT_X] == f_x and found[k, CONTACT_Z] == f_z:
+            margins[row, OUTER_FRONT] = found[k, CONTACT_FEATURE]
+    margins[row, ENERGY] = math.nan
+    margins[row, ENERGY_SIDE] = math.nan
+    margins[row, BOUNDED] = 0.0
+
+
+@entry
+def pose_margins(
+    ground: FloatArray,
+    body: FloatArray,
+    poses: FloatArray,
+    count: int,
+    a: float,
+    g: float,
+    touch: float,
+    margins: FloatArray,
+    found: FloatArray,
+) -> None:
+    """Work out forces and margins at each pose of a table of poses.
+
+    All but the energy margin along the flow, which takes as long as the rest and of which often the
+    least value alone is required: that is :func:`flow_energy`'s. Where a contact is exchanged the
+    path has two poses at one place: those contacts count that hold before it, and after it.
+
+    Parameters
+    ----------
+    ground, body
+        Tables.
+    poses, count
+        Table of :func:`kaidan.contact.kernel.driver.drive` and the number of its rows in use.
+    a, g
+        Acceleration along the path, gravity [m/s^2].
+    touch
+        Gap up to which a feature counts as a contact [m].
+    margins
+        Table to be filled, see :class:`kaidan.contact.records.Margins`.
+    found
+        Scratch, see :func:`kaidan.contact.kernel.forces.contacts_at`.
+    """
+    hint = 0
+    for row in range(count):
+        many, hint = contacts_at(
+            ground, body, poses[row, POSE_X], poses[row, POSE_Z], poses[row, POSE_PHI], touch,
+            found, hint,
+        )  # fmt: skip
+        s = poses[row, POSE_S]
+        after = row > 0 and s - poses[row - 1, POSE_S] < ONE_PLACE
+        before = row + 1 < count and poses[row + 1, POSE_S] - s < ONE_PLACE
+        if after != before:
+            many = lasting(ground, body, poses, row, 1.0 if after else -1.0, found, many)
+        margins_at(poses, row, a, g, found, many, margins)
+
+
+@entry
+def margins_without(
+    ground: FloatArray,
+    body: FloatArray,
+    poses: FloatArray,
+    without: IntArray,
+    a: float,
+    g: float,
+    touch: float,
+    margins: FloatArray,
+    found: FloatArray,
+) -> None:
+    """Work out forces and margins at some poses as if one of their contacts were not there.
+
+    Parameters
+    ----------
+    ground, body, a, g, touch, margins, found
+        As for :func:`pose_margins`.
+    poses
+        Poses at which a nosing comes under the flat, or leaves it.
+    without
+        That nosing's point of the ground, for each.
+    """
+    hint = 0
+    for row in range(poses.shape[0]):
+        many, hint = contacts_at(
+            ground, body, poses[row, POSE_X], poses[row, POSE_Z], poses[row, POSE_PHI], touch,
+            found, hint,
+        )  # fmt: skip
+        kept = 0
+        for k in range(many):
+            if (
+                found[k, CONTACT_X] != ground[without[row], X]
+                or found[k, CONTACT_Z] != ground[without[row], Z]
+            ):
+                for column in range(CONTACT_COLUMNS):
+                    found[kept, column] = found[k, column]
+                kept += 1
+        margins_at(poses, row, a, g, found, kept, margins)
+
+
+@entry
+def flow_energy(
+    ground: FloatArray, body: FloatArray, poses: FloatArray, margins: FloatArray, rows: IntArray
+) -> None:
+    """Work out the energy margin along the flow, its side and whether it is bounded, at some poses.
+
+    Parameters
+    ----------
+    ground, body, poses
+        As for :func:`pose_margins`.
+    margins
+        Table that it has filled.
+    rows
+        Which poses.
+    """
+    hint = 0
+    for row in rows:
+        x = poses[row, POSE_X]
+        z = poses[row, POSE_Z]
+        phi = poses[row, POSE_PHI]
+        kappa = margins[row, TILT]
+        rise_back = abs(margins[row, BACK_RISE])
+        rise_front = abs(margins[row, FRONT_RISE])
+        rear = int(margins[row, OUTER_REAR])
+        ahead = int(margins[row, OUTER_FRONT])
+        # the side with the smaller bound first, the other only if it can be less
+        side = 1.0
+        pivot = rear
+        bound = rise_front
+        if rise_front < rise_back:
+            side = -1.0
+            pivot = ahead
+            bound = rise_back
+        bounded, rise, hint = barrier(ground, body, pivot, x, z, phi, side, kappa, ROCKING, hint)
+        if rise > bound:
+            pivot = ahead if side > 0.0 else rear
+            other_bounded, other_rise, hint = barrier(
+                ground, body, pivot, x, z, phi, -side, kappa, ROCKING, hint
+            )
+            if other_rise < rise:
+                rise = other_rise
+                bounded = other_bounded
+                side = -side
+        margins[row, ENERGY] = rise
+        margins[row, ENERGY_SIDE] = side
+        margins[row, BOUNDED] = 1.0 if bounded else 0.0
+
+
+@entry
+def flow_tilts(
+    ground: FloatArray, body: FloatArray, poses: FloatArray, margins: FloatArray, rows: IntArray,
+    side: float, tolerance: float, found: FloatArray,
+) -> None:  # fmt: skip
+    """Work out beyond which tilt of gravity some poses rotate by more than rocking, to one side.
+
+    Parameters
+    ----------
+    ground, body, poses
+        As for :func:`pose_margins`.
+    margins
+        Table that it has filled.
+    rows
+        Which poses.
+    side
+        +1 back, -1 front.
+    tolerance
+        Rotation that is rocking [rad].
+    found
+        A row for each pose, to be filled: tilt and rocking [rad].
+    """
+    hint = 0
+    column = OUTER_REAR if side > 0.0 else OUTER_FRONT
+    for k in range(len(rows)):
+        row = rows[k]
+        found[k, CARRIED_TO], found[k, ROCKS_BY], hint = carrying_tilt(
+            ground, body, int(margins[row, column]), poses[row, POSE_X], poses[row, POSE_Z],
+            poses[row, POSE_PHI], side, margins[row, TILT], tolerance, hint,
+        )  # fmt: skip
+
+
+@entry
+def new_margins(size: int) -> tuple[FloatArray, FloatArray]:
+    """Empty tables for :func:`pose_margins`."""
+    return np.empty((size, MARGIN_COLUMNS)), np.empty((32, CONTACT_COLUMNS))

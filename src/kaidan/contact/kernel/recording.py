@@ -1,0 +1,181 @@
+"""The rows of the tables that a drive fills: poses, events, rotations."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from kaidan.contact.columns import (
+    BARRIER,
+    END_PHI,
+    END_X,
+    END_Z,
+    EVENT_COLUMNS,
+    EVENT_FEATURE,
+    EVENT_KIND,
+    EVENT_OTHER,
+    EVENT_PHI,
+    EVENT_POSE,
+    EVENT_S,
+    EVENT_X,
+    EVENT_Z,
+    FRONT_N_X,
+    FRONT_N_Z,
+    FRONT_X,
+    FRONT_Z,
+    KINETIC,
+    OUTCOME,
+    PIVOT_X,
+    PIVOT_Z,
+    POSE_COLUMNS,
+    POSE_FRONT,
+    POSE_LEG,
+    POSE_PHI,
+    POSE_PSI,
+    POSE_REAR,
+    POSE_S,
+    POSE_X,
+    POSE_Z,
+    RATE_AFTER,
+    RATE_BEFORE,
+    REAR_N_X,
+    REAR_N_Z,
+    REAR_X,
+    REAR_Z,
+    ROTATION_ANGLE,
+    ROTATION_COLUMNS,
+    ROTATION_PIVOT,
+    ROTATION_S,
+    ROTATION_SENSE,
+    START_PHI,
+    START_X,
+    START_Z,
+    TOPPLES,
+)
+from kaidan.contact.compiling import entry, kernel
+from kaidan.contact.kernel.gaps import gap
+from kaidan.contact.tables import FloatArray
+
+
+@entry
+def new_tables(size: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Empty tables of poses, events and rotations for so many poses."""
+    return (
+        np.empty((size, POSE_COLUMNS)),
+        np.zeros((size, EVENT_COLUMNS)),
+        np.zeros((size // 8 + 16, ROTATION_COLUMNS)),
+    )
+
+
+@kernel
+def record_pose(
+    ground: FloatArray,
+    body: FloatArray,
+    poses: FloatArray,
+    row: int,
+    path: float,
+    x: float,
+    z: float,
+    phi: float,
+    rear: int,
+    front: int,
+    t_x: float,
+    t_z: float,
+    t_w: float,
+    leg: int,
+) -> None:
+    """Write one pose: s, x, z, phi, rear, front, their points, normals' angles, tangent, leg."""
+    c = math.cos(phi)
+    s = math.sin(phi)
+    _, m_x, m_z, p_x, p_z = gap(ground, body, rear, x, z, c, s)
+    _, n_x, n_z, o_x, o_z = gap(ground, body, front, x, z, c, s)
+    poses[row, POSE_S] = path
+    poses[row, POSE_X] = x
+    poses[row, POSE_Z] = z
+    poses[row, POSE_PHI] = phi
+    poses[row, POSE_REAR] = rear
+    poses[row, POSE_FRONT] = front
+    poses[row, REAR_X] = p_x
+    poses[row, REAR_Z] = p_z
+    poses[row, FRONT_X] = o_x
+    poses[row, FRONT_Z] = o_z
+    poses[row, REAR_N_X] = m_x
+    poses[row, REAR_N_Z] = m_z
+    poses[row, FRONT_N_X] = n_x
+    poses[row, FRONT_N_Z] = n_z
+    speed = math.sqrt(t_x * t_x + t_z * t_z)
+    poses[row, POSE_PSI] = math.atan2(t_z, t_x) if speed > 1e-12 else 0.0
+    poses[row, POSE_LEG] = leg
+
+
+@kernel
+def write_event(
+    events: FloatArray,
+    row: int,
+    code: int,
+    path: float,
+    x: float,
+    z: float,
+    phi: float,
+    feature: int,
+    other: int,
+    pose: int,
+) -> None:
+    """Write one event: code, s, x, z, phi, feature, other feature, row of the pose."""
+    events[row, EVENT_KIND] = code
+    events[row, EVENT_S] = path
+    events[row, EVENT_X] = x
+    events[row, EVENT_Z] = z
+    events[row, EVENT_PHI] = phi
+    events[row, EVENT_FEATURE] = feature
+    events[row, EVENT_OTHER] = other
+    events[row, EVENT_POSE] = pose
+
+
+@kernel
+def write_rotation(
+    rotations: FloatArray, row: int, sense: float, path: float, pivot: int, p_x: float, p_z: float,
+    x: float, z: float, phi: float, x1: float, z1: float, phi1: float,
+    angle: float, before: float, after: float, outcome: int,
+) -> None:  # fmt: skip
+    """Write one rotation; what it could still do is added by :func:`write_momentum`."""
+    rotations[row, ROTATION_SENSE] = sense
+    rotations[row, ROTATION_S] = path
+    rotations[row, ROTATION_PIVOT] = pivot
+    rotations[row, START_X] = x
+    rotations[row, START_Z] = z
+    rotations[row, START_PHI] = phi
+    rotations[row, END_X] = x1
+    rotations[row, END_Z] = z1
+    rotations[row, END_PHI] = phi1
+    rotations[row, ROTATION_ANGLE] = angle
+    rotations[row, RATE_BEFORE] = before
+    rotations[row, RATE_AFTER] = after
+    rotations[row, OUTCOME] = outcome
+    rotations[row, PIVOT_X] = p_x
+    rotations[row, PIVOT_Z] = p_z
+
+
+@kernel
+def write_momentum(
+    rotations: FloatArray, row: int, kinetic: float, needed: float, topples: bool
+) -> None:
+    """Write the energy after the last impact and the energy that toppling needs [J/kg]."""
+    rotations[row, KINETIC] = kinetic
+    rotations[row, BARRIER] = needed
+    rotations[row, TOPPLES] = 1.0 if topples else 0.0
+
+
+@kernel
+def repeats(rotations: FloatArray, count: int) -> bool:
+    """Whether the last rotation began as one of the twelve before it: rocking on the spot."""
+    last = count - 1
+    for row in range(max(0, count - 12), last):
+        if (
+            abs(rotations[row, START_X] - rotations[last, START_X]) < 1e-8
+            and abs(rotations[row, START_PHI] - rotations[last, START_PHI]) < 1e-8
+            and rotations[row, ROTATION_SENSE] == rotations[last, ROTATION_SENSE]
+        ):
+            return True
+    return False

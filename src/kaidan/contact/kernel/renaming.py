@@ -1,0 +1,227 @@
+r"""Where a contact takes another name along a line of poses: the path bends, nothing closes.
+
+::
+
+         ,---.                     ,---.
+        (  c  )                   (  c  )     disc on the face: normal that of the face
+         `-+-'                 ---o`-+-'      disc on the corner: normal to the centre
+     ------o      then                        the normal turns with the pose from here on
+           |
+           | face                  |
+
+Normals and forces are continuous there, their changes are not.
+"""
+
+from __future__ import annotations
+
+import math
+
+from kaidan.contact.columns import (
+    CONVEX,
+    DISC,
+    DISC_X,
+    DISC_Z,
+    KIND_MASK,
+    LENGTH,
+    PART_BITS,
+    PART_MASK,
+    POINT_BITS,
+    POSE_FRONT,
+    POSE_LEG,
+    POSE_PHI,
+    POSE_REAR,
+    POSE_S,
+    POSE_X,
+    POSE_Z,
+    U_X,
+    U_Z,
+    VERTEX,
+    X,
+    Z,
+)
+from kaidan.contact.compiling import entry, kernel
+from kaidan.contact.kernel.continuation import ARM, stepped, tangent
+from kaidan.contact.kernel.gaps import FAR, gap, on_flat
+from kaidan.contact.kernel.recording import record_pose
+from kaidan.contact.tables import FloatArray, FloatRow, IntArray
+
+#: How well the place is known [m]: a normal on an arc of 5 mm turns by 2e-7 rad in it.
+PLACE = 1e-9
+
+
+@kernel
+def name_room(
+    ground: FloatArray, body: FloatArray, feature: int, x: float, z: float, c: float, s: float
+) -> float:
+    """How far a contact may run on before it takes another name [m]; negative: it has run past."""
+    kind = feature & KIND_MASK
+    part = (feature >> PART_BITS) & PART_MASK
+    k = feature >> POINT_BITS
+    if kind == VERTEX:
+        if on_flat(ground, body, feature, x, z, c, s):
+            return FAR
+        _, n_x, n_z, _, _ = gap(ground, body, feature, x, z, c, s)
+        # the normal leans from that of the one segment to that of the other
+        behind = n_x * ground[k - 1, U_X] + n_z * ground[k - 1, U_Z]
+        return float(min(behind, -(n_x * ground[k, U_X] + n_z * ground[k, U_Z])))
+    j = DISC * (kind - 1)
+    to_x = x + c * body[part, j + DISC_X] - s * body[part, j + DISC_Z] - ground[k, X]
+    to_z = z + s * body[part, j + DISC_X] + c * body[part, j + DISC_Z] - ground[k, Z]
+    foot = to_x * ground[k, U_X] + to_z * ground[k, U_Z]
+    room = FAR
+    if ground[k, CONVEX] == 1.0:
+        room = foot
+    if ground[k + 1, CONVEX] == 1.0:
+        room = min(room, ground[k, LENGTH] - foot)
+    return float(room)
+
+
+@kernel
+def renaming(
+    ground: FloatArray,
+    body: FloatArray,
+    rear: int,
+    front: int,
+    x: float,
+    z: float,
+    phi: float,
+    t_x: float,
+    t_z: float,
+    t_w: float,
+    ds: float,
+) -> float:
+    """Arclength within a step at which a contact takes another name [m]: `PLACE` beyond it."""
+    lo = 0.0
+    hi = ds
+    weight0 = ds
+    weight1 = -ds
+    for turn in range(60):
+        if hi - lo < PLACE:
+            break
+        mid = lo + (hi - lo) * weight0 / (weight0 - weight1)
+        if turn % 4 == 3 or not (lo < mid < hi):
+            mid = 0.5 * (lo + hi)
+        good, x1, z1, phi1, _, _, _, new_rear, new_front = stepped(
+            ground, body, rear, front, x, z, phi, t_x, t_z, t_w, mid
+        )
+        if not good:
+            break
+        c = math.cos(phi1)
+        s = math.sin(phi1)
+        room = min(
+            name_room(ground, body, rear, x1, z1, c, s),
+            name_room(ground, body, front, x1, z1, c, s),
+        )
+        if new_rear == rear and new_front == front:
+            lo = mid
+            weight0 = max(min(room, ds), 1e-12)
+            weight1 *= 0.5
+        else:
+            hi = mid
+            weight1 = min(max(room, -ds), -1e-12)
+            weight0 *= 0.5
+    return hi
+
+
+@kernel
+def record_renamings(
+    ground: FloatArray,
+    body: FloatArray,
+    poses: FloatArray,
+    n_pose: int,
+    path: float,
+    x: float,
+    z: float,
+    phi: float,
+    t_x: float,
+    t_z: float,
+    t_w: float,
+    rear: int,
+    front: int,
+    new_rear: int,
+    new_front: int,
+    ds: float,
+    leg: int,
+) -> int:
+    """Write the poses within a step at which a contact takes another name.
+
+    Returns
+    -------
+    poses written in all
+    """
+    left = ds
+    for _ in range(4):
+        if (rear == new_rear and front == new_front) or n_pose >= poses.shape[0] - 2:
+            break
+        cut = renaming(ground, body, rear, front, x, z, phi, t_x, t_z, t_w, left)
+        if cut > left - 2.0 * PLACE:  # the pose at the end of the step is it
+            break
+        good, x, z, phi, t_x, t_z, t_w, rear, front = stepped(
+            ground, body, rear, front, x, z, phi, t_x, t_z, t_w, cut
+        )
+        if not good:
+            break
+        left -= cut
+        record_pose(
+            ground, body, poses, n_pose, path + ds - left, x, z, phi, rear, front, t_x, t_z, t_w,
+            leg,
+        )  # fmt: skip
+        n_pose += 1
+    return n_pose
+
+
+@entry
+def poses_between(
+    ground: FloatArray,
+    body: FloatArray,
+    poses: FloatArray,
+    rows: IntArray,
+    shares: FloatRow,
+    between: FloatArray,
+) -> None:
+    """Work out poses between two of a line of poses.
+
+    Parameters
+    ----------
+    ground, body
+        Tables.
+    poses
+        Table of :func:`kaidan.contact.kernel.driver.drive`.
+    rows
+        The first of each two.
+    shares
+        Of the arclength to the next (0 to 1).
+    between
+        Table of poses to be filled; short of them where the corrector fails.
+    """
+    for k in range(rows.shape[0]):
+        row = rows[k]
+        x = poses[row, POSE_X]
+        z = poses[row, POSE_Z]
+        phi = poses[row, POSE_PHI]
+        rear = int(poses[row, POSE_REAR])
+        front = int(poses[row, POSE_FRONT])
+        ds = shares[k] * (poses[row + 1, POSE_S] - poses[row, POSE_S])
+        t_x, t_z, t_w, _ = tangent(ground, body, rear, front, x, z, math.cos(phi), math.sin(phi))
+        onward = (poses[row + 1, POSE_X] - x) * t_x + (poses[row + 1, POSE_Z] - z) * t_z
+        if onward + ARM * (poses[row + 1, POSE_PHI] - phi) * t_w < 0.0:
+            t_x, t_z, t_w = -t_x, -t_z, -t_w
+        left = ds
+        step = ds
+        for _ in range(20):
+            if left <= PLACE or step <= PLACE:
+                break
+            good, x1, z1, phi1, u_x, u_z, u_w, new_rear, new_front = stepped(
+                ground, body, rear, front, x, z, phi, t_x, t_z, t_w, min(step, left)
+            )
+            if good:
+                left -= min(step, left)
+                x, z, phi, t_x, t_z, t_w = x1, z1, phi1, u_x, u_z, u_w
+                rear = new_rear
+                front = new_front
+            else:  # the path bends too much for the step
+                step *= 0.5
+        record_pose(
+            ground, body, between, k, poses[row, POSE_S] + ds - left, x, z, phi, rear, front,
+            t_x, t_z, t_w, int(poses[row, POSE_LEG]),
+        )  # fmt: skip

@@ -1,0 +1,199 @@
+r"""Turning on from contact to contact: a release.
+
+::
+
+    release: about one contact after the
+    other, until two of them straddle C
+
+       C        C        C
+      /        / \      / \
+     o   ->   o   o    held
+
+A release is a chain of such turns.  Every closing is a plastic impact for grade (iii); the static
+grade (ii) goes on turning as long as all contacts lie on the same side of the gravity line.
+"""
+
+from __future__ import annotations
+
+import math
+
+from kaidan.contact.codes import RotationOutcome
+from kaidan.contact.columns import NO_FEATURE
+from kaidan.contact.compiling import kernel
+from kaidan.contact.kernel.first_closing import first_closing
+from kaidan.contact.kernel.gaps import gap
+from kaidan.contact.kernel.rotation import (
+    NEVER,
+    angle_until_over,
+    foot_limit,
+    next_pivot,
+    turned,
+)
+from kaidan.contact.kernel.settling import lever
+from kaidan.contact.tables import FloatArray
+
+#: Contacts that close within this of a turn are one impact [rad]: on nosings all alike they close
+#: at once, and rounding alone would say which is the first.
+AT_ONCE = 2e-3
+#: Gap of the pivot that still touches [m], with what closed at once before the last contact.
+TOUCHES = 1e-9
+
+
+@kernel
+def same_place(
+    ground: FloatArray,
+    body: FloatArray,
+    one: int,
+    other: int,
+    x: float,
+    z: float,
+    phi: float,
+) -> bool:
+    """Whether two features are one contact under two names (points within 2 um)."""
+    c = math.cos(phi)
+    s = math.sin(phi)
+    _, _, _, p_x, p_z = gap(ground, body, one, x, z, c, s)
+    _, _, _, o_x, o_z = gap(ground, body, other, x, z, c, s)
+    return abs(p_x - o_x) < 2e-6 and abs(p_z - o_z) < 2e-6
+
+
+@kernel
+def fall(
+    ground: FloatArray,
+    body: FloatArray,
+    pivot: int,
+    x: float,
+    z: float,
+    phi: float,
+    sense: float,
+    kappa: float,
+    gyration: float,
+    gravity: float,
+    hint: int,
+) -> tuple[int, int, int, float, float, float, float, float, float, int]:
+    """Follow a release to the next stable pose, or past the vertical.
+
+    Parameters
+    ----------
+    pivot
+        Contact over which the centroid stands.
+    x, z, phi, sense, kappa
+        Pose, sense of the turn, tilt of effective gravity (frozen).
+    gyration
+        Radius of gyration about the centroid [m]: I / M = gyration^2.
+    gravity
+        Effective gravity [m/s^2].
+
+    Returns
+    -------
+    outcome
+        A `RotationOutcome`.
+    rear, front
+        The two contacts that arrest it.
+    x, z, phi
+    omega_minus
+        Rate of turn just before the last impact [rad/s].
+    omega_plus
+        and just after it, turning about the last contact (0 if it stops).
+    turned
+        Angle through which it turned [rad].
+    hint
+
+    Notes
+    -----
+    Per unit mass, with k the radius of gyration, A the pivot and B the contact that closes::
+
+        omega_minus^2 (k^2 + r_A^2) / 2 = g fall + what was left before
+        omega_plus = omega_minus (k^2 + r_A . r_B) / (k^2 + r_B^2)     never below 0
+
+    Of contacts that close at once, within `AT_ONCE`, the last one takes the impact: the others take
+    nothing of the rate.
+    """
+    total = 0.0
+    kinetic = 0.0
+    freely = 0.0
+    since = NEVER
+    about = pivot
+    omega_minus = 0.0
+    omega_plus = 0.0
+    still = 0
+    k2 = gyration * gyration
+    down = math.sqrt(1.0 + kappa * kappa)
+    for _ in range(60):
+        most = min(0.5 * math.pi - sense * phi, 0.5 * math.pi - total)
+        if most <= 0.0:
+            return (
+                RotationOutcome.PAST_VERTICAL, pivot, NO_FEATURE,
+                x, z, phi, omega_minus, omega_plus, total, hint,
+            )  # fmt: skip
+        height = (z + kappa * x) / down
+        limit = foot_limit(ground, body, pivot, x, z, phi, sense)
+        rest = angle_until_over(ground, body, pivot, x, z, phi, sense, kappa, True)
+        closed, angle, hint = first_closing(
+            ground, body, pivot, x, z, phi, sense, min(most, limit, rest), hint
+        )
+        x1, z1 = turned(ground, body, pivot, x, z, phi, sense * angle)
+        phi1 = phi + sense * angle
+        gained = gravity * (height - (z1 + kappa * x1) / down)
+        kinetic += gained
+        freely += gained
+        total += angle
+        since += angle
+        if since > AT_ONCE:
+            about = pivot
+            freely = kinetic
+        if angle > 1e-12:
+            still = 0
+        else:
+            still += 1
+        x, z, phi = x1, z1, phi1
+        c = math.cos(phi)
+        s = math.sin(phi)
+        _, _, _, a_x, a_z = gap(ground, body, about, x, z, c, s)
+        a_x = x - a_x
+        a_z = z - a_z
+        omega_minus = math.sqrt(max(2.0 * freely / (k2 + a_x * a_x + a_z * a_z), 0.0))
+        if closed < 0 and rest <= angle:
+            return (
+                RotationOutcome.ROCKING, pivot, pivot,
+                x, z, phi, omega_minus, omega_plus, total, hint,
+            )  # fmt: skip
+        if closed < 0 and limit <= angle:
+            pivot = next_pivot(ground, body, pivot, x, z, phi, sense)
+            continue
+        if closed < 0:
+            return (
+                RotationOutcome.PAST_VERTICAL, pivot, NO_FEATURE,
+                x, z, phi, omega_minus, omega_plus, total, hint,
+            )  # fmt: skip
+        _, _, _, b_x, b_z = gap(ground, body, closed, x, z, c, s)
+        b_x = x - b_x
+        b_z = z - b_z
+        share = max(k2 + a_x * b_x + a_z * b_z, 0.0)
+        omega_plus = omega_minus * share / (k2 + b_x * b_x + b_z * b_z)
+        kinetic = 0.5 * omega_plus * omega_plus * (k2 + b_x * b_x + b_z * b_z)
+        since = 0.0
+        delta = lever(ground, body, closed, x, z, c, s, kappa)
+        if delta * sense <= 0.0:
+            stays = pivot
+            if about != pivot and abs(gap(ground, body, about, x, z, c, s)[0]) < TOUCHES:
+                stays = about
+            rear = closed
+            front = stays
+            if sense < 0.0:
+                rear = stays
+                front = closed
+            return (
+                RotationOutcome.ARRESTED, rear, front,
+                x, z, phi, omega_minus, omega_plus, total, hint,
+            )  # fmt: skip
+        if still > 12:
+            return (
+                RotationOutcome.WEDGED, pivot, closed,
+                x, z, phi, omega_minus, omega_plus, total, hint,
+            )  # fmt: skip
+        pivot = closed
+    return (
+        RotationOutcome.ENDLESS, pivot, NO_FEATURE,
+        x, z, phi, omega_minus, omega_plus, total, hint,
+    )  # fmt: skip

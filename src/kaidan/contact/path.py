@@ -1,0 +1,321 @@
+"""The path of one traverse: its poses, events, rotations and margins."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from kaidan.contact.codes import Feature, PartKind, Status
+from kaidan.contact.columns import ENERGY, POSE_COLUMNS, TILT_COLUMNS
+from kaidan.contact.compiling import kernel_module
+from kaidan.contact.contacts import Contact, contacts_of
+from kaidan.contact.kernel.gaps import on_flat
+from kaidan.contact.kernel.reserves import ROCKING
+from kaidan.contact.kernel.rotation import turned
+from kaidan.contact.margin_records import Margins, Tilts
+from kaidan.contact.records import Body, Events, Ground, Placement, Poses, RotationRecord, Rotations
+from kaidan.contact.tables import FloatArray, IntArray
+from kaidan.mechanics import STANDARD_GRAVITY
+
+#: Gap up to which a feature counts as a contact [m].
+TOUCH = 1e-9
+
+
+@dataclass(frozen=True)
+class Path:
+    """What the robot does from one place to another.
+
+    Attributes
+    ----------
+    status
+        How it ended.
+    poses
+        Stable poses, in lines between which it rotates.
+    events
+        Contacts made and lost, rotations, the end.
+    rotations
+        Rotations about contacts.
+    margins
+        Forces and margins of each pose, or None.
+    ground, body
+        Terrain and robot as driven, to read features by.
+    """
+
+    status: Status
+    poses: Poses
+    events: Events
+    rotations: Rotations
+    margins: Margins | None
+    ground: Ground
+    body: Body
+
+    @property
+    def s(self) -> FloatArray:
+        """Arclength of the poses [m]."""
+        return self.poses.s
+
+    @property
+    def x(self) -> FloatArray:
+        """Centroid, along [m]."""
+        return self.poses.x
+
+    @property
+    def z(self) -> FloatArray:
+        """Centroid, up [m]."""
+        return self.poses.z
+
+    @property
+    def inclination(self) -> FloatArray:
+        """Inclination of the body, nose up positive [rad]."""
+        return self.poses.inclination
+
+    @property
+    def largest_rotation(self) -> float:
+        """Grade two: the largest angle of any rotation that was arrested [rad]."""
+        return float(self.rotations.angle[self.rotations.arrested].max(initial=0.0))
+
+    @property
+    def arrives_with_momentum(self) -> bool:
+        """Grade three: it arrived and no rotation topples with the momentum gained."""
+        return self.status is Status.OK and not bool(self.rotations.topples_with_momentum.any())
+
+    def row_before(self, s: float) -> int:
+        """Row of the last pose of a line of poses that ends at an arclength [m].
+
+        A rotation lies between two rows of one arclength, before it and after it.
+        """
+        along = self.poses.s
+        first = int(np.searchsorted(along, s - 1e-9, side="right"))
+        last = int(np.searchsorted(along, s + 1e-9, side="left"))
+        if first == last:
+            return max(first - 1, 0)
+        legs = self.poses.leg[first:last]
+        return first + int(np.flatnonzero(legs == legs.min())[-1])
+
+    def first_beyond(self, mu: float) -> int | None:
+        """Row of the first pose whose required friction exceeds mu; None if there is none.
+
+        With friction mu the path as computed holds up to that pose: below the friction of a
+        riser start, for example, the robot does not climb.
+
+        Examples
+        --------
+        >>> from kaidan.contact import traverse
+        >>> step = [[-4, 0], [0, 0], [0, 0.1], [4, 0.1]]
+        >>> robot = [[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]]
+        >>> path = traverse(step, robot, -1.0, 0.5)
+        >>> row = path.first_beyond(0.6)
+        >>> round(float(path.x[row] + 0.196 + 0.06), 6)  # the nose meets the face
+        0.0
+        >>> path.first_beyond(5.0) is None
+        True
+        """
+        if self.margins is None:
+            raise ValueError("traverse: friction needs with_margins=True")
+        rows = np.flatnonzero(~(self.margins.required_friction <= mu))
+        return int(rows[0]) if len(rows) else None
+
+    def energy(self, rows: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Energy margin along the flow at some poses.
+
+        Parameters
+        ----------
+        rows
+            Shape (k,): rows of the poses.
+
+        Returns
+        -------
+        rise : ndarray (k,)
+            Rise of the centroid [m], the smaller of both sides.
+        side : ndarray (k,)
+            That side, +1 back, -1 front.
+        """
+        if self.margins is None:
+            raise ValueError("traverse: energy needs with_margins=True")
+        chosen = np.atleast_1d(np.asarray(rows, dtype=np.int64))
+        table = self.margins.table
+        missing = chosen[np.isnan(table[chosen, ENERGY])]
+        if len(missing):
+            judge = kernel_module("margins")
+            judge.flow_energy(self.ground.table, self.body.table, self.poses.table, table, missing)
+        return self.margins.energy[chosen], self.margins.energy_side[chosen]
+
+    def tilts(self, rows: ArrayLike, side: float, tolerance: float = ROCKING) -> Tilts:
+        """Tilts of gravity beyond which some poses rotate by more than rocking, to one side.
+
+        Parameters
+        ----------
+        rows
+            Shape (k,): rows of the poses.
+        side
+            +1 back, -1 front.
+        tolerance
+            Rotation that is rocking [rad].
+
+        Returns
+        -------
+        Tilts
+        """
+        if self.margins is None:
+            raise ValueError("traverse: tilts need with_margins=True")
+        chosen = np.atleast_1d(np.asarray(rows, dtype=np.int64))
+        found = np.empty((len(chosen), TILT_COLUMNS))
+        kernel_module("margins").flow_tilts(
+            self.ground.table, self.body.table, self.poses.table, self.margins.table, chosen,
+            side, tolerance, found,
+        )  # fmt: skip
+        return Tilts(found)
+
+    def contacts_at(self, place: Placement, touch: float = 1e-7) -> tuple[Contact, ...]:
+        """Contacts of the robot at a place: gaps up to ``touch`` [m]."""
+        return contacts_of(self.ground.table, self.body.table, *place, touch)
+
+    def carrying(self, row: int) -> tuple[Contact, Contact]:
+        """Rear and front contact of a pose."""
+        poses, kinds = self.poses, self.body.kind
+        codes = (int(poses.rear[row]), int(poses.front[row]))
+        points = (poses.rear_point[row].tolist(), poses.front_point[row].tolist())
+        normals = (poses.rear_normal[row].tolist(), poses.front_normal[row].tolist())
+        rear, front = (
+            Contact(tuple(point), tuple(normal), code, 0.0, PartKind(kinds[Feature.of(code).part]))
+            for code, point, normal in zip(codes, points, normals, strict=True)
+        )
+        return rear, front
+
+    def rotated(self, rotation: RotationRecord, angle: float) -> Placement:
+        """Where the body is after a part of a rotation about its first pivot [rad]."""
+        x, z, phi = rotation.start
+        turn = rotation.sense * angle
+        return Placement(
+            *turned(self.ground.table, self.body.table, rotation.pivot, x, z, phi, turn),
+            phi + turn,
+        )
+
+    def margins_of(
+        self, rows: slice, *, acceleration: float = 0.0, gravity: float = STANDARD_GRAVITY,
+    ) -> Margins:  # fmt: skip
+        """Forces and margins of some consecutive poses, of a path that was driven without.
+
+        Parameters
+        ----------
+        rows
+            Which poses.
+        acceleration
+            Along the path of the centroid [m/s^2].
+        gravity
+            [m/s^2]
+
+        Returns
+        -------
+        Margins
+            All but the energy along the flow.
+        """
+        judge = kernel_module("margins")
+        poses = np.ascontiguousarray(self.poses.table[rows])
+        table, found = judge.new_margins(len(poses))
+        judge.pose_margins(
+            self.ground.table, self.body.table, poses, len(poses), acceleration, gravity, TOUCH,
+            table, found,
+        )  # fmt: skip
+        return Margins(table)
+
+    def without(
+        self, events: Events, *, acceleration: float = 0.0, gravity: float = STANDARD_GRAVITY
+    ) -> Path:
+        """Poses at which nosings come under the flat or leave it, as if these were not there.
+
+        Parameters
+        ----------
+        events
+            REACHED and LEFT, between two poses on one straight piece of the path.
+        acceleration, gravity
+            As for :meth:`margins_of`.
+
+        Returns
+        -------
+        Path
+            A pose for each event, with its margins just before the nosing is reached, or just
+            after it is left; neither events nor rotations.
+        """
+        poses = self._between(events.pose, self._shares(events))
+        points = np.array([Feature.of(each.feature).point for each in events], dtype=np.int64)
+        judge = kernel_module("margins")
+        margins, found = judge.new_margins(len(poses))
+        judge.margins_without(
+            self.ground.table, self.body.table, poses, points, acceleration, gravity, TOUCH,
+            margins, found,
+        )  # fmt: skip
+        return self._only(poses, margins)
+
+    def between(
+        self, rows: IntArray, shares: FloatArray, *, acceleration: float = 0.0,
+        gravity: float = STANDARD_GRAVITY,
+    ) -> Path:  # fmt: skip
+        """Poses between those of some rows and the next of the same line.
+
+        Parameters
+        ----------
+        rows
+            The first of each two.
+        shares
+            Of the arclength to the next (0 to 1).
+        acceleration, gravity
+            As for :meth:`margins_of`.
+
+        Returns
+        -------
+        Path
+            A pose for each, with its margins; neither events nor rotations.
+        """
+        poses = self._between(rows, shares)
+        judge = kernel_module("margins")
+        margins, found = judge.new_margins(len(poses))
+        judge.pose_margins(
+            self.ground.table, self.body.table, poses, len(poses), acceleration, gravity, TOUCH,
+            margins, found,
+        )  # fmt: skip
+        return self._only(poses, margins)
+
+    def _between(self, rows: IntArray, shares: FloatArray) -> FloatArray:
+        poses = np.empty((len(rows), POSE_COLUMNS))
+        kernel_module("renaming").poses_between(
+            self.ground.table, self.body.table, self.poses.table, rows, shares, poses
+        )
+        return poses
+
+    def _shares(self, events: Events) -> FloatArray:
+        begin = self.s[events.pose]
+        return (events.s - begin) / (self.s[events.pose + 1] - begin)
+
+    def _only(self, poses: FloatArray, margins: FloatArray) -> Path:
+        return replace(
+            self, poses=Poses(poses), margins=Margins(margins), events=self.events[:0],
+            rotations=self.rotations[:0],
+        )  # fmt: skip
+
+    def is_on_flat(self, feature: int, row: int) -> bool:
+        """Whether a contact of a pose is a vertex under the straight underside of its part."""
+        x, z, phi = self.poses.placement(row)
+        return on_flat(
+            self.ground.table, self.body.table, feature, x, z, math.cos(phi), math.sin(phi)
+        )
+
+    def largest_inclination(self) -> float:
+        """Largest inclination reached, ends of rotations included [rad]."""
+        return float(
+            max(self.inclination.max(), self.rotations.end_inclination.max(initial=-math.inf))
+        )
+
+
+def joined(paths: Sequence[Path]) -> Path:
+    """Poses and margins of several paths over one ground as one, of the first in all else."""
+    margins = [each.margins.table for each in paths if each.margins is not None]
+    return replace(
+        paths[0],
+        poses=Poses(np.vstack([each.poses.table for each in paths])),
+        margins=Margins(np.vstack(margins)) if len(margins) == len(paths) else None,
+    )

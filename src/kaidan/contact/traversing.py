@@ -1,0 +1,159 @@
+"""Driving from one place to another: one traverse, or many in one call."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from kaidan.contact.codes import Status
+from kaidan.contact.columns import JOB_COLUMNS
+from kaidan.contact.compiling import kernel_module
+from kaidan.contact.margin_records import Job, Margins, Summaries
+from kaidan.contact.path import TOUCH, Path
+from kaidan.contact.records import Body, Events, Ground, Poses, Rotations
+from kaidan.contact.switch import expected_work
+from kaidan.contact.tables import FloatArray, body_table, ground_table
+from kaidan.mechanics import STANDARD_GRAVITY
+
+#: Arclength between poses [m]: beyond 5 mm grazing contacts could be passed over between two poses.
+STEP = 5e-3
+#: Time of the plain kernel for a pose, and for each point of the ground under the robot [s].
+A_POSE, A_POINT = 8e-5, 3.5e-5
+
+
+def plain_seconds(
+    terrain: ArrayLike, parts: ArrayLike, x_start: float, x_end: float, step: float = STEP
+) -> float:
+    """How long the plain kernel takes for a traverse, about [s].
+
+    Examples
+    --------
+    >>> round(plain_seconds([[0, 0], [100, 0]], [[-0.3, 0, 0.1, 0.3, 0, 0.1]], 10.0, 20.0), 3)
+    0.16
+    """
+    points, discs = np.asarray(terrain, dtype=np.float64), np.asarray(parts, dtype=np.float64)
+    x = points[:, 0]
+    driven = (x[1:] >= x_start) & (x[:-1] <= x_end)
+    heights = float(np.abs(np.diff(points[:, 1]))[driven].sum())
+    corners = np.count_nonzero((x >= x_start) & (x <= x_end))
+    middle, r = discs[:, [0, 3]], discs[:, [2, 5]]
+    under = float((middle + r).max() - (middle - r).min()) / (x_end - x_start)
+    poses = (x_end - x_start + heights) / step
+    return float(poses * (A_POSE + A_POINT * corners * min(1.0, under)))
+
+
+def traverse(
+    terrain: ArrayLike,
+    parts: ArrayLike,
+    x_start: float,
+    x_end: float,
+    *,
+    kinds: ArrayLike | None = None,
+    inclination: float = 0.0,
+    acceleration: float = 0.0,
+    tilt: float = 0.0,
+    gyration: float = 0.2,
+    gravity: float = STANDARD_GRAVITY,
+    step: float = STEP,
+    with_margins: bool = True,
+    with_energy: bool = True,
+) -> Path:
+    """Drive the robot from one place to another, uphill end first in +x.
+
+    Parameters
+    ----------
+    terrain
+        Points (n, 2) [m].
+    parts, kinds
+        Robot underside (m, 6) [m] in the body frame at the centroid; 0 track, 1 flipper, 2 belly.
+    x_start, x_end
+        Centroid at start and end [m].
+    inclination
+        Inclination from which the robot settles at the start [rad].
+    acceleration
+        Along the path of the centroid, up the stairs positive [m/s^2].
+    tilt
+        Angle by which gravity is tilted backward [rad], without margins.
+    gyration
+        Radius of gyration about the centroid [m], for grade three.
+    gravity
+        [m/s^2]
+    step
+        Arclength between poses [m].
+    with_margins
+        Work out forces and margins at every pose.
+    with_energy
+        The energy margin along the flow too; else :meth:`Path.energy` has it for single poses.
+
+    Returns
+    -------
+    Path
+        Always; a robot that cannot climb is a status.
+
+    Raises
+    ------
+    ValueError
+        If an array is malformed or ``x_end`` is not ahead of ``x_start``.
+    """
+    if not x_end > x_start:
+        raise ValueError(f"traverse: x_end {x_end} must be ahead of x_start {x_start}")
+    if tilt and with_margins:
+        raise ValueError("traverse: margins are those of upright gravity")
+    if not step > 0:
+        raise ValueError(f"traverse: step {step} must be positive")
+    ground = ground_table(terrain)
+    body = body_table(parts, kinds)
+    with expected_work(plain_seconds(terrain, parts, x_start, x_end, step)):
+        driver, judge = kernel_module("driver"), kernel_module("margins")
+    size = int(min(4.0 * (x_end - x_start) / step + 64 * len(ground) + 4000, 400_000))
+    poses, events, rotations = kernel_module("recording").new_tables(size)
+    status, n_pose, n_event, n_rotation = driver.drive(
+        ground, body, x_start, x_end, inclination, step, acceleration, gravity * math.cos(tilt),
+        math.tan(tilt), gyration, poses, events, rotations,
+    )  # fmt: skip
+    margins = None
+    if with_margins:
+        margins, found = judge.new_margins(n_pose)
+        judge.pose_margins(
+            ground, body, poses, n_pose, acceleration, gravity, TOUCH, margins, found
+        )
+        if with_energy:
+            judge.flow_energy(ground, body, poses, margins, np.arange(n_pose))
+    return Path(
+        Status(status),
+        Poses(poses[:n_pose].copy()),
+        Events(events[:n_event].copy()),
+        Rotations(rotations[:n_rotation].copy()),
+        None if margins is None else Margins(margins),
+        Ground(ground),
+        Body(body),
+    )
+
+
+def traverse_many(
+    terrains: Sequence[ArrayLike],
+    robots: Sequence[ArrayLike],
+    jobs: Sequence[Job],
+    *,
+    kinds: Sequence[ArrayLike] | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    step: float = STEP,
+    with_margins: bool = False,
+    size: int = 20_000,
+) -> Summaries:
+    """Many traverses in one call: a row of the summary for each job."""
+    kernel = kernel_module("batch")
+    grounds = [ground_table(t) for t in terrains]
+    bodies = [body_table(r, None if kinds is None else kinds[k]) for k, r in enumerate(robots)]
+    table: FloatArray = kernel.traverse_many(
+        np.concatenate(grounds),
+        np.cumsum([len(g) for g in grounds]),
+        np.concatenate(bodies),
+        np.cumsum([len(b) for b in bodies]),
+        np.array(jobs, dtype=np.float64).reshape(-1, JOB_COLUMNS),
+        step, gravity, TOUCH, with_margins, size,
+    )  # fmt: skip
+    return Summaries(table)

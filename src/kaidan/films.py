@@ -1,0 +1,96 @@
+"""Films from pictures: GIF and MP4."""
+
+import io
+import tempfile
+from collections.abc import Iterable
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan.errors import InputError, MissingExtraError
+
+FORMATS = (".mp4", ".gif")
+FRAMES_PER_SECOND = 25
+_GIF_WIDTH = 672
+"""Widest GIF [pixels]: its format packs badly."""
+
+
+def film_format(path: Path, what: str) -> str:
+    """Suffix of a film's file, once it is sure that such a film can be made.
+
+    Parameters
+    ----------
+    path : Path
+        File.
+    what : str
+        What errors call it.
+
+    Raises
+    ------
+    InputError
+        Another suffix than .mp4 or .gif.
+    MissingExtraError
+        imageio or imageio-ffmpeg is not installed (.mp4 only).
+    """
+    suffix = path.suffix.lower()
+    if suffix not in FORMATS:
+        found = f"unknown suffix {path.suffix!r}" if path.suffix else "no suffix"
+        raise InputError(f"{what} {str(path)!r}: {found}; known: {', '.join(FORMATS)}")
+    if suffix == ".mp4" and not (find_spec("imageio") and find_spec("imageio_ffmpeg")):
+        raise MissingExtraError("a film as .mp4", "video")
+    return suffix
+
+
+def film_bytes(pictures: Iterable[NDArray[np.uint8]], suffix: str, *, what: str) -> bytes:
+    """Film of pictures, shape (height, width, 3) each, `FRAMES_PER_SECOND`.
+
+    Parameters
+    ----------
+    pictures : iterable of arrays
+        Sizes that are multiples of 16.
+    suffix : {".mp4", ".gif"}
+        As `film_format` gives it.
+    what : str
+        What errors call it.
+
+    Raises
+    ------
+    InputError
+        No picture.
+    """
+    return _mp4(pictures) if suffix == ".mp4" else _gif(pictures, what)
+
+
+def _gif(pictures: Iterable[NDArray[np.uint8]], what: str) -> bytes:
+    from PIL import Image
+
+    frames = []
+    for picture in pictures:
+        image = Image.fromarray(picture)
+        shrink = min(1.0, _GIF_WIDTH / image.width)
+        size = round(image.width * shrink), round(image.height * shrink)
+        frames.append(image.resize(size).convert("P", palette=Image.Palette.ADAPTIVE, colors=64))
+    if not frames:
+        raise InputError(f"{what}: there is no picture to show")
+    buffer = io.BytesIO()
+    frames[0].save(
+        buffer, format="GIF", save_all=True, append_images=frames[1:],
+        duration=1000 // FRAMES_PER_SECOND, loop=0,
+    )  # fmt: skip
+    return buffer.getvalue()
+
+
+def _mp4(pictures: Iterable[NDArray[np.uint8]]) -> bytes:
+    imageio: Any = import_module("imageio.v2")
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "film.mp4"
+        with imageio.get_writer(
+            file, fps=FRAMES_PER_SECOND, codec="libx264", quality=7, macro_block_size=16
+        ) as film:
+            for picture in pictures:
+                film.append_data(picture)
+        return file.read_bytes()

@@ -1,0 +1,35 @@
+"""Models side by side: each answers a question with its own findings, or says why it does not.
+
+A model is a module with a function ``judge(question, *, known=None) -> Findings``, listed in
+`kaidan.modes.MODELS`.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from kaidan.modes import MODELS
+
+if TYPE_CHECKING:
+    from kaidan.models.findings import Findings
+    from kaidan.question import Question
+
+
+def judge(question: "Question", *, known: "Findings | None" = None) -> "Findings":
+    """Findings of the model that a question asks for.
+
+    Parameters
+    ----------
+    question : Question
+    known : Findings, optional
+        Of a similar question to the same model, which saves work that both share.
+
+    Returns
+    -------
+    Findings
+    """
+    if question.robot.com_range is not None:
+        from kaidan.models.unweighed import judge_range
+
+        return judge_range(question, judge)
+    found: Findings = import_module(MODELS[question.model].module).judge(question, known=known)
+    return found

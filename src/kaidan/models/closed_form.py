@@ -1,0 +1,188 @@
+"""The closed form: the paper's criterion on a regular flight, both cases, every sample."""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan.mechanics.margin import centroid_margin_downhill, centroid_margin_uphill
+from kaidan.mechanics.margins import margins
+from kaidan.mechanics.plane import contact_count, two_contacts_remain
+from kaidan.mechanics.slipping import required_friction
+from kaidan.models import acceleration
+from kaidan.models.closed_form_figures import Basis, figures_of
+from kaidan.models.drive_limits import steepest_for_drive
+from kaidan.models.findings import Array, Finding, Findings, at_risk
+from kaidan.models.samples import Draws, draws, nominal
+from kaidan.modes import CLOSED_FORM, DRIVE, FORMULAS, TIPS, Verdict
+from kaidan.question import Question
+from kaidan.terrain.stairs import Stairs
+from kaidan.text import closed_form as text
+
+MODES = (*FORMULAS, DRIVE)
+"""Failure modes that it knows, in the order of its arrays."""
+LARGEST_IRREGULARITY = 0.0095
+"""Difference within a flight up to which it counts as regular [m]: IBC 1011.5.4 allows 9.5 mm."""
+
+
+def judge(question: Question, *, known: Findings | None = None) -> Findings:
+    """Findings of the paper's criterion on the regular flight of a question.
+
+    Parameters
+    ----------
+    question : Question
+        Its terrain needs steps; entering and landing are not judged.
+    known : Findings, optional
+        Of a similar question; not used, because nothing here takes time.
+
+    Returns
+    -------
+    Findings
+    """
+    _ = question.robot.weighed
+    flight = question.flight
+    if flight is None:
+        return Findings(model=CLOSED_FORM.name, outside="the terrain is no flight of stairs")
+    at = nominal(question, flight)
+    over = [_over_steps(question, block) for block in draws(question, at)]
+    least = over[0]
+    for block in over[1:]:
+        least = _Least(*(np.minimum(a, b) for a, b in zip(least, block, strict=True)))
+    outside = _outside(question, flight, float(np.mean(~least.remain)))
+    if not outside and at_risk(np.fmin.reduce(least.modes[:, 1]), question.risk) == -np.inf:
+        outside = "the nosing spacing may well be more than half the flat length of the track"
+    needed = float(required_friction(theta_s=at.theta_s, a=question.acceleration).max())
+    if outside:
+        basis = Basis(at, 0, False, least.centroid)
+        return Findings(
+            model=CLOSED_FORM.name, outside=outside, required_friction=needed, basis=basis
+        )
+    step = _governing_step(question, at, least)
+    basis = Basis(at, step, _semi_stable(question, at, step, least), least.centroid)
+    found = tuple(
+        Finding(
+            mode=mode,
+            worst=least.modes[i, 0],
+            best=least.modes[i, 1],
+            failing=Verdict.CAUTION if basis.semi_stable and mode in TIPS else Verdict.NO_GO,
+            model=CLOSED_FORM.name,
+        )
+        for i, mode in enumerate(MODES)
+    )
+    figures = figures_of(question, flight, basis)
+    return Findings(
+        model=CLOSED_FORM.name,
+        each=found,
+        required_friction=needed,
+        figures=(figures,),
+        notes=text.notes(question, flight, figures),
+        basis=basis,
+    )
+
+
+class _Least(NamedTuple):
+    """Smallest margins over the steps of a flight."""
+
+    modes: Array
+    """Of `MODES` in the worst and the best case, (5, 2, samples) [rad]; NaN: not known."""
+    centroid: Array
+    """How far the centroid may move in the worst case, (samples,) [m]."""
+    remain: NDArray[np.bool_]
+    """Whether two contacts always remain, (samples,)."""
+
+
+def _over_steps(question: Question, at: Draws) -> _Least:
+    modes, centroid = _margins(question, at)
+    modes = modes.min(axis=-1)
+    remain = np.all(two_contacts_remain(L=at.L, p=at.p), axis=-1)
+    tips = modes[:2]
+    if not np.isnan(tips).all():  # a sample outside the model has no margin at all
+        tips[:, np.isnan(tips).any(axis=0)] = -np.inf
+    return _Least(modes, centroid.min(axis=-1), np.broadcast_to(remain, modes.shape[-1:]))
+
+
+def _margins(question: Question, at: Draws) -> tuple[Array, Array]:
+    """Margins of `MODES` in both cases, (5, 2, samples, steps); of the centroid, worst case."""
+    theta_d, theta_M = question.allowance_d, question.allowance_M
+    tilt_d = np.array([[[theta_d.high]], [[theta_d.low]]])
+    tilt_M = np.array([[[theta_M.high]], [[theta_M.low]]])
+    a = question.acceleration
+    geometry: dict[str, Any] = {"p": at.p, "C_L": at.C_L, "C_N": at.C_N, "a": a}
+    bare = margins(
+        L=at.L,
+        theta_s=at.theta_s,
+        mu_s=np.array((at.mu_low, at.mu_high)),
+        theta_d=tilt_d,
+        theta_M=tilt_M,
+        **geometry,
+    )
+    modes = np.empty((len(MODES), *np.shape(bare.worst)))
+    modes[:-1] = bare.tip_downhill, bare.tip_uphill, bare.slides_down, bare.slides_up
+    modes[-1] = bare.inside * (steepest_for_drive(question, a) - at.theta_s)
+    tilted = at.theta_s + (tilt_d + tilt_M)[0]
+    downhill = centroid_margin_downhill(L=at.L, theta_s=tilted, **geometry)
+    uphill = centroid_margin_uphill(theta_s=at.theta_s - tilt_d[0], **geometry)
+    upright = np.where(tilted < math.pi / 2, downhill, -np.inf)
+    return modes, np.minimum(upright, uphill)
+
+
+def _governing_step(question: Question, at: Draws, least: _Least) -> int:
+    """Index of the governing step among the flight's different regular steps."""
+    if at.p.size == 1:
+        return 0
+    per_mode = [at_risk(mode, question.risk) for mode in least.modes[:, 0]]
+    known = [math.inf if math.isnan(margin) else margin for margin in per_mode]
+    return int(np.argmin(_margins(question, at)[0][int(np.argmin(known)), 0, 0]))
+
+
+def _outside(question: Question, flight: Stairs, share_outside: float) -> str:
+    stance = question.stance
+    if share_outside > question.risk:
+        p = max(math.hypot(rise, going) for rise, going in flight.regular_steps)
+        spacing, half = f"the nosing spacing of {p * 1e3:.0f} mm", "more than half the flat length"
+        if not two_contacts_remain(L=stance.flat_length, p=p):
+            return (
+                f"{spacing} is {half} of {stance.flat_length * 1e3:.0f} mm (p > L/2), so one "
+                "nosing alone carries the robot at times"
+            )
+        return (
+            f"{spacing} is {half} of {stance.flat_length * 1e3:.0f} mm (p > L/2) with a "
+            f"probability of {share_outside:.2g}, more than the accepted {question.risk:g}"
+        )
+    return no_regular_flight(question, flight)
+
+
+def no_regular_flight(question: Question, flight: Stairs) -> str:
+    """Why no regular nosings are carried all along the underside; empty if they are."""
+    gap = gap_below(question)
+    if gap:
+        return gap
+    if flight.irregularity > LARGEST_IRREGULARITY + 1e-12:
+        return (
+            f"the steps differ by {flight.irregularity * 1e3:.1f} mm, more than the "
+            f"{LARGEST_IRREGULARITY * 1e3:.1f} mm up to which a flight counts as regular"
+        )
+    nosings = len(flight.step_rises)
+    if nosings < contact_count(L=question.stance.flat_length, p=flight.nosing_spacing) + 1:
+        return f"the flight's {nosings} nosings are fewer than the track holds at once"
+    return ""
+
+
+def gap_below(question: Question) -> str:
+    """Why nosings are not carried all along the underside; empty if they are."""
+    gap = question.robot.track.gap
+    if gap > 0:
+        return f"{gap * 1e3:.0f} mm in the middle of the underside have no track to carry a nosing"
+    if question.stance.tips_below:
+        return "a flipper reaches below the underside of the track"
+    return ""
+
+
+def _semi_stable(question: Question, at: Draws, step: int, least: _Least) -> bool:
+    """Whether only tipping fails, and an acceleration that follows the position avoids it."""
+    best = at_risk(np.fmin.reduce(least.modes[:, 1]), question.risk)
+    others = [at_risk(mode, question.risk) for mode in least.modes[2:, 0]]
+    if best > 0 or any(margin <= 0 for margin in others):
+        return False
+    return acceleration.semi_stable(question, at, step)

@@ -1,0 +1,96 @@
+"""What a model finds: a margin for every failure mode it knows, with its samples and its place."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan.answer import Part
+from kaidan.modes import FailureMode, Phase, Verdict
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finding:
+    """Margin of one failure mode, in its unit, positive when safe."""
+
+    mode: FailureMode
+    worst: Array
+    """Margin of each sample with every range at its unfavourable end, shape (samples,); one sample
+    where every input is exact. NaN: not known. Infinite: it only holds or does not."""
+    best: Array
+    """The same with every range at its favourable end."""
+    failing: Verdict = Verdict.NO_GO
+    """Verdict where it fails in the best case too: NO_GO, or CAUTION where it is no failure by
+    itself."""
+    phase: Phase | None = None
+    """Part of the traverse in which the margin is smallest."""
+    step: int | None = None
+    """Nosing at which, counted from the bottom."""
+    model: str
+    """Model that found it."""
+
+    @classmethod
+    def certain(cls, mode: FailureMode, margin: float, *, model: str, **others: Any) -> "Finding":
+        """Finding whose margin depends on nothing uncertain."""
+        both = np.array([margin])
+        return cls(mode=mode, worst=both, best=both, model=model, **others)
+
+    def margin(self, risk: float, *, best: bool = False) -> float:
+        """Margin at an accepted risk, in the worst or in the best case; NaN: not known."""
+        return at_risk(self.best if best else self.worst, risk)
+
+    def fails(self, *, best: bool = False) -> NDArray[np.bool_]:
+        """Samples that fail; what is not known does not."""
+        return np.asarray((self.best if best else self.worst) <= 0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Findings:
+    """What a model finds of a question."""
+
+    model: str
+    each: tuple[Finding, ...] = ()
+    outside: str = ""
+    """Why the model does not apply; empty if it does."""
+    required_friction: float = math.nan
+    """Static friction below which the robot slips somewhere [1]; infinite: none is enough."""
+    figures: tuple[Part, ...] = ()
+    """The models' own figures."""
+    notes: tuple[str, ...] = ()
+    """What the reader must know of this answer."""
+    basis: Any = None
+    """What it was found on, for a changed question that shares it."""
+
+    def of(self, mode: FailureMode) -> Finding | None:
+        """Finding of a mode; None where the model has none."""
+        return next((each for each in self.each if each.mode is mode), None)
+
+
+def at_risk(values: Array, risk: float) -> float:
+    """Value that all but a share `risk` of the samples exceed.
+
+    It is positive just where the share of samples that are zero or negative is at most `risk`.
+    """
+    if np.isnan(values).all():
+        return math.nan
+    return float(np.sort(np.where(np.isnan(values), -np.inf, values))[int(risk * len(values))])
+
+
+def smallest(samples: Iterable[Array]) -> Array:
+    """Smallest value that is known, of each sample; NaN where none is."""
+    rows = np.broadcast_arrays(*samples)
+    return np.asarray(np.fmin.reduce(rows, axis=0))
+
+
+def failing_beyond(failing: Iterable[NDArray[np.bool_]], risk: float) -> bool:
+    """Whether of more samples than the accepted share anything fails."""
+    rows = list(failing)
+    if not rows:
+        return False
+    any_fails = np.logical_or.reduce(np.broadcast_arrays(*rows))
+    return int(any_fails.sum()) > int(risk * len(any_fails))

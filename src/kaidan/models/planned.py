@@ -1,0 +1,271 @@
+"""The contact model of a plan: part after part of the traverse, each in its posture.
+
+A part begins in the pose in which the change of posture ended, so the parts and the changes are
+the whole traverse. Each part is judged as any traverse is; the plan has the smallest margin of all.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from kaidan import contact
+from kaidan.answer import Part as Figures
+from kaidan.models import traction
+from kaidan.models.contact_figures import ContactFigures, Grades, PhaseFigures, TiltFigures
+from kaidan.models.findings import Finding, Findings, smallest
+from kaidan.models.quasi_static import Basis, findings_of, profile_of
+from kaidan.models.traction_figures import TractionFigures
+from kaidan.modes import (
+    CONTACT,
+    ENERGY,
+    FLIPPER_TORQUE,
+    POSTURE_CHANGE,
+    SLIDES_DOWN,
+    FailureMode,
+    Phase,
+    Verdict,
+)
+from kaidan.question import Question
+from kaidan.robot import Posture
+from kaidan.terrain.profile import Profile
+from kaidan.traversal import Traverse, traverse
+from kaidan.traversal.moves import Move, move
+from kaidan.traversal.rotations import ROCKING
+
+STAND_OFF = 0.05
+"""How far before a nosing the centroid stands while the flippers move [m]: an operator stops within
+some centimetres."""
+
+
+class Part(NamedTuple):
+    """A part of a traverse in one posture."""
+
+    question: Question
+    """In that posture throughout."""
+    traverse: Traverse
+
+
+class Planned(NamedTuple):
+    """Traverse of a plan."""
+
+    parts: tuple[Part, ...]
+    """Those that were driven: the last one ends the traverse."""
+    moves: tuple[Move, ...]
+    """Changes of posture between them."""
+
+    @property
+    def arrived(self) -> bool:
+        """Whether the robot arrives."""
+        return self.parts[-1].traverse.arrived and all(each.stands for each in self.moves)
+
+
+def drive(question: Question, *, with_energy: bool = False, step: float = contact.STEP) -> Planned:
+    """Drive a plan of postures, from landing to landing.
+
+    Parameters
+    ----------
+    question : Question
+        Straight up or down.
+    with_energy : bool
+        The energy margin along the flow too at every pose.
+    step : float
+        Arclength between poses [m].
+
+    Returns
+    -------
+    Planned
+    """
+    profile = profile_of(question)
+    stages = list(stages_of(question))
+    ends = [stop(question, profile, phase) for phase, _ in stages[1:]]
+    parts: list[Part] = []
+    moves: list[Move] = []
+    start = None
+    for k, (phase, posture) in enumerate(stages):
+        alone = question.changed(posture=posture, changes=())
+        if k:
+            before = parts[-1]
+            moves.append(
+                move(
+                    question.robot,
+                    before.question.posture,
+                    posture,
+                    before=phase,
+                    start=before.traverse.path.poses.placement(-1),
+                    ground=before.traverse.path.ground.points,
+                    payload=question.payload,
+                    facing=question.facing,
+                )
+            )
+            if not moves[-1].stands:
+                break
+            start = moves[-1].end
+        found = traverse(
+            profile,
+            alone.outline,
+            descending=question.direction == "down",
+            facing=question.facing,
+            acceleration=question.acceleration,
+            with_energy=with_energy,
+            step=step,
+            start=start,
+            until=ends[k] if k < len(ends) else None,
+        )
+        parts.append(Part(alone, found))
+        if not found.arrived:
+            break
+    return Planned(tuple(parts), tuple(moves))
+
+
+def stages_of(question: Question) -> Iterator[tuple[Phase, Posture]]:
+    """Postures one after the other, each with the phase from which on it is taken up."""
+    last = None
+    for phase, posture in question.postures.items():
+        if posture != last:
+            yield phase, posture
+        last = posture
+
+
+def stop(question: Question, profile: Profile, phase: Phase) -> float:
+    """Where the centroid stands while the robot changes its posture for a phase, as driven [m]."""
+    driven = profile.reflected() if question.direction == "down" else profile
+    nosing = driven.nosings[0 if phase is Phase.TRAVERSE else -1]
+    return float(nosing[0]) - STAND_OFF
+
+
+def findings(question: Question, planned: Planned) -> Findings:
+    """Findings of the traverse of a plan: the smallest margins of its parts and changes.
+
+    Parameters
+    ----------
+    question : Question
+        As it was put; what plays no part in the traverse may differ from what was driven.
+    planned : Planned
+
+    Returns
+    -------
+    Findings
+    """
+    of_parts = []
+    for part in planned.parts:
+        alone = question.changed(posture=part.question.posture, changes=())
+        of_parts.append(findings_of(alone, Basis(part.question, part.traverse)))
+    basis = Basis(question, planned)
+    outside = next((each.outside for each in of_parts if each.outside), "")
+    if outside:
+        return Findings(model=CONTACT.name, outside=outside, basis=basis)
+    each = [one for found in of_parts for one in found.each]
+    each += [one for move_ in planned.moves for one in _of_move(question, move_)]
+    modes = dict.fromkeys(one.mode for one in each)
+    needed = [found.required_friction for found in of_parts]
+    needed += [one.required_friction for one in planned.moves]
+    figures = [each for found in of_parts for each in found.figures]
+    return Findings(
+        model=CONTACT.name,
+        each=tuple(_smallest(mode, each) for mode in modes),
+        required_friction=float(np.fmax.reduce(needed)),
+        figures=tuple(_together(figures)),
+        notes=tuple(dict.fromkeys(note for found in of_parts for note in found.notes)),
+        basis=basis,
+    )
+
+
+def _smallest(mode: FailureMode, each: Sequence[Finding]) -> Finding:
+    """Finding of a mode with the smallest margin of all parts, sample by sample."""
+    some = [one for one in each if one.mode is mode]
+    known = [one for one in some if not np.isnan(one.worst).all()] or some
+    first = min(known, key=lambda one: float(np.nan_to_num(one.worst, nan=math.inf).min()))
+    severe = any(one.failing is Verdict.NO_GO for one in known)
+    return replace(
+        first,
+        worst=smallest(one.worst for one in known),
+        best=smallest(one.best for one in known),
+        failing=Verdict.NO_GO if severe else Verdict.CAUTION,
+    )
+
+
+def _of_move(question: Question, each: Move) -> list[Finding]:
+    """Findings of a change of posture: whether it stands, with what friction, energy, torque."""
+    margin = -math.inf if not each.stands or each.rocks > ROCKING else math.inf
+    failing = Verdict.CAUTION if each.stands else Verdict.NO_GO
+    certain = partial(Finding.certain, phase=each.before, model=CONTACT.name)
+    found = [certain(POSTURE_CHANGE, margin, failing=failing)]
+    if each.poses:
+        worst, best = (
+            np.array([traction.standing_margin(question, each.poses, best=best)])
+            for best in (False, True)
+        )
+        slides = certain(SLIDES_DOWN, 0.0)
+        energy = certain(ENERGY, each.energy - question.energy_threshold, failing=Verdict.CAUTION)
+        found += [replace(slides, worst=worst, best=best), energy]
+    if not math.isnan(each.spare_torque):
+        found.append(certain(FLIPPER_TORQUE, each.spare_torque))
+    return found
+
+
+def _together(figures: Sequence[Figures]) -> Iterator[Figures]:
+    """Figures of all parts as one; of what is no figure of a part, those of the last."""
+    of_contact = [each for each in figures if isinstance(each, ContactFigures)]
+    others = {type(each): each for each in figures if not isinstance(each, ContactFigures)}
+    gripping = [each for each in figures if isinstance(each, TractionFigures)]
+    if gripping:
+        others[TractionFigures] = traction.together(gripping)
+    yield from others.values()
+    if not of_contact:
+        return
+    grades = [each.grades for each in of_contact]
+    says = [each.no_rotation for each in grades if each.no_rotation is not None]
+    names = dict.fromkeys(phase.phase for each in of_contact for phase in each.phases)
+    to_rock = [each.tilt.to_rock_deg for each in of_contact]
+    to_fall = [each.tilt.to_fall_deg for each in of_contact]
+    centroid = [each.margin_centroid_mm for each in of_contact]
+    yield of_contact[0].model_copy(
+        update={
+            "grades": Grades(
+                no_rotation=all(says) if says else None,
+                arrested=all(each.arrested for each in grades),
+                arrested_with_momentum=all(each.arrested_with_momentum for each in grades),
+                largest_rotation_deg=max(each.largest_rotation_deg for each in grades),
+                largest_drop_deg=max(each.largest_drop_deg for each in grades),
+            ),
+            "phases": tuple(
+                _phase([one for each in of_contact for one in each.phases if one.phase == name])
+                for name in names
+            ),
+            "tilt": TiltFigures(
+                to_rock_deg=min((each for each in to_rock if each is not None), default=None),
+                to_fall_deg=min((each for each in to_fall if each is not None), default=None),
+                reserve_deg=of_contact[0].tilt.reserve_deg,
+            ),
+            "rotations": tuple(one for each in of_contact for one in each.rotations),
+            "margin_centroid_mm": min(
+                (each for each in centroid if each is not None), default=None
+            ),
+            "traction_N": max((each.traction_N or 0.0 for each in of_contact), default=0.0) or None,
+            "power_W": max((each.power_W or 0.0 for each in of_contact), default=0.0) or None,
+        }
+    )
+
+
+def _phase(some: Sequence[PhaseFigures]) -> PhaseFigures:
+    """Extreme figures of a phase that two postures share."""
+    hardest = max(some, key=lambda one: math.inf if one.required_friction is None
+                  else one.required_friction)  # fmt: skip
+    weakest = min(some, key=lambda one: math.inf if one.energy_margin_mm is None
+                  else one.energy_margin_mm)  # fmt: skip
+    slides = [one.slides_below for one in some if one.slides_below is not None]
+    return hardest.model_copy(
+        update={
+            "slides_below": max(slides, default=None),
+            "energy_margin_mm": weakest.energy_margin_mm,
+            "energy_margin_step": weakest.energy_margin_step,
+            "static_margin_mm": min(one.static_margin_mm for one in some),
+            "traction_over_weight": max(one.traction_over_weight for one in some),
+            "largest_rotation_deg": max(one.largest_rotation_deg for one in some),
+            "belly_touches": any(one.belly_touches for one in some),
+        }
+    )

@@ -1,0 +1,315 @@
+"""The quasi-static contact model: entering, traversing and landing on any profile.
+
+Friction, drive, balance (`kaidan.models.balance`), belly and landings are judged at every pose.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from kaidan import contact
+from kaidan.answer import Part
+from kaidan.contact import Status
+from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.mechanics.oblique import equivalent_slope_across
+from kaidan.models import support_polygon, traction
+from kaidan.models.balance import balance
+from kaidan.models.contact_figures import figures_of
+from kaidan.models.drive_limits import traction_limit
+from kaidan.models.findings import Finding, Findings
+from kaidan.models.spread import Spread, spread
+from kaidan.models.support_polygon import along_heading
+from kaidan.models.traction import Supplies
+from kaidan.modes import (
+    CONTACT,
+    DRIVE,
+    FALL_DOWNHILL,
+    FALL_UPHILL,
+    HIGH_CENTRING,
+    LANDING_ROOM,
+    SLIDES_DOWN,
+    SLIDES_UP,
+    STUCK,
+    FailureMode,
+    Phase,
+    Verdict,
+)
+from kaidan.question import Question
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import Stairs
+from kaidan.text import contact_model as text
+from kaidan.text import traction as grips
+from kaidan.traversal import PhaseExtremes, Traverse, traverse
+
+FALL = math.pi / 2
+"""Rotation that a fall counts as [rad]."""
+LONG_FLIGHT = 60
+"""Risers of a uniform flight that stand for any more: twice the nosings under the longest robot,
+so that every pose recurs and the arrival is like that of the whole flight."""
+_ALIKE = 1e-3
+"""Share of a required friction to which it is found [1]."""
+_SOLVER = (Status.NOT_CONVERGED, Status.TOO_LONG, Status.NO_START)
+_NAME = CONTACT.name
+
+
+class Basis(NamedTuple):
+    """On what the contact model's findings stand."""
+
+    question: Question
+    """As driven: along the heading, straight up or down."""
+    traverse: Any
+    """A `Traverse`, or the `planned.Planned` of a plan."""
+
+
+def judge(question: Question, *, known: Findings | None = None) -> Findings:
+    """Findings of the contact model on the whole traverse of a question.
+
+    Parameters
+    ----------
+    question : Question
+        On any terrain.
+    known : Findings, optional
+        Of a similar question: its traverse is taken over where the change plays no part in it.
+
+    Returns
+    -------
+    Findings
+    """
+    if question.changes:
+        return _of_a_plan(question, known)
+    driven = question
+    if question.yaw and isinstance(question.terrain, Stairs):
+        driven = question.changed(terrain=along_heading(question.terrain, question.yaw), yaw=0.0)
+    basis: Basis | None = None if known is None else known.basis
+    if basis is None or not _drives_alike(basis.question, driven):
+        basis = Basis(driven, traverse_of(driven))
+    return findings_of(question, basis._replace(question=driven))
+
+
+def _of_a_plan(question: Question, known: Findings | None) -> Findings:
+    from kaidan.models import planned
+
+    basis: Basis | None = None if known is None else known.basis
+    if basis is not None and _drives_alike(basis.question, question):
+        return planned.findings(question, basis.traverse)
+    return planned.findings(question, planned.drive(question))
+
+
+def traverse_of(
+    question: Question, *, with_energy: bool = False, step: float = contact.STEP
+) -> Traverse:
+    """Traverse of a question's robot over its terrain, straight up or down."""
+    _ = question.robot.weighed
+    return traverse(
+        profile_of(question),
+        question.outline,
+        descending=question.direction == "down",
+        facing=question.facing,
+        acceleration=question.acceleration,
+        with_energy=with_energy,
+        step=step,
+    )
+
+
+def profile_of(question: Question) -> Profile:
+    """Terrain that is driven: of a long uniform flight as many risers as say all."""
+    if isinstance(question.terrain, Stairs) and repeats(question):
+        return Profile.of_stairs(question.terrain.model_copy(update={"steps": LONG_FLIGHT}))
+    return question.profile
+
+
+def repeats(question: Question) -> bool:
+    """Whether the flight is uniform and so long that the traverse repeats itself."""
+    stairs = question.terrain
+    if not isinstance(stairs, Stairs) or stairs.rise is None or stairs.steps <= LONG_FLIGHT:
+        return False
+    return sum(question.outline.reach) < LONG_FLIGHT / 2 * stairs.nosing_spacing
+
+
+def _drives_alike(question: Question, other: Question) -> bool:
+    """Whether both have one traverse: friction, belts and allowances play no part."""
+    return traction.without_belts(question.robot) == traction.without_belts(other.robot) and all(
+        getattr(question, name) == getattr(other, name)
+        for name in (
+            "terrain",
+            "posture",
+            "changes",
+            "payload",
+            "direction",
+            "facing",
+            "acceleration",
+        )
+    )
+
+
+def findings_of(question: Question, basis: Basis, *, phase: Phase | None = None) -> Findings:
+    """Findings of a traverse, of the whole of it or of one phase alone.
+
+    Parameters
+    ----------
+    question : Question
+        As it was put.
+    basis : Basis
+        Its traverse.
+    phase : Phase, optional
+        Part of the traverse to judge alone.
+
+    Returns
+    -------
+    Findings
+    """
+    driven, found = basis
+    if not _answered(driven, found):
+        return Findings(model=_NAME, outside=found.status.message, basis=basis)
+    phases = tuple(each for each in found.phases if phase in (None, each.phase))
+    over = spread(driven, found)
+    extremes = _Extremes.of(driven, found, phases)
+    friction = extremes.friction
+    held = traction.supplies(question, driven, found, phase)
+    flight = question.terrain
+    if question.yaw and isinstance(flight, Stairs):
+        across = float(equivalent_slope_across(theta_s=flight.angle, psi=question.yaw))
+        friction = math.hypot(friction, across)
+    each = [
+        *_supply(driven, found, over, extremes, friction, held),
+        *_obstacles(driven, found, phase, phases),
+        *balance(question, driven, found, over, phase, held),
+    ]
+    gripping = traction.figures_of(driven, found, friction, held, phase)
+    looked_for = {FALL_DOWNHILL: "falls_downhill", FALL_UPHILL: "falls_uphill"}
+    modes = [one.mode for one in each]
+    falls = tuple(getattr(found, name) for mode, name in looked_for.items() if mode in modes)
+    figures: list[Part] = [figures_of(question, driven, found, phases, falls=falls), gripping]
+    if phase is None and question.robot.track.gauge is not None and isinstance(flight, Stairs):
+        at = np.array([question.yaw])
+        energy = float(support_polygon.energy_of(question, flight, at)[0])
+        figures.append(support_polygon.figures_of(question, flight, energy))
+    return Findings(
+        model=_NAME,
+        each=tuple(each),
+        required_friction=friction if held is None else held.worst.required,
+        figures=tuple(figures),
+        notes=() if phase else _notes(question, driven, found) + grips.notes(question, gripping),
+        basis=basis,
+    )
+
+
+def _notes(question: Question, driven: Question, found: Traverse) -> tuple[str, ...]:
+    return text.notes(question, found, driven_risers=LONG_FLIGHT if repeats(driven) else None)
+
+
+def _answered(question: Question, found: Traverse) -> bool:
+    """Whether the model has an answer.
+
+    Under an acceleration effective gravity leans with the path, which turns at once where a contact
+    is exchanged: a pose that then rocks between two contacts tells of the model, not of the robot.
+    """
+    rocks = found.status is Status.STUCK and question.acceleration != 0
+    return found.status not in _SOLVER and not rocks
+
+
+class _Extremes(NamedTuple):
+    """Extremes over some phases."""
+
+    friction: float
+    """Required friction [1]; infinite: none is enough; NaN: not known."""
+    traction: float
+    """Tractive force over the weight [1]."""
+    phase: Phase | None
+    """Where the friction is required."""
+    step: int | None
+
+    @classmethod
+    def of(
+        cls, question: Question, found: Traverse, phases: tuple[PhaseExtremes, ...]
+    ) -> "_Extremes":
+        if not phases:
+            return cls(math.nan, math.nan, None, None)
+        friction = max(each.required_friction for each in phases)
+        # of those that are alike the first: a phase may begin with the pose that ends another
+        alike = friction - _ALIKE * friction if friction < math.inf else math.inf
+        highest = next(each for each in phases if each.required_friction >= alike)
+        return cls(
+            friction,
+            max(each.traction_over_weight for each in phases),
+            highest.phase,
+            highest.required_friction_step,
+        )
+
+
+def _supply(
+    question: Question,
+    found: Traverse,
+    over: Spread,
+    extremes: _Extremes,
+    friction: float,
+    held: Supplies | None,
+) -> list[Finding]:
+    """Friction, grousers and drive against what the terrain requires."""
+    place = extremes if held is None else held.worst
+    required = (friction, friction) if held is None else (each.required for each in held)
+    steeper = over.inclination if place.phase is Phase.TRAVERSE else over.angle
+    worst, best = (
+        np.arctan(np.maximum(mu + over.friction, 0.0)) - math.atan(needed) - steeper
+        for mu, needed in zip(question.friction, required, strict=True)
+    )
+    uphill = question.acceleration >= -STANDARD_GRAVITY * math.sin(max(_slope(question), 0.0))
+    slides = Finding(
+        mode=SLIDES_DOWN if uphill else SLIDES_UP,
+        worst=worst,
+        best=best,
+        phase=place.phase,
+        step=place.step,
+        model=_NAME,
+    )
+    drive = _drive_margin(question, extremes.traction) - over.inclination
+    stalls = Finding(mode=DRIVE, worst=drive, best=drive, model=_NAME)
+    return [slides, stalls]
+
+
+def _slope(question: Question) -> float:
+    angle = question.profile.angle
+    return 0.0 if math.isnan(angle) else angle
+
+
+def _drive_margin(question: Question, required: float) -> float:
+    """Margin of slope of the drive [rad]; NaN: not known."""
+    force, mass = traction_limit(question), question.stance.mass
+    if force is None or mass is None or math.isnan(required):
+        return math.nan
+    spare = force / (mass * STANDARD_GRAVITY) - question.robot.drive.rolling_resistance
+    return min(_slope_of_traction(max(spare, -1.0)) - _slope_of_traction(required), FALL)
+
+
+def _slope_of_traction(over_weight: float) -> float:
+    """Slope that takes a traction over the weight [rad]; one radian a weight beyond the upright."""
+    return math.asin(min(over_weight, 1.0)) + max(over_weight - 1.0, 0.0)
+
+
+def _obstacles(
+    question: Question,
+    found: Traverse,
+    phase: Phase | None,
+    phases: tuple[PhaseExtremes, ...],
+) -> list[Finding]:
+    """What only holds or does not: getting stuck, the belly; and the room on the landings."""
+    each = []
+    where, step = found.end
+    if found.status is Status.STUCK and phase in (None, where):
+        each.append(Finding.certain(STUCK, -FALL, phase=where, step=step, model=_NAME))
+    belly = [extremes.phase for extremes in phases if extremes.belly_touches]
+    if question.robot.track.belly_clearance is not None:
+        place = belly[0] if belly else None
+        each.append(_yes_or_no(HIGH_CENTRING, not belly, Verdict.CAUTION, place, None))
+    if phase in (None, Phase.LAND):
+        room = min(found.profile.landings) - sum(found.outline.reach)
+        each.append(Finding.certain(LANDING_ROOM, room, failing=Verdict.CAUTION, model=_NAME))
+    return each
+
+
+def _yes_or_no(
+    mode: FailureMode, holds: bool, failing: Verdict, phase: Phase | None, step: int | None
+) -> Finding:
+    margin = math.inf if holds else -math.inf
+    return Finding.certain(mode, margin, failing=failing, phase=phase, step=step, model=_NAME)

@@ -1,0 +1,366 @@
+"""Oblique approach: the support polygon of both tracks on a regular flight.
+
+::
+
+        left track     o-------o-------o------     nosings stand gauge tan(psi) farther ahead
+                      /                 .
+                     / edge downhill     .  edge uphill
+                    /                     .
+        right track o-------o-------o------
+
+The robot holds without rotation while the zero moment point stays inside the polygon of all
+contacts, at every progress. The edge downhill is worst just after a contact is lost, the edge
+uphill just before one is made, each on either track: four cases, all in closed form. Over its side
+the robot tips about the lower track.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from kaidan.answer import Part
+from kaidan.errors import InputError
+from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.mechanics.oblique import (
+    body_inclination,
+    edge_energy,
+    edge_limit,
+    edge_slack,
+    oblique_friction,
+    other_offset,
+    sideways_limit,
+)
+from kaidan.models.closed_form import no_regular_flight
+from kaidan.models.drive_limits import steepest_for_drive
+from kaidan.models.findings import Array, Finding, Findings, at_risk
+from kaidan.models.samples import Draws, draws, nominal
+from kaidan.modes import (
+    DRIVE,
+    ENERGY,
+    SLIDES_DOWN,
+    SLIDES_UP,
+    SUPPORT_POLYGON,
+    TIP_DOWNHILL,
+    TIP_SIDEWAYS,
+    TIP_UPHILL,
+    Phase,
+    Verdict,
+)
+from kaidan.question import LARGEST_YAW, Question
+from kaidan.terrain.stairs import Stairs
+from kaidan.text.support_polygon import FLIGHT_ALONE
+
+SCAN = math.radians(0.25)
+"""Step of the search for the yaw at which the verdict changes [rad]."""
+_NAME = SUPPORT_POLYGON.name
+
+
+class SupportPolygonFigures(Part):
+    """What the support polygon knows beside the margins."""
+
+    yaw_limit_deg: float | None
+    """Yaw from which on the robot tips on the flight [deg]; null if it tips without any, or holds
+    up to 80 deg."""
+    energy_margin_mm: float
+    """Smallest rise of the centroid on its way over any edge [mm]."""
+
+
+def judge(question: Question, *, known: Findings | None = None) -> Findings:
+    """Findings of the support polygon on the regular flight of a question, at its yaw.
+
+    Parameters
+    ----------
+    question : Question
+        Its robot must have a gauge. Entering and landing are not judged.
+    known : Findings, optional
+        Of a similar question; not used.
+
+    Returns
+    -------
+    Findings
+
+    Raises
+    ------
+    InputError
+        A robot whose tracks' distance is not known.
+    """
+    _ = question.robot.weighed
+    flight = question.flight
+    if flight is None or isinstance(question.terrain, tuple):
+        return Findings(model=_NAME, outside="the terrain is no single flight of stairs")
+    gauge_of(question)
+    outside = no_regular_flight(question, flight)
+    if outside:
+        return Findings(model=_NAME, outside=outside)
+    psi = np.array([question.yaw])
+    at = nominal(question, flight)
+    needed = float(
+        oblique_friction(theta_s=at.theta_s, psi=question.yaw, a=question.acceleration).max()
+    )
+    mu_low, mu_high = question.friction
+    of_friction, of_angle = _supply_samples(question, at)
+    angle = math.atan(needed)
+    uphill = question.acceleration >= -STANDARD_GRAVITY * math.sin(flight.angle)
+    slides = Finding(
+        mode=SLIDES_DOWN if uphill else SLIDES_UP,
+        worst=np.arctan(np.maximum(mu_low + of_friction, 0.0)) - angle - of_angle,
+        best=np.arctan(np.maximum(mu_high + of_friction, 0.0)) - angle - of_angle,
+        phase=Phase.TRAVERSE,
+        model=_NAME,
+    )
+    inclination = float(body_inclination(theta_s=at.theta_s, psi=question.yaw).max())
+    spare = steepest_for_drive(question, question.acceleration) - inclination - of_angle
+    stalls = Finding(mode=DRIVE, worst=spare, best=spare, phase=Phase.TRAVERSE, model=_NAME)
+    energy = float(energy_of(question, flight, psi)[0])
+    return Findings(
+        model=_NAME,
+        each=(
+            *tips(question, flight, failing=Verdict.NO_GO),
+            slides,
+            stalls,
+            energy_finding(question, energy),
+        ),
+        required_friction=needed,
+        figures=(figures_of(question, flight, energy),),
+        notes=(FLIGHT_ALONE,),
+        basis=flight,
+    )
+
+
+def tips(question: Question, flight: Stairs, *, failing: Verdict) -> tuple[Finding, ...]:
+    """Findings of tipping over the polygon's edges, less the allowances."""
+    bare = margins_of(question, flight, np.array([question.yaw]))[:, 0]
+    d, M = question.allowance_d, question.allowance_M
+    off = {TIP_DOWNHILL: (d.high + M.high, d.low + M.low)}
+    return tuple(
+        Finding(
+            mode=mode,
+            worst=margin - off.get(mode, (d.high, d.low))[0],
+            best=margin - off.get(mode, (d.high, d.low))[1],
+            failing=failing,
+            phase=Phase.TRAVERSE,
+            model=_NAME,
+        )
+        for mode, margin in zip((TIP_DOWNHILL, TIP_UPHILL, TIP_SIDEWAYS), bare, strict=True)
+    )
+
+
+def energy_finding(question: Question, energy: float) -> Finding:
+    """Finding of the energy margin [m] against the kinetic-energy height."""
+    return Finding.certain(
+        ENERGY,
+        energy - question.energy_threshold,
+        failing=Verdict.CAUTION,
+        phase=Phase.TRAVERSE,
+        model=_NAME,
+    )
+
+
+def figures_of(question: Question, flight: Stairs, energy: float) -> SupportPolygonFigures:
+    """Figures at the yaw of a question."""
+    limit = yaw_limit(question, flight)
+    return SupportPolygonFigures(
+        yaw_limit_deg=None if limit is None else math.degrees(limit),
+        energy_margin_mm=1e3 * energy,
+    )
+
+
+def _supply_samples(question: Question, at: Draws) -> tuple[Array, Array]:
+    """Differences of friction and of the angle from the sheets' figures, of each sample."""
+    block = next(draws(question, at))
+    known = np.nan_to_num(block.mu_low - at.mu_low)[:, 0]
+    return known, (block.theta_s - at.theta_s[:, : block.theta_s.shape[1]])[:, 0]
+
+
+def margins_of(question: Question, flight: Stairs, psi: Array, *, certain: bool = False) -> Array:
+    """Margins against tipping over the polygon's edges, worst over the flight's steps.
+
+    Parameters
+    ----------
+    question : Question
+        Its robot must have a gauge; its own yaw plays no part.
+    flight : Stairs
+        Of the question.
+    psi : array, shape (k,)
+        Yaws [rad].
+    certain : bool
+        The sheets' figures only.
+
+    Returns
+    -------
+    array, shape (3, k, samples)
+        Downhill, uphill, sideways [rad], without allowances; minus a right angle where a track is
+        without any contact at times.
+    """
+    gauge = gauge_of(question)
+    at = nominal(question, flight)
+    if not certain:
+        at = next(draws(question, at))  # one flight has few steps: one block
+    yaw = np.abs(psi)[:, None, None]
+    a = question.acceleration
+    each = [(edge.end, _margin(at, gauge, yaw, edge, a)) for edge in _edges(at, gauge, yaw)]
+    down, up = (
+        np.minimum(*(margin for end, margin in each if end == which)) for which in (1.0, -1.0)
+    )
+    side = sideways_limit(gauge=gauge, C_N=at.C_N, psi=yaw) - at.theta_s
+    tips = np.stack(np.broadcast_arrays(down, up, side))
+    rows = np.where(at.p / np.cos(yaw) > at.L, -math.pi / 2, tips)
+    return np.asarray(rows.min(axis=-1))
+
+
+def energy_of(question: Question, flight: Stairs, psi: Array) -> Array:
+    """Smallest rise of the centroid on its way over any edge, the sheets' figures.
+
+    Parameters
+    ----------
+    question : Question
+        Its robot must have a gauge; its own yaw plays no part.
+    flight : Stairs
+        Of the question.
+    psi : array, shape (k,)
+        Yaws [rad].
+
+    Returns
+    -------
+    array, shape (k,)
+        Rise [m].
+    """
+    gauge, at = gauge_of(question), nominal(question, flight)
+    yaw = np.abs(psi)[:, None, None]
+    rises = [
+        edge_energy(
+            x=edge.x,
+            slope=(edge.left - edge.right) / gauge * edge.end,
+            C_N=at.C_N,
+            theta_s=at.theta_s,
+            psi=yaw,
+            a=question.acceleration,
+        )
+        for edge in _edges(at, gauge, yaw)
+    ]
+    # over the lower track: its line lies along the heading
+    lean = np.sin(at.theta_s) * np.sin(yaw)
+    rises.append(
+        np.hypot(gauge / 2, at.C_N) * np.hypot(lean, np.cos(at.theta_s))
+        - (at.C_N * np.cos(at.theta_s) + gauge / 2 * lean)
+    )
+    return np.asarray(np.stack(np.broadcast_arrays(*rises)).min(axis=(0, 2, 3)))
+
+
+class _Edge(NamedTuple):
+    """Edge at its worst: places of its ends on the right and the left track."""
+
+    end: float
+    """1 downhill, -1 uphill."""
+    right: Array
+    """From the rear tip downhill, from the front tip uphill [m]."""
+    left: Array
+    x: Array
+    """Its middle downhill of the centroid [m]."""
+
+
+def _edges(at: Draws, gauge: float, psi: Array) -> list[_Edge]:
+    q = at.p / np.cos(psi)
+    near, far = (other_offset(p=at.p, psi=side * psi, gauge=gauge) for side in (1, -1))
+    # downhill just after a loss on the right, on the left; uphill just before a gain on either
+    ends = ((1.0, q, near), (1.0, far, q), (-1.0, q, far), (-1.0, near, q))
+    return [
+        _Edge(
+            end,
+            right,
+            left,
+            at.L - at.C_L - (left + right) / 2 if end > 0 else (left + right) / 2 - at.C_L,
+        )
+        for end, right, left in ends
+    ]
+
+
+def _margin(at: Draws, gauge: float, psi: Array, edge: _Edge, a: float) -> Array:
+    """Margin of slope of one edge."""
+    kappa = np.cos(psi) + edge.end * (edge.left - edge.right) * np.sin(psi) / gauge
+    slack = edge.end * edge_slack(x=edge.x, kappa=kappa, C_N=at.C_N, theta_s=at.theta_s, a=a)
+    limit = edge_limit(x=edge.x, kappa=kappa, C_N=at.C_N, a=a)
+    margin = edge.end * (limit - at.theta_s)
+    return np.asarray(np.where(np.isnan(margin), np.copysign(math.pi / 2, slack), margin))
+
+
+def yaw_limit(question: Question, flight: Stairs) -> float | None:
+    """Yaw from which the robot tips on the flight, less the allowances, at the chosen risk.
+
+    Parameters
+    ----------
+    question : Question
+        Its own yaw plays no part.
+    flight : Stairs
+        Of the question.
+
+    Returns
+    -------
+    float or None
+        Yaw [rad]; None if it tips without any, if it holds up to the largest yaw judged, or if the
+        robot's gauge is not known. Only the flight is judged, not its ends; the friction that is
+        required there does not depend on the yaw.
+    """
+    if question.robot.track.gauge is None:
+        return None
+    count = math.floor(LARGEST_YAW / SCAN)
+    low, high = 0.0, count * SCAN
+    yaws: Array = SCAN * np.arange(count + 1, dtype=np.float64)
+    for _ in range(4):  # each scan narrows the bracket by its number of yaws
+        holds = _hold(question, flight, yaws)
+        if holds.all() or not holds[0]:
+            return None
+        first = int(np.argmin(holds))
+        low, high = float(yaws[first - 1]), float(yaws[first])
+        yaws = low + (high - low) / 64 * np.arange(65, dtype=np.float64)
+    return low
+
+
+def _hold(question: Question, flight: Stairs, psi: Array) -> Array:
+    """Whether the robot holds at each yaw."""
+    steady = energy_of(question, flight, psi) > question.energy_threshold
+    down, up, side = margins_of(question, flight, psi)
+    off = question.allowance_d.high
+    worst = np.minimum(np.minimum(down - off - question.allowance_M.high, up - off), side - off)
+    return np.asarray(steady & [at_risk(samples, question.risk) > 0 for samples in worst])
+
+
+def gauge_of(question: Question) -> float:
+    """Distance between the tracks, without which there is no polygon."""
+    gauge = question.robot.track.gauge
+    if gauge is None:
+        raise InputError(
+            f"robot {question.robot.name!r}: track.gauge is not known, and the support "
+            "polygon needs the distance between the middles of the tracks"
+        )
+    return gauge
+
+
+def along_heading(flight: Stairs, psi: float) -> Stairs:
+    """Flight that loads one track, driven straight up, as this one does at a yaw.
+
+    Nosings p / cos(psi) apart on a slope of tan(theta) = tan(theta_s) cos(psi). Its risers are
+    cos(theta) / cos(theta_s) times as high as the real ones: entering is judged a little too hard.
+    """
+
+    def turned(rise: float, going: float) -> tuple[float, float]:
+        slope = math.atan2(rise * math.cos(psi), going)
+        spacing = math.hypot(rise, going) / math.cos(psi)
+        return spacing * math.sin(slope), spacing * math.cos(slope)
+
+    if flight.rise is not None and flight.going is not None:
+        rise, going = turned(flight.rise, flight.going)
+        ends = {
+            name: None if value is None else value * rise / flight.rise
+            for name, value in (("first_rise", flight.first_rise), ("last_rise", flight.last_rise))
+        }
+        return flight.model_copy(update={"rise": rise, "going": going, **ends})
+    steps = [turned(*step) for step in zip(flight.step_rises[1:], flight.step_goings, strict=True)]
+    first = flight.step_rises[0] * steps[0][0] / flight.step_rises[1]
+    return flight.model_copy(
+        update={
+            "rises": (first, *(rise for rise, _ in steps)),
+            "goings": tuple(going for _, going in steps),
+        }
+    )

@@ -1,0 +1,323 @@
+"""Friction and grousers of a question: cases of what is given as ranges, and what they come to."""
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.mechanics.grousers import height_lost, rubber_modulus, standing_run
+from kaidan.models.traction_figures import USUAL, TractionFigures
+from kaidan.modes import Phase
+from kaidan.question import Question
+from kaidan.robot import Robot, Track
+from kaidan.terrain.stairs import NOSING_RADII, Stairs
+from kaidan.traversal import Traverse
+from kaidan.traversal.grip import Grip, Grousers
+from kaidan.traversal.moves import MovePose
+from kaidan.traversal.phases import step_at
+from kaidan.traversal.samples import lasting
+
+HEIGHT = (0.010, 0.020)
+"""Height of grousers where the sheet says no more than that there are some [m]."""
+SPACING = (0.035, 0.060)
+"""Spacing of such grousers [m]."""
+TIP_WIDTH = (0.1, 0.3)
+"""Width of the tips of such grousers, over their spacing [1]."""
+YIELD = (0.0, 0.5)
+"""Share of its height that a grouser of unknown hardness loses under load [1]."""
+SLIDING = 0.8
+"""Sliding over static friction [1]: rubber on concrete, Serway & Beichner, Physics for Scientists
+and Engineers, table 5.2 (0.8 and 1.0)."""
+WORTH_TELLING = 0.02
+"""Friction by which the usual grousers need less than smooth belts, from which on it is said
+[1]."""
+_OF_BELTS = [name for name in Track.model_fields if name == "belt" or name.startswith("grouser_")]
+
+
+class Supply(NamedTuple):
+    """How friction and grousers hold the robot on a traverse, in one case."""
+
+    margin: float
+    """Angle by which friction may be less, or minus what is missing [rad]; NaN: not known."""
+    required: float
+    """Least friction, the same everywhere [1]; infinite: none is enough."""
+    phase: Phase | None
+    step: int | None
+    slip: float
+    """How far the robot may slip back before grousers hold it [m]; zero: it does not rely on
+    them."""
+    heights: dict[Phase, float]
+    """Kinetic-energy height of that slip in each phase with one [m]."""
+
+
+def standing_margin(question: Question, poses: Iterable[MovePose], *, best: bool) -> float:
+    """Angle by which friction may be less while the robot stands and its posture changes [rad].
+
+    With grousers it stands on those that hold it already, so it does not slip back first.
+
+    Parameters
+    ----------
+    question : Question
+        Friction that nobody stated is not known: NaN.
+    poses : iterable of MovePose
+        One after the other.
+    best : bool
+        With every range at its favourable end.
+    """
+    if question.surface is None:
+        return math.nan
+    low, track = math.inf, question.robot.track
+    nosings, treads, faces = question.surface.of_parts(best=best)
+    phi = math.atan(nosings), math.atan(treads), math.atan(faces)
+    cases = grousers_of(question, track, best=best) if _bears(question, track, 1.0) else ()
+    for pose in poses:
+        grip = Grip(pose.path, descending=question.direction == "down", acceleration=0.0)
+        alone = grip.by_friction(phi)
+        each = [grip.at_once(phi, one, alone) for one in cases] or [alone]
+        low = min(low, *(float(one[0]) for one in each))
+    return low
+
+
+class Supplies(NamedTuple):
+    """How friction and grousers hold the robot, in the worst and in the best case."""
+
+    worst: Supply
+    best: Supply
+
+
+def supplies(
+    question: Question, driven: Question, found: Traverse, phase: Phase | None
+) -> Supplies | None:
+    """How friction and grousers hold the robot; None where one friction of smooth belts is all.
+
+    Off the line of steepest ascent nobody knows what grousers hold: friction alone counts there.
+
+    Parameters
+    ----------
+    question, driven : Question
+        As it was put, and along the heading.
+    found : Traverse
+        Of the latter.
+    phase : Phase, optional
+        Part of the traverse to judge alone.
+    """
+    surface, track = question.surface, question.robot.track
+    differs = surface is not None and surface.differs
+    if question.yaw or not (track.has_grousers or differs):
+        return None
+    worst, best = (supply(driven, found, track, best=each, phase=phase) for each in (False, True))
+    return None if worst.phase is None else Supplies(worst, best)
+
+
+def supply(
+    question: Question,
+    found: Traverse,
+    track: Track,
+    *,
+    best: bool = False,
+    phase: Phase | None = None,
+) -> Supply:
+    """How friction and the grousers of a track hold the robot, in the worst or in the best case.
+
+    Parameters
+    ----------
+    question : Question
+        Friction, nosings, mass; friction that nobody stated is taken as none.
+    found : Traverse
+        Of the question.
+    track : Track
+        Whose grousers.
+    best : bool
+        With every range at its favourable end.
+    phase : Phase, optional
+        Part of the traverse to judge alone.
+
+    Returns
+    -------
+    Supply
+    """
+    surface, grip = question.surface, found.grip
+    frictions = (0.0,) * 3 if surface is None else surface.of_parts(best=best)
+    phi = math.atan(frictions[0]), math.atan(frictions[1]), math.atan(frictions[2])
+    alone = held = grip.by_friction(phi)
+    over_weight = max((each.traction_over_weight for each in found.phases), default=1.0)
+    if _bears(question, track, over_weight):
+        cases = grousers_of(question, track, best=best)
+        held = np.minimum.reduce([grip.with_grousers(phi, each, alone) for each in cases])
+    rows = lasting(found.path) & ~found.comes_off
+    if phase is not None:
+        rows &= found.phase_of_pose == phase.value
+    if not rows.any():
+        return Supply(math.nan, math.nan, None, None, 0.0, {})
+    chosen = np.where(rows, held, np.inf)
+    at = int(np.argmin(chosen))
+    slipping = rows & (alone <= 0.0) & (held > 0.0)
+    slip, heights = 0.0, {}
+    if slipping.any():
+        slip = max(each.spacing for each in cases)
+        kinetic = grip.slip_heights(slip, mu_k=SLIDING * min(frictions))
+        for each in Phase:
+            here = slipping & (found.phase_of_pose == each.value)
+            if here.any():
+                heights[each] = float(kinetic[here].max())
+    missing = phi[0] - float(chosen[at])
+    return Supply(
+        margin=float(chosen[at]),
+        required=math.tan(missing) if missing < math.pi / 2 else math.inf,
+        phase=Phase(str(found.phase_of_pose[at])),
+        step=step_at(found.profile, float(found.path.poses.front_point[at, 0]), found.descending),
+        slip=slip,
+        heights=heights,
+    )
+
+
+def grousers_of(question: Question, track: Track, *, best: bool) -> tuple[Grousers, ...]:
+    """Grousers of a track in the worst or in the best case.
+
+    In the worst case three must hold: hard and sharp ones, of the narrowest spacing, which reach
+    less high over the edge of a riser, and of the widest; and soft ones that lose height under
+    load, but share it between all nosings. In the best case they are soft and lose nothing.
+    """
+    end = 1 if best else 0
+    height = HEIGHT[end] if track.grouser_height is None else track.grouser_height
+    least, most = _lost(question, track, height)
+    low, high = SPACING if track.grouser_spacing is None else (track.grouser_spacing,) * 2
+    share = TIP_WIDTH[1 - end]
+    radius = nosing_radii(question)[1 - end]
+
+    def one(spacing: float, lost: float, *, rigid: bool) -> Grousers:
+        width = share * spacing if track.grouser_tip_width is None else track.grouser_tip_width
+        return Grousers(height * (1.0 - lost), spacing, width, radius, rigid)
+
+    if best:
+        return (one(low, least, rigid=False),)
+    hard = [one(spacing, least, rigid=True) for spacing in dict.fromkeys((low, high))]
+    return (*hard, one(high, most, rigid=False))
+
+
+def nosing_radii(question: Question) -> tuple[float, float]:
+    """Smallest and largest radius of the nosings [m]."""
+    terrain = question.terrain
+    flights = terrain if isinstance(terrain, tuple) else (terrain,)
+    each = [one.nosing_radii if isinstance(one, Stairs) else NOSING_RADII for one in flights]
+    return min(low for low, _ in each), max(high for _, high in each)
+
+
+def without_belts(robot: Robot) -> Robot:
+    """Robot of whose belts nothing is known."""
+    unknown = dict.fromkeys(_OF_BELTS)
+    return robot.model_copy(update={"track": robot.track.model_copy(update=unknown)})
+
+
+def _lost(question: Question, track: Track, height: float) -> tuple[float, float]:
+    """Share of its height that a grouser loses under load, the least and the most [1].
+
+    Of a known hardness: at most with half the weight across and along it, the other half being the
+    other track's.
+    """
+    mass, width, length = question.stance.mass, track.grouser_tip_width, track.width
+    hardness = track.grouser_hardness
+    if mass is None or width is None or length is None or hardness is None or height <= 0.0:
+        return YIELD
+    half = 0.5 * mass * STANDARD_GRAVITY
+    modulus = rubber_modulus(S=hardness)
+    lost = height_lost(N=half, T=half, h=height, w=width, b=length, E=modulus)
+    return 0.0, float(lost) / height
+
+
+def _bears(question: Question, track: Track, over_weight: float) -> bool:
+    """Whether the belts have grousers that bear a tractive force, over the weight."""
+    return track.has_grousers and not strength_margin(question, track, over_weight) <= 0.0
+
+
+def strength_margin(question: Question, track: Track, over_weight: float) -> float:
+    """Strength of a grouser less half of a tractive force, over the weight [N]; NaN: not known."""
+    mass = question.stance.mass
+    if track.grouser_strength is None or mass is None:
+        return math.nan
+    return track.grouser_strength - 0.5 * mass * STANDARD_GRAVITY * over_weight
+
+
+def figures_of(
+    question: Question,
+    found: Traverse,
+    smooth: float,
+    held: Supplies | None,
+    phase: Phase | None,
+) -> TractionFigures:
+    """Figures of a traverse.
+
+    Parameters
+    ----------
+    question : Question
+        Along the heading.
+    found : Traverse
+        Its traverse.
+    smooth : float
+        Friction that smooth belts require [1].
+    held : Supplies, optional
+        Where not one friction of smooth belts is all.
+    phase : Phase, optional
+        Part of the traverse that counts.
+    """
+    track, worst = question.robot.track, None if held is None else held.worst
+    over_weight = max((each.traction_over_weight for each in found.phases), default=1.0)
+    usual = math.inf
+    if not track.has_grousers and question.surface is None:
+        usual = supply(question, found, USUAL, phase=phase).required
+        usual = usual if usual < smooth - WORTH_TELLING else math.inf
+    return TractionFigures(
+        belt=track.belt or ("grousers" if track.has_grousers else "not stated"),
+        required_friction=smooth if worst is None else worst.required,
+        smooth_required_friction=smooth,
+        usual_required_friction=usual,
+        phase=None if worst is None or worst.phase is None else worst.phase.value,
+        step=None if worst is None else worst.step,
+        slip_mm=1e3 * worst.slip if worst is not None and worst.slip else None,
+        slip_heights_mm={
+            each.value: 1e3 * height for each, height in (worst.heights if worst else {}).items()
+        },
+        standing_phases=_standing_phases(question, track),
+        strength_margin_N=strength_margin(question, track, over_weight),
+    )
+
+
+def _standing_phases(question: Question, track: Track) -> tuple[float, float] | None:
+    """Share of the phases in which a grouser stands, in the worst and in the best case."""
+    if not track.has_grousers or not isinstance(question.terrain, Stairs):
+        return None
+    theta = question.terrain.angle
+    worst, best = (grousers_of(question, track, best=each)[0] for each in (False, True))
+    return _share(theta, worst), _share(theta, best)
+
+
+def _share(theta: float, one: Grousers) -> float:
+    run = standing_run(
+        theta=theta, h=one.height, s=one.spacing, r=one.nosing_radius, w=one.tip_width
+    )
+    return max(float(run) / one.spacing, 0.0)
+
+
+def together(parts: Sequence[TractionFigures]) -> TractionFigures:
+    """Figures of the parts of a plan as one."""
+    worst = max(parts, key=lambda each: _number(each.required_friction))
+    heights: dict[str, float] = {}
+    for each in parts:
+        for phase, height in each.slip_heights_mm.items():
+            heights[phase] = max(heights.get(phase, 0.0), height)
+    smooth = max(parts, key=lambda each: _number(each.smooth_required_friction))
+    usual = [each.usual_required_friction for each in parts]
+    return worst.model_copy(
+        update={
+            "smooth_required_friction": smooth.smooth_required_friction,
+            "usual_required_friction": max((each for each in usual if each), default=None),
+            "slip_mm": max((each.slip_mm for each in parts if each.slip_mm), default=None),
+            "slip_heights_mm": heights,
+        }
+    )
+
+
+def _number(friction: float | None) -> float:
+    return math.inf if friction is None else friction

@@ -1,0 +1,202 @@
+"""Vocabularies, each once: verdicts, failure modes, phases, grades, models.
+
+A failure mode is added here, in one line; a model that returns a finding of it is judged, said,
+drawn and written as JSON without another change (see CONTRIBUTING).
+"""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Literal
+
+Direction = Literal["up", "down"]
+Facing = Literal["nose-first", "tail-first"]
+
+
+class Verdict(StrEnum):
+    """Answer to "can this robot take these stairs?", the best first."""
+
+    GO = "go"
+    CAUTION = "caution"
+    NO_GO = "no-go"
+    OUTSIDE_MODEL = "outside-model"
+
+    @property
+    def rank(self) -> int:
+        """Order, 0 the best; also the code of the verdict in arrays."""
+        return _RANKS[self]
+
+    @property
+    def exit_code(self) -> int:
+        """Code with which a command ends: 0 go or caution, 1 no-go, 3 outside the model."""
+        return _EXIT_CODES[self]
+
+    @property
+    def label(self) -> str:
+        """As people read it."""
+        return "OUTSIDE THE MODEL" if self is Verdict.OUTSIDE_MODEL else self.value.upper()
+
+
+_RANKS = {verdict: rank for rank, verdict in enumerate(Verdict)}
+_EXIT_CODES = {
+    Verdict.GO: 0,
+    Verdict.CAUTION: 0,
+    Verdict.NO_GO: 1,
+    Verdict.OUTSIDE_MODEL: 3,
+}
+
+
+@dataclass(frozen=True)
+class FailureMode:
+    """A way in which a robot fails on stairs, with a margin that is positive when safe."""
+
+    key: str
+    """Name in JSON, tables and code."""
+    unit: str
+    """Unit of its margin inside: rad of slope, "rad of rotation", m, m/s, N m, or "" where it only
+    holds or does not."""
+    label: str
+    """What happens, as people say it: "tipping over its downhill end"."""
+
+    @property
+    def shown_unit(self) -> str:
+        """Unit of its margin as people read it."""
+        return _SHOWN[self.unit][0]
+
+    def shown(self, margin: float) -> float:
+        """Margin in that unit."""
+        return margin * _SHOWN[self.unit][1]
+
+
+_DEGREE = 57.29577951308232
+_SHOWN = {
+    "rad": ("deg", _DEGREE),
+    "rad of rotation": ("deg", _DEGREE),
+    "m": ("mm", 1e3),
+    "m/s": ("m/s", 1.0),
+    "N m": ("N m", 1.0),
+    "": ("", 1.0),
+}
+
+FAILURE_MODES: dict[str, FailureMode] = {}
+"""All failure modes by key; ties between margins go to the first."""
+
+
+def failure_mode(key: str, unit: str, label: str) -> FailureMode:
+    """Add a failure mode to the vocabulary.
+
+    Parameters
+    ----------
+    key : str
+        Name in JSON, tables and code.
+    unit : {"rad", "rad of rotation", "m", "m/s", "N m", ""}
+        Unit of its margin.
+    label : str
+        What happens, a noun phrase.
+
+    Returns
+    -------
+    FailureMode
+    """
+    mode = FailureMode(key, unit, label)
+    FAILURE_MODES[key] = mode
+    return mode
+
+
+TIP_DOWNHILL = failure_mode("tip_downhill", "rad", "tipping over its downhill end")
+"""The paper's falling backward, nose up the stairs."""
+TIP_UPHILL = failure_mode("tip_uphill", "rad", "tipping over its uphill end")
+"""The paper's falling forward."""
+TIP_SIDEWAYS = failure_mode("tip_sideways", "rad", "tipping over its side")
+FALL_DOWNHILL = failure_mode("fall_downhill", "rad", "falling over its downhill end")
+"""Of a robot that rocks: tilt of gravity to its fall, less the reserve."""
+FALL_UPHILL = failure_mode("fall_uphill", "rad", "falling over its uphill end")
+SLIDES_DOWN = failure_mode("slides_down", "rad", "sliding down for lack of friction")
+"""The paper's slipping, Eq. (4)."""
+SLIDES_UP = failure_mode("slides_up", "rad", "sliding on uphill for lack of friction")
+DRIVE = failure_mode("drive", "rad", "too little traction of the drive")
+STUCK = failure_mode("stuck", "rad", "getting stuck")
+"""Its margin is minus a right angle: no slope of the stairs would do."""
+ROTATION = failure_mode(
+    "rotation", "rad of rotation", "rotating farther than the path obliges it to"
+)
+"""A rotation that the path does not oblige to."""
+MOMENTUM = failure_mode("momentum", "m", "toppling with the momentum of a rotation")
+IMPACT = failure_mode("impact", "m/s", "hitting the ground too fast")
+"""After a drop that the path obliges to."""
+ENERGY = failure_mode("energy", "m", "too little energy margin for its speed")
+HIGH_CENTRING = failure_mode("high_centring", "", "resting on its belly")
+POSTURE_CHANGE = failure_mode("posture_change", "", "rotating while its flippers move")
+"""Between two postures of a plan, the robot standing."""
+FLIPPER_TORQUE = failure_mode("flipper_torque", "N m", "too little torque to move its flippers")
+POSTURE_TOLERANCE = failure_mode("posture_tolerance", "", "flippers some degrees off their angles")
+"""Of a plan that was found: off its angles its verdict is worse."""
+LANDING_ROOM = failure_mode("landing_room", "m", "a landing shorter than the robot")
+UNWEIGHED = failure_mode("unweighed", "", "a centroid that nobody measured")
+"""The sheet has a range: no GO before the robot is weighed."""
+
+TIPS = (TIP_DOWNHILL, TIP_UPHILL, TIP_SIDEWAYS)
+FALLS = (FALL_DOWNHILL, FALL_UPHILL)
+SUPPLIES = (SLIDES_DOWN, SLIDES_UP, DRIVE)
+"""Friction and drive: what is supplied against what the stairs require."""
+
+FORMULAS = (TIP_DOWNHILL, TIP_UPHILL, SLIDES_DOWN, SLIDES_UP)
+"""Modes of the paper's formulas; arrays of codes count them from 0."""
+
+
+class Undecided(StrEnum):
+    """What governs a verdict and is no failure mode."""
+
+    FRICTION_UNKNOWN = "friction_unknown"
+    """Nothing fails, but nobody stated the friction."""
+    MARGIN_UNKNOWN = "margin_unknown"
+    """Nothing fails, but the model knows no margin."""
+    OUTSIDE_MODEL = "outside_model"
+    """The model says nothing."""
+
+
+class Phase(StrEnum):
+    """Part of a traverse."""
+
+    ENTER = "enter"
+    """From the lower (going down: upper) landing until the trailing end has left it."""
+    TRAVERSE = "traverse"
+    """On the flight alone."""
+    LAND = "land"
+    """From the first contact with the other landing until the whole robot stands on it."""
+
+
+class Acceptance(StrEnum):
+    """What counts as holding: how far down the three grades the operator goes."""
+
+    NO_ROTATION = "no-rotation"
+    """Grade one, the paper's criterion, alone."""
+    ARRESTED = "arrested"
+    """Also a rotation that the next contact arrests with the momentum gained (grade three)."""
+
+
+@dataclass(frozen=True)
+class Model:
+    """A model that answers questions."""
+
+    name: str
+    """As a question names it."""
+    module: str
+    """Module whose function ``judge`` answers; imported when first needed."""
+    label: str
+    """What it is, as people say it."""
+
+
+MODELS: dict[str, Model] = {}
+"""All models by name, the default first."""
+
+
+def model(name: str, module: str, label: str) -> Model:
+    """Add a model to those that answer questions; see CONTRIBUTING."""
+    MODELS[name] = Model(name, module, label)
+    return MODELS[name]
+
+
+CONTACT = model("contact", "kaidan.models.quasi_static", "contact model")
+CLOSED_FORM = model("closed-form", "kaidan.models.closed_form", "closed form")
+SUPPORT_POLYGON = model("support-polygon", "kaidan.models.support_polygon", "support polygon")
+PHYSICS = model("physics", "kaidan.models.dynamic", "trial in MuJoCo")

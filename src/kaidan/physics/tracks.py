@@ -1,0 +1,84 @@
+"""Models of the track of a trial: smooth belt, sprung noses, driven grousers, chain of shoes."""
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from kaidan.sheet import Sheet, quantity
+
+
+class SmoothBelt(Sheet):
+    """Rigid track with a smooth surface that runs round it."""
+
+    label: ClassVar[str] = "track model: smooth belt"
+    kind: Literal["smooth-belt"] = "smooth-belt"
+
+
+class SprungNoses(Sheet):
+    """Smooth belt on nosings that yield: the compliance of the track, moved into the stairs.
+
+    Each step rests on two springs, along and across the line of the nosings.
+    """
+
+    label: ClassVar[str] = "track model: sprung noses"
+    kind: Literal["sprung-noses"] = "sprung-noses"
+    stiffness: float | None = quantity(
+        "N/m",
+        1e2,
+        1e8,
+        "force per length by which a nosing presses into both tracks; the robot sheet's without",
+        default=None,
+    )
+    nose_mass: float = quantity("kg", 0.05, 100.0, "mass of a step on its springs", default=1.0)
+    damping_ratio: float = quantity("1", 0.0, 5.0, "of a step on its springs", default=0.5)
+
+
+class DrivenGrousers(Sheet):
+    """Smooth belt with grousers that run round it, driven, each on a radial spring."""
+
+    label: ClassVar[str] = "track model: driven grousers"
+    kind: Literal["driven-grousers"] = "driven-grousers"
+    height: float | None = quantity(
+        "m", 0.002, 0.1, "above the belt; the robot sheet's, else 10 mm", default=None
+    )
+    spacing: float | None = quantity(
+        "m",
+        0.01,
+        0.5,
+        "along the belt, rounded to fit; the robot sheet's, else a 40th of the belt",
+        default=None,
+    )
+    stiffness: float = quantity("N/m", 1e3, 1e8, "of a grouser, radially", default=2e5)
+
+
+class ShoeChain(Sheet):
+    """Chain of hinged rigid shoes round the track, tensioned, pulled by a sprocket: a check."""
+
+    label: ClassVar[str] = "track model: shoe chain"
+    kind: Literal["shoe-chain"] = "shoe-chain"
+    shoes: int = Field(
+        default=40,
+        ge=12,
+        le=120,
+        description="number of shoes",
+        json_schema_extra={"unit": "shoes"},
+    )
+    thickness: float = quantity("m", 0.002, 0.05, "of a shoe", default=0.008)
+    tension: float = quantity(
+        "N",
+        1.0,
+        1e5,
+        "of both runs together; less than thrice the traction of a 20 kg robot lets shoes jam",
+        default=600.0,
+    )
+
+
+TrackModel = Annotated[
+    SmoothBelt | SprungNoses | DrivenGrousers | ShoeChain, Field(discriminator="kind")
+]
+KINDS: dict[str, type[SmoothBelt | SprungNoses | DrivenGrousers | ShoeChain]] = {
+    "smooth-belt": SmoothBelt,
+    "sprung-noses": SprungNoses,
+    "driven-grousers": DrivenGrousers,
+    "shoe-chain": ShoeChain,
+}

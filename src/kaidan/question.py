@@ -1,0 +1,457 @@
+"""The question: one robot, one terrain, one manner of going, and what the operator accepts.
+
+Every verb takes one, every answer carries the one that it answers. `Question.of` makes it of what
+people write, names, numbers and texts with units; the command line passes its texts on to it.
+"""
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
+
+import numpy as np
+from pydantic import Discriminator, Field, Tag, field_validator
+
+from kaidan.allowance import Allowance
+from kaidan.errors import InputError, shown
+from kaidan.mechanics.measures import kinetic_energy_height
+from kaidan.modes import (
+    CLOSED_FORM,
+    CONTACT,
+    MODELS,
+    PHYSICS,
+    Acceptance,
+    Direction,
+    Facing,
+    Phase,
+)
+from kaidan.robot import Payload, Posture, PostureChange, Robot, Stance
+from kaidan.sheet import Sheet, model_validator, quantity
+from kaidan.spelling import (
+    BEST,
+    JOINT,
+    OVERRIDES,
+    UNCERTAINTIES,
+    Terrain,
+    allowance_of,
+    doubted,
+    doubted_terrain,
+    figures,
+    overridden,
+    payloads_of,
+    postures_of,
+    quantity_of,
+    sheet_of,
+    surface_of,
+    terrain_of,
+    word_of,
+)
+from kaidan.surface import Surface
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import Stairs
+
+if TYPE_CHECKING:
+    from kaidan.outline import Outline
+
+FASTEST = 30.0
+"""Fastest speed of a question [m/s]."""
+ROCKING_SPEED = 0.1
+"""Speed whose energy the robot is taken to have where none is stated [m/s]: the paper's test
+speed, at which the rig rocked visibly with 0.07 mm of energy margin against 0.51 mm of v^2/2g."""
+FACINGS = ("nose-first", "tail-first")
+"""Ends that may lead."""
+LARGEST_YAW = 1.3962634015954636
+"""Largest yaw judged, 80 degrees [rad]: beyond it the robot drives along the steps."""
+
+
+def _kind_of_terrain(given: Any) -> str:
+    if isinstance(given, Profile) or (isinstance(given, Mapping) and "points" in given):
+        return "profile"
+    return "flights" if isinstance(given, list | tuple) else "stairs"
+
+
+def _optional(name: str, given: Any, kind: str) -> float | None:
+    """Number of what people write; None where they wrote nothing."""
+    return None if given is None else quantity_of(name, given, kind)
+
+
+class Question(Sheet):
+    """Can this robot take this terrain, in this manner, with this much risk?"""
+
+    label: ClassVar[str] = "question"
+
+    robot: Robot = Field(description="data sheet of the robot")
+    terrain: Annotated[
+        Annotated[Stairs, Tag("stairs")]
+        | Annotated[tuple[Stairs, ...], Tag("flights")]
+        | Annotated[Profile, Tag("profile")],
+        Discriminator(_kind_of_terrain),
+    ] = Field(description="one flight, several from bottom to top, or a profile of any shape")
+    surface: Surface | None = Field(
+        default=None, description="friction of the tracks; without it no GO can be given"
+    )
+    direction: Direction = Field(default="up", description="which way the robot goes")
+    facing: Facing = Field(default="nose-first", description="which end leads")
+    acceleration: float = quantity(
+        "m/s^2", -9.8, 9.8, "up the stairs, whichever way the robot goes", default=0.0, symbol="a"
+    )
+    speed: float | None = quantity("m/s", 0.0, FASTEST, "speed of the robot", default=None)
+    posture: Posture = Field(
+        default=Posture(), description="angles of the flippers, at the start of a plan"
+    )
+    changes: tuple[PostureChange, ...] = Field(
+        default=(), description="plan: other postures later on, in their order"
+    )
+    best_of: tuple[Literal["flippers", "facing"], ...] = Field(
+        default=(),
+        description="what is to be found: the flippers' plan, the end that leads; stated values "
+        "of these then do not count",
+    )
+    payload: tuple[Payload, ...] = Field(default=(), description="masses fixed to the robot")
+    theta_d: Allowance | None = Field(
+        default=None, description="measured inclination from track deformation; none: the sheet's"
+    )
+    theta_M: Allowance | None = Field(
+        default=None, description="measured loss of margin from grousers; none: the sheet's"
+    )
+    fall_reserve: float | None = quantity(
+        "rad",
+        0.0,
+        0.8,
+        "tilt to the fall that a robot that rocks must keep; none: the sheet's, else 8 degrees",
+        default=None,
+    )
+    yaw: float = quantity(
+        "rad",
+        -LARGEST_YAW,
+        LARGEST_YAW,
+        "heading off the line of steepest ascent, to the left positive",
+        default=0.0,
+    )
+    risk: float = quantity("1", 1e-4, 0.5, "probability of failure that is accepted", default=0.01)
+    accept: Acceptance = Field(default=Acceptance.NO_ROTATION, description="what counts as holding")
+    model: str = Field(default=CONTACT.name, description="which model answers")
+
+    @field_validator("terrain")
+    @classmethod
+    def _one_flight_is_a_flight(cls, terrain: Terrain) -> Terrain:
+        if terrain == ():
+            raise InputError("question: terrain: no flight was given")
+        return terrain[0] if isinstance(terrain, tuple) and len(terrain) == 1 else terrain
+
+    @model_validator(mode="after")
+    def _possible(self) -> Self:
+        if self.model not in MODELS:
+            raise InputError(
+                f"model = {shown(self.model)} is not known; known: {', '.join(MODELS)}"
+            )
+        for each in self.postures.values():  # refuses what the robot cannot have
+            self.robot.stance(each, self.payload)
+        _ = self.profile  # refuses one that falls to a robot that goes up
+        fastest = self.robot.drive.max_speed
+        if self.speed is not None and fastest is not None and self.speed > fastest:
+            raise InputError(
+                f"speed = {self.speed:g} is not within 0 to {fastest:g} m/s, the most "
+                f"{self.robot.name} can do"
+            )
+        self._possible_plan()
+        if self.yaw:
+            if not isinstance(self.terrain, Stairs):
+                raise InputError(
+                    "a profile lies along the heading already: leave the yaw out"
+                    if isinstance(self.terrain, Profile)
+                    else "several flights are driven straight on: leave the yaw out"
+                )
+            if self.robot.track.gauge is None:
+                raise InputError(
+                    f"robot {self.robot.name!r}: track.gauge is not known, and a yaw needs the "
+                    "distance between the middles of the tracks"
+                )
+            if self.model == CLOSED_FORM.name:
+                raise InputError("the closed form knows no yaw; ask the contact model")
+        return self
+
+    def _possible_plan(self) -> None:
+        """Refuse a plan that cannot be carried out."""
+        before = [each.before for each in self.changes]
+        if before not in ([], ["traverse"], ["land"], ["traverse", "land"]):
+            raise InputError(
+                f"changes of posture before {', '.join(before)}: name each phase once, in order"
+            )
+        if (self.changes or self.best_of) and self.model == PHYSICS.name:
+            raise InputError("a trial keeps one posture: state angles, flat or stowed")
+        if self.changes and self.yaw:
+            raise InputError("a plan of postures is driven straight on: leave the yaw out")
+        if self.changes and len(self.profile.nosings) == 0:
+            raise InputError("a plan of postures needs a nosing to change before")
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all fields are equal, whatever has been worked out from them already."""
+        if not isinstance(other, Question):
+            return NotImplemented
+        return all(getattr(self, name) == getattr(other, name) for name in type(self).model_fields)
+
+    __hash__ = Sheet.__hash__
+
+    @classmethod
+    def of(
+        cls,
+        robot: Any,
+        stairs: Any,
+        *,
+        surface: Any = None,
+        friction: Any = None,
+        acceleration: Any = 0.0,
+        speed: Any = None,
+        direction: str | None = None,
+        facing: str | None = None,
+        flippers: Any = "stowed",
+        payload: Any = (),
+        theta_d: Any = None,
+        theta_M: Any = None,
+        fall_reserve: Any = None,
+        yaw: Any = 0.0,
+        risk: Any = 0.01,
+        accept: str = "no-rotation",
+        model: str = "contact",
+        override: Any = (),
+        uncertainty: Any = (),
+    ) -> Self:
+        """Question of what people write.
+
+        Parameters
+        ----------
+        robot : Robot, str or path
+            Robot, its name in the catalogue, or a TOML file.
+        stairs : Stairs, Profile, str, path or a sequence of flights
+            Stairs, their name in the catalogue, or a TOML file; several flights from bottom to
+            top (also as one text, joined by "+"); or a profile of any shape.
+        surface : Surface, str or path, optional
+            Surface under the tracks; without one, and without *friction*, no GO is given.
+        friction : float, (low, high) or str, optional
+            Static friction instead of a surface [1]; a range as a pair or as "0.6..1.0".
+        acceleration : float or str
+            Up the stairs, whichever way the robot goes [m/s^2]; or a text such as "0.3m/s2".
+        speed : float or str, optional
+            [m/s]; or a text such as "0.2m/s".
+        direction : {"up", "down"}, optional
+            Which way the robot goes; the stairs sheet's without one.
+        facing : {"nose-first", "tail-first"}, optional
+            Which end leads; the nose without it, or with "best" flippers whichever is better.
+        flippers : Posture, (Posture, PostureChange, ...) or str
+            "stowed", "flat", or angles: "20deg,-5deg" (front, rear); a plan by phase:
+            "flat/land:-60deg,-20deg"; or "best", which finds one.
+        payload : Payload, str or a sequence of them
+            Masses fixed to the robot; as text "5kg@200mm,300mm".
+        theta_d, theta_M : float, (low, high), str or None
+            Measured allowances of Eq. (24) [rad], or "1deg..2.6deg"; None takes the robot
+            sheet's, else 0 to 2.6 degrees each (theta_M is zero when descending).
+        fall_reserve : float or str, optional
+            Tilt to the fall that a robot that rocks must keep [rad]; or "6deg"; None takes the
+            robot sheet's, else 8 degrees.
+        yaw : float or str
+            Heading off the line of steepest ascent, to the left positive [rad]; or "10deg".
+        risk : float
+            Probability of failure that the operator accepts.
+        accept : {"no-rotation", "arrested"}
+            What counts as holding.
+        model : {"contact", "closed-form", "support-polygon", "physics"}
+            Which model answers.
+        override : mapping or str
+            The user's own figures for the robot: {"com_height": 0.2} or "com_height=200mm".
+        uncertainty : mapping or str
+            Standard uncertainties: {"angle": 0.01} or "angle=0.5deg"; of com_from_front,
+            com_height, flat_length, angle, nosing_spacing, friction; and of each single rise and
+            going: "rise=3mm,going=3mm".
+
+        Returns
+        -------
+        Question
+
+        Raises
+        ------
+        InputError
+            An input without physical meaning; the text names it.
+        """
+        sheet = overridden(sheet_of(robot, Robot), figures(override, OVERRIDES, "override"))
+        doubts = figures(uncertainty, UNCERTAINTIES, "uncertainty")
+        ground = surface_of(surface, friction, doubts)
+        terrain = doubted_terrain(terrain_of(stairs), doubts)
+        if direction is None:
+            direction = terrain.direction if isinstance(terrain, Stairs) else "up"
+        best = isinstance(flippers, str) and flippers.strip() == BEST
+        posture, changes = (Posture(), ()) if best else postures_of(flippers, sheet)
+        free: tuple[str, ...] = ("flippers",) if facing is not None else ("flippers", "facing")
+        return cls(
+            robot=doubted(sheet, doubts, "com_from_front", "com_height", "flat_length"),
+            terrain=terrain,
+            surface=ground,
+            direction=word_of("direction", direction, ("up", "down")),
+            facing=word_of("facing", "nose-first" if facing is None else facing, FACINGS),
+            acceleration=quantity_of("acceleration", acceleration, "acceleration"),
+            speed=_optional("speed", speed, "speed"),
+            posture=posture,
+            changes=changes,
+            best_of=free if best else (),
+            payload=tuple(payloads_of(payload)),
+            theta_d=allowance_of("theta_d", theta_d),
+            theta_M=allowance_of("theta_M", theta_M),
+            fall_reserve=_optional("fall_reserve", fall_reserve, "angle"),
+            yaw=quantity_of("yaw", yaw, "angle"),
+            risk=quantity_of("risk", risk, "number"),
+            accept=Acceptance(word_of("accept", accept, tuple(Acceptance))),
+            model=word_of("model", model, tuple(MODELS)),
+        )
+
+    @classmethod
+    def ask(cls, robot: Any, stairs: Any = None, **manner: Any) -> Self:
+        """Question of what people write, see `of`; or the one given, with what they change of it.
+
+        A change is written as in `of`: `Question.ask(question, friction="0.6..1.0")`.
+        """
+        if not isinstance(robot, cls):
+            return cls.of(robot, stairs, **manner)
+        if stairs is not None:
+            raise InputError("a question has its stairs already; change them with changed()")
+        if not manner:
+            return robot
+        fields = {name: getattr(robot, name) for name in cls.model_fields}
+        sheet, terrain = fields.pop("robot"), fields.pop("terrain")
+        fields["flippers"] = (fields.pop("posture"), *fields.pop("changes"))
+        found = fields.pop("best_of")
+        if manner.get("flippers", BEST if found else "") == BEST:
+            fields["flippers"] = BEST
+            if "facing" in found or "flippers" in manner:
+                fields["facing"] = None
+        if manner.get("friction") is not None:
+            del fields["surface"]
+        return cls.of(sheet, terrain, **fields | manner)
+
+    def changed(self, **changes: Any) -> Self:
+        """Same question with something changed, validated again."""
+        fields = {name: getattr(self, name) for name in type(self).model_fields}
+        return type(self)(**fields | changes)
+
+    @property
+    def postures(self) -> dict[Phase, Posture]:
+        """Posture of each phase."""
+        at, found = self.posture, {}
+        changes = {Phase(each.before): each.posture for each in self.changes}
+        for phase in Phase:
+            at = found[phase] = changes.get(phase, at)
+        return found
+
+    @property
+    def flippers(self) -> str:
+        """Postures as the option is written."""
+        changes = (f"/{each.before}:{each.posture.spelled(self.robot)}" for each in self.changes)
+        return self.posture.spelled(self.robot) + "".join(changes)
+
+    @cached_property
+    def stance(self) -> Stance:
+        """Robot in its posture on the flight, under its payload."""
+        return self.robot.stance(self._on_flight, self.payload)
+
+    @cached_property
+    def outline(self) -> "Outline":
+        """Robot from the side in its posture on the flight, x towards the nose."""
+        from kaidan.outline import Outline
+
+        return Outline.of(self.robot, self._on_flight, self.payload)
+
+    @property
+    def _on_flight(self) -> Posture:
+        if self.best_of:
+            raise InputError(
+                "flippers = best has to be found first; state stowed, flat, angles or a plan"
+            )
+        return self.postures[Phase.TRAVERSE]
+
+    @cached_property
+    def profile(self) -> Profile:
+        """Terrain as a line, from the lower landing to the upper one.
+
+        Of a profile that falls from left to right, for a robot that goes down: seen from the other
+        side.
+        """
+        if isinstance(self.terrain, Profile):
+            return self.terrain.upward(descending=self.direction == "down")
+        flights = [self.terrain] if isinstance(self.terrain, Stairs) else self.terrain
+        return Profile.of_flights(flights)
+
+    @cached_property
+    def flight(self) -> Stairs | None:
+        """Steps of the terrain as one flight, measured where it is no sheet; None: it has none."""
+        if isinstance(self.terrain, Stairs):
+            return self.terrain
+        return self.profile.as_stairs(self.terrain_name)
+
+    @property
+    def terrain_name(self) -> str:
+        """What people call the terrain."""
+        if isinstance(self.terrain, tuple):
+            return f" {JOINT} ".join(flight.name for flight in self.terrain)
+        return self.terrain.name
+
+    @property
+    def allowance_d(self) -> Allowance:
+        """theta_d as stated, else as the robot's sheet has it, else the default range."""
+        return Allowance.of(self.theta_d or self.robot.theta_d, name="theta_d")
+
+    @property
+    def allowance_M(self) -> Allowance:
+        """theta_M likewise; zero when descending without a figure of the question's own."""
+        down = self.direction == "down"
+        stated = self.theta_M or (None if down else self.robot.theta_M)
+        return Allowance.of(stated, name="theta_M", descending=down)
+
+    @property
+    def nose_up(self) -> bool:
+        """Whether the nose points up the stairs."""
+        return (self.direction == "up") == (self.facing == "nose-first")
+
+    @property
+    def friction(self) -> tuple[float, float]:
+        """Static friction of nosings in the worst and in the best case [1]; NaN: not stated."""
+        if self.surface is None:
+            return np.nan, np.nan
+        return self.surface.of_parts()[0], self.surface.of_parts(best=True)[0]
+
+    @property
+    def rolling_resistance(self) -> float:
+        """Coefficient of rolling resistance as the formulas count it: it works against motion."""
+        resistance = self.robot.drive.rolling_resistance
+        return resistance if self.direction == "up" else -resistance
+
+    @property
+    def energy_threshold(self) -> float:
+        """Energy margin below which it may rock: v^2/2g of the stated or the paper's speed [m]."""
+        return float(kinetic_energy_height(v=self.speed or ROCKING_SPEED))
+
+    @property
+    def reserve(self) -> float:
+        """Tilt to the fall that a robot that rocks must keep, as stated or by default [rad]."""
+        return self.robot.kept_reserve if self.fall_reserve is None else self.fall_reserve
+
+    @property
+    def spread(self) -> tuple[float, ...]:
+        """Standard uncertainties of L, C_L, C_N, angle, nosing spacing and friction."""
+        of_robot = self.robot.uncertainty
+        flight = self.flight
+        return (
+            of_robot.flat_length,
+            of_robot.com_from_front,
+            of_robot.com_height,
+            flight.uncertainty.angle if flight else 0.0,
+            flight.uncertainty.nosing_spacing if flight else 0.0,
+            self.surface.friction_uncertainty if self.surface else 0.0,
+        )
+
+    @property
+    def uncertain(self) -> bool:
+        """Whether any input has an uncertainty."""
+        return any(self.spread) or self.steps_uncertain
+
+    @property
+    def steps_uncertain(self) -> bool:
+        """Whether single steps have an uncertainty of their own."""
+        return self.profile.covariance is not None

@@ -1,0 +1,1 @@
+"""Studies of the models themselves: the paper reproduced, physics calibrated, models compared."""

@@ -1,0 +1,1 @@
+"""What is to be climbed: stairs, and profiles of any shape."""

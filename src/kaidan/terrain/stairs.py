@@ -1,0 +1,271 @@
+"""The staircase's data sheet: rises, goings, first and last riser, nosings, landings.
+
+::
+
+                                 ______ upper landing
+                        ______ _|  last_rise
+               going   |
+             |<------>_|  rise
+         ____|       |
+             |_______|   . . .  nosing spacing = hypot(rise, going), nosing to nosing
+    _________| first_rise
+    lower landing
+
+``n`` risers have ``n`` nosings, the last one being the edge of the upper landing, and ``n - 1``
+goings between them.
+"""
+
+import math
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import Field
+
+from kaidan import catalog
+from kaidan.errors import InputError
+from kaidan.sheet import Sheet, model_validator, quantity
+from kaidan.units import value_of
+
+NOSING_RADII = (0.002, 0.025)
+"""Smallest and largest radius of nosings where the sheet states none [m]: sharp steel to worn
+concrete."""
+
+Length = tuple[float, ...]
+
+_RISE = (0.02, 0.6)
+_ODD_RISE = (0.005, 0.6)
+_GOING = (0.02, 2.5)
+_MOST_RISERS = 10_000
+_STEEPEST = 1.5533
+"""Past 89 degrees no goings are left [rad]."""
+
+_Rise = Annotated[float, Field(ge=_ODD_RISE[0], le=_ODD_RISE[1])]
+_Going = Annotated[float, Field(ge=_GOING[0], le=_GOING[1])]
+
+
+class StairsUncertainty(Sheet):
+    """Standard uncertainties (one sigma) of the flight's figures; zero means taken as exact."""
+
+    label: ClassVar[str] = "stairs: uncertainty"
+
+    angle: float = quantity("rad", 0.0, 0.35, "of the angle", default=0.0)
+    nosing_spacing: float = quantity("m", 0.0, 0.2, "of the nosing spacing", default=0.0)
+    rise: float = quantity(
+        "m", 0.0, 0.05, "of each single rise, apart from the others", default=0.0
+    )
+    going: float = quantity(
+        "m", 0.0, 0.05, "of each single going, apart from the others", default=0.0
+    )
+
+
+class Stairs(Sheet):
+    """A straight flight of stairs, uniform (rise, going) or measured (rises, goings)."""
+
+    label: ClassVar[str] = "stairs"
+    requested: ClassVar[frozenset[str]] = frozenset({"rise", "going"})
+
+    name: str = Field(default="stairs", description="short name, used on the command line")
+    title: str = Field(default="", description="full name")
+    rise: float | None = quantity(
+        "m", *_RISE, "vertical distance between adjacent nosings of a uniform flight", default=None
+    )
+    going: float | None = quantity(
+        "m",
+        *_GOING,
+        "horizontal distance between adjacent nosings of a uniform flight",
+        default=None,
+    )
+    steps: int = Field(
+        default=12,
+        ge=2,
+        le=_MOST_RISERS,
+        description="number of risers of a uniform flight",
+        json_schema_extra={"unit": "risers"},
+    )
+    first_rise: float | None = quantity(
+        "m", *_ODD_RISE, "first riser of a uniform flight, where it differs", default=None
+    )
+    last_rise: float | None = quantity(
+        "m", *_ODD_RISE, "last riser of a uniform flight, where it differs", default=None
+    )
+    rises: tuple[_Rise, ...] | None = Field(
+        default=None,
+        min_length=2,
+        max_length=_MOST_RISERS,
+        description="measured risers from bottom to top, instead of rise",
+        json_schema_extra={"unit": "m"},
+    )
+    goings: tuple[_Going, ...] | None = Field(
+        default=None,
+        min_length=1,
+        max_length=_MOST_RISERS,
+        description="measured goings from bottom to top, one fewer than the risers",
+        json_schema_extra={"unit": "m"},
+    )
+    nosing_overhang: float = quantity(
+        "m", 0.0, 0.1, "overhang of the nosing over the tread below", default=0.0
+    )
+    nosing_radius_low: float | None = quantity(
+        "m", 0.0, 0.05, "smallest radius of the nosings; none: 2 mm", default=None
+    )
+    nosing_radius_high: float | None = quantity(
+        "m", 0.0, 0.05, "largest radius of the nosings; none: 25 mm", default=None
+    )
+    open_risers: bool = Field(default=False, description="whether there is no riser board")
+    lower_landing: float = quantity("m", 0.0, 100.0, "length of the lower landing", default=2.0)
+    upper_landing: float = quantity("m", 0.0, 100.0, "length of the upper landing", default=2.0)
+    direction: Literal["up", "down"] = Field(default="up", description="which way the robot goes")
+    uncertainty: StairsUncertainty = Field(
+        default=StairsUncertainty(), description="standard uncertainties"
+    )
+    sources: dict[str, str] = Field(
+        default={}, description="where each figure comes from, with its status letter"
+    )
+    notes: str = Field(default="", description="what the user should know")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _counted(cls, data: Any) -> Any:
+        """A measured flight has as many risers as its list."""
+        rises = data.get("rises") if isinstance(data, Mapping) else None
+        counted = isinstance(rises, list | tuple) and 2 <= len(rises) <= _MOST_RISERS
+        return {"steps": len(rises), **data} if rises is not None and counted else data
+
+    @model_validator(mode="after")
+    def _uniform_or_measured(self) -> Self:
+        uniform = (self.rise, self.going)
+        measured = (self.rises, self.goings)
+        if None in uniform and None in measured:
+            raise self.refuse("give rise and going, or the measured lists rises and goings")
+        if uniform != (None, None) and measured != (None, None):
+            raise self.refuse("give either rise and going or rises and goings, not both")
+        if self.rises is not None and self.goings is not None:
+            if len(self.goings) != len(self.rises) - 1:
+                raise self.refuse(
+                    f"{len(self.rises)} rises need {len(self.rises) - 1} goings, "
+                    f"not {len(self.goings)}"
+                )
+            if self.first_rise is not None or self.last_rise is not None:
+                raise self.refuse("first_rise and last_rise stand in the list rises already")
+            if self.steps != len(self.rises):
+                raise self.refuse(
+                    f"steps = {self.steps} contradicts the {len(self.rises)} rises; leave it out"
+                )
+        low, high = self.nosing_radii
+        if low > high:
+            raise self.refuse(
+                f"nosing_radius_low = {low:g} is more than nosing_radius_high = {high:g}"
+            )
+        if self.nosing_overhang >= min(self.step_goings):
+            raise self.refuse(
+                f"nosing_overhang = {self.nosing_overhang:g} m is not less than the going "
+                f"{min(self.step_goings):g} m"
+            )
+        return self
+
+    @classmethod
+    def named(cls, name: str) -> Self:
+        """Stairs of the catalogue, or of a TOML file.
+
+        Raises
+        ------
+        UnknownNameError, InputError
+            Neither, or a bad file.
+        """
+        return catalog.load("stairs", name, cls.from_text)
+
+    @classmethod
+    def inclined(cls, *, angle: float | str, nosing_spacing: float | str, steps: int = 12) -> Self:
+        """Uniform flight from its angle and its nosing spacing.
+
+        Parameters
+        ----------
+        angle : float or str
+            Of the line of the nosings: a number [rad], or a text such as "35deg".
+        nosing_spacing : float or str
+            From nosing to nosing along it: a number [m], or a text such as "290mm".
+        steps : int
+            Number of risers.
+
+        Returns
+        -------
+        Stairs
+
+        Raises
+        ------
+        InputError
+            An angle not within 0 to 89 degrees, or a rise or going that no stairs have.
+        """
+        angle = value_of(angle, "angle", option="angle")
+        nosing_spacing = value_of(nosing_spacing, "length", option="nosing_spacing")
+        if not 0.0 < angle < _STEEPEST:
+            degrees = math.degrees(angle)
+            raise InputError(f"angle = {angle:g} rad ({degrees:.4g} deg) is not within 0 to 89 deg")
+        name = f"{math.degrees(angle):g} deg at {nosing_spacing * 1e3:g} mm"
+        try:
+            return cls(
+                name=name,
+                rise=nosing_spacing * math.sin(angle),
+                going=nosing_spacing * math.cos(angle),
+                steps=steps,
+            )
+        except InputError as error:
+            raise InputError(f"{name}: {error}") from None
+
+    @property
+    def step_rises(self) -> Length:
+        """All risers from bottom to top [m]."""
+        if self.rises is not None:
+            return self.rises
+        assert self.rise is not None
+        first = self.rise if self.first_rise is None else self.first_rise
+        last = self.rise if self.last_rise is None else self.last_rise
+        return (first, *(self.rise,) * (self.steps - 2), last)
+
+    @property
+    def step_goings(self) -> Length:
+        """All goings from bottom to top [m]."""
+        if self.goings is not None:
+            return self.goings
+        assert self.going is not None
+        return (self.going,) * (self.steps - 1)
+
+    @property
+    def regular_steps(self) -> tuple[tuple[float, float], ...]:
+        """Pairs (rise, going) [m] from nosing to nosing while the robot traverses.
+
+        The first riser belongs to entering and the last one to landing, so neither is among them
+        (but in a measured flight of three risers or fewer the last one is).
+        """
+        if self.rise is not None and self.going is not None:
+            return ((self.rise, self.going),) * max(1, self.steps - 2)
+        pairs = tuple(zip(self.step_rises[1:], self.step_goings, strict=True))
+        return pairs[:-1] if len(pairs) > 2 else pairs
+
+    @property
+    def nosing_radii(self) -> tuple[float, float]:
+        """Smallest and largest radius of the nosings, as stated or by default [m]."""
+        low, high = self.nosing_radius_low, self.nosing_radius_high
+        default_low, default_high = NOSING_RADII
+        return (
+            min(default_low, default_high if high is None else high) if low is None else low,
+            max(default_high, default_low if low is None else low) if high is None else high,
+        )
+
+    @property
+    def angle(self) -> float:
+        """Slope of the line through the nosings of the regular steps [rad]."""
+        return math.atan2(*map(sum, zip(*self.regular_steps, strict=True)))
+
+    @property
+    def nosing_spacing(self) -> float:
+        """Mean distance from nosing to nosing along that line [m]."""
+        return math.hypot(*map(sum, zip(*self.regular_steps, strict=True))) / len(
+            self.regular_steps
+        )
+
+    @property
+    def irregularity(self) -> float:
+        """Largest minus smallest rise or going of the regular steps, the larger of the two [m]."""
+        rises, goings = zip(*self.regular_steps, strict=True)
+        return float(max(max(rises) - min(rises), max(goings) - min(goings)))

@@ -1,0 +1,349 @@
+"""The answer of `kaidan assess` as a page, the verdict first."""
+
+from typing import TYPE_CHECKING
+
+from kaidan.modes import FAILURE_MODES, Verdict
+from kaidan.text import limits, traction
+from kaidan.text.unweighed import rows, thresholds
+
+if TYPE_CHECKING:
+    from kaidan.assessment.answer import Assessment, Change, FindingShown
+    from kaidan.assessment.plan import PlanShown
+    from kaidan.models.closed_form_figures import ClosedFormFigures
+    from kaidan.models.contact_figures import ContactFigures, RotationFigures
+
+
+LINES = 8
+"""Most lines of the answer on one screen."""
+
+
+def text(answer: "Assessment") -> str:
+    """Answer on one screen: the verdict, why, what to do, what decides, what is not known."""
+    lines = [headline(answer), f"  {answer.reason}"]
+    if answer.plan is not None and answer.plan.flippers != "stowed":
+        lines.append(_row("posture", posture(answer.plan)))
+    if answer.centroid is not None:
+        lines.append(_row("weighed", thresholds(answer.centroid)))
+    if answer.what_would_help:
+        first, *others = answer.what_would_help
+        lines.append(_row("do", _change(first, answer)))
+        if others and others[0].verdict == first.verdict and answer.centroid is None:
+            lines.append(_row("or", _change(others[0], answer)))
+    elif answer.limits:
+        lines.append(_row("limit", limits.text(answer.limits)))
+    elif answer.verdict in ("caution", "no-go"):
+        lines.append(_row("help", "none of the changes that were tried"))
+    if answer.verdict != "outside-model":
+        lines.append(_row("margin", f"{_margin(answer)}, on {_stairs(answer)}"))
+    lines.append(_row("friction", _friction(answer)))
+    slip = None if answer.traction is None else traction.slip(answer.traction)
+    if slip is not None:
+        lines.append(_row("grousers", slip))
+    unknown = _unknown(answer)
+    if unknown:
+        lines.append(_row("not known", unknown))
+    return "\n".join(lines[:LINES])
+
+
+def posture(plan: "PlanShown") -> str:
+    """Plan in one line: the posture at the start, and each change."""
+    return "; ".join(
+        step.flippers
+        if step.before_step is None
+        else f"before step {step.before_step} {step.flippers}"
+        for step in plan.steps
+    )
+
+
+def advice(answer: "Assessment") -> str:
+    """What to do first, in one line; empty where nothing helps, or need not."""
+    if not answer.what_would_help:
+        return ""
+    return f"Do: {_change(answer.what_would_help[0], answer)}"
+
+
+def short(answer: "Assessment") -> str:
+    """Answer in one line: the verdict, for whom, its margin and what decides."""
+    margin = "" if answer.margin_deg is None else f"  {answer.margin_deg:+.1f} deg"
+    place = "" if answer.phase is None else f" ({answer.phase}, step {answer.step})"
+    return f"{headline(answer)}{margin}  {answer.governs}{place}"
+
+
+def headline(answer: "Assessment") -> str:
+    """Verdict, and for whom on what."""
+    question = answer.question
+    names = " ".join(f"{question.robot.name} on {question.terrain_name}".split())
+    return (
+        f"{Verdict(answer.verdict).label}  {names}, {question.direction} "
+        f"{question.facing.replace('-', ' ')}"
+    )
+
+
+def _hardest(answer: "Assessment") -> str:
+    """Phase in which most friction is required."""
+    if answer.traction is not None and answer.traction.phase is not None:
+        return f" ({answer.traction.phase}, step {answer.traction.step})"
+    phases = () if answer.contact is None else answer.contact.phases
+    if not phases:
+        return ""
+    hardest = max(
+        phases, key=lambda each: float("inf") if each.required_friction is None
+        else each.required_friction,
+    )  # fmt: skip
+    return f" ({hardest.phase}, step {hardest.required_friction_step})"
+
+
+def _unknown(answer: "Assessment") -> str:
+    """What was assumed because nobody stated it."""
+    names = [name for name, each in answer.allowances.items() if each.source == "default"]
+    if answer.friction is None:
+        names.append("friction")
+    drive = answer.findings.get("drive")
+    if drive is not None and drive.holds is None:
+        names.append("the drive's traction")
+    return f"{', '.join(names)}: measure them" if names else ""
+
+
+def details(answer: "Assessment") -> str:
+    """Answer as a page for people: everything that was found."""
+    question = answer.question
+    lines = [headline(answer), f"  {answer.reason}"]
+    if answer.plan is not None:
+        lines += ["", "  What to do", *(f"    {line}" for line in plan_lines(answer.plan))]
+    if answer.what_would_help:
+        lines += ["", "  What would help"]
+        lines += [f"    {_change(change, answer)}" for change in answer.what_would_help]
+    lines += [
+        "",
+        _row("stairs", _stairs(answer)),
+        _row("robot", _robot(answer)),
+        _row("margin", _margin(answer)),
+    ]
+    if answer.margin_interval_deg is not None:
+        low, high = answer.margin_interval_deg
+        lines.append(
+            _row(
+                "uncertain",
+                f"95 % of margins within {low:+.1f} to {high:+.1f} deg; fails with probability "
+                f"{answer.failure_probability:.3f} (accepted: {question.risk:g})",
+            )
+        )
+    lines.append(_row("allowances", _allowances(answer)))
+    lines.append(_row("friction", _friction(answer)))
+    slip = None if answer.traction is None else traction.slip(answer.traction)
+    if slip is not None:
+        lines.append(_row("grousers", slip))
+    for key, one in answer.findings.items():
+        if one.unit != "" or one.holds is False:
+            lines.append(_row(key, _finding(one)))
+    if answer.contact is not None:
+        lines += _contact(answer.contact)
+    if answer.closed_form is not None:
+        lines += _closed_form(answer.closed_form)
+    if answer.support_polygon is not None and answer.support_polygon.yaw_limit_deg is not None:
+        limit = answer.support_polygon.yaw_limit_deg
+        lines.append(_row("yaw", f"tips on the flight from {limit:.1f} deg off straight on"))
+    if answer.physics is not None:
+        for trial in answer.physics.trials:
+            outcome = trial.outcome.replace("_", " ")
+            lines.append(_row("trial", f"friction {trial.friction:.2f}: {outcome}"))
+    if answer.centroid is not None:
+        lines += [_row("centroid", each) for each in rows(answer.centroid)]
+    if answer.limits:
+        lines.append(_row("limit", limits.text(answer.limits)))
+    if answer.notes:
+        lines += ["", "  Notes", *(f"    {note}" for note in answer.notes)]
+    return "\n".join(lines)
+
+
+def plan_lines(plan: "PlanShown") -> "list[str]":
+    """Plan as a list of what to do."""
+    lines = [f"Go {plan.facing.replace('-', ' ')}, flippers {plan.steps[0].flippers}"]
+    for step in plan.steps[1:]:
+        line = f"Stop with the centroid before step {step.before_step}: flippers {step.flippers}"
+        if step.turn_deg is not None:
+            time = "time not known" if step.time_s is None else f"{step.time_s:.1f} s"
+            torque = "" if step.torque_Nm is None else f", {step.torque_Nm:.0f} N m"
+            line += f" ({step.turn_deg:.0f} deg, {time}{torque})"
+        lines.append(line)
+    if plan.holds_within_deg:
+        lines.append(f"The verdict holds within {plan.holds_within_deg:.0f} deg of these angles")
+    return lines
+
+
+def _row(name: str, value: str) -> str:
+    return f"  {name:<16}{value}"
+
+
+def _change(change: "Change", answer: "Assessment") -> str:
+    margin = "" if change.margin_deg is None else f" ({change.margin_deg:+.1f} deg)"
+    still = "still " if change.verdict == answer.verdict else ""
+    return f"{change.change}: {still}{Verdict(change.verdict).label}{margin}"
+
+
+def _stairs(answer: "Assessment") -> str:
+    if answer.angle_deg is None or answer.nosing_spacing_m is None:
+        return "no flight of steps"
+    return (
+        f"{answer.angle_deg:.1f} deg, {1e3 * answer.nosing_spacing_m:.0f} mm from nosing to nosing"
+    )
+
+
+def _robot(answer: "Assessment") -> str:
+    mass = "mass not known" if answer.mass_kg is None else f"{answer.mass_kg:g} kg"
+    return (
+        f"L {1e3 * answer.flat_length_m:.0f} mm, C_L {1e3 * answer.com_from_front_m:.0f} mm, "
+        f"C_N {1e3 * answer.com_height_m:.0f} mm, {mass}"
+    )
+
+
+def _margin(answer: "Assessment") -> str:
+    if answer.margin_deg is None:
+        return "not known"
+    best = answer.margin_best_deg
+    worst = f"{answer.margin_deg:+.1f} deg{_against(answer, answer.margin_deg)}"
+    if best is None or abs(best - answer.margin_deg) < 0.05:
+        return worst
+    return f"{worst} in the worst case, {best:+.1f} deg in the best"
+
+
+def _against(answer: "Assessment", margin: float) -> str:
+    """Failure mode whose margin of slope it is, in brackets; several are uncertain together."""
+    each = {
+        key: abs(one.margin - margin)
+        for key, one in answer.findings.items()
+        if one.margin is not None and FAILURE_MODES[key].unit == "rad"
+    }
+    return f" ({min(each, key=lambda key: each[key])})" if each else ""
+
+
+def _allowances(answer: "Assessment") -> str:
+    return ", ".join(
+        f"{name} {each.low_deg:.1f} to {each.high_deg:.1f} deg ({each.source})"
+        if each.low_deg != each.high_deg
+        else f"{name} {each.high_deg:.1f} deg ({each.source})"
+        for name, each in answer.allowances.items()
+    )
+
+
+def _friction(answer: "Assessment") -> str:
+    needed = answer.required_friction
+    required = "not known" if needed is None else f"{needed:.2f} required"
+    if answer.traction is not None and needed is not None:
+        required = traction.required(answer.traction, required)
+    required += "" if needed is None else _hardest(answer)
+    if answer.friction is None:
+        return f"{required}, none stated"
+    low, high = answer.friction
+    surface = answer.question.surface
+    name = "" if surface is None or surface.name.startswith("friction ") else f" ({surface.name})"
+    stated = f"{low:.2f}" if low == high else f"{low:.2f} to {high:.2f}"
+    return f"{required}, {stated} stated{name}"
+
+
+def _finding(one: "FindingShown") -> str:
+    if one.holds is None:
+        return f"not known ({one.label})"
+    place = "" if one.phase is None else f", {one.phase}"
+    place += "" if one.step is None else f" step {one.step}"
+    if one.margin is None:
+        return f"{'holds' if one.holds else 'fails'} ({one.label}{place})"
+    digits = 1 if one.unit in ("deg", "m/s") else 2
+    value = f"{one.margin:+.{digits}f} {one.unit}"
+    if one.margin_best is not None and abs(one.margin_best - one.margin) > 0.5 * 10**-digits:
+        value += f", at best {one.margin_best:+.{digits}f}"
+    chance = "" if one.probability is None else f", fails with probability {one.probability:.3f}"
+    return f"{value} ({one.label}{place}{chance})"
+
+
+def _contact(figures: "ContactFigures") -> list[str]:
+    grades = figures.grades
+    one = {None: "says nothing", True: "yes", False: "no"}[grades.no_rotation]
+    arrested, momentum = (
+        "yes" if each else "no" for each in (grades.arrested, grades.arrested_with_momentum)
+    )
+    lines = [
+        _row(
+            "grades",
+            f"no rotation: {one}; arrested: {arrested}; arrested with momentum: {momentum}",
+        )
+    ]
+    for each in figures.phases:
+        friction = (
+            "no friction is enough"
+            if each.required_friction is None
+            else f"friction {each.required_friction:.2f}"
+        )
+        energy = (
+            ""
+            if each.energy_margin_mm is None
+            else f", energy margin {each.energy_margin_mm:.1f} mm (step {each.energy_margin_step})"
+        )
+        lines.append(_row(each.phase, f"{friction} (step {each.required_friction_step}){energy}"))
+    for name, obliged in (("rotates", False), ("drops", True)):
+        some = [
+            each
+            for each in figures.rotations
+            if each.arrested and each.obliged is obliged and abs(each.angle_deg) >= 0.05
+        ]
+        if some:
+            lines.append(_row(name, _rotations(some)))
+    falls = [each for each in figures.rotations if not each.arrested]
+    lines += [_row("falls", f"over ({each.phase}, step {each.step})") for each in falls]
+    return lines
+
+
+def _rotations(some: "list[RotationFigures]") -> str:
+    """The largest of some rotations, where it begins and how it ends."""
+    largest = max(some, key=lambda each: abs(each.angle_deg))
+    often = "" if len(some) == 1 else f"{len(some)} times, at most "
+    return (
+        f"{often}by {abs(largest.angle_deg):.1f} deg ({largest.phase}, step {largest.step}), the "
+        f"centroid drops {largest.drop_mm:.0f} mm, the end hits at "
+        f"{largest.impact_speed or 0.0:.1f} m/s"
+    )
+
+
+def _closed_form(figures: "ClosedFormFigures") -> list[str]:
+    lines = [
+        _row(
+            "limit",
+            f"tips beyond {figures.margin_angle_deg:.1f} deg"
+            + (
+                ""
+                if figures.lower_angle_deg is None
+                else f", nose drops below {figures.lower_angle_deg:.1f} deg"
+            ),
+        )
+    ]
+    if figures.a_min_safe is not None and figures.a_max_safe is not None:
+        lines.append(
+            _row(
+                "acceleration",
+                f"safe from {figures.a_min_safe:+.2f} to {figures.a_max_safe:+.2f} m/s2 up the "
+                f"stairs, area {figures.area}",
+            )
+        )
+    else:
+        lines.append(_row("acceleration", f"none is safe throughout, area {figures.area}"))
+    limits = [
+        f"{name} {value:.2f} m/s2"
+        for name, value in (
+            ("max. start acceleration", figures.max_start),
+            ("max. braking", figures.max_braking),
+        )
+        if value is not None
+    ]
+    if limits:
+        lines.append(_row("", "; ".join(limits)))
+    if figures.margin_centroid_mm is not None:
+        lines.append(_row("centroid", f"{figures.margin_centroid_mm:+.0f} mm along the track"))
+    if figures.contacts:
+        shares = " / ".join(f"{100 * each.load_share:.0f} %" for each in figures.contacts)
+        lines.append(
+            _row("load", f"{shares} on the nosings, highest to lowest, as the lowest one leaves")
+        )
+    if figures.traction_N is not None:
+        power = "" if figures.power_W is None else f", {figures.power_W:.0f} W"
+        lines.append(_row("traction", f"{figures.traction_N:.0f} N{power}"))
+    return lines

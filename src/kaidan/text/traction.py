@@ -1,0 +1,69 @@
+"""Friction and grousers in words."""
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from kaidan.models.traction_figures import TractionFigures
+    from kaidan.question import Question
+
+
+def usual() -> str:
+    """Grousers that an answer compares with."""
+    return "grousers of 10 mm every 40 mm"
+
+
+def required(found: "TractionFigures", smooth: str) -> str:
+    """Friction that is required, of smooth belts as said, and what grousers make of it."""
+    if found.belt == "grousers" and found.required_friction is not None:
+        without = found.smooth_required_friction
+        if without is not None and without - found.required_friction < 0.005:
+            return f"{smooth}, with its grousers or without"
+        alone = "no friction is enough" if without is None else f"{without:.2f}"
+        return f"{smooth} with its grousers, {alone} without"
+    if found.usual_required_friction is not None:
+        return f"{smooth} ({found.usual_required_friction:.2f} with {usual()})"
+    return smooth
+
+
+def slip(found: "TractionFigures") -> str | None:
+    """How far it may slip back before grousers hold it; None: it does not rely on them."""
+    if found.slip_mm is None:
+        return None
+    return f"holds on its grousers, may slip back up to {found.slip_mm:.0f} mm"
+
+
+def notes(question: "Question", found: "TractionFigures") -> tuple[str, ...]:
+    """What the reader must know of friction and grousers."""
+    each = []
+    track = question.robot.track
+    slips = slip(found)
+    if slips is not None:
+        each.append(
+            f"Where friction alone does not hold it, it {slips}: a tip stands on the tread behind "
+            "a nosing. Left and right may hold one after the other, and the robot yaw meanwhile."
+        )
+    if track.has_grousers:
+        unknown = [
+            name
+            for name, value in (
+                ("height", track.grouser_height),
+                ("spacing", track.grouser_spacing),
+                ("tip width", track.grouser_tip_width),
+                ("strength", track.grouser_strength),
+            )
+            if value is None
+        ]
+        if unknown:
+            each.append(
+                f"Of the grousers {', '.join(unknown)} are not stated: ranges are assumed"
+                + (", and the strength is not judged." if "strength" in unknown else ".")
+            )
+        if found.strength_margin_N is not None and found.strength_margin_N <= 0:
+            each.append(
+                "A grouser does not bear half of the tractive force: friction alone counts."
+            )
+        if question.yaw:
+            each.append("At a yaw grousers do not count: friction alone is judged.")
+    elif track.belt is None:
+        each.append("The sheet does not say whether the belts have grousers: smooth is assumed.")
+    return tuple(each)

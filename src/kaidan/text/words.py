@@ -1,0 +1,29 @@
+"""Words that several texts share."""
+
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from kaidan.question import Question
+
+
+class _Goes(Protocol):
+    @property
+    def direction(self) -> str: ...
+    @property
+    def facing(self) -> str: ...
+
+
+def subject(question: "Question") -> str:
+    """Robot, terrain and heading of a question: "kenaf on ibc, up nose first"."""
+    names = " ".join(f"{question.robot.name} on {question.terrain_name}".split())
+    return f"{names}, {heading(question)}"
+
+
+def heading(answer: _Goes) -> str:
+    """How the robot goes: "up nose first"."""
+    return heading_of(answer.direction, answer.facing)
+
+
+def heading_of(direction: str, facing: str) -> str:
+    """The same of a direction and a facing."""
+    return f"{direction} {facing.replace('-', ' ')}"

@@ -1,0 +1,440 @@
+"""A robot's traverse of any profile, up or down: entering, traversing, landing.
+
+The quasi-static contact model (`kaidan.contact`) in the words of robots and stairs. The kernel
+drives towards +x; going down, the profile is reflected so that the path still leads there.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan import contact
+from kaidan.errors import InputError
+from kaidan.mechanics.rearing import rear_length_margin
+from kaidan.outline import Outline
+from kaidan.terrain.profile import Profile
+from kaidan.traversal.events import TraverseEvent as TraverseEvent
+from kaidan.traversal.events import traverse_events
+from kaidan.traversal.extremes import PhaseExtremes as PhaseExtremes
+from kaidan.traversal.extremes import phase_extremes, rises_about_stays
+from kaidan.traversal.grip import Grip
+from kaidan.traversal.nosing_events import nosing_events
+from kaidan.traversal.phases import Phase as Phase
+from kaidan.traversal.phases import phases_of, step_at, uneven_span
+from kaidan.traversal.rotations import Chain as Chain
+from kaidan.traversal.rotations import Rotation as Rotation
+from kaidan.traversal.rotations import chains_of, rotations_of, together
+from kaidan.traversal.samples import trailing_end_leaves
+from kaidan.traversal.static_criterion import Criterion, Tread, static_criterion
+from kaidan.traversal.tilting import Fall as Fall
+from kaidan.traversal.tilting import largest_survived
+
+LONG = 60.0
+"""Time beyond which the plain kernel is not waited for [s]."""
+LONGEST = 400_000
+"""Points and poses above which a traverse is refused: half a minute compiled."""
+_ALIKE = 1e-6
+"""Tilt that is rounding [rad]."""
+_CLEARANCE = 0.05
+_IN_LINE = 1e-6
+"""Height up to which a disc counts as in line with the flat [m]."""
+
+
+class FirstRock(NamedTuple):
+    """Where the least tilt of gravity makes the robot rotate by more than rocking."""
+
+    margin: float
+    """That tilt [rad]; negative: it rotates without any."""
+    phase: Phase
+    step: int
+    """Nosing at which, counted from the bottom."""
+
+
+@dataclass(frozen=True)
+class Traverse:
+    """What the contact model says of one passage; see `traverse`."""
+
+    status: contact.Status
+    descending: bool
+    profile: Profile
+    """As driven: reflected when descending."""
+    outline: Outline
+    """As driven: x towards the leading end."""
+    acceleration: float
+    """Along the path [m/s^2]."""
+    path: contact.Path
+    """Poses, events and rotations as numbers."""
+    tread: Tread
+    """Underside on the flight."""
+    criterion: Criterion
+    """The paper's criterion of no rotation (grade one), on nosings as they are; it judges where
+    `whole`."""
+    whole: bool
+    """Whether one flat carries all along on the flight, so that the criterion judges there; else
+    every pose is judged."""
+    phase_of_pose: NDArray[np.str_]
+    """Phase of each pose of the path."""
+    phases: tuple[PhaseExtremes, ...]
+    start: contact.Placement | None
+    """Where a part of the traverse begins; None: before the flight."""
+    until: float | None
+    """Where the centroid ends [m]; None: beyond the flight."""
+
+    @cached_property
+    def events(self) -> tuple[TraverseEvent, ...]:
+        """Events of the path, and nosings that the flat reaches and leaves in between."""
+        records = self.path.events.merged(nosing_events(self.path))
+        return traverse_events(
+            self.path, records, self.profile, self.phase_of_pose, self.descending
+        )
+
+    @cached_property
+    def rotations(self) -> tuple[Rotation, ...]:
+        """Rotations in their order, of every phase."""
+        return rotations_of(
+            self.path,
+            self.profile,
+            self.phase_of_pose,
+            self.descending,
+            self.outline.stance.flat_length,
+            self.acceleration,
+        )
+
+    @cached_property
+    def chains(self) -> tuple[Chain, ...]:
+        """Rotations that follow one another at once, as a whole."""
+        return chains_of(
+            self.rotations, together(self.path.rotations, self.outline.stance.flat_length)
+        )
+
+    @cached_property
+    def grip(self) -> Grip:
+        """What friction and grousers make of its contacts."""
+        return Grip(self.path, descending=self.descending, acceleration=self.acceleration)
+
+    @cached_property
+    def comes_off(self) -> NDArray[np.bool_]:
+        """Poses at which the trailing end leaves the last edges as the robot lands.
+
+        Without the friction that they require it slides down, the way it is going.
+        """
+        landing = self.phase_of_pose == Phase.LAND.value
+        return np.asarray(trailing_end_leaves(self.path) & landing)
+
+    @cached_property
+    def falls_downhill(self) -> Fall:
+        """Tilt of gravity to the fall over the downhill end."""
+        return self._fall(downhill=True)
+
+    @cached_property
+    def falls_uphill(self) -> Fall:
+        """Tilt of gravity to the fall over the uphill end."""
+        return self._fall(downhill=False)
+
+    def _fall(self, *, downhill: bool) -> Fall:
+        back = 1.0 if downhill is not self.descending else -1.0
+        fallen = self.path
+
+        def survives(tilt: float) -> bool:
+            nonlocal fallen
+            path = self.path if tilt == 0.0 else _drive(
+                self.profile, self.outline, self.start, self.until,
+                acceleration=self.acceleration, tilt=back * tilt, with_margins=False,
+            )  # fmt: skip
+            if path.status is not contact.Status.OK and self.arrived:
+                fallen = path
+            return path.status is contact.Status.OK
+
+        tilt = largest_survived(survives)
+        if len(fallen.poses) == 0:
+            return Fall(tilt, Phase.ENTER, 0)
+        phase = phases_of(fallen, self.profile, self.descending, self.outline.stance.flat_length)
+        front = float(fallen.poses.front_point[-1, 0])
+        return Fall(tilt, Phase(str(phase[-1])), step_at(self.profile, front, self.descending))
+
+    @property
+    def end(self) -> tuple[Phase, int]:
+        """Phase and step at which the traverse ends."""
+        front = float(self.path.poses.front_point[-1, 0])
+        step = step_at(self.profile, front, self.descending)
+        return Phase(str(self.phase_of_pose[-1])), step
+
+    @property
+    def holds(self) -> bool | None:
+        """Grade one: nothing rotates on the flight by more than rocking; None: it has no flight."""
+        if self.whole:
+            return self.criterion.holds
+        ways = [self.first_rock(downhill=side, phases=self._on_flight) for side in (True, False)]
+        known = [one.margin > 0 for one in ways if one is not None]
+        return all(known) if known else None
+
+    @property
+    def _on_flight(self) -> tuple[PhaseExtremes, ...]:
+        return tuple(each for each in self.phases if each.phase is Phase.TRAVERSE)
+
+    @property
+    def rear_length(self) -> tuple[float, float] | None:
+        """Margin against being driven upright on its tail, and the riser of which it is least [m].
+
+        None going down or without risers.
+        """
+        nosings = self.profile.nosings
+        if self.descending or len(nosings) == 0:
+            return None
+        rises = np.diff(nosings[:, 1], prepend=self.profile.points[0, 1])
+        each = rear_length_margin(
+            b=self.tread.L - self.tread.C_L,
+            h=rises,
+            R=self.tread.R_downhill,
+            C_N=self.tread.C_N,
+        )
+        worst = int(np.argmin(each))
+        return float(each[worst]), float(rises[worst])
+
+    @property
+    def arrived(self) -> bool:
+        """Grade two: the whole robot stands on the other landing."""
+        return self.status is contact.Status.OK
+
+    @property
+    def arrested_with_momentum(self) -> bool:
+        """Grade three: no rotation topples with the momentum gained."""
+        return self.path.arrives_with_momentum
+
+    @property
+    def downhill_margin(self) -> float:
+        """Margin of slope against turning about the lowest contact that stays [rad]; NaN: none."""
+        return self._rock_margin(downhill=True)
+
+    @property
+    def uphill_margin(self) -> float:
+        """Margin of slope against turning about the highest contact that stays [rad]; NaN: none."""
+        return self._rock_margin(downhill=False)
+
+    def _rock_margin(self, *, downhill: bool) -> float:
+        found = self.first_rock(downhill=downhill)
+        return math.nan if found is None else found.margin
+
+    @property
+    def part(self) -> tuple[float, float]:
+        """Part of the flight that it is over, by the place of the centroid, uphill positive [m]."""
+        first = -math.inf if self.start is None else self.start.x
+        last = math.inf if self.until is None else self.until
+        return (-last, -first) if self._falls else (first, last)
+
+    @property
+    def _falls(self) -> bool:
+        nosings = self.profile.nosings
+        return len(nosings) > 0 and bool(nosings[-1, 1] < nosings[0, 1])
+
+    def first_rock(
+        self, *, downhill: bool, phases: tuple[PhaseExtremes, ...] | None = None
+    ) -> FirstRock | None:
+        """Least tilt of gravity at which it rotates towards one end, of all or of some phases.
+
+        On the flight the criterion on nosings judges a flat that carries all along, else the poses
+        do, as they do entering and landing. None: nothing was looked at.
+        """
+        each = []
+        of = self.phases if phases is None else phases
+        worst = self.criterion.smallest(downhill=downhill)
+        counts = phases is None or any(one.phase is Phase.TRAVERSE for one in of)
+        if self.whole and counts and worst is not None:
+            each.append(FirstRock(worst.margin, Phase.TRAVERSE, worst.nosing + 1))
+        for one in of:
+            if one.phase is Phase.TRAVERSE and self.whole:
+                continue
+            found = one.tilt_downhill if downhill else one.tilt_uphill
+            if math.isfinite(found[0]):
+                each.append(FirstRock(found[0], one.phase, found[1]))
+        if each and downhill and not self.whole and self.arrived and len(self.profile.nosings) > 1:
+            # poses of the level traverse may be too kind: it rocks no later than it falls
+            fall = self.falls_downhill
+            each.append(FirstRock(fall.tilt, fall.phase, fall.step))
+        least = min((one.margin for one in each), default=math.inf)
+        # of those that are alike the first: a pose between two phases is of both
+        return next((one for one in each if one.margin < least + _ALIKE), None)
+
+    @property
+    def centroid_margin(self) -> float:
+        """How far the centroid may move along the flat before it turns [m]; NaN: no criterion."""
+        if not self.whole:
+            return math.nan
+        return min((each.centroid for each in self.criterion.losses), default=math.nan)
+
+
+def traverse(
+    profile: Profile,
+    outline: Outline,
+    *,
+    descending: bool = False,
+    facing: Literal["nose-first", "tail-first"] = "nose-first",
+    acceleration: float = 0.0,
+    with_margins: bool = True,
+    with_energy: bool = False,
+    step: float = contact.STEP,
+    start: contact.Placement | None = None,
+    until: float | None = None,
+) -> Traverse:
+    """Drive a robot from landing to landing, or over a part of it.
+
+    Parameters
+    ----------
+    profile : Profile
+        Terrain from the lower to the upper landing. The landings are taken as long enough.
+    outline : Outline
+        Robot, x towards its nose.
+    descending : bool
+        From the upper landing to the lower one.
+    facing : {"nose-first", "tail-first"}
+        Which end leads.
+    acceleration : float
+        Acceleration UP the stairs [m/s^2].
+    with_margins : bool
+        Work out forces and margins at every pose.
+    with_energy : bool
+        The energy margin along the flow too at every pose, not only the least of each phase.
+    step : float
+        Arclength between poses [m]; events are located whatever it is.
+    start : contact.Placement, optional
+        Where it begins: a pose from which the robot settles, in the terrain as driven (reflected
+        when descending), the leading end up; before the flight without one.
+    until : float, optional
+        Where the centroid ends, likewise [m]; beyond the flight without one.
+
+    Returns
+    -------
+    Traverse
+        A robot that falls is an answer, not an error.
+
+    Raises
+    ------
+    InputError
+        A profile too long for the kernel at hand.
+    """
+    driven = profile.reflected() if descending else profile
+    body = outline if facing == "nose-first" else outline.turned_round()
+    along = -acceleration if descending else acceleration
+    tread, criterion = criterion_of(driven, body, along)
+    whole = criterion.holds is not None and tread.whole and not body.stance.tips_below
+    x_start, x_end = _span(driven, body, start, until)
+    if start is not None or until is not None:
+        falls = len(driven.nosings) > 0 and driven.nosings[-1, 1] < driven.nosings[0, 1]
+        criterion = criterion.within(*((-x_end, -x_start) if falls else (x_start, x_end)))
+    work = contact.plain_seconds(driven.points, body.parts, x_start, x_end, step)
+    _refuse_too_long(driven, x_end - x_start, step, work)
+    with contact.expected_work(work):
+        path = _drive(
+            driven, body, start, until,
+            acceleration=along, step=step, with_margins=with_margins,
+            with_energy=with_energy,
+        )  # fmt: skip
+        room = body.stance.flat_length
+        phase = phases_of(path, driven, descending, room)
+        phases: tuple[PhaseExtremes, ...] = ()
+        if path.margins is not None:
+            rises = rises_about_stays(criterion) if whole else ()
+            phases = phase_extremes(path, driven, phase, descending, along, rises, room, whole)
+    return Traverse(
+        status=path.status,
+        descending=descending,
+        profile=driven,
+        outline=body,
+        acceleration=along,
+        path=path,
+        tread=tread,
+        criterion=criterion,
+        whole=whole,
+        phase_of_pose=phase,
+        phases=phases,
+        start=start,
+        until=until,
+    )
+
+
+def _span(
+    driven: Profile, body: Outline, start: contact.Placement | None, until: float | None
+) -> tuple[float, float]:
+    """Where the centroid starts and ends [m]."""
+    first, last = uneven_span(driven)
+    return (
+        first - body.reach[1] - _CLEARANCE if start is None else start.x,
+        last + body.trail + _CLEARANCE if until is None else until,
+    )
+
+
+def _drive(
+    driven: Profile,
+    body: Outline,
+    start: contact.Placement | None,
+    until: float | None,
+    **manner: Any,
+) -> contact.Path:
+    """Path over a profile whose landings are as long as it takes, or over a part of it."""
+    clear = sum(body.reach) + 1.0
+    ends = driven.points[[0, -1]] + np.array([[-clear, 0.0], [clear, 0.0]])
+    ground = np.vstack([ends[0], driven.points, ends[1]])
+    return contact.traverse(
+        ground,
+        body.parts,
+        *_span(driven, body, start, until),
+        kinds=body.kinds,
+        inclination=0.0 if start is None else start.inclination,
+        gyration=body.gyration,
+        **manner,
+    )
+
+
+def criterion_of(driven: Profile, body: Outline, along: float) -> tuple[Tread, Criterion]:
+    """Underside on the flight and what the criterion says, uphill being where nosings rise.
+
+    Parameters
+    ----------
+    driven : Profile
+        Terrain as driven, towards +x.
+    body : Outline
+        Robot, x towards the end that leads.
+    along : float
+        Acceleration along the path [m/s^2].
+    """
+    tread, nosings = tread_of(body), driven.nosings
+    if len(nosings) and nosings[-1, 1] < nosings[0, 1]:
+        tread, nosings, along = tread.mirrored(), driven.reflected().nosings, -along
+    return tread, static_criterion(nosings, tread, acceleration=along)
+
+
+def tread_of(body: Outline) -> Tread:
+    """Underside of a robot on a flight that rises towards +x."""
+    stance, bottom = body.stance, -body.stance.com_height
+    ends = np.vstack([body.parts[:, :3], body.parts[:, 3:]])
+    level = np.abs(body.parts[:, [1, 4]] - body.parts[:, [2, 5]] - bottom) < _IN_LINE
+    on = ends[np.concatenate(level.T)]
+    last, first = on[np.argmin(on[:, 0])], on[np.argmax(on[:, 0])]
+    return Tread(
+        L=stance.flat_length,
+        C_L=float(first[0]),
+        C_N=stance.com_height,
+        R=float(first[2]),
+        R_downhill=float(last[2]),
+        gyration=body.gyration,
+        whole=int(np.sum(level[:, 0] & level[:, 1] & (body.kinds == contact.TRACK))) == 1,
+    )
+
+
+def _refuse_too_long(profile: Profile, way: float, step: float, work: float) -> None:
+    """Refuse a profile that the kernel in use cannot be waited for."""
+    points, span = len(profile.points), float(np.ptp(profile.points[:, 0]))
+    if points + (way + float(np.abs(np.diff(profile.points[:, 1])).sum())) / step > LONGEST:
+        raise InputError(
+            f"profile: {points} points over {span:.0f} m are more than one traverse takes: "
+            "cut or thin it (in millimetres?)"
+        )
+    if work > LONG and contact.kernel_in_use(work) == "plain":
+        raise InputError(
+            f"profile: {points} points over {span:.0f} m are too many without the compiled "
+            "kernel: pip install 'kaidan[fast]', or cut or thin the profile"
+        )

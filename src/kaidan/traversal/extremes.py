@@ -1,0 +1,274 @@
+"""Extreme figures of each phase of a traverse."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan import contact
+from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.terrain.profile import Profile
+from kaidan.traversal.phases import Phase, over_the_top, step_at
+from kaidan.traversal.rotations import together
+from kaidan.traversal.samples import corners, samples_of
+from kaidan.traversal.static_criterion import Criterion
+from kaidan.traversal.tilting import first_rock
+
+_AT_ONCE = 8
+_TIE = 1e-9
+
+
+@dataclass(frozen=True, kw_only=True)
+class PhaseExtremes:
+    """Extreme figures of a phase; None where it has no pose."""
+
+    phase: Phase
+    required_friction: float
+    """Largest required friction of any pose [1], but of those that `slides_below` tells of."""
+    required_friction_step: int
+    slides_below: float | None
+    """Friction below which the trailing end slides down as it leaves the last edges and the
+    robot lands, going down [1]: it goes where it is going, by a riser at most. None: it leaves
+    none."""
+    energy_margin: float
+    """Smallest rise of the centroid that a fall towards the downhill end needs [m]; traversing,
+    that any rotation needs about the contact that stays, as in the paper, whatever arrests it."""
+    energy_margin_step: int
+    uphill_energy_margin: float
+    """The same towards the uphill end [m], as long as the next nosing uphill is still to come:
+    over the last one the robot has to drop onto the landing."""
+    uphill_energy_margin_step: int
+    static_margin: float
+    """Smallest static stability margin towards the downhill end [m]."""
+    traction_over_weight: float
+    """Largest tractive force over weight [1]."""
+    largest_rotation: float
+    """Largest angle of rotations that follow one another at once and are arrested [rad]."""
+    tilt_downhill: tuple[float, int]
+    """Tilt of gravity at which it rotates towards the downhill end by more than rocking [rad], and
+    the step; infinite where the terrain obliges to rotate so, over the edge of the landing above,
+    and traversing where the criterion on nosings judges."""
+    tilt_uphill: tuple[float, int]
+    """The same towards the uphill end, traversing, as long as the next nosing is to come."""
+    belly_touches: bool
+    """Whether the belly carries the robot somewhere (high-centring)."""
+
+
+class Rise(NamedTuple):
+    """Rise to stand over the contact that stays, as a nosing is lost or met."""
+
+    downhill: bool
+    """Whether it falls towards the downhill end."""
+    rise: float
+    """Of the centroid, less what rocking frees [m]."""
+    step: int
+    """Nosing at which, counted from the bottom."""
+    phase: Phase
+    """TRAVERSE, or LAND where the uphill end is over the landing already."""
+
+
+def phase_extremes(
+    path: contact.Path,
+    profile: Profile,
+    phase: NDArray[np.str_],
+    descending: bool,
+    acceleration: float,
+    rises: tuple[Rise, ...],
+    room: float,
+    whole: bool,
+) -> tuple[PhaseExtremes, ...]:
+    """Extreme figures of each phase that the traverse has, in their order."""
+    rotated = _chain_angles(path, room)
+    samples = samples_of(path, phase, acceleration, whole=whole)
+    seen = samples.path
+    assert seen.margins is not None
+    places = seen.poses.front_point[:, 0]
+    top = over_the_top(seen, profile, descending, room)
+    closed, comes_back = _closed(path, phase), _comes_back(path)
+    extremes = []
+    for name in Phase:
+        rows = np.flatnonzero(closed[name][samples.row] & samples.lasts)
+        if len(rows) == 0:
+            continue
+        of = seen.margins[rows]
+        downhill, side = (of.front, -1.0) if descending else (of.back, 1.0)
+        of_rises = [each for each in rises if each.phase is name]
+        posed = np.ones(len(rows), dtype=np.bool_)
+        if of_rises:  # where nosings carry, the criterion's contacts count, not those of a moment
+            posed[:] = name is not Phase.TRAVERSE
+            posed &= ~np.isin(places[rows], profile.nosings[:, 0])
+        energy, step = _least_rise(of_rises, downhill=True)
+        uphill, uphill_step = _least_rise(of_rises, downhill=False)
+        least, at = _least_energy(seen, rows[posed], side)
+        if least < energy:
+            energy, step = least, step_at(profile, at, descending)
+        below = ~top[rows]
+        least, at = _least_energy(seen, rows[posed & below], -side)
+        if least < uphill:
+            uphill, uphill_step = least, step_at(profile, at, descending)
+        judged = name is not Phase.TRAVERSE or not whole
+        downhill_rows = rows[:0] if not judged or (descending and name is Phase.ENTER) else rows
+        if not descending:
+            downhill_rows = downhill_rows[~comes_back[samples.row[downhill_rows]]]
+        uphill_rows = rows[below] if judged and name is Phase.TRAVERSE else rows[:0]
+        slides = samples.comes_off[rows] & (name is Phase.LAND)
+        friction = samples.friction[rows]
+        held = np.where(slides, 0.0, friction)
+        hardest = int(np.flatnonzero(held >= held.max() - _TIE)[0])  # inf - _TIE is inf
+        extremes.append(
+            PhaseExtremes(
+                phase=name,
+                required_friction=float(held[hardest]),
+                slides_below=float(friction[slides].max()) if slides.any() else None,
+                required_friction_step=step_at(profile, float(places[rows[hardest]]), descending),
+                energy_margin=energy,
+                energy_margin_step=step,
+                uphill_energy_margin=uphill,
+                uphill_energy_margin_step=uphill_step,
+                static_margin=float(np.nanmin(downhill)),
+                traction_over_weight=float(np.nanmax(np.where(slides, 0.0, samples.traction[rows])))
+                / STANDARD_GRAVITY,
+                largest_rotation=max(
+                    (angle for at, angle in rotated if phase[at] == name.value), default=0.0
+                ),
+                tilt_downhill=min(
+                    _rock(seen, downhill_rows, side, profile, descending),
+                    _rotated(path, phase, name, side, profile, descending, whole),
+                ),
+                tilt_uphill=min(
+                    _rock(seen, uphill_rows, -side, profile, descending),
+                    _rotated(path, phase, name, -side, profile, descending, whole),
+                ),
+                belly_touches=bool(of.belly_touches.any()),
+            )
+        )
+    return tuple(extremes)
+
+
+def _closed(path: contact.Path, phase: NDArray[np.str_]) -> dict[Phase, NDArray[np.bool_]]:
+    """Poses of each phase, with the pose between two phases in both.
+
+    A phase ends where a contact is exchanged, with a pose on either side; or where one runs over a
+    corner of the ground and takes its name, with one pose.
+    """
+    corner = corners(path)
+    closed = {}
+    for name in Phase:
+        rows = phase == name.value
+        beside = np.zeros_like(rows)
+        beside[1:] |= rows[:-1]
+        beside[:-1] |= rows[1:]
+        closed[name] = rows | (corner & beside)
+    return closed
+
+
+def _comes_back(path: contact.Path) -> NDArray[np.bool_]:
+    """Poses that gravity, tilted back, would return whence the leading end came down.
+
+    As long as the edge that the robot rotated about is its rear contact, it only rotates back.
+    """
+    assert path.margins is not None
+    back = np.zeros(len(path.poses), dtype=np.bool_)
+    rear = [contact.Feature.of(code) for code in path.margins.outermost[:, 0].tolist()]
+    for record in path.rotations:
+        pivot = contact.Feature.of(record.pivot)
+        if record.sense > 0 or not record.arrested or pivot.kind is not contact.FeatureKind.VERTEX:
+            continue
+        row = path.row_before(record.s) + 1
+        while row < len(back) and rear[row][::2] == pivot[::2]:
+            back[row] = True
+            row += 1
+    return back
+
+
+def _least_energy(
+    path: contact.Path,
+    rows: NDArray[np.int64],
+    side: float,
+) -> tuple[float, float]:
+    """Smallest rise of the centroid that a fall to one side needs, and at which contact [m].
+
+    A fall to either side needs the smaller barrier of both along the flow, and a fall to this side
+    the rise about its pivot, whichever is more. So only poses whose pivot's rise is below the
+    least found are worked out.
+    """
+    assert path.margins is not None
+    if len(rows) == 0:
+        return math.inf, math.nan
+    bound = (path.margins.back_rise if side > 0 else path.margins.front_rise)[rows]
+    order = np.argsort(bound, kind="stable")
+    values = np.full(len(rows), np.inf)
+    done = 0
+    while done < len(order) and bound[order[done]] < values.min() + _TIE:
+        some = order[done : done + _AT_ONCE]
+        done += len(some)
+        values[some] = np.maximum(path.energy(rows[some])[0], bound[some])
+    least = float(values.min())
+    row = rows[np.flatnonzero(values <= least + _TIE)[0]]  # inf <= inf
+    return least, float(path.poses.front_point[row, 0])
+
+
+def rises_about_stays(criterion: Criterion) -> tuple[Rise, ...]:
+    """Rises about the contact that stays, of each loss and gain."""
+    return tuple(
+        Rise(
+            each.downhill,
+            max(each.rise - each.freed, 0.0),
+            each.nosing + 1,
+            Phase.LAND if each.landing else Phase.TRAVERSE,
+        )
+        for each in criterion.losses
+    )
+
+
+def _rock(
+    path: contact.Path, rows: NDArray[np.int64], side: float, profile: Profile, descending: bool
+) -> tuple[float, int]:
+    """Least tilt at which some poses rotate to one side [rad], and the step."""
+    tilt, row = first_rock(path, rows, side)
+    if row < 0:
+        return tilt, 0
+    return tilt, step_at(profile, float(path.poses.front_point[row, 0]), descending)
+
+
+def _rotated(
+    path: contact.Path, phase: NDArray[np.str_], name: Phase, side: float, profile: Profile,
+    descending: bool, whole: bool,
+) -> tuple[float, int]:  # fmt: skip
+    """Rotation on the flight to one side that no nosing under a flat arrests, and the step.
+
+    As a tilt it is negative. An end that arrests it on a nosing or a tread is no carrier: the
+    paper's rig fell where one would have arrested it.
+    """
+    least = math.inf, 0
+    if name is not Phase.TRAVERSE or whole:
+        return least
+    for record in path.rotations:
+        row = path.row_before(record.s)
+        if record.sense * side <= 0 or phase[row] != name.value or row + 1 >= len(path.poses):
+            continue
+        arrests = path.poses.rear if record.sense > 0 else path.poses.front
+        if not path.is_on_flat(int(arrests[row + 1]), row + 1):
+            at = step_at(profile, float(path.poses.front_point[row, 0]), descending)
+            least = min(least, (-record.angle, at))
+    return least
+
+
+def _least_rise(rises: Sequence[Rise], *, downhill: bool) -> tuple[float, int]:
+    """Smallest rise towards one end, and the first step at which [m]."""
+    some = [(each.rise, each.step) for each in rises if each.downhill is downhill]
+    least = min((rise for rise, _ in some), default=math.inf)
+    return least, min((step for rise, step in some if rise <= least + _TIE), default=0)
+
+
+def _chain_angles(path: contact.Path, flat_length: float) -> list[tuple[int, float]]:
+    """Row of the pose at which each arrested chain of rotations begins, and its angle [rad]."""
+    rotations = path.rotations
+    return [
+        (path.row_before(float(rotations.s[chain[0]])), float(rotations.angle[chain].sum()))
+        for chain in together(rotations, flat_length)
+        if rotations.arrested[chain[-1]]
+    ]

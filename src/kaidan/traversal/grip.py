@@ -1,0 +1,493 @@
+r"""With how much to spare friction and grousers hold the robot at every pose of a traverse.
+
+::
+
+      slips back by a spacing s           contact      with a grouser on it     else
+    <-----------------.                   nosing       stands on the tread      Coulomb
+    | .  '    belt    |  .  '             riser face   over the edge, if low    Coulomb
+    ' nosing j      stands                tread, floor                          Coulomb
+
+A pose holds by friction alone; or by a grouser that comes to stand on a nosing, or over the edge of
+a riser's face, before the robot has slipped back by a spacing of the grousers. One and the same
+nosing must do at every pose of that slip, or friction (docs/theory/grousers.md).
+"""
+
+import math
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan import contact
+from kaidan.contact import BELLY, FeatureKind, FeatureTable
+from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.mechanics.cones import cone_margin
+from kaidan.mechanics.grousers import (
+    edge_tilt,
+    phases_friction,
+    reach_over_edge,
+    roll_off_length,
+    roll_off_sine,
+    slip_height,
+    standing_friction,
+    standing_run,
+    tip_overlap,
+    tip_tilt,
+)
+from kaidan.terrain.polyline import STEEP
+from kaidan.traversal.nosing_events import BLOCK, TOUCH, along_flat
+
+Array = NDArray[np.float64]
+Whole = NDArray[np.int64]
+
+NOSING, TREAD, FACE = 0, 1, 2
+"""Places of the stairs that a contact stands on; landings and floors are treads."""
+TREAD_DEPTH = 0.040
+"""Depth of a tread behind its nosing that grousers stand on [m]: of 20 mm at 30 degrees."""
+MOST_SHIFTS = 1000
+"""Poses that a slip passes at most."""
+MANY = 0.75
+"""Share of the phases that counts where four nosings or more are under the belts [1]: fitted with
+`phases_friction` (docs/theory/grousers.md)."""
+ALIKE = 7
+"""Digits to which contacts are compared: a tenth of a micrometre."""
+_NONE = -1
+
+
+class Grousers(NamedTuple):
+    """Grousers under load, and the nosings that they meet: one case of what is given as ranges."""
+
+    height: float
+    """Under load [m]."""
+    spacing: float
+    """[m]"""
+    tip_width: float
+    """Along the belt [m]."""
+    nosing_radius: float
+    """[m]"""
+    rigid: bool
+    """Whether they are rigid and sharp: of several nosings two carry, and one that has passed a
+    nosing rolls off it. Else they share the load, and are worn round."""
+
+
+class _Contacts(NamedTuple):
+    """Contacts of each pose, shape (poses, most contacts); the first two carry it."""
+
+    is_one: NDArray[np.bool_]
+    x: Array
+    """From the centroid [m]."""
+    z: Array
+    normal: Array
+    """Tilt of the normal, towards where the robot drives [rad]."""
+    place: Whole
+    """NOSING, TREAD or FACE."""
+    point: Whole
+    """Point of the ground where a grouser may stand; -1: nowhere."""
+    tread: Array
+    """Tilt of the normal of the tread there [rad]."""
+    curvature: Array
+    """Of the belt at the contact [1/m]."""
+    lift: Array
+    """Of that point above the axle of the end that leans against a face [m]; NaN: no face."""
+
+
+class Grip:
+    """Contacts of every pose of a path, and what friction and grousers make of them.
+
+    Parameters
+    ----------
+    path : contact.Path
+        With margins.
+    descending : bool
+        Whether it leads down the stairs.
+    acceleration : float
+        Along the path [m/s^2].
+    """
+
+    def __init__(self, path: contact.Path, *, descending: bool, acceleration: float) -> None:
+        assert path.margins is not None
+        self.path, self.descending = path, descending
+        self._side = -1.0 if descending else 1.0
+        self.contacts = _contacts_of(path, descending)
+        self.coulomb = np.arctan(path.margins.required_friction)
+        """Angle of friction that smooth belts require, the same friction everywhere [rad]."""
+        a, g, psi = acceleration, STANDARD_GRAVITY, path.poses.path_direction
+        size = np.sqrt(g * g + a * a + 2.0 * g * a * np.sin(psi))
+        down = np.hypot(1.0, path.margins.tilt)
+        force = (size * path.margins.tilt / down, size / down)
+        first, self._like = _alike(self.contacts, force, self.coulomb)
+        self._unlike = _Contacts._make(each[first] for each in self.contacts)
+        self._force = (force[0][first], force[1][first])
+        self._required = self.coulomb[first]
+        self._known: dict[Grousers, Array] = {}
+
+    def by_friction(self, phi: tuple[float, float, float]) -> Array:
+        """Angle by which the cones of smooth belts may shrink [rad].
+
+        Parameters
+        ----------
+        phi : tuple of float
+            Angles of friction of nosings, treads and riser faces [rad].
+        """
+        if phi[0] == phi[1] == phi[2]:
+            return np.asarray(phi[0] - self.coulomb)
+        found = np.full(len(self._required), -np.inf)
+        for rows, i, j in self._pairs():
+            one, other = self._belt(rows, i, phi), self._belt(rows, j, phi)
+            found[rows] = np.maximum(found[rows], self._margin(rows, i, j, one, other))
+        return found[self._like]
+
+    def with_grousers(
+        self, phi: tuple[float, float, float], grousers: Grousers, by_friction: Array
+    ) -> Array:
+        """Angle by which the cones may shrink before the robot slips for good [rad].
+
+        Parameters
+        ----------
+        phi : tuple of float
+            Angles of friction of nosings, treads and riser faces [rad].
+        grousers : Grousers
+            On the belts.
+        by_friction : ndarray
+            What `by_friction` found.
+        """
+        standing = self._standing(phi, grousers)
+        own = self.contacts.point
+        best = np.where(own == _NONE, -np.inf, np.maximum(standing, by_friction[:, None]))
+        slips = np.ones(len(best), dtype=np.bool_)
+        s, leg = self.path.s, self.path.poses.leg
+        reach, count = grousers.spacing + contact.STEP, len(best)
+        for shift in range(1, min(count, MOST_SHIFTS)):
+            rows = np.arange(count) + (shift if self.descending else -shift)
+            within = (rows >= 0) & (rows < count)
+            rows = np.clip(rows, 0, count - 1)
+            within &= (np.abs(s - s[rows]) < reach) & (leg == leg[rows])
+            slips &= within
+            if not slips.any():
+                break
+            there = np.full_like(best, -np.inf)
+            for slot in range(own.shape[1]):
+                same = own == self.contacts.point[rows, slot][:, None]
+                there = np.where(same, np.maximum(there, standing[rows, slot][:, None]), there)
+            there = np.maximum(there, by_friction[rows][:, None])
+            best = np.where(slips[:, None], np.minimum(best, there), best)
+        return np.asarray(np.maximum(by_friction, best.max(axis=1)))
+
+    def at_once(
+        self, phi: tuple[float, float, float], grousers: Grousers, by_friction: Array
+    ) -> Array:
+        """Angle by which the cones may shrink with grousers that stand already [rad].
+
+        Parameters
+        ----------
+        phi, grousers, by_friction
+            As for `with_grousers`.
+        """
+        standing = np.where(self.contacts.point == _NONE, -np.inf, self._standing(phi, grousers))
+        return np.asarray(np.maximum(by_friction, standing.max(axis=1)))
+
+    def slip_heights(self, slip: float, *, mu_k: float) -> Array:
+        """Kinetic-energy height that the robot gains as it slips back from each pose [m].
+
+        Parameters
+        ----------
+        slip : float
+            How far at most, along the path [m].
+        mu_k : float
+            Sliding friction [1].
+        """
+        path, s = self.path, self.path.s
+        required = np.tan(np.maximum(self.coulomb, 1e-9))
+        psi = np.abs(path.poses.path_direction)
+        gain = slip_height(psi=psi, s=1.0, mu_k=mu_k, mu_required=required)
+        gained = np.zeros(len(s))
+        np.cumsum(0.5 * (gain[1:] + gain[:-1]) * np.diff(s), out=gained[1:])
+        way = slip if self.descending else -slip
+        return np.abs(gained - np.interp(s + way, s, gained))
+
+    def _pairs(self) -> list[tuple[Whole, int, int]]:
+        """Rows and two contacts each that may carry them: on either side of the centroid."""
+        at = self._unlike
+        w_x, w_z = self._force
+        ahead = at.x - (w_x / w_z)[:, None] * at.z
+        found = []
+        for i, j in combinations(range(at.x.shape[1]), 2):
+            both = at.is_one[:, i] & at.is_one[:, j]
+            carries = (ahead[:, i] * ahead[:, j] <= 0.0) | ((i, j) == (0, 1))
+            rows = np.flatnonzero(both & carries)
+            if len(rows):
+                found.append((rows, i, j))
+        return found
+
+    def _belt(self, rows: Whole, k: int, phi: tuple[float, float, float]) -> tuple[Array, Array]:
+        """Axis and half angle of the cone under the belt."""
+        return self._unlike.normal[rows, k], np.array(phi)[self._unlike.place[rows, k]]
+
+    def _margin(
+        self, rows: Whole, i: int, j: int, one: tuple[Array, Array], other: tuple[Array, Array],
+        ahead: Array | float = 0.0,
+    ) -> Array:  # fmt: skip
+        """Margin of two contacts with their cones, the first so far ahead of its place [m]."""
+        at, (w_x, w_z) = self._unlike, self._force
+        alpha = at.normal[rows, i]
+        found = cone_margin(
+            x_1=at.x[rows, i] + ahead * np.cos(alpha), z_1=at.z[rows, i] - ahead * np.sin(alpha),
+            alpha_1=one[0], phi_1=one[1],
+            x_2=at.x[rows, j], z_2=at.z[rows, j], alpha_2=other[0], phi_2=other[1],
+            W_x=w_x[rows], W_z=w_z[rows],
+        )  # fmt: skip
+        return np.asarray(found)
+
+    def _standing(self, phi: tuple[float, float, float], grousers: Grousers) -> Array:
+        """Margin of each pose with a grouser that stands at each of its contacts [rad].
+
+        Of one friction everywhere it is that friction's angle less what is required without any,
+        which is worked out once.
+        """
+        if not phi[0] == phi[1] == phi[2]:
+            return self._of_unlike(phi, grousers)[self._like]
+        if grousers not in self._known:
+            self._known[grousers] = self._of_unlike((0.0, 0.0, 0.0), grousers)[self._like]
+        return np.asarray(phi[0] + self._known[grousers])
+
+    def _of_unlike(self, phi: tuple[float, float, float], grousers: Grousers) -> Array:
+        """The same of the poses that are unlike each other.
+
+        Which two of several contacts carry depends on where grousers stand. So the least over the
+        pairs counts: with that contact among them, or else with the better of the two.
+        """
+        at = self._unlike
+        tips = self._tips(grousers)
+        found = np.full(at.x.shape, np.inf)
+        for rows, i, j in self._pairs():
+            each = []
+            for k, other in ((i, j), (j, i)):
+                margin = self._stands(rows, k, other, phi, grousers, tips)
+                each.append(np.where(tips.may[rows, k], margin, -np.inf))
+            better = np.maximum(*each)
+            for k in range(at.x.shape[1]):
+                own = each[0] if k == i else each[1] if k == j else better
+                found[rows, k] = np.minimum(found[rows, k], own)
+        found = np.where(np.isinf(found) & (found > 0), -np.inf, found)
+        several = at.is_one.sum(axis=1)[:, None]
+        if (several > 2).any():
+            theta = np.minimum(self._required, 1.5)[:, None]
+            if grousers.rigid:
+                q = np.maximum(tips.run, 0.0) / grousers.spacing
+                needed = phases_friction(theta=theta, q=np.where(several > 3, MANY * q, q))
+            else:  # all nosings share the load, and one with no less than its part will stand
+                lean = np.clip(self._side * (tips.tilt - at.normal), 0.0, theta)
+                needed = standing_friction(theta=theta, beta=theta - lean, share=1.0 / several)
+            of_all = np.where(tips.may, phi[NOSING] - np.arctan(needed), -np.inf)
+            found = np.where(several > 2, np.minimum(found, of_all), found)
+        return found
+
+    def _stands(
+        self, rows: Whole, k: int, other: int, phi: tuple[float, float, float],
+        grousers: Grousers, tips: "_Tips",
+    ) -> Array:  # fmt: skip
+        """Margin of two contacts, a grouser standing at the first."""
+        at, side = self._unlike, self._side
+        tip, half = tips.tilt[rows, k], np.full(len(rows), phi[TREAD])
+        axis, own = self._belt(rows, other, phi)
+        if not grousers.rigid:
+            return self._margin(rows, k, other, (tip, half), (axis, own))
+        # on the tread the tip stands farther uphill: less of the load, if it is the upper contact
+        upper = side * (at.x[rows, k] - at.x[rows, other]) > 0.0
+        ahead = side * np.where(upper, tips.ahead[rows, k], 0.0)
+        # the other may stand on the top of a grouser, or roll off a nosing with its edge
+        on_nosing = (at.place[rows, other] == NOSING) & (at.point[rows, other] != _NONE)
+        apart = np.hypot(at.x[rows, k] - at.x[rows, other], at.z[rows, k] - at.z[rows, other])
+        axis = axis - side * np.where(on_nosing, grousers.height / np.maximum(apart, 1e-3), 0.0)
+        gamma = np.where(on_nosing, tips.gamma[rows, k], 0.0)
+        rolled = axis - side * np.arcsin(np.minimum(gamma, 1.0))
+        first = self._margin(rows, k, other, (tip, half), (rolled, own), ahead)
+        if not (gamma > 0.0).any():
+            return first
+        lean = side * (tip - at.normal[rows, k])
+        later = tip - side * (lean - np.arcsin(np.maximum(np.sin(lean) - gamma, 0.0)))
+        then = self._margin(rows, k, other, (later, half), (axis, own), ahead)
+        return np.minimum(first, then)
+
+    def _tips(self, grousers: Grousers) -> "_Tips":
+        """Tips of grousers as they come to stand at each contact."""
+        at, (h, s, w, r, _), side = self._unlike, grousers, self._side
+        leans = side * (at.tread - at.normal)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            theta = np.clip(leans, 1e-6, math.pi / 2 - 1e-6)
+            beta = tip_tilt(theta=theta, h=h, r=r, curvature=at.curvature)
+            run = standing_run(theta=theta, h=h, s=s, r=r, w=w)
+            off = roll_off_length(theta=theta, h=h, r=r)
+            climb = np.sin(theta - beta)
+            missed = np.minimum(run, 0.0) / max(r, 1e-6) if grousers.rigid else 0.0
+            beta = theta - np.arcsin(np.maximum(climb + missed, 0.0))
+            gamma = roll_off_sine(run=run, off=off, r=max(r, 1e-6))
+            radius = 1.0 / at.curvature
+            # the robot stands on its grousers, so the axle is higher by one
+            lift = at.lift - h
+            over = edge_tilt(overlap=tip_overlap(R=radius, h=h, s=s, lift=lift), r=r)
+            low = lift <= reach_over_edge(R=radius, h=h, s=s)
+        leant = ~np.isnan(at.lift)
+        may = (at.point != _NONE) & (h > 0.0) & (leans > 0.0)
+        may &= np.where(leant, low, (leans < math.pi / 2) & (beta < theta))
+        tilt = np.asarray(np.where(leant, over, beta))
+        return _Tips(
+            may=may,
+            tilt=at.tread - side * tilt,
+            run=np.where(may & ~leant, run, 0.0),
+            gamma=np.where(may & ~leant, gamma, 0.0),
+            ahead=np.where(may & ~leant, np.maximum(run, 0.0) + r * climb, 0.0),
+        )
+
+
+class _Tips(NamedTuple):
+    """Tips of grousers as they come to stand at each contact, shape (poses, most contacts)."""
+
+    may: NDArray[np.bool_]
+    """Whether one can stand there."""
+    tilt: Array
+    """Tilt of the normal under it, towards where the robot drives [rad]."""
+    run: Array
+    """Length along the belt over which it stands on the tread [m]."""
+    gamma: Array
+    """Sine of the tilt that it loses while another rolls off its nosing [1]."""
+    ahead: Array
+    """Of the nosing, along the belt [m]."""
+
+
+def _alike(at: _Contacts, force: tuple[Array, Array], required: Array) -> tuple[Whole, Whole]:
+    """First rows of poses whose contacts are alike, and for each pose the number of its first.
+
+    A regular flight repeats itself; which point of the ground a contact has does not matter.
+    """
+    columns = [
+        np.where(at.is_one, each, 0.0)
+        for each in (at.x, at.z, at.normal, at.place, at.point == _NONE, at.tread, at.curvature)
+    ]
+    columns += [at.is_one, at.lift, *(each[:, None] for each in (*force, required))]
+    table = np.round(np.nan_to_num(np.hstack(columns), nan=9.0, posinf=9e3), ALIKE)
+    _, first, like = np.unique(table, axis=0, return_index=True, return_inverse=True)
+    return first, like.reshape(-1)
+
+
+def _contacts_of(path: contact.Path, descending: bool) -> _Contacts:
+    """Contacts of each pose: those that carry it first, then nosings under a flat beside them."""
+    poses, count = path.poses, len(path.poses)
+    more_row, more_point, more_part = _under_flats(path)
+    nth = _number_within(more_row)
+    most = 2 + int(nth.max(initial=-1)) + 1
+    shape = (count, most)
+    at = _Contacts(
+        is_one=np.zeros(shape, dtype=np.bool_), x=np.zeros(shape), z=np.zeros(shape),
+        normal=np.zeros(shape), place=np.zeros(shape, dtype=np.int64),
+        point=np.full(shape, _NONE), tread=np.full(shape, np.nan), curvature=np.zeros(shape),
+        lift=np.full(shape, np.nan),
+    )  # fmt: skip
+    carrying = (
+        (poses.rear, poses.rear_point, poses.rear_normal),
+        (poses.front, poses.front_point, poses.front_normal),
+    )
+    for slot, (codes, points, normals) in enumerate(carrying):
+        at.is_one[:, slot] = True
+        at.x[:, slot], at.z[:, slot] = points[:, 0] - path.x, points[:, 1] - path.z
+        at.normal[:, slot] = np.arctan2(normals[:, 0], normals[:, 1])
+        _name(at, slot, path, FeatureTable.of(codes), descending=descending)
+    slots = 2 + nth
+    at.is_one[more_row, slots] = True
+    at.x[more_row, slots] = path.ground.x[more_point] - path.x[more_row]
+    at.z[more_row, slots] = path.ground.z[more_point] - path.z[more_row]
+    at.normal[more_row, slots] = _flat_normal(path, more_part) - path.inclination[more_row]
+    at.point[more_row, slots] = more_point
+    tread = _treads(path.ground, descending)
+    chosen = at.point != _NONE
+    at.tread[chosen] = tread[at.point[chosen]]
+    at.point[np.isnan(at.tread)] = _NONE
+    return at
+
+
+def _name(
+    at: _Contacts, slot: int, path: contact.Path, features: FeatureTable, *, descending: bool
+) -> None:
+    """Place, point and curvature of the contacts in a slot."""
+    ground, discs = path.ground, path.body.discs
+    point, part, kind = features.point, features.part, features.kind
+    corner = kind == FeatureKind.VERTEX
+    second: Whole = (kind == FeatureKind.DISC_2).astype(np.int64)
+    lengths = path.body.flat_length
+    for each in range(len(discs)):
+        of_part = np.flatnonzero(corner & (part == each))
+        if len(of_part):
+            w = along_flat(path, of_part, point[of_part][:, None], each)[0][:, 0]
+            second[of_part] = (w > 0.0).astype(np.int64)
+            flat = (w >= 0.0) & (w <= lengths[each])
+            second[of_part[flat]] = 2
+    radius = np.where(second == 1, discs[part, 5], discs[part, 2])
+    at.curvature[:, slot] = np.where(second == 2, 0.0, 1.0 / np.maximum(radius, 1e-3))
+    step_x, step_z = np.diff(ground.x)[point], np.diff(ground.z)[point]
+    steep = np.abs(np.arctan2(step_z, step_x)) > STEEP
+    at.place[:, slot] = np.where(corner, NOSING, np.where(steep, FACE, TREAD))
+    at.point[:, slot] = np.where(corner, point, _NONE)
+    if not descending:  # going down, the belt brings no tips over the edge of a face behind
+        face = np.flatnonzero(~corner & steep & (step_z > 0.0))
+        above = point[face] + 1
+        at.point[face, slot] = above
+        c, s = np.cos(path.inclination[face]), np.sin(path.inclination[face])
+        which = 3 * (second[face] == 1)
+        b_x, b_z = discs[part[face], which], discs[part[face], which + 1]
+        at.lift[face, slot] = ground.z[above] - (path.z[face] + s * b_x + c * b_z)
+
+
+def _flat_normal(path: contact.Path, parts: Whole) -> Array:
+    """Tilt of the normal of the flat of each part, from the ground into it, in the body frame."""
+    tilts = []
+    for number in range(len(path.body)):
+        part = path.body.part(number)
+        (e_x, e_z), side = part.axis, part.side
+        n_x = part.sine * e_x + part.cosine * side * e_z
+        n_z = part.sine * e_z - part.cosine * side * e_x
+        tilts.append(math.atan2(-n_x, -n_z))
+    return np.array(tilts)[parts]
+
+
+def _under_flats(path: contact.Path) -> tuple[Whole, Whole, Whole]:
+    """Rows, points and parts of all corners under a flat that do not carry their pose."""
+    rear, front = FeatureTable.of(path.poses.rear), FeatureTable.of(path.poses.front)
+    reach = float(np.abs(path.body.discs).sum(axis=1).max())
+    rows: list[Whole] = []
+    points: list[Whole] = []
+    parts: list[Whole] = []
+    for first in range(0, len(path.poses), BLOCK):
+        some = np.arange(first, min(first + BLOCK, len(path.poses)))
+        x = path.x[some]
+        near = (path.ground.x > x.min() - reach) & (path.ground.x < x.max() + reach)
+        corners = np.flatnonzero(near & path.ground.convex)
+        for part in np.flatnonzero(path.body.kind != BELLY).tolist():
+            w, gap = along_flat(path, some, corners, part)
+            on = (np.abs(gap) < TOUCH) & (w >= 0.0) & (w <= float(path.body.flat_length[part]))
+            which, column = np.nonzero(on)
+            row, point = some[which], corners[column]
+            new = np.ones(len(row), dtype=np.bool_)
+            for one in (rear, front):
+                new &= (one.point[row] != point) | (one.kind[row] != FeatureKind.VERTEX)
+            rows.append(row[new])
+            points.append(point[new])
+            parts.append(np.full(int(new.sum()), part))
+    of_row, of_point = np.concatenate(rows), np.concatenate(points)
+    _, once = np.unique(np.stack([of_row, of_point]), axis=1, return_index=True)
+    return of_row[once], of_point[once], np.concatenate(parts)[once]
+
+
+def _number_within(rows: Whole) -> Whole:
+    """Number of each among those of the same row; rows ascend."""
+    _, first, counts = np.unique(rows, return_index=True, return_counts=True)
+    return np.asarray(np.arange(len(rows)) - np.repeat(first, counts))
+
+
+def _treads(ground: contact.Ground, descending: bool) -> Array:
+    """Tilt of the normal of the tread uphill of each point of the ground [rad]; NaN: none."""
+    x, z = ground.x, ground.z
+    uphill = -1.0 if descending else 1.0
+    there = np.interp(x + uphill * TREAD_DEPTH, x + 1e-12 * np.arange(len(x)), z)
+    slope = np.arctan2(uphill * (there - z), TREAD_DEPTH)
+    return np.where(np.abs(slope) < STEEP, -slope, np.nan)

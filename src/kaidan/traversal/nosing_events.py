@@ -1,0 +1,162 @@
+"""Nosings that the flat reaches and leaves while others carry it: events that turn nothing.
+
+The kernel follows the pair of contacts that carries the robot. On a straight line of nosings the
+flat slides on to the next one, and off the last, without a change of pose: those exchanges are
+found here, from the poses, where they pass an end of the flat.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan import contact
+from kaidan.contact import BELLY, Event, EventRecord, Events, Feature, FeatureKind
+
+Array = NDArray[np.float64]
+
+TOUCH = 1e-7
+"""Gap up to which a nosing lies on the flat [m]: ten times what poses are solved to."""
+BLOCK = 256
+"""Pieces of the path that are looked at together: what lies under them is a short piece of the
+ground."""
+STRAIGHT = 1e-9
+"""Rotation between two poses above which the kernel has the event [rad]."""
+
+
+class _Passing(NamedTuple):
+    """A nosing that passes an end of the flat of a part."""
+
+    s: float
+    reached: bool
+    point: int
+    part: int
+    row: int
+    share: float
+    """Of the path from the pose of the row to the next."""
+
+
+def nosing_events(path: contact.Path) -> Events:
+    """Events REACHED and LEFT of a traverse, in its order.
+
+    Parameters
+    ----------
+    path : contact.Path
+        With its poses.
+
+    Returns
+    -------
+    contact.Events
+        Each with the row of the pose before it, and no other feature.
+    """
+    rows = _straight_pieces(path)
+    parts = np.flatnonzero(path.body.kind != BELLY).tolist()
+    found: list[_Passing] = []
+    for first in range(0, len(rows), BLOCK):
+        for part in parts:
+            found += _passings(path, rows[first : first + BLOCK], part)
+    found = [each for each in sorted(found) if not _is_reported(path, each)]
+    places = path.poses.placements
+    events = []
+    for each in _once(found):
+        here, then = places[each.row], places[each.row + 1]
+        x, z, inclination = (here + each.share * (then - here)).tolist()
+        events.append(
+            EventRecord(
+                kind=Event.REACHED if each.reached else Event.LEFT,
+                s=each.s,
+                x=x,
+                z=z,
+                inclination=inclination,
+                feature=Feature(each.point, each.part, FeatureKind.VERTEX).code,
+                other=-1,
+                pose=each.row,
+            )
+        )
+    return Events.of(events)
+
+
+def _straight_pieces(path: contact.Path) -> NDArray[np.int64]:
+    """Rows from which the path leads straight to the next, and where contacts change if known."""
+    poses, margins = path.poses, path.margins
+    pieces = (
+        (poses.leg[1:] == poses.leg[:-1])
+        & (np.abs(np.diff(poses.inclination)) < STRAIGHT)
+        & (np.diff(poses.s) > 0)
+    )
+    if margins is not None:
+        contacts, outermost = margins.contacts, margins.outermost
+        changes = (outermost[1:] != outermost[:-1]).any(axis=1)
+        pieces &= changes | (contacts[1:] != contacts[:-1])
+    return np.flatnonzero(pieces)
+
+
+def _passings(path: contact.Path, rows: NDArray[np.int64], part: int) -> list[_Passing]:
+    """Nosings that pass an end of the flat of a part on some pieces of the path."""
+    x, reach = path.x[rows], float(np.abs(path.body.discs).sum(axis=1).max())
+    ground_x = path.ground.x
+    near = (ground_x > x.min() - reach) & (ground_x < x.max() + reach)
+    points = np.flatnonzero(near & path.ground.convex)
+    length = float(path.body.flat_length[part])
+    w, lies = [], []
+    for ends in (rows, rows + 1):
+        along, gap = along_flat(path, ends, points, part)
+        w.append(along)
+        lies.append((np.abs(gap) < TOUCH) & (along >= 0) & (along <= length))
+    found = []
+    for row, column in np.argwhere(lies[0] != lies[1]):
+        before, after = float(w[0][row, column]), float(w[1][row, column])
+        share = ((0.0 if min(before, after) < 0 else length) - before) / (after - before)
+        at = int(rows[row])
+        s = float(path.s[at] + share * (path.s[at + 1] - path.s[at]))
+        reached = bool(lies[1][row, column])
+        found.append(_Passing(s, reached, int(points[column]), part, at, share))
+    return found
+
+
+def along_flat(
+    path: contact.Path, rows: NDArray[np.int64], points: NDArray[np.int64], part: int
+) -> tuple[Array, Array]:
+    """Place along the flat of a part and gap to its line [m], of some poses and points."""
+    body, phi = path.body.part(part), path.inclination[rows]
+    c, s = np.cos(phi)[:, None], np.sin(phi)[:, None]
+    d_x = path.ground.x[points] - path.x[rows, None]
+    d_z = path.ground.z[points] - path.z[rows, None]
+    a_x, a_z = c * d_x + s * d_z - body.x, c * d_z - s * d_x - body.z
+    along = a_x * body.axis[0] + a_z * body.axis[1]
+    below = body.side * (a_x * body.axis[1] - a_z * body.axis[0])
+    w = along * body.cosine - below * body.sine
+    return w, along * body.sine + below * body.cosine - body.radius
+
+
+def _is_reported(path: contact.Path, passing: _Passing) -> bool:
+    """Whether the kernel tells of that point of the ground within the piece of the path."""
+    begin, end = path.s[passing.row : passing.row + 2]
+    events = path.events
+    for k in np.flatnonzero((events.s >= begin - 1e-9) & (events.s <= end + 1e-9)).tolist():
+        for code in (events[k].feature, events[k].other):
+            feature = Feature.of(code)
+            if code >= 0 and feature.point == passing.point and feature.kind is FeatureKind.VERTEX:
+                return True
+    return False
+
+
+def _once(passings: list[_Passing]) -> list[_Passing]:
+    """Without those of a nosing that passes from one part to the next in line with it."""
+    kept: list[_Passing] = []
+    for each in passings:
+        twin = next(
+            (
+                k
+                for k in range(len(kept) - 1, max(len(kept) - 8, 0) - 1, -1)
+                if kept[k].point == each.point
+                and kept[k].reached != each.reached
+                and abs(kept[k].s - each.s) < 1e-6
+            ),
+            None,
+        )
+        if twin is None:
+            kept.append(each)
+        else:
+            del kept[twin]
+    return kept

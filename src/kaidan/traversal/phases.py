@@ -1,0 +1,125 @@
+"""Parts of a traverse: entering, traversing, landing, and the numbers of its steps."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan import contact
+from kaidan.modes import Phase as Phase
+from kaidan.terrain.profile import Profile
+
+Array = NDArray[np.float64]
+
+_ON = 1e-6
+_LEVEL = 1e-9
+"""Height by which points of level ground may differ [m]: rounding."""
+
+
+def uneven_span(profile: Profile) -> tuple[float, float]:
+    """Where the level ground before ends and the level ground behind begins: all that is driven.
+
+    A riser that leans, a ramp or a hole before the first nosing, a drop behind the last one lie in
+    between.
+    """
+    x, z = profile.points.T
+    rises, falls = (np.flatnonzero(np.abs(z - end) > _LEVEL) for end in (z[0], z[-1]))
+    if len(rises) == 0:  # level
+        return float(x[0]), float(x[0])
+    return float(x[rises[0] - 1]), float(x[falls[-1] + 1])
+
+
+def flights_span(profile: Profile, descending: bool) -> tuple[float, float]:
+    """Where the flight begins and ends along the path: landings lie before and behind."""
+    if len(profile.nosings) == 0:
+        return uneven_span(profile)
+    first, last = float(profile.nosings[0, 0]), float(profile.nosings[-1, 0])
+    if descending:  # the foot of the last riser, rough as the landing may be
+        floor = profile.points[-1, 1] + max(_LEVEL, profile.roughness)
+        last = max(
+            last,
+            float(profile.points[profile.points[:, 1] > floor, 0].max(initial=last)),
+        )
+    return first, last
+
+
+def phases_of(
+    path: contact.Path, profile: Profile, descending: bool, room: float
+) -> NDArray[np.str_]:
+    """Phase of each pose, from where its two contacts stand.
+
+    Between two flights lies a landing where a nosing is `room` or more, the length of the flat,
+    from the next: there the robot lands from the one and enters the other.
+    """
+    on = max(_ON, profile.roughness)
+    start_level, end_level = profile.points[0, 1], profile.points[-1, 1]
+    first, last = flights_span(profile, descending)
+    rear, front = path.poses.rear_point, path.poses.front_point
+    # before the edge whatever the height (measured landings are not level), on it by the height
+    entering = (rear[:, 0] < first - on) | (
+        (np.abs(rear[:, 1] - start_level) < on) & (rear[:, 0] <= first + on)
+    )
+    landing = (front[:, 0] > last + on) | (
+        (np.abs(front[:, 1] - end_level) < on) & (front[:, 0] >= last - on)
+    )
+    entering = _without_gaps(entering)
+    for ends in _between(profile, room):
+        leaves = _on_landing(rear, ends, descending)
+        if not descending:  # the edge behind it belongs to the flight that it leaves
+            leaves &= rear[:, 0] > ends[0, 0] + on
+        entering |= _without_gaps(leaves)
+        landing |= _on_landing(front, ends, descending) & ~_at_its_end(front, ends)
+    phase = np.full(len(path.poses), Phase.TRAVERSE.value, dtype="<U8")
+    phase[entering] = Phase.ENTER.value
+    phase[landing] = Phase.LAND.value
+    return phase
+
+
+def _without_gaps(some: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """All poses from the first to the last of some: in between others may carry it for a while."""
+    rows = np.flatnonzero(some)
+    filled = np.zeros_like(some)
+    if len(rows):
+        filled[rows[0] : rows[-1] + 1] = True
+    return filled
+
+
+def _between(profile: Profile, room: float) -> list[Array]:
+    """Nosings (2, 2) behind and ahead of each landing between flights [m]."""
+    wide = np.flatnonzero(np.diff(profile.nosings[:, 0]) >= room)
+    return [profile.nosings[k : k + 2] for k in wide]
+
+
+def _on_landing(points: Array, ends: Array, descending: bool) -> NDArray[np.bool_]:
+    """Which points lie on a landing, its edge included, and not on the flight above it."""
+    along = (points[:, 0] >= ends[0, 0] - _ON) & (points[:, 0] <= ends[1, 0] + _ON)
+    above = ends[0, 1] if descending else ends[1, 1]
+    return np.asarray(along & (points[:, 1] < above - _ON))
+
+
+def _at_its_end(points: Array, ends: Array) -> NDArray[np.bool_]:
+    """Which points lie where the next flight begins: on its first riser, or going down its edge."""
+    return np.asarray(points[:, 0] >= ends[1, 0] - _ON)
+
+
+def step_at(profile: Profile, x: float, descending: bool) -> int:
+    """Nosing number from the bottom at a place along the profile."""
+    passed = profile.step_of(x)
+    return len(profile.nosings) - passed + 1 if descending and passed else passed
+
+
+def over_the_top(
+    path: contact.Path, profile: Profile, descending: bool, room: float
+) -> NDArray[np.bool_]:
+    """Poses whose uppermost contact is a flight's last nosing or beyond: no other will come."""
+    if len(profile.nosings) == 0:
+        return np.zeros(len(path.poses), dtype=np.bool_)
+    upper = path.poses.rear_point if descending else path.poses.front_point
+    on = max(_ON, profile.roughness)
+    over = (
+        upper[:, 0] <= profile.nosings[0, 0] + on
+        if descending
+        else upper[:, 0] >= profile.nosings[-1, 0] - on
+    )
+    for ends in _between(profile, room):
+        here = _on_landing(upper, ends, descending)
+        over = over | (here if descending else here & ~_at_its_end(upper, ends))
+    return np.asarray(over)

@@ -1,0 +1,275 @@
+r"""Rotations of a traverse: how far, how hard they end, and whether the path obliges to them.
+
+::
+
+            C .                      start: the centroid C stands over the front contact P
+        ____._|____                  end:   the next contact B arrests the rotation
+             P \      .
+                \   .  the path obliges to what it turns until an edge E within the
+            ..E  \B    flat's length lies under it; what it turns beyond is avoidable
+
+A chain is what follows at once, with no way driven in between: it is one motion of the robot.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan import contact
+from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.terrain.polyline import ROUGHNESS
+from kaidan.terrain.profile import Profile
+from kaidan.traversal.phases import Phase, step_at
+
+ROCKING = contact.ROCKING
+"""Rotation beyond the next edge that nothing is made of [rad]."""
+AT_ONCE = 0.01
+"""Way of the centroid between two rotations of a chain, at most, over the flat's length [1]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rotation:
+    """Rotation about one contact after the other, until two hold the robot or it has fallen."""
+
+    phase: Phase
+    step: int
+    """Nosing number from the bottom, 1 the first; 0 before it."""
+    path: float
+    """Arclength at which it begins [m]."""
+    start: float
+    """Inclination at which it begins, leading end up [rad]."""
+    reached: float
+    """Inclination at which it ends [rad]."""
+    angle: float
+    """How far it turns [rad]."""
+    leading_end_down: bool
+    """Whether the leading end comes down; else the trailing one."""
+    drop: float
+    """Fall of the centroid along effective gravity [m]."""
+    impact_speed: float
+    """Speed at which the end hits the contact that arrests it [m/s]; NaN: nothing does."""
+    avoidable: float
+    """Part of the angle that a longer robot, or another place of the centroid, would spare [rad]:
+    what it turns beyond the line to the next edge, all of it where the trailing end comes down."""
+    pivot: int
+    """Contact that it begins about, read by `kaidan.contact.Feature.of`."""
+    arrested_by: int | None
+    """Contact that arrests it; None: it falls, or is wedged."""
+    spare: float
+    """Rise still to climb before it topples, less the whole drop [m]: positive if it would hold
+    even though the impact took nothing of the momentum."""
+    spare_after_impact: float
+    """The same less what a plastic impact leaves of the momentum [m]."""
+
+    @property
+    def arrested(self) -> bool:
+        """Whether the next contact arrests it."""
+        return self.arrested_by is not None
+
+    @property
+    def obliged(self) -> bool:
+        """Whether the path obliges to it, but for `ROCKING`.
+
+        The leading end comes down, and no edge ahead within the length of the flat would have held
+        it higher: it comes down onto a landing, over the top edge, off a kerb, into a gap longer
+        than the flat. The next nosing of a flight, or the far edge of a short gap, would have.
+        """
+        return self.arrested and self.avoidable <= ROCKING
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Rotations that follow one another at once, as a whole."""
+
+    rotations: tuple[Rotation, ...]
+
+    @property
+    def phase(self) -> Phase:
+        """Phase in which it begins."""
+        return self.rotations[0].phase
+
+    @property
+    def step(self) -> int:
+        """Step at which it begins."""
+        return self.rotations[0].step
+
+    @property
+    def path(self) -> float:
+        """Arclength at which it begins [m]."""
+        return self.rotations[0].path
+
+    @property
+    def start(self) -> float:
+        """Inclination at which it begins [rad]."""
+        return self.rotations[0].start
+
+    @property
+    def reached(self) -> float:
+        """Inclination farthest from where it began [rad]."""
+        return max((each.reached for each in self.rotations), key=lambda x: abs(x - self.start))
+
+    @property
+    def angle(self) -> float:
+        """All angles together [rad]."""
+        return sum(each.angle for each in self.rotations)
+
+    @property
+    def drop(self) -> float:
+        """Fall of the centroid in all [m]."""
+        return sum(each.drop for each in self.rotations)
+
+    @property
+    def impact_speed(self) -> float:
+        """Largest speed at which an end hits [m/s]; NaN: none does."""
+        speeds = [each.impact_speed for each in self.rotations if each.arrested]
+        return max(speeds, default=math.nan)
+
+    @property
+    def avoidable(self) -> float:
+        """Avoidable parts of all angles [rad]."""
+        return sum(each.avoidable for each in self.rotations)
+
+    @property
+    def obliged(self) -> bool:
+        """Whether the path obliges to all of it, but for `ROCKING`."""
+        return self.arrested and self.avoidable <= ROCKING
+
+    @property
+    def arrested(self) -> bool:
+        """Whether the last one is arrested."""
+        return self.rotations[-1].arrested
+
+    @property
+    def arrested_by(self) -> int | None:
+        """Contact that arrests the last one."""
+        return self.rotations[-1].arrested_by
+
+    @cached_property
+    def spare(self) -> float:
+        """Least rise still to climb, less all drops so far [m]."""
+        drops = np.cumsum([each.drop for each in self.rotations])
+        return float(
+            min(
+                each.spare + each.drop - fall
+                for each, fall in zip(self.rotations, drops, strict=True)
+            )
+        )
+
+    @property
+    def spare_after_impact(self) -> float:
+        """Least of all [m]."""
+        return min(each.spare_after_impact for each in self.rotations)
+
+
+def rotations_of(
+    path: contact.Path,
+    profile: Profile,
+    phase: NDArray[np.str_],
+    descending: bool,
+    flat_length: float,
+    acceleration: float,
+) -> tuple[Rotation, ...]:
+    """Rotations of a path in their order.
+
+    Parameters
+    ----------
+    path : contact.Path
+        As driven.
+    profile : Profile
+        As driven.
+    phase : ndarray of str
+        Phase of each pose.
+    descending : bool
+        Whether the path leads down the stairs.
+    flat_length : float
+        Length of the flat [m].
+    acceleration : float
+        Along the path [m/s^2].
+
+    Returns
+    -------
+    tuple of Rotation
+    """
+    found = []
+    for record in path.rotations:
+        row = path.row_before(record.s)
+        psi = float(path.poses.path_direction[row])
+        ahead, up = acceleration * math.cos(psi), STANDARD_GRAVITY + acceleration * math.sin(psi)
+        gravity = math.hypot(ahead, up)
+        start, end = record.start, record.end
+        drop = (up * (start.z - end.z) + ahead * (start.x - end.x)) / gravity
+        down = record.sense < 0
+        arrested_by = None
+        if record.arrested:
+            arrested_by = int((path.poses.front if down else path.poses.rear)[row + 1])
+        found.append(
+            Rotation(
+                phase=Phase(str(phase[row])),
+                step=step_at(profile, float(path.poses.front_point[row, 0]), descending),
+                path=record.s,
+                start=start.inclination,
+                reached=end.inclination,
+                angle=record.angle,
+                leading_end_down=down,
+                drop=drop,
+                impact_speed=impact_speed(path, record),
+                avoidable=_beyond_the_edge(record, profile, flat_length) if down else record.angle,
+                pivot=record.pivot,
+                arrested_by=arrested_by,
+                spare=record.barrier / gravity - drop,
+                spare_after_impact=(record.barrier - record.kinetic) / gravity,
+            )
+        )
+    return tuple(found)
+
+
+def chains_of(rotations: Sequence[Rotation], groups: Sequence[range]) -> tuple[Chain, ...]:
+    """Rotations in chains, by their numbers; see `together`."""
+    return tuple(Chain(tuple(rotations[k] for k in group)) for group in groups)
+
+
+def together(rotations: Sequence[contact.RotationRecord], flat_length: float) -> list[range]:
+    """Numbers of the rotations of each chain: between them the centroid hardly moves."""
+    each = list(rotations)
+    driven = [math.dist(one.end[:2], other.start[:2]) for one, other in pairwise(each)]
+    breaks = [k for k, way in enumerate(driven, 1) if way > AT_ONCE * flat_length]
+    ends = [0, *breaks, len(each)]
+    return [range(one, two) for one, two in pairwise(ends) if two > one]
+
+
+def impact_speed(path: contact.Path, rotation: contact.RotationRecord) -> float:
+    """Speed at which the end comes down at the end of a rotation [m/s]; NaN: it is not arrested.
+
+    The rate of rotation just before the last impact, from the energy of the fall as a free
+    rotation about the pivot, times how far the contacts lie apart. Of several that meet the ground
+    at once the farthest hits fastest; what it turned on is the outermost on the other side, because
+    those beyond it have opened.
+    """
+    if not rotation.arrested:
+        return math.nan
+    points = np.array([each.point for each in path.contacts_at(rotation.end)])
+    outermost = points[[int(np.argmin(points[:, 0])), int(np.argmax(points[:, 0]))]]
+    return rotation.rate_before * math.dist(*outermost)
+
+
+def _beyond_the_edge(
+    rotation: contact.RotationRecord, profile: Profile, flat_length: float
+) -> float:
+    """How far the leading end goes below the line from the pivot to the next edge [rad].
+
+    The line is the highest to an edge within the length of the flat, and never above that of the
+    flat where the rotation begins. Nothing where there is no such edge.
+    """
+    x, z = rotation.pivot_point
+    edges = profile.edges - (x, z)
+    ahead = (edges[:, 0] > ROUGHNESS) & (np.hypot(edges[:, 0], edges[:, 1]) <= flat_length)
+    edges = edges[ahead]
+    if len(edges) == 0:
+        return 0.0
+    line = float(np.arctan2(edges[:, 1], edges[:, 0]).max())
+    return max(min(line, rotation.start.inclination) - rotation.end.inclination, 0.0)

@@ -1,0 +1,377 @@
+"""The paper's criterion of no rotation on nosings of any shape, and how far a robot rocks on them.
+
+::
+
+                                   s  o--          flat of length L on nosings i and s; as its
+                          r  o----'                downhill tip leaves i the robot rotates about s
+          downhill   i  o--'                       until r carries too: that is the rocking. It
+             tip   ----'                           tips beyond that about r, the last pivot left.
+
+Every nosing under the flat counts, with no tolerance. Each loss of a nosing is judged with both
+inclinations, before and after it: on uneven nosings the flat may still stand on a high one as its
+tip leaves, steeper than where it would settle. The uphill end is the mirror image. On nosings all
+alike it is the closed form: docs/theory/uneven.md derives it.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from itertools import pairwise, takewhile
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.mechanics.oblique import edge_energy
+
+Array = NDArray[np.float64]
+
+ROUNDING = 1e-12
+"""Length that is rounding [m]."""
+
+
+class Tread(NamedTuple):
+    """Underside on the flight, seen from the side."""
+
+    L: float
+    """Length of the flat [m]."""
+    C_L: float
+    """Centroid behind the uphill tip of the flat [m]."""
+    C_N: float
+    """Centroid above the flat [m]."""
+    R: float
+    """Radius of the uphill end [m]."""
+    R_downhill: float
+    """Radius of the downhill end [m]."""
+    gyration: float
+    """Radius of gyration about the centroid [m]."""
+    whole: bool = True
+    """Whether a track carries all along it."""
+
+    def mirrored(self) -> "Tread":
+        """Seen from the other side."""
+        return self._replace(C_L=self.L - self.C_L, R=self.R_downhill, R_downhill=self.R)
+
+
+class Loss(NamedTuple):
+    """A nosing that an end of the flat leaves, or is about to reach."""
+
+    downhill: bool
+    """Whether the downhill end is judged; else the uphill one."""
+    nosing: int
+    """Which nosing the end is at, counted from 0 at the bottom."""
+    slope: float
+    """Steeper (uphill end: gentler) inclination of the flat before and after [rad]."""
+    lever: float
+    """Pivot that stays, beyond the centroid along the flat [m]."""
+    margin: float
+    """Slope that it could be steeper (uphill end: gentler) before it tips [rad]."""
+    centroid: float
+    """How far the centroid may move towards that end [m]."""
+    rocking: float
+    """Angle between the inclinations before and after [rad]."""
+    rise: float
+    """Rise of the centroid on its way over the pivot [m]."""
+    freed: float
+    """Drop of the centroid in rocking, times the share that a plastic impact leaves [m]."""
+    contacts: int
+    """Nosings under the flat that stay."""
+    landing: bool
+    """Whether the uphill end is over the landing already, so that it says nothing of the flight."""
+    place: float
+    """Centroid, along [m]."""
+
+
+@dataclass(frozen=True)
+class Criterion:
+    """What the criterion says of a flight."""
+
+    losses: tuple[Loss, ...]
+    seesaw: float
+    """Largest rocking about a nosing under the centroid [rad]."""
+    tops: tuple[float, ...] = ()
+    """Place of the last nosing of each flight [m]."""
+
+    @property
+    def on_flight(self) -> tuple[Loss, ...]:
+        """Losses and gains with the whole flat on the flight, which the criterion judges."""
+        return tuple(each for each in self.losses if not each.landing)
+
+    @property
+    def holds(self) -> bool | None:
+        """Whether nothing tips, without allowances; None where no nosing is ever lost or met."""
+        if not self.on_flight:
+            return None
+        return all(each.margin > 0 for each in self.on_flight)
+
+    @property
+    def alone(self) -> bool:
+        """Whether somewhere fewer than two nosings stay, where the paper's equations end."""
+        return any(each.contacts < 2 for each in self.on_flight)
+
+    def within(self, first: float, last: float) -> "Criterion":
+        """The same of a part of the flight, by the place of the centroid [m]."""
+        there = tuple(each for each in self.losses if first <= each.place <= last)
+        tops = tuple(top for top in self.tops if first <= top <= last)
+        return replace(self, losses=there, tops=tops)
+
+    def smallest(self, *, downhill: bool) -> Loss | None:
+        """Loss with the smallest margin at one end; the first of those that are alike."""
+        some = [each for each in self.on_flight if each.downhill is downhill]
+        return min(some, key=lambda each: round(each.margin, 12), default=None)
+
+    @property
+    def rocking(self) -> float:
+        """Largest rocking [rad]."""
+        return max((self.seesaw, *(each.rocking for each in self.losses)))
+
+
+def static_criterion(nosings: Array, tread: Tread, *, acceleration: float = 0.0) -> Criterion:
+    """Judge every nosing that an end of the flat leaves or meets wholly on a flight.
+
+    Parameters
+    ----------
+    nosings : array, shape (n, 2)
+        From bottom to top: x uphill, z up [m].
+    tread : Tread
+        Underside on the flight.
+    acceleration : float
+        Up the stairs [m/s^2].
+
+    Returns
+    -------
+    Criterion
+        Poses over a landing, a distance of nosings of the flat's length or more, are left out: they
+        enter or land.
+    """
+    losses: list[Loss] = []
+    tops: list[float] = []
+    seesaw = 0.0
+    for first, last in flights_of(nosings, tread.L):
+        flight = nosings[first : last + 1]
+        tops.append(float(flight[-1, 0]))
+        losses += _losses(flight, tread, acceleration, first, downhill=True)
+        mirrored = flight[::-1] * np.array([-1.0, 1.0])
+        losses += _losses(mirrored, tread.mirrored(), -acceleration, last, downhill=False)
+        seesaw = max(seesaw, _seesaw(flight, tread, acceleration))
+    return Criterion(tuple(losses), seesaw, tuple(tops))
+
+
+def flights_of(nosings: Array, L: float) -> list[tuple[int, int]]:
+    """First and last nosing of each run without a landing in between."""
+    if len(nosings) < 2:
+        return []
+    apart = np.hypot(*np.diff(nosings, axis=0).T)
+    cuts = [-1, *np.flatnonzero(apart >= L).tolist(), len(nosings) - 1]
+    return [(a + 1, b) for a, b in pairwise(cuts) if b > a + 1]
+
+
+def _losses(P: Array, tread: Tread, a: float, number: int, *, downhill: bool) -> list[Loss]:
+    """Losses and gains judged at the tip that lies towards -x, of nosings in order of x."""
+    x, z = P.T.tolist()
+    losses = []
+    end = x[-1]
+    for i in range(len(x) - 2):
+        before = _steepest(x, z, i, tread.L)
+        if before is None:
+            break
+        landing = x[i] + tread.L * math.cos(before[0]) > end + 1e-9
+        r = i + 1
+        left = tread.L - math.dist((x[i], z[i]), (x[r], z[r]))
+        foot = left - tread.C_L - tread.C_N * math.tan(before[0])
+        if landing and (not downhill or foot >= math.dist((x[r], z[r]), (x[-1], z[-1]))):
+            break  # the centroid has passed the last nosing: the end comes down on the landing
+        after = _settled(x, z, r, left, tread.R)
+        slope, contacts = (before[0], 1) if after is None else after
+        rocking, freed = _rocking(x, z, i, before[1], tread)
+        losses.append(
+            _loss(
+                max(slope, before[0]),
+                left - tread.C_L,
+                slope,
+                rocking,
+                freed,
+                contacts,
+                tread,
+                a,
+                number + i if downhill else number - i,
+                downhill,
+                landing,
+                _com(x, z, i, before[0], tread)[0],
+            )
+        )
+    losses += _gains(x, z, tread, a, number, downhill)
+    return losses
+
+
+def _gains(
+    x: list[float], z: list[float], tread: Tread, a: float, number: int, downhill: bool
+) -> list[Loss]:
+    """The same just before the far tip meets a nosing, the last one still short of it."""
+    losses = []
+    for m in range(2, len(x)):
+        r = m - 1
+        while r > 0 and math.dist((x[r - 1], z[r - 1]), (x[m], z[m])) <= tread.L + ROUNDING:
+            r -= 1
+        if r == 0 or r == m - 1:
+            continue  # its other end is not on the flight, or nothing carries between
+        left = math.dist((x[r], z[r]), (x[m], z[m]))
+        slope = max(_slope(x, z, r, k) for k in range(r + 1, m))
+        losses.append(
+            _loss(
+                slope,
+                left - tread.C_L,
+                slope,
+                0.0,
+                0.0,
+                m - r,
+                tread,
+                a,
+                number + m if downhill else number - m,
+                downhill,
+                False,
+                x[m] - tread.C_L * math.cos(slope) - tread.C_N * math.sin(slope),
+            )
+        )
+    return losses
+
+
+def _loss(
+    steepest: float,
+    lever: float,
+    settled: float,
+    rocking: float,
+    freed: float,
+    contacts: int,
+    tread: Tread,
+    a: float,
+    nosing: int,
+    downhill: bool,
+    landing: bool,
+    place: float,
+) -> Loss:
+    g, C_N = STANDARD_GRAVITY, tread.C_N
+    ratio = C_N * a / (g * math.hypot(lever, C_N))
+    limit = math.nan if abs(ratio) > 1 else math.acos(ratio) - math.atan2(C_N, lever)
+    centroid = lever - C_N * (math.tan(steepest) + a / (g * math.cos(steepest)))
+    if math.isnan(limit):
+        limit = math.copysign(math.pi / 2, centroid) + steepest
+    rise = 0.0
+    if centroid > 0:
+        rise = float(edge_energy(x=lever, slope=0.0, C_N=C_N, theta_s=settled, psi=0.0, a=a))
+    return Loss(
+        downhill,
+        nosing,
+        steepest,
+        lever,
+        limit - steepest,
+        centroid,
+        rocking,
+        rise,
+        freed,
+        contacts,
+        landing,
+        place if downhill else -place,
+    )
+
+
+def _slope(x: list[float], z: list[float], i: int, k: int) -> float:
+    return math.atan2(z[k] - z[i], x[k] - x[i])
+
+
+def _steepest(x: list[float], z: list[float], i: int, reach: float) -> tuple[float, int] | None:
+    """Steepest chord from a nosing to one within reach ahead, and which; None: there is none."""
+    best: tuple[float, int] | None = None
+    for k in range(i + 1, len(x)):
+        if x[k] - x[i] > reach:
+            break
+        if math.dist((x[i], z[i]), (x[k], z[k])) > reach + ROUNDING:
+            continue
+        slope = _slope(x, z, i, k)
+        if best is None or slope > best[0] + 1e-15:
+            best = slope, k
+    return best
+
+
+def _settled(
+    x: list[float], z: list[float], r: int, reach: float, R: float
+) -> tuple[float, int] | None:
+    """Inclination of the flat on a nosing, and how many nosings lie under it.
+
+    A nosing under the round end beyond the flat raises it too, but never carries it alone.
+    """
+    on_flat = _steepest(x, z, r, reach)
+    if on_flat is None:
+        return None
+    slope = on_flat[0]
+    count = 1
+    rho, gamma = math.hypot(reach, R), math.atan2(R, reach)
+    for k in range(r + 1, len(x)):
+        D = math.dist((x[r], z[r]), (x[k], z[k]))
+        if reach + ROUNDING >= D:
+            count += 1
+        elif rho + R >= D:
+            cosine = (rho * rho + D * D - R * R) / (2 * rho * D)
+            if abs(cosine) <= 1:
+                slope = max(slope, _slope(x, z, r, k) - gamma + math.acos(cosine))
+        else:
+            break
+    return slope, count
+
+
+def _rocking(x: list[float], z: list[float], i: int, s: int, tread: Tread) -> tuple[float, float]:
+    """Rocking as nosing i is lost, and what it frees of the centroid's height [rad, m]."""
+    before = _slope(x, z, i, s)
+    r = i + 1
+    if r == s:
+        after = _steepest(x, z, r, tread.L - math.dist((x[i], z[i]), (x[r], z[r])))
+        turn = abs(before - (before if after is None else after[0]))
+    else:
+        turn = abs(_slope(x, z, r, s) - before)
+    if turn == 0.0:
+        return 0.0, 0.0
+    # the centroid on its circle about s, then the impact on r
+    com = _com(x, z, i, before, tread)
+    arm = (com[0] - x[s], com[1] - z[s])
+    new = _turned(arm, turn if r != s else -turn)
+    drop = max(arm[1] - new[1], 0.0)
+    far = (x[s] + new[0] - x[r], z[s] + new[1] - z[r])
+    k2 = tread.gyration**2
+    shared = k2 + new[0] * far[0] + new[1] * far[1]
+    kappa = 0.0
+    if shared > 0:
+        kappa = shared**2 / ((k2 + new[0] ** 2 + new[1] ** 2) * (k2 + far[0] ** 2 + far[1] ** 2))
+    return turn, kappa * drop
+
+
+def _com(x: list[float], z: list[float], i: int, slope: float, tread: Tread) -> tuple[float, float]:
+    """Centroid with the near tip at nosing i and the flat on a slope."""
+    along, up = tread.L - tread.C_L, tread.C_N
+    c, s = math.cos(slope), math.sin(slope)
+    return x[i] + along * c - up * s, z[i] + along * s + up * c
+
+
+def _turned(arm: tuple[float, float], angle: float) -> tuple[float, float]:
+    c, s = math.cos(angle), math.sin(angle)
+    return c * arm[0] - s * arm[1], s * arm[0] + c * arm[1]
+
+
+def _seesaw(P: Array, tread: Tread, a: float) -> float:
+    """Largest rocking about a nosing that the gravity line passes."""
+    x, z = P.T.tolist()
+    most = 0.0
+    for k in range(1, len(x) - 1):
+        theta = _slope(x, z, k - 1, k + 1)
+        foot = tread.C_L + tread.C_N * (math.tan(theta) + a / (STANDARD_GRAVITY * math.cos(theta)))
+        ahead = [_slope(x, z, k, j) for j in _within(x, z, k, foot, 1)]
+        behind = [_slope(x, z, j, k) for j in _within(x, z, k, tread.L - foot, -1)]
+        if ahead and behind:
+            most = max(most, min(behind) - max(ahead))
+    return most
+
+
+def _within(x: list[float], z: list[float], k: int, reach: float, step: int) -> list[int]:
+    """Nosings on one side of nosing k that are no farther from it than this [m]."""
+    side = range(k + step, len(x) if step > 0 else -1, step)
+    near = takewhile(lambda j: abs(x[j] - x[k]) <= reach, side)
+    return [j for j in near if math.dist((x[k], z[k]), (x[j], z[j])) <= reach]

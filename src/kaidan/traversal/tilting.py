@@ -1,0 +1,102 @@
+r"""Two margins in one unit: the tilt of gravity to the first rock, and to the fall.
+
+::
+
+        C           gravity tilted towards the downhill end until its line passes the contact that
+       /|\          stays: there the robot rotates. To the first rock it is known at every pose. Of
+      / | \         the fall the traverse itself tells, driven once more under tilted gravity:
+     o  |  o        whatever the next contact arrests, the robot goes on as it then stands.
+        v
+"""
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan import contact
+from kaidan.modes import Phase
+
+LARGEST = math.radians(30.0)
+"""Largest tilt to a fall that is looked for [rad]: stairs are hardly steeper."""
+WITHIN = math.radians(0.1)
+"""To which the tilt to a fall is found [rad]."""
+_FIRST = math.radians(4.0)
+_AT_ONCE = 8
+_TIE = 1e-9
+
+
+class Rock(NamedTuple):
+    """Pose at which the least tilt of gravity makes the robot rotate."""
+
+    tilt: float
+    """Less what the robot rocks before [rad]; infinite: no pose was looked at."""
+    row: int
+    """Of the pose."""
+
+
+class Fall(NamedTuple):
+    """Fall under the least tilt of gravity."""
+
+    tilt: float
+    """Largest tilt that the robot survives [rad]; infinite beyond `LARGEST`; negative where it
+    falls without any, and minus a right angle where that takes more than `LARGEST` off."""
+    phase: Phase
+    """Part of the traverse in which it falls."""
+    step: int
+    """Nosing at which, counted from the bottom."""
+
+
+def first_rock(path: contact.Path, rows: NDArray[np.int64], side: float) -> Rock:
+    """Least tilt of gravity at which some poses rotate by more than rocking, to one side.
+
+    Of nosings under a flat those too carry that it only rests on after rocking. While it rests on
+    them it is steeper by that much, so the rocking is subtracted; or they do not count.
+
+    Parameters
+    ----------
+    path : contact.Path
+        With margins.
+    rows : ndarray of int
+        Which poses.
+    side : {1.0, -1.0}
+        Back or front.
+    """
+    if len(rows) == 0:
+        return Rock(math.inf, -1)
+    alone = path.tilts(rows, side, tolerance=0.0).tilt
+    order = np.argsort(alone, kind="stable")
+    tilt, rocking = np.full(len(rows), np.inf), np.zeros(len(rows))
+    done = 0
+    while done < len(order) and alone[order[done]] < tilt.min() - _TIE:
+        some = order[done : done + _AT_ONCE]
+        done += len(some)
+        found = path.tilts(rows[some], side)
+        tilt[some], rocking[some] = found.tilt, found.rocking
+    least = float(tilt.min())
+    rocked = least - float(rocking[alone < least].max(initial=0.0))
+    if rocked > alone[order[0]]:
+        return Rock(rocked, int(rows[np.flatnonzero(tilt <= least + _TIE)[0]]))
+    return Rock(float(alone[order[0]]), int(rows[np.flatnonzero(alone <= alone.min() + _TIE)[0]]))
+
+
+def largest_survived(survives: Callable[[float], bool]) -> float:
+    """Largest tilt that is survived, see `Fall`, to `WITHIN` [rad]."""
+    low, high = 0.0, _FIRST
+    if survives(0.0):
+        while survives(high):
+            if high >= LARGEST:
+                return math.inf
+            low, high = high, min(2.0 * high, LARGEST)
+    else:
+        low, high = -_FIRST, 0.0
+        while not survives(low):
+            if low <= -LARGEST:
+                return -math.pi / 2
+            low, high = max(2.0 * low, -LARGEST), low
+    while high - low > WITHIN:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if survives(middle) else (low, middle)
+    return low

@@ -1,0 +1,212 @@
+"""Many robots on many stairs: one verdict and one margin a pair."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from kaidan import catalog
+from kaidan.answer import Answer, Part
+from kaidan.assessment import with_plan
+from kaidan.assessment.verdict import conclude
+from kaidan.contact import expected_work
+from kaidan.errors import InputError
+from kaidan.modes import Direction, Facing, Verdict
+from kaidan.progress import progress
+from kaidan.question import Question
+from kaidan.robot import Robot
+from kaidan.terrain.stairs import Stairs
+
+A_TRAVERSE, A_SEARCH = 0.12, 3.0
+"""Times of the plain contact kernel for a traverse and its judgement, and for a plan [s]."""
+
+
+class Cell(Part):
+    """Verdict on one robot and one staircase."""
+
+    robot: str
+    stairs: str
+    flippers: str
+    """How they lie, in words or as a plan is written; empty for a robot without any."""
+    direction: Direction
+    facing: Facing
+    """Which end leads."""
+    verdict: Verdict
+    governs: str
+    """What decides: a failure mode, or why nothing can be said."""
+    margin_deg: float | None
+    """In the worst case, at the chosen risk [deg]; null outside the model."""
+    margin_best_deg: float | None
+    """In the best case [deg]."""
+    angle_deg: float
+    """Slope of the line through the nosings [deg]."""
+    nosing_spacing_m: float
+    """Mean distance from nosing to nosing [m]."""
+    flat_length_m: float
+    """L, flippers in line included [m]."""
+
+
+class NoCentroid(Part):
+    """Robot of which no centroid is published."""
+
+    name: str
+    title: str
+    figures: str
+    """What is published of it."""
+
+
+class Comparison(Answer):
+    """A verdict for each pair of a robot and a staircase."""
+
+    text_module = "comparison"
+
+    model: str
+    """Which model judged."""
+    direction: Direction | None
+    """Which way all robots go; null where each goes as the stairs' sheet says."""
+    facing: Facing | None
+    """Which end leads; null where each cell has its own."""
+    acceleration: float
+    """Up the stairs [m/s^2]."""
+    surface: str | None
+    """Surface under the tracks; null where none was stated."""
+    robots: tuple[str, ...]
+    """Columns of the table."""
+    stairs: tuple[str, ...]
+    """Rows of the table."""
+    cells: tuple[Cell, ...]
+    """Row by row."""
+    without_centroid: tuple[NoCentroid, ...]
+    """Robots that cannot be judged."""
+
+    @property
+    def rows(self) -> tuple[tuple[Cell, ...], ...]:
+        """Cells of each staircase."""
+        wide = len(self.robots)
+        return tuple(self.cells[at : at + wide] for at in range(0, len(self.cells), wide))
+
+    def columns(self) -> dict[str, list[Any]]:
+        """Columns of a table with one line a cell."""
+        return {name: [getattr(cell, name) for cell in self.cells] for name in Cell.model_fields}
+
+
+def compare(
+    robots: Sequence[Any] | None = None,
+    stairs: Sequence[Any] | None = None,
+    *,
+    flippers: Any = "flat",
+    **manner: Any,
+) -> Comparison:
+    """Set many robots against many stairs: a verdict and a margin for each pair.
+
+    Parameters
+    ----------
+    robots : sequence of Robot, str or path, optional
+        Robots; all of the catalogue without them.
+    stairs : sequence of Stairs, str or path, optional
+        Stairs; all of the catalogue without them.
+    flippers : Posture or {"flat", "stowed", "best"}
+        Posture of the flippers; flat lays them in line with the track where there are some; best
+        finds a plan for each pair.
+    **manner
+        As in `kaidan.assess`.
+
+    Returns
+    -------
+    Comparison
+
+    Raises
+    ------
+    InputError
+        An input without physical meaning, or no robot that can be judged.
+
+    Examples
+    --------
+    >>> found = compare(["absolem"], ["ibc", "osha-ship"], friction=0.8, model="closed-form")
+    >>> [(cell.stairs, str(cell.verdict)) for cell in found.cells]
+    [('ibc', 'go'), ('osha-ship', 'no-go')]
+    """
+    gross = catalog.gross_robots()
+    asked = [*catalog.names("robots"), *gross] if robots is None else list(robots)
+    apart = [each for each in asked if isinstance(each, str) and each.strip().lower() in gross]
+    known = [each if isinstance(each, Robot) else Robot.named(each)
+             for each in asked if each not in apart]  # fmt: skip
+    if not known:
+        raise InputError(f"no centroid is published of {', '.join(apart)}: nothing to compare")
+    flights = [
+        each if isinstance(each, Stairs) else Stairs.named(each)
+        for each in (catalog.names("stairs") if stairs is None else stairs)
+    ]
+    questions = [
+        Question.of(robot, flight, flippers=_flippers(robot, flippers), **manner)
+        for flight in flights
+        for robot in known
+    ]
+    first = questions[0]
+    each = A_SEARCH if first.best_of else A_TRAVERSE
+    work = len(questions) * each if first.model == "contact" else 0.0
+    with expected_work(work):
+        cells = [_cell(question) for question in progress(questions, "traverses judged")]
+    directions = {each.direction for each in questions}
+    return Comparison(
+        model=first.model,
+        direction=first.direction if len(directions) == 1 else None,
+        facing=None if "facing" in first.best_of else first.facing,
+        acceleration=first.acceleration,
+        surface=first.surface.name if first.surface else None,
+        robots=[robot.name for robot in known],
+        stairs=[flight.name for flight in flights],
+        cells=cells,
+        without_centroid=[_no_centroid(name.strip().lower()) for name in apart],
+    )
+
+
+def _flippers(robot: Robot, flippers: Any) -> Any:
+    """Posture to ask with: flat means stowed for a robot that has no flippers."""
+    bare = robot.front_flippers is None and robot.rear_flippers is None
+    is_flat = isinstance(flippers, str) and flippers.strip() == "flat"
+    return "stowed" if bare and is_flat else flippers
+
+
+def _no_centroid(name: str) -> NoCentroid:
+    entry = catalog.gross_robots()[name]
+    return NoCentroid(name=name, title=entry["title"], figures=entry.get("figures", ""))
+
+
+def _cell(question: Question) -> Cell:
+    question, findings, _ = with_plan(question)
+    conclusion = conclude(question, findings)
+    flight = question.flight
+    assert flight is not None
+    return Cell(
+        robot=question.robot.name,
+        stairs=question.terrain_name,
+        flippers=_posture(question),
+        direction=question.direction,
+        facing=question.facing,
+        verdict=conclusion.verdict,
+        governs=str(conclusion.governs),
+        margin_deg=math.degrees(conclusion.margin),
+        margin_best_deg=math.degrees(conclusion.margin_best),
+        angle_deg=math.degrees(flight.angle),
+        nosing_spacing_m=flight.nosing_spacing,
+        flat_length_m=question.stance.flat_length,
+    )
+
+
+def _posture(question: Question) -> str:
+    """How the flippers lie, in words; empty for a robot without any."""
+    robot, posture = question.robot, question.posture
+    if question.changes:
+        return question.flippers
+    ends = {
+        "front": (robot.front_flippers, posture.front),
+        "rear": (robot.rear_flippers, posture.rear),
+    }
+    lie = {
+        end: "stowed" if at is None else at if isinstance(at, str) else f"{math.degrees(at):g} deg"
+        for end, (pair, at) in ends.items()
+        if pair is not None
+    }
+    if len(set(lie.values())) <= 1:
+        return next(iter(lie.values()), "")
+    return ", ".join(f"{end} {at}" for end, at in lie.items())

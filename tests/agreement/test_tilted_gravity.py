@@ -1,0 +1,172 @@
+"""Two margins in one unit against brute force: tilt to the first rock, and tilt to the fall.
+
+The same small drives and small turns as in `test_contact_brute_force`, under tilted gravity. No
+face is higher than an end's radius, so that letting the robot down from above jumps no wall.
+"""
+
+import math
+
+import numba
+import numpy as np
+import pytest
+from test_contact_brute_force import DRIVE, FINEST, NEAR, TURN, touch
+
+from kaidan import Question, Robot, Stairs
+from kaidan.models.quasi_static import traverse_of
+from kaidan.modes import Phase
+from kaidan.robot import Track
+from kaidan.traversal.tilting import LARGEST, WITHIN
+
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
+
+
+@numba.njit(cache=True, error_model="numpy")
+def leaning(t, u, length, parts, x, x_end, kappa, finer):
+    """Outcome (0 arrived, 1 back, -1 front, 9 stuck) and the largest turns in one place [rad].
+
+    The first nose up, the second nose down; only those that no drive follows count as one.
+    """
+    phi, up, down, factor = 0.0, 0.0, 0.0, finer
+    for _ in range(40_000_000):
+        turn = TURN / factor
+        x += DRIVE / factor * np.cos(phi)
+        z, p_x, p_z = touch(t, u, length, parts, x, phi)
+        lever = p_x - x + kappa * (z - p_z)
+        sense = np.sign(lever)
+        other = lever
+        turned = 0.0
+        for _ in range(40_000_000):
+            new_phi = phi + sense * turn
+            new_x = x - (z - p_z) * sense * turn
+            new_z, q_x, q_z = touch(t, u, length, parts, new_x, new_phi)
+            other = q_x - new_x + kappa * (new_z - q_z)
+            if np.sign(other) != sense:
+                break
+            x, z, phi, p_x, p_z = new_x, new_z, new_phi, q_x, q_z
+            lever = other
+            turned += turn
+            if abs(phi) > np.pi / 2:
+                return sense, up, down
+        if sense > 0:
+            up = max(up, turned)
+        else:
+            down = max(down, turned)
+        if abs(phi) > np.pi / 2 - 2 * turn:
+            return np.sign(phi), up, down
+        if x >= x_end:
+            return 0.0, up, down
+        near = min(abs(lever), abs(other))
+        factor = finer * min(max(NEAR / max(near, 1e-9), 1.0), FINEST)
+    return 9.0, up, down
+
+
+def brute(found, tilt, finer=2.0):
+    """A traverse again by brute force, gravity tilted back."""
+    points = found.profile.points
+    t = np.vstack([points[0] - [20.0, 0.0], points, points[-1] + [20.0, 0.0]])
+    d = np.diff(t, axis=0)
+    length = np.hypot(d[:, 0], d[:, 1])
+    x, x_end = float(found.path.poses.x[0]), float(found.path.poses.x[-1])
+    return leaning(
+        t, d / length[:, None], length, found.outline.parts, x, x_end, math.tan(tilt), finer
+    )
+
+
+def cases(seed, count, gap=False):
+    rng = np.random.default_rng(seed)
+    while count:
+        L, R = rng.uniform(0.5, 0.9), rng.uniform(0.1, 0.14)
+        rise = rng.uniform(0.06, 0.09)
+        going = rise / math.tan(rng.uniform(0.45, 0.8))
+        robot = Robot(
+            name="any",
+            com_from_front=L * rng.uniform(0.35, 0.6),
+            com_height=rng.uniform(0.15, 0.35) * L,
+            track=Track(
+                flat_length=L,
+                front_radius=R,
+                rear_radius=R,
+                gap=L * rng.uniform(0.2, 0.5) if gap else 0.0,
+            ),
+        )
+        flight = Stairs(rise=rise, going=going, steps=8)
+        found = traverse_of(Question.of(robot, flight, friction=3.0))
+        if found.arrived and found.downhill_margin > math.radians(1.0):
+            count -= 1
+            yield found
+
+
+def check_falls(seed, count, gap=False):
+    for found in cases(seed, count, gap):
+        low, high = 0.0, LARGEST
+        while high - low > 0.5 * WITHIN:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if brute(found, middle)[0] == 0.0 else (low, middle)
+        survived = found.falls_downhill.tilt
+        # the bisections' own widths, and small turns' 0.1 deg
+        assert min(survived, LARGEST) == pytest.approx(low, abs=1.5 * WITHIN + math.radians(0.1))
+
+
+def check_rocks(seed, count, gap=True):
+    """Short of the margin nothing turns back by more than rocking, and beyond it most do."""
+    gone = 0
+    for found in cases(seed, count, gap):
+        margin = found.downhill_margin
+        outcome, back, _ = brute(found, margin - math.radians(0.1))
+        assert outcome == 0.0
+        assert back <= math.radians(2.6 + 0.15), math.degrees(back)
+        gone += found.falls_downhill.tilt < margin + math.radians(15.0)
+    assert gone > 0
+
+
+def test_the_tilt_to_the_fall():
+    check_falls(seed=1, count=1)
+
+
+def test_the_tilt_to_the_fall_with_a_gap():
+    check_falls(seed=2, count=1, gap=True)
+
+
+def test_short_of_the_margin_a_robot_with_a_gap_does_not_rock():
+    check_rocks(seed=3, count=2)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("gap", [False, True])
+def test_the_tilt_to_the_fall_of_many(gap):
+    check_falls(seed=4, count=60, gap=gap)
+
+
+@pytest.mark.slow
+def test_short_of_the_margin_many_do_not_rock():
+    check_rocks(seed=5, count=150)
+
+
+KENAF = Robot.named("kenaf")
+
+
+@pytest.mark.parametrize(
+    ("p", "angle", "to_rock", "to_fall"),
+    [
+        # closed form: 60.205 deg at 150 mm, 46.185 at 200 mm, less the slope
+        (0.150, 54.0, 6.205, 8.6),
+        (0.150, 57.0, 3.205, 5.6),
+        (0.200, 44.0, 2.185, 10.2),
+        (0.200, 38.0, 8.185, 16.2),
+    ],
+)
+def test_the_papers_rig(p, angle, to_rock, to_fall):
+    """It climbed at 54 deg and fell at 55-57; at (200 mm, 44 deg) it swung and climbed."""
+    flight = Stairs.inclined(angle=math.radians(angle), nosing_spacing=p)
+    found = traverse_of(Question.of(KENAF, flight, friction=2.0))
+    assert math.degrees(found.downhill_margin) == pytest.approx(to_rock, abs=1e-3)
+    # an independent bisection of the whole traverse, another end radius: 0.1 deg, found within 0.1
+    assert math.degrees(found.falls_downhill.tilt) == pytest.approx(to_fall, abs=0.2)
+
+
+def test_after_a_drop_that_the_terrain_obliges_to_it_only_comes_back():
+    """On the landing the edge of the last nosing lies behind the centroid: tilted, it returns."""
+    flight = Stairs.inclined(angle=math.radians(40.0), nosing_spacing=0.150)
+    found = traverse_of(Question.of(KENAF, flight, friction=2.0))
+    land = next(each for each in found.phases if each.phase is Phase.LAND)
+    assert math.degrees(land.tilt_downhill[0]) >= 60.205 - 40.0 - 1e-3

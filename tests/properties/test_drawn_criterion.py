@@ -1,0 +1,64 @@
+"""The criterion on many draws at once is the criterion on each of them."""
+
+import math
+
+import numpy as np
+import pytest
+
+from kaidan.traversal.drawn_criterion import DrawnTread, drawn_criterion
+from kaidan.traversal.static_criterion import Tread, flights_of, static_criterion
+
+
+def flights(seed, count):
+    """Uneven flights under one robot that is not quite known either."""
+    rng = np.random.default_rng(seed)
+    L, n = rng.uniform(0.4, 1.2), int(rng.integers(2, 16))
+    tread = Tread(
+        L, L * rng.uniform(0.3, 0.6), L * rng.uniform(0.1, 0.3),
+        rng.uniform(0.0, 0.2), rng.uniform(0.0, 0.2), 0.3 * L,
+    )  # fmt: skip
+    p, slope = rng.uniform(0.15, 0.7) * L, rng.uniform(0.3, 0.9)
+    k = np.arange(n)[:, None]
+    nosings = k * p * np.array([[math.cos(slope), math.sin(slope)]])
+    if rng.random() < 0.3:
+        nosings[n // 2 :, 0] += 1.5 * L  # a landing
+    sigma = rng.choice([0.0, 1e-3, 1e-2])
+    drawn = nosings + rng.normal(0.0, sigma, (count, *nosings.shape))
+    each = (value + rng.normal(0.0, 5e-3, count) for value in tread[:3])
+    return nosings, drawn, tread, DrawnTread(*each), rng.choice([0.0, 0.5, -1.0, 20.0])
+
+
+def losses_of(found, *, landing=False):
+    return [each for each in found.losses if bool(each.landing) is landing]
+
+
+def margin_of(found, *, downhill, landing=False):
+    some = losses_of(found, landing=landing)
+    return min((each.margin for each in some if each.downhill is downhill), default=math.inf)
+
+
+def rise_of(found, *, landing=False):
+    some = losses_of(found, landing=landing)
+    return min((max(each.rise - each.freed, 0.0) for each in some), default=math.inf)
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_each_draw_is_the_criterion_of_that_draw(seed, monkeypatch):
+    nosings, drawn, tread, on, a = flights(seed, 20)
+    monkeypatch.setattr("kaidan.traversal.drawn_criterion.BLOCK", 7 * len(nosings))
+    within = (0.2, 1.5) if seed % 3 == 0 else (-math.inf, math.inf)
+    found = drawn_criterion(nosings, drawn, tread, on, acceleration=a, within=within)
+    cuts = flights_of(nosings, tread.L)
+    for k, one in enumerate(drawn):
+        mine = tread._replace(L=on.L[k], C_L=on.C_L[k], C_N=on.C_N[k])
+        if flights_of(one, mine.L) != cuts:
+            continue  # where the draw is a landing and the flight none, nothing is compared
+        alone = static_criterion(one, mine, acceleration=a).within(*within)
+        # rad: rounding of functions of libm and numpy
+        assert found.downhill[k] == pytest.approx(margin_of(alone, downhill=True), abs=1e-9)
+        assert found.uphill[k] == pytest.approx(margin_of(alone, downhill=False), abs=1e-9)
+        landing = margin_of(alone, downhill=True, landing=True)
+        assert found.landing[k] == pytest.approx(landing, abs=1e-9)
+        assert found.rocking[k] == pytest.approx(alone.rocking, abs=1e-9)
+        assert found.rise[k] == pytest.approx(rise_of(alone), abs=1e-9)
+        assert found.landing_rise[k] == pytest.approx(rise_of(alone, landing=True), abs=1e-9)

@@ -1,0 +1,65 @@
+"""More doubt is no better: of what holds, doubling a doubt raises neither verdict nor P(GO).
+
+Of what holds in fewer than half of the draws no such thing is true: the more an input may differ,
+the likelier is one that helps.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from kaidan import Question, Stairs
+from kaidan.assessment.verdict import conclude
+from kaidan.models.quasi_static import judge
+from kaidan.modes import Verdict
+
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
+
+SIGMA = {
+    "com_from_front": 4e-3,
+    "com_height": 3e-3,
+    "angle": 0.01,
+    "nosing_spacing": 2e-3,
+    "rise": 1.5e-3,
+    "going": 1.5e-3,
+    "friction": 0.1,
+}
+ONE_DRAW = 1 / 2048
+"""Margins bend: where one doubt is doubled beside others, a draw at the edge may just hold."""
+
+
+def judged(flight, manner, sigma):
+    question = Question.of("kenaf", flight, uncertainty=sigma, risk=0.2, **manner)
+    found = judge(question)
+    fails = np.logical_or.reduce(np.broadcast_arrays(*(each.fails() for each in found.each)))
+    return conclude(question, found).verdict, 1 - float(fails.mean())
+
+
+def question_that_holds(rng):
+    while True:
+        flight = Stairs.inclined(
+            angle=math.radians(rng.uniform(35, 52)), nosing_spacing=rng.uniform(0.13, 0.18), steps=9
+        )
+        manner = {
+            "friction": float(rng.uniform(1.0, 2.0)),
+            "theta_d": (0, 0),
+            "theta_M": (0, 0),
+            "speed": 0.02,
+        }
+        if judged(flight, manner, {})[0] is Verdict.GO:
+            return flight, manner
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_doubling_a_doubt_never_makes_it_better(seed):
+    rng = np.random.default_rng(seed)
+    flight, manner = question_that_holds(rng)
+    sigma = {name: one * float(rng.choice([0.0, 0.3, 1.0])) for name, one in SIGMA.items()}
+    verdict, p = judged(flight, manner, sigma)
+    doubled = [sigma | {name: 2 * one} for name, one in sigma.items() if one]
+    for more in (*doubled, {name: 2 * one for name, one in sigma.items()}):
+        then, less = judged(flight, manner, more)
+        assert verdict is Verdict.GO or then is not Verdict.GO
+        if p >= 0.5:
+            assert less <= p + ONE_DRAW

@@ -1,0 +1,142 @@
+"""Mirror, scale and refinement of a traverse."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import Phase as HypothesisPhase
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from kaidan import contact
+from kaidan.outline import Outline
+from kaidan.robot import Robot, Track
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import Stairs
+from kaidan.traversal import traverse
+
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
+
+STEP = 0.03  # m between poses; events are located whatever it is
+SETTINGS = settings(
+    max_examples=12,
+    deadline=None,
+    phases=[HypothesisPhase.explicit, HypothesisPhase.generate],  # shrinking drives for minutes
+)
+
+robots = st.builds(
+    lambda L, c, h, front, rear: Robot(
+        name="r",
+        com_from_front=c * L,
+        com_height=h * L,
+        track=Track(flat_length=L, front_radius=front, rear_radius=rear),
+    ),
+    L=st.floats(0.4, 1.0),
+    c=st.floats(0.3, 0.7),
+    h=st.floats(0.1, 0.3),
+    front=st.floats(0.03, 0.12),
+    rear=st.floats(0.03, 0.12),
+)
+flights = st.builds(
+    lambda rise, going: Stairs(rise=rise, going=going, steps=4),
+    rise=st.floats(0.06, 0.2),
+    going=st.floats(0.15, 0.3),
+)
+
+
+def driven(profile, outline, **how):
+    return traverse(profile, outline, step=STEP, **how)
+
+
+def same(one, two, tolerance, sampled=None):
+    """`sampled`: how far the tilts to the first rock may differ, which poses add to [rad]."""
+    assert one.status == two.status
+    assert len(one.path.rotations) == len(two.path.rotations)
+    for downhill in (True, False):  # of the nosings alone: what poses add is sampled
+        mine, theirs = (each.criterion.smallest(downhill=downhill) for each in (one, two))
+        assert (mine is None) == (theirs is None)
+        if mine is not None:
+            assert mine.margin == pytest.approx(theirs.margin, abs=1e-9)
+    for name in ("downhill_margin", "uphill_margin") if sampled else ():
+        mine, theirs = getattr(one, name), getattr(two, name)
+        assert mine == pytest.approx(theirs, abs=sampled, nan_ok=True)
+    a, b = one.path.largest_inclination(), two.path.largest_inclination()
+    if one.arrived:
+        assert a == pytest.approx(b, abs=tolerance)
+
+
+@SETTINGS
+@given(robots, flights, st.booleans())
+def test_mirror(robot, flight, descending):
+    """The profile seen from the other side, nose and tail swapped, driven the other way."""
+    profile, outline = Profile.of_stairs(flight), Outline.of(robot)
+    one = driven(profile, outline, descending=descending)
+    two = driven(
+        profile.reflected(), outline.turned_round(), descending=not descending, facing="tail-first"
+    )
+    same(one, two, 1e-9)  # rad: the same numbers go in
+
+
+@SETTINGS
+@given(robots, flights, st.sampled_from([0.5, 2.0, 3.0]))
+def test_scale(robot, flight, k):
+    profile, outline = Profile.of_stairs(flight), Outline.of(robot)
+    # as it is: points of 15 mm and less would make no nosings, whatever the scale
+    larger = replace(
+        profile,
+        points=profile.points * k,
+        nosings=profile.nosings * k,
+        edges=profile.edges * k,
+    )
+    big = replace(
+        outline,
+        parts=outline.parts * k,
+        gyration=outline.gyration * k,
+        stance=outline.stance._replace(
+            flat_length=outline.stance.flat_length * k, com_height=outline.stance.com_height * k
+        ),
+    )
+    # rad: contacts count within 1e-9 m and end radii start in other places of the grid of poses
+    same(driven(profile, outline), driven(larger, big), 1e-5, sampled=1e-4)
+
+
+@SETTINGS
+@given(robots, flights, st.integers(0, 2**31))
+def test_points_on_existing_lines_change_nothing(robot, flight, seed):
+    profile, outline = Profile.of_stairs(flight), Outline.of(robot)
+    rng = np.random.default_rng(seed)
+    points = profile.points
+    at = rng.integers(0, len(points) - 1, 15)
+    shares = rng.random(15)[:, None]
+    more = points[at] * (1 - shares) + points[at + 1] * shares
+    order = np.argsort(np.concatenate([np.arange(len(points)), at + shares[:, 0]]), kind="stable")
+    refined = Profile.of_points(np.vstack([points, more])[order])
+    more = driven(refined, outline)
+    same(driven(profile, outline), more, 1e-7, sampled=1e-4)  # rad: 1e-11 m on 0.1 m
+
+
+@SETTINGS
+@given(robots, flights)
+def test_steps_of_the_drive_change_nothing_that_counts(robot, flight):
+    profile, outline = Profile.of_stairs(flight), Outline.of(robot)
+    coarse, fine = (traverse(profile, outline, step=s) for s in (0.03, 0.011))
+    same(coarse, fine, 1e-3, sampled=1e-3)  # rad: an inclination between poses may be passed over
+    if coarse.status is contact.Status.OK:
+        # of the whole way: a phase may begin between two poses
+        one, two = (
+            max(each.required_friction for each in found.phases) for found in (coarse, fine)
+        )
+        assert one == pytest.approx(two, rel=0.02)
+
+
+@SETTINGS
+@given(robots, st.floats(0.2, 0.9))
+def test_grade_one_up_nose_first_is_down_tail_first(robot, angle):
+    p = robot.track.flat_length / 2.5
+    flight = Stairs.inclined(angle=math.degrees(angle) * math.pi / 180, nosing_spacing=p, steps=6)
+    profile, outline = Profile.of_stairs(flight), Outline.of(robot)
+    up = driven(profile, outline, with_margins=False)
+    down = driven(profile, outline, with_margins=False, descending=True, facing="tail-first")
+    assert down.downhill_margin == pytest.approx(up.downhill_margin, abs=1e-9)
+    assert down.criterion.holds == up.criterion.holds

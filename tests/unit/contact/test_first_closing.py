@@ -1,0 +1,58 @@
+"""What closes first while a robot rotates: nothing sooner, and there it does."""
+
+import math
+
+import numpy as np
+import pytest
+
+from contact_cases import random_robot, steps
+from kaidan.contact import body_table, ground_table
+from kaidan.contact.kernel.first_closing import first_closing
+from kaidan.contact.kernel.gaps import gap
+from kaidan.contact.kernel.nearest_feature import nearest
+from kaidan.contact.kernel.rotation import foot_limit, turned
+from kaidan.contact.kernel.settling import settle
+
+OPEN = -1e-9  # m: gaps are closed to 1e-12, coordinates of some metres are rounded
+TERRAINS = [
+    steps(0.15, 0.25, 4),
+    [(-3, 0), (0, 0), (0.2, 0.1), (0.5, 0.05), (0.6, 0.3), (0.9, 0.3), (0.9, 0.1), (1.2, 0.5)],
+    [(-3, 0), (0, 0), (0, 0.12), (0.02, 0.12), (0.02, 0.0), (0.5, 0.0), (0.5, 0.2), (4, 0.4)],
+]
+
+
+def at_angle(ground, body, pivot, x, z, phi, turn):
+    """Pose after a rotation: x, z, cosine, sine."""
+    x_1, z_1 = turned(ground, body, pivot, x, z, phi, turn)
+    return x_1, z_1, math.cos(phi + turn), math.sin(phi + turn)
+
+
+@pytest.mark.parametrize("terrain", range(len(TERRAINS)))
+@pytest.mark.parametrize("seed", range(40))
+def test_nothing_closes_sooner_and_there_it_does(seed, terrain):
+    rng = np.random.default_rng(seed)
+    parts, kinds = random_robot(rng, least_radius=0.02)
+    ground, body = ground_table(TERRAINS[terrain]), body_table(parts, kinds)
+    x = rng.uniform(-0.4, 1.2)
+    found, z, phi, rear, front = settle(ground, body, x, rng.uniform(-0.3, 0.3), 0.0)
+    if not found:
+        return
+    for sense, pivot in ((1.0, rear), (-1.0, front)):
+        end = min(0.6, foot_limit(ground, body, pivot, x, z, phi, sense))
+        for hint in (0, 5):
+            closed, angle, after = first_closing(ground, body, pivot, x, z, phi, sense, end, hint)
+            assert 0 <= after <= len(ground)
+        assert 0.0 <= angle <= end
+        for share in (0.02, 0.2, 0.4, 0.6, 0.8, 0.9, 0.97, 0.999):
+            pose = at_angle(ground, body, pivot, x, z, phi, sense * share * angle)
+            which, smallest, _ = nearest(ground, body, *pose, pivot, -1, 0.0, 0)
+            # the segment beside the one that a disc rolls on begins where it ends
+            beside = which >= 0 and abs((which >> 6) - (pivot >> 6)) <= 1
+            assert which < 0 or smallest > OPEN or beside, (share, which, smallest)
+        if closed >= 0:
+            pose = at_angle(ground, body, pivot, x, z, phi, sense * angle)
+            assert abs(gap(ground, body, closed, *pose)[0]) < 1e-8
+            pose = at_angle(ground, body, pivot, x, z, phi, sense * (angle + 1e-3))
+            assert gap(ground, body, closed, *pose)[0] < OPEN
+        else:
+            assert angle == end

@@ -1,0 +1,88 @@
+"""The answer on one screen, whatever the verdict: eight lines or fewer, and a picture offered."""
+
+import math
+import re
+from itertools import pairwise
+
+import pytest
+from typer.testing import CliRunner
+
+import kaidan
+from kaidan.cli import app
+from kaidan.modes import FAILURE_MODES
+from kaidan.text.assessment import LINES
+
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
+
+CASES = {
+    "GO": ["kenaf", "--angle", "50deg", "--nosing-spacing", "150mm", "--friction", "2"],
+    "GO of uncertain figures": [
+        "kenaf", "--angle", "45deg", "--nosing-spacing", "150mm", "--friction", "2",
+        "--uncertainty", "com_from_front=5mm,angle=0.5deg",
+    ],
+    "CAUTION by friction": ["absolem", "ibc", "--flippers", "flat", "--surface", "concrete-dry"],
+    "CAUTION, no friction stated": ["absolem", "ada", "--flippers", "flat"],
+    "CAUTION until weighed": ["taurob-tracker", "ibc", "--friction", "1.2"],
+    "NO-GO": ["absolem", "ibc"],
+    "NO-GO of a robot that nobody weighed": [
+        "quince", "--angle", "70deg", "--nosing-spacing", "200mm", "--friction", "1",
+    ],
+    "OUTSIDE THE MODEL": ["kenaf", "ibc", "--model", "closed-form"],
+}  # fmt: skip
+
+
+def shown(*words):
+    result = CliRunner().invoke(app, ["assess", *words])
+    assert result.exit_code in (0, 1, 3), result.output
+    return result.stdout.splitlines()
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_it_fits_one_screen_and_the_verdict_comes_first(case, monkeypatch):
+    monkeypatch.setattr("sys.argv", ["kaidan", "assess", *CASES[case]])
+    lines = shown(*CASES[case])
+    label = case.partition(" by")[0].partition(",")[0].partition(" until")[0].partition(" of")[0]
+    assert lines[0].startswith(f"{label}  ")
+    assert len(lines) <= LINES
+    assert len(shown(*CASES[case], "--short")) == 1
+    assert len(shown(*CASES[case], "--details")) > LINES
+
+
+def test_a_picture_is_offered_after_a_no_go_and_the_command_draws_it(monkeypatch, tmp_path):
+    words = CASES["NO-GO"]
+    monkeypatch.setattr("sys.argv", ["kaidan", "assess", *words])
+    monkeypatch.chdir(tmp_path)
+    offered = next(line for line in shown(*words) if line.startswith("  see"))
+    command = offered.split()[2:]
+    assert command[0] == "traverse"
+    assert CliRunner().invoke(app, command).exit_code == 1
+    assert (tmp_path / "traverse.png").stat().st_size > 10_000
+    monkeypatch.setattr("sys.argv", ["kaidan", "assess", *CASES["GO"]])
+    assert not any(line.startswith("  see") for line in shown(*CASES["GO"]))
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_margin_is_that_of_the_mode_it_names(case):
+    line = next((line for line in shown(*CASES[case]) if line.startswith("  margin ")), "")
+    found = re.match(r"  margin +([+-][\d.]+) deg \((\w+)\)", line)
+    if found is None:
+        assert not line or "not known" in line
+        return
+    key = found.group(2)
+    assert FAILURE_MODES[key].unit == "rad"
+    rows = [each for each in shown(*CASES[case], "--details") if each.startswith(f"  {key} ")]
+    if "uncertain" not in case:  # of several uncertain modes together it is less than of each
+        assert rows[0].split()[1] == found.group(1)
+
+
+@pytest.mark.parametrize("robot", ["absolem", "ozbot-atr", "superdroid-hd2"])
+def test_the_margin_ranks_stairs(robot):
+    """Of one nosing spacing, the steeper ones have the smaller margin, whatever the verdict."""
+    flights = [
+        kaidan.Stairs.inclined(angle=math.radians(angle), nosing_spacing=0.3, steps=8)
+        for angle in range(18, 60, 6)
+    ]
+    cells = kaidan.compare([robot], flights, friction=1.2).cells
+    margins = [cell.margin_deg for cell in cells]
+    assert all(then <= first + 1e-6 for first, then in pairwise(margins))  # 1e-6: the root search
+    assert margins[-1] < margins[0] - 5

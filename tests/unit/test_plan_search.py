@@ -1,0 +1,238 @@
+"""The search for a plan: what it finds, that it is so, what it is for, and how far it holds."""
+
+import math
+from itertools import product
+
+import jsonschema
+import pytest
+
+import kaidan
+from kaidan.assessment.answer import Assessment
+from kaidan.assessment.plan_search import LIMITS, TOLERANCE, found_of, off_angles, shortened
+from kaidan.errors import InputError
+from kaidan.models import judge
+from kaidan.modes import Verdict
+from kaidan.question import Question
+from kaidan.robot import FlipperPair, Posture, PostureChange, Robot, State, Track
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import Stairs
+
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
+
+PAIR = FlipperPair(
+    length=0.3, root_radius=0.09, tip_radius=0.04, pivot_height=0.09, mass=2.0, max_speed=0.5
+)
+FRONT_PAIR = Robot(
+    name="one pair",
+    mass=24.0,
+    com_from_front=0.24,
+    com_height=0.1,
+    track=Track(flat_length=0.51, front_radius=0.09, rear_radius=0.09),
+    front_flippers=PAIR,
+)
+"""Estimated, in the manner of a PackBot: long flippers at the nose."""
+STAIRS = Stairs(name="short", rise=0.178, going=0.279, steps=8)
+
+
+def best(robot="absolem", stairs=STAIRS, **manner):
+    return kaidan.assess(robot, stairs, flippers="best", **({"friction": 0.9} | manner))
+
+
+@pytest.fixture(scope="module")
+def absolem():
+    return best()
+
+
+def rank(answer):
+    return Verdict(answer.verdict).rank, len(answer.doubts)
+
+
+def test_it_is_better_than_any_posture_that_has_a_name(absolem):
+    fixed = [
+        kaidan.assess("absolem", STAIRS, flippers=flippers, facing=facing, friction=0.9)
+        for flippers in ("stowed", "flat", "45deg,0deg")
+        for facing in ("nose-first", "tail-first")
+    ]
+    at_its_angles = kaidan.assess(absolem.question)
+    assert rank(at_its_angles) < min(map(rank, fixed))
+    assert rank(absolem) <= min(map(rank, fixed))
+    assert absolem.margin_deg > max(each.margin_deg for each in fixed)
+    assert absolem.contact.grades.largest_drop_deg < 20  # flat it drops by the slope of 33 deg
+
+
+def test_what_is_found_is_so_when_it_is_asked_for(absolem):
+    plan = absolem.plan
+    again = kaidan.assess(
+        "absolem", STAIRS, facing=plan.facing, flippers=plan.flippers, friction=0.9
+    )
+    assert again.margin_deg == absolem.margin_deg
+    shared = set(again.findings)
+    assert {key: absolem.findings[key] for key in shared} == again.findings
+    assert set(absolem.findings) - shared <= {"posture_tolerance"}
+    assert again.plan.steps == plan.steps
+    assert (again.plan.found, plan.found) == (False, True)
+    assert kaidan.assess(again.question) == again
+
+
+def test_angles_are_whole_degrees_within_the_limits(absolem):
+    for step in absolem.plan.steps:
+        for word in step.flippers.split(","):
+            if word.endswith("deg"):
+                assert float(word[:-3]).is_integer()
+                assert LIMITS[0] - 1e-9 <= math.radians(float(word[:-3])) <= LIMITS[1] + 1e-9
+
+
+def test_each_change_says_what_it_takes(absolem):
+    assert absolem.plan.steps[0].before_step is None
+    for step in absolem.plan.steps[1:]:
+        assert step.before_step == {"traverse": 1, "land": 8}[step.phase]
+        assert step.time_s == pytest.approx(math.radians(step.turn_deg) / 0.7854)
+        assert step.torque_Nm > 0
+    assert all(step.flippers in absolem.details() for step in absolem.plan.steps)
+
+
+@pytest.mark.parametrize("friction", [0.9, 1.2])
+def test_it_holds_two_degrees_off_its_angles_or_says_so(friction):
+    asked = Question.of("absolem", STAIRS, flippers="best", friction=friction)
+    found = found_of(asked)
+    ranks = [kaidan.assess(each).verdict for each in off_angles(found.question)]
+    here = kaidan.assess(found.question).verdict
+    worst = max(Verdict(each).rank for each in ranks)
+    answer = kaidan.assess(asked)
+    assert answer.plan.holds_within_deg == (2.0 if worst <= Verdict(here).rank else 0.0)
+    if worst > Verdict(here).rank:
+        assert answer.verdict != "go"
+        assert "posture_tolerance" in answer.doubts
+
+
+def test_off_angles_are_every_way_off():
+    asked = Question.of("absolem", STAIRS, flippers="30deg,stowed/land:flat", friction=1.0)
+    off = list(off_angles(asked))
+    flat = kaidan.Robot.named("absolem").front_flippers.flat_angle
+    first = {round(math.degrees(each.posture.front), 6) for each in off}
+    assert first == {28.0, 32.0}
+    assert all(each.posture.rear is None for each in off)  # at its stop
+    landing = {(each.changes[0].posture.front, each.changes[0].posture.rear) for each in off}
+    assert landing == set(product((flat + TOLERANCE, flat - TOLERANCE), repeat=2))
+
+
+def test_long_flippers_at_the_nose_go_up_tail_first():
+    """Behind, they carry a centroid that would fall over the short tail."""
+    nose, tail, free = (best(FRONT_PAIR, facing=f, friction=1.0)
+                        for f in ("nose-first", "tail-first", None))  # fmt: skip
+    assert rank(tail) < rank(nose)
+    assert free.plan.facing == "tail-first"
+    assert free.plan.flippers == tail.plan.flippers
+    assert tail.contact.grades.arrested
+    assert not nose.contact.grades.arrested
+
+
+def test_a_robot_without_flippers_is_turned_round():
+    """Its centroid far back: nose first it falls, tail first it climbs."""
+    bare = FRONT_PAIR.model_copy(update={"front_flippers": None, "com_from_front": 0.36})
+    stairs = Stairs(rise=0.1, going=0.15, steps=6)
+    found = best(bare, stairs, friction=1.5)
+    assert found.plan.facing == "tail-first"
+    assert found.plan.flippers == "stowed"
+    assert [step.flippers for step in found.plan.steps] == ["stowed"]
+    assert (found.verdict, best(bare, stairs, facing="nose-first").verdict) == ("go", "no-go")
+
+
+def test_an_arm_that_moves_the_centroid_ahead_is_used():
+    bare = FRONT_PAIR.model_copy(
+        update={
+            "front_flippers": None,
+            "com_from_front": 0.3,
+            "states": {"arm-out": State(mass=6.0, forward=0.45)},
+        }
+    )
+    stairs = Stairs(rise=0.1, going=0.2, steps=6)
+    without = kaidan.assess(bare, stairs, friction=1.5)
+    found = best(bare, stairs, friction=1.5, facing="nose-first")
+    assert "arm-out" in found.plan.flippers
+    assert found.margin_deg > without.margin_deg
+
+
+def test_nothing_is_changed_for_its_own_sake():
+    """Where one posture does, it stays, and the nose leads."""
+    low = FRONT_PAIR.model_copy(update={"com_height": 0.05})
+    found = best(low, Stairs(rise=0.03, going=0.15, steps=6), friction=1.2)
+    assert found.verdict == "go"
+    assert (found.plan.facing, len(found.plan.steps)) == ("nose-first", 1)
+
+
+def test_down_the_stairs():
+    found = best(direction="down", friction=1.0)
+    assert found.plan is not None
+    again = kaidan.assess(found.question)
+    assert again.margin_deg == found.margin_deg
+
+
+@pytest.mark.parametrize(
+    ("manner", "model"),
+    [
+        ({"model": "closed-form"}, "closed-form"),
+        ({"yaw": 0.1}, "contact"),
+        ({"model": "support-polygon"}, "support-polygon"),
+    ],
+)
+def test_where_one_posture_is_judged_it_is_one_with_a_name(manner, model):
+    found = best(stairs=Stairs(rise=0.15, going=0.3, steps=8), **manner)
+    assert found.model == model
+    assert found.plan.flippers in ("stowed", "flat", "flat,stowed", "stowed,flat")
+
+
+def test_a_ramp_has_no_nosing_to_change_before():
+    ramp = Profile.of_points([(-3, 0), (0, 0), (2, 0.8), (5, 0.8)])
+    found = best(stairs=ramp)
+    assert len(found.plan.steps) == 1
+
+
+def test_a_kerb_has_one_place_to_change():
+    kerb = Profile.of_points([(-3, 0), (0, 0), (0, 0.15), (3, 0.15)])
+    found = best(stairs=kerb, friction=1.5)
+    assert {step.phase for step in found.plan.steps[1:]} <= {"land"}
+
+
+def test_physics_takes_a_stated_posture():
+    with pytest.raises(InputError) as refused:
+        best(model="physics")
+    assert str(refused.value) == "a trial keeps one posture: state angles, flat or stowed"
+
+
+def test_the_answer_is_json_both_ways(absolem):
+    assert Assessment.from_json(absolem.to_json()) == absolem
+    jsonschema.validate(absolem.to_dict(), Assessment.json_schema())
+
+
+def test_compare_finds_a_plan_for_each_pair(absolem):
+    found = kaidan.compare(["absolem"], [STAIRS], flippers="best", friction=0.9)
+    (cell,) = found.cells
+    assert found.facing is None
+    assert (str(cell.verdict), cell.governs) == (absolem.verdict, absolem.governs)
+    assert cell.facing == absolem.plan.facing
+    assert cell.flippers == absolem.plan.flippers
+    assert "with the better end first" in str(found)
+
+
+def test_the_whole_flight_does_not_lower_its_verdict():
+    """On the few steps of the search tail first needs 1.00 of friction, on all of them more."""
+    nose = kaidan.assess("absolem-flat", "osha", friction="0.6..1.0")
+    assert nose.verdict == best("absolem-flat", "osha", friction="0.6..1.0").verdict == "caution"
+
+
+def test_shortened_flights_keep_what_is_odd():
+    odd = Stairs(rise=0.12, going=0.2, steps=40, first_rise=0.1, last_rise=0.13)
+    short = shortened(Question.of(FRONT_PAIR, odd)).terrain
+    assert 5 <= short.steps < 12
+    assert (short.step_rises[0], short.step_rises[-1]) == (0.1, 0.13)
+
+
+def test_a_plan_of_the_search_is_judged_by_the_policy_alone():
+    """Whatever the scores said, the verdict is that of a traverse driven in one go."""
+    found = found_of(Question.of("absolem", STAIRS, flippers="best", friction=0.9))
+    plan = found.question
+    assert plan.best_of == ()
+    assert all(isinstance(each, PostureChange) for each in plan.changes)
+    assert isinstance(plan.posture, Posture)
+    assert judge(plan).basis.question == plan

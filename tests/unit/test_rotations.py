@@ -1,0 +1,264 @@
+"""Rotations of a traverse: angles, drops and speeds by hand; which the path obliges to."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from kaidan.contact import Feature, Placement
+from kaidan.outline import Outline
+from kaidan.robot import Robot, Track
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import Stairs
+from kaidan.traversal import Chain, Phase, Rotation, traverse
+from kaidan.traversal.rotations import AT_ONCE, ROCKING, together
+
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
+
+G = 9.80665
+KENAF = Outline.of(Robot.named("kenaf"))
+C_L, C_N, L = 0.196, 0.071, 0.470
+ROUNDING = 1e-9  # m, rad: contacts are solved to 1e-12 m
+
+
+def robot(flat_length, com_from_front, com_height, radius=0.02):
+    track = Track(flat_length=flat_length, front_radius=radius, rear_radius=radius)
+    sheet = Robot(name="r", com_from_front=com_from_front, com_height=com_height, track=track)
+    return Outline.of(sheet)
+
+
+def driven(profile, outline, **how):
+    if isinstance(profile, Stairs):
+        profile = Profile.of_stairs(profile)
+    elif not isinstance(profile, Profile):
+        profile = Profile.of_points(profile)
+    return traverse(profile, outline, step=0.02, **how)
+
+
+def inclined(angle_deg, spacing, steps=8):
+    return Stairs.inclined(angle=math.radians(angle_deg), nosing_spacing=spacing, steps=steps)
+
+
+def test_onto_the_upper_landing_by_hand():
+    """Theory, transitions: C_N (1/cos - 1) is what the centroid falls over the last nosing.
+
+    The pivot lies C_N tan behind the centroid and the nose's tip C_L ahead of it; the distance of
+    the centroid from the pivot, C_N/cos, does not change.
+    """
+    theta = math.radians(50)
+    found = driven(inclined(50, 0.150), KENAF)
+    assert [each.phase for each in found.rotations] == [Phase.LAND]
+    (rotation,) = found.rotations
+    drop = C_N * (1 / math.cos(theta) - 1)
+    rate = math.sqrt(2 * G * drop / (KENAF.gyration**2 + (C_N / math.cos(theta)) ** 2))
+    assert rotation.start == pytest.approx(theta, abs=ROUNDING)
+    assert rotation.reached == pytest.approx(0.0, abs=ROUNDING)
+    assert rotation.angle == pytest.approx(theta, abs=ROUNDING)
+    assert rotation.leading_end_down
+    assert rotation.drop == pytest.approx(drop, abs=ROUNDING)
+    assert rotation.impact_speed == pytest.approx(rate * (C_L + C_N * math.tan(theta)), abs=1e-7)
+    assert rotation.step == 8
+    assert rotation.arrested
+    assert rotation.obliged
+    assert rotation.avoidable == 0.0
+    assert Feature.of(rotation.pivot).point == Feature.of(rotation.arrested_by).point
+    assert found.phases[-1].largest_rotation == pytest.approx(theta, abs=ROUNDING)
+
+
+def test_over_the_top_edge_by_hand():
+    """Theory, transitions: C_N (1 - cos) going down, with C_L >= p so that a nosing arrests it."""
+    theta, p = math.radians(30), 0.150
+    found = driven(inclined(30, p), KENAF, descending=True)
+    rotation = found.rotations[0]
+    drop = C_N * (1 - math.cos(theta))
+    rate = math.sqrt(2 * G * drop / (KENAF.gyration**2 + C_N**2))
+    assert rotation.phase is Phase.ENTER
+    assert (rotation.start, rotation.reached) == pytest.approx((0.0, -theta), abs=ROUNDING)
+    assert rotation.drop == pytest.approx(drop, abs=ROUNDING)
+    assert rotation.impact_speed == pytest.approx(rate * p, abs=1e-7)  # the next nosing
+    assert rotation.obliged
+    # theory, contact: r_A = (0, C_N) and r_B = (-p, C_N) from the contacts to the centroid
+    k2, ab = KENAF.gyration**2, C_N**2
+    left = (k2 + ab) ** 2 / ((k2 + C_N**2) * (k2 + C_N**2 + p**2))
+    assert rotation.spare_after_impact - rotation.spare == pytest.approx(
+        drop * (1 - left), abs=ROUNDING
+    )
+    assert rotation.spare == pytest.approx(found.path.rotations[0].barrier / G - drop, abs=ROUNDING)
+
+
+GAP = [(-2, 0), (0, 0), (0, -0.33), (0.72, -0.33), (0.72, 0), (2.72, 0)]
+WIDE = [(-2, 0), (0, 0), (0, -0.33), (1.5, -0.33), (1.5, 0), (3.5, 0)]
+KERB = [(-2, 0), (0, 0), (0, -0.1), (2, -0.1)]
+
+
+def test_what_a_longer_robot_would_bridge_is_not_obliged():
+    """A gap shorter than the flat: with its centroid elsewhere the robot stands on both edges."""
+    one = robot(0.98, 0.40, 0.065)
+    into, out = driven(GAP, one).rotations
+    assert math.degrees(into.angle) > 50
+    assert into.avoidable == pytest.approx(into.angle, abs=ROUNDING)  # the far edge is level
+    assert not into.obliged
+    assert math.degrees(out.angle) > 35
+    assert out.obliged  # onto the level behind
+    assert driven(WIDE, one).rotations[0].obliged
+    short = [(x if x <= 0 else x - 0.27, z) for x, z in GAP]  # 0.45 m
+    assert not driven(short, one).rotations[0].obliged
+    assert driven(short, robot(0.98, 0.49, 0.065)).rotations == ()
+
+
+def test_off_a_kerb_is_obliged():
+    (rotation,) = driven(KERB, KENAF).rotations
+    assert rotation.obliged
+    assert rotation.drop > 0.005
+    assert rotation.impact_speed > 0.3
+
+
+def test_a_nose_that_drops_past_the_next_nosing_is_not_obliged():
+    """Theory, margin: below atan((p - C_L)/C_N) the nose drops between the nosings."""
+    found = driven(Stairs(rise=0.178, going=0.279, steps=6), KENAF, descending=True)
+    first = found.rotations[0]
+    slope = math.atan2(0.178, 0.279)
+    assert not first.obliged
+    assert first.avoidable == pytest.approx(-slope - first.reached, abs=ROUNDING)
+    assert all(each.obliged == (each.step == 1) for each in found.rotations)  # no nosing below it
+
+
+def test_rocking_of_micrometres_is_nothing():
+    """Every other tread 1 um higher: what it rocks is no rotation that counts."""
+    points = Profile.of_stairs(inclined(35, 0.150, 10)).points.copy()
+    for tread in range(1, 9, 2):
+        points[[2 + 2 * tread, 3 + 2 * tread], 1] += 1e-6
+    found = driven(points, KENAF)
+    small = [each for each in found.rotations if each.phase is not Phase.LAND]
+    assert len(small) > 0
+    assert all(each.angle < 1e-4 for each in small)  # rad
+    assert all(each.obliged for each in found.rotations)
+
+
+LONG_STEPS = Stairs(rise=0.136, going=0.105, steps=5)
+
+
+def test_a_chain_is_told_as_a_whole():
+    """It drops by 52 deg, drives less than 1 % of its length and goes on to 79: one motion."""
+    one = robot(0.368, 0.197, 0.130, radius=0.138)
+    found = driven(LONG_STEPS, one, descending=True)
+    assert found.arrived
+    chain = found.chains[0]
+    first, second = chain.rotations
+    assert (first, second) == found.rotations[:2]
+    records = list(found.path.rotations)
+    between = math.dist(records[0].end[:2], records[1].start[:2])
+    assert 0 < between < AT_ONCE * 0.368
+    assert chain.reached == second.reached < first.reached < chain.start
+    assert math.degrees(chain.reached) < -79
+    assert chain.angle == pytest.approx(first.angle + second.angle, abs=ROUNDING)
+    assert chain.drop == pytest.approx(first.drop + second.drop, abs=ROUNDING)
+    assert chain.spare == pytest.approx(min(first.spare, second.spare - first.drop), abs=ROUNDING)
+    assert chain.arrested_by == second.arrested_by
+    largest = max(each.angle for each in found.chains if each.phase is Phase.ENTER)
+    assert found.phases[0].largest_rotation == pytest.approx(largest, abs=ROUNDING)
+
+
+def rotation(**given):
+    figures = {
+        "phase": Phase.ENTER,
+        "step": 2,
+        "path": 1.0,
+        "start": -0.2,
+        "reached": -1.0,
+        "angle": 0.8,
+        "leading_end_down": True,
+        "drop": 0.02,
+        "impact_speed": 0.7,
+        "avoidable": 0.01,
+        "pivot": 64,
+        "arrested_by": 130,
+        "spare": 0.1,
+        "spare_after_impact": 0.11,
+    }
+    return Rotation(**(figures | given))
+
+
+def test_figures_of_a_chain():
+    """By hand, of three rotations; the second one comes back."""
+    one = rotation()
+    two = rotation(
+        phase=Phase.TRAVERSE, step=3, path=1.001, start=-1.0, reached=-0.4, angle=0.6, drop=0.03,
+        impact_speed=0.9, avoidable=0.02, spare=0.2, spare_after_impact=0.3, arrested_by=194,
+    )  # fmt: skip
+    three = rotation(start=-0.4, reached=-0.9, angle=0.5, drop=0.01, spare=0.15, avoidable=0.03)
+    chain = Chain((one, two, three))
+    assert (chain.phase, chain.step, chain.path, chain.start) == (Phase.ENTER, 2, 1.0, -0.2)
+    assert chain.reached == -1.0
+    back = Chain((rotation(start=0.3, reached=-0.2), rotation(start=-0.2, reached=0.7)))
+    assert back.reached == -0.2  # by 0.5, the other by 0.4
+    assert chain.angle == pytest.approx(1.9)
+    assert chain.drop == pytest.approx(0.06)
+    assert chain.impact_speed == 0.9
+    assert chain.avoidable == pytest.approx(0.06)
+    assert chain.spare == pytest.approx(min(0.1, 0.2 - 0.02, 0.15 - 0.05))
+    assert chain.spare_after_impact == 0.11
+    assert chain.arrested
+    assert chain.arrested_by == 130
+    fallen = Chain((one, rotation(arrested_by=None, impact_speed=math.nan)))
+    assert not fallen.arrested
+    assert not fallen.obliged
+    assert fallen.impact_speed == 0.7
+    assert math.isnan(Chain((rotation(arrested_by=None, impact_speed=math.nan),)).impact_speed)
+
+
+@pytest.mark.parametrize(
+    ("avoidable", "obliged"), [(0.0, True), (ROCKING, True), (math.nextafter(ROCKING, 1), False)]
+)
+def test_rocking_counts_as_obliged(avoidable, obliged):
+    assert rotation(avoidable=avoidable).obliged is obliged
+    assert Chain((rotation(avoidable=avoidable),)).obliged is obliged
+    assert not rotation(avoidable=avoidable, arrested_by=None).obliged
+
+
+def test_what_is_together():
+    """By hand: at most 1 % of the flat's length of 0.5 m, 5 mm, from one to the next."""
+
+    def at(x, ends):
+        return SimpleNamespace(start=Placement(x, 1.0, 0.2), end=Placement(ends, 0.9, -0.3))
+
+    rotations = [at(0.1, 0.102), at(0.1065, 0.11), at(0.112, 0.15), at(0.2, 0.2), at(0.25, 0.25)]
+    for each in rotations:
+        each.start = each.start._replace(z=0.9)
+    groups = [list(group) for group in together(rotations, 0.5)]
+    assert groups == [[0, 1, 2], [3], [4]]
+    assert together([], 0.5) == []
+    rotations = [at(0.0, 0.1), at(0.1, 0.2)]  # 100 mm of height are a way too
+    assert together(rotations, 0.5) == [range(1), range(1, 2)]
+
+
+def test_a_fall_is_not_arrested():
+    found = driven(inclined(70, 0.150), KENAF)
+    last = found.rotations[-1]
+    assert not last.arrested
+    assert last.arrested_by is None
+    assert not last.leading_end_down
+    assert last.avoidable == last.angle
+    assert math.isnan(last.impact_speed)
+    assert math.degrees(last.reached) == pytest.approx(90, abs=1e-6)
+    assert found.end == (last.phase, last.step)
+    assert found.phases[-1].largest_rotation == 0.0
+
+
+@pytest.mark.parametrize("acceleration", [-0.8, 0.5])
+def test_drops_are_along_effective_gravity(acceleration):
+    """By hand: the energy that the rotation releases, over effective gravity; it starts from rest.
+
+    On the level the path is level, so effective gravity leans by a/g; the pivot stands under the
+    centroid along it.
+    """
+    found = driven(inclined(30, 0.150), KENAF, descending=True, acceleration=-acceleration)
+    first, record = found.rotations[0], found.path.rotations[0]
+    size = math.hypot(G, acceleration)
+    start, end = np.array(record.start[:2]), np.array(record.end[:2])
+    fall = float((start - end) @ (acceleration, G)) / size
+    assert first.drop == pytest.approx(fall, abs=ROUNDING)
+    r = math.dist(start, record.pivot_point)
+    rate = math.sqrt(2 * size * fall / (KENAF.gyration**2 + r**2))
+    assert record.rate_before == pytest.approx(rate, rel=1e-9)
