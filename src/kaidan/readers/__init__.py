@@ -1,0 +1,72 @@
+"""Real geometry in: what a file holds, as stairs or a robot with their doubt, or as a refusal.
+
+The content of a file says what it is (`recognition`); its reader in `formats` yields exactly one
+of the kinds in `kinds`; the interpreter of that kind in `interpreters` yields what was found
+(`estimate`). What cannot be read raises `InputError`; what can be read and holds no stairs is a
+`Refusal`, which is a result.
+"""
+
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from kaidan.errors import MissingExtraError
+from kaidan.readers.estimate import Found, Refusal
+from kaidan.readers.hints import Hints
+from kaidan.readers.kinds import Provenance
+from kaidan.readers.opening import Source
+from kaidan.readers.recognition import INTERPRETERS, Format, recognised
+
+NO_HINTS = Hints()
+"""Nothing was stated."""
+
+
+def found_in(path: str | Path, hints: Hints = NO_HINTS) -> Found:
+    """Stairs, robot or refusals that a file holds.
+
+    Parameters
+    ----------
+    path : str or Path
+        Of any known format; its content decides which, not its suffix.
+    hints : Hints
+        What the person knows of it.
+
+    Returns
+    -------
+    Found
+
+    Raises
+    ------
+    InputError
+        A file that cannot be read, contradicts itself, or is of no known format.
+    MissingExtraError
+        Its reader needs an optional package.
+    """
+    source = Source.of(path)
+    form = recognised(source)
+    if form.refusal:
+        provenance = Provenance(path=str(path), digest=source.digest, form=form.name)
+        return Found(provenance, refusals=(Refusal(form.refusal, {}, provenance),))
+    found: Found = import_module(INTERPRETERS[form.kind]).found(
+        contents_of(source, form, hints), hints
+    )
+    return found
+
+
+def contents_of(source: Source, form: Format, hints: Hints = NO_HINTS) -> Any:
+    """What a file of a known format holds, not interpreted yet: one of `kinds`.
+
+    Raises
+    ------
+    InputError
+        A file that cannot be read or contradicts itself.
+    MissingExtraError
+        Its reader needs an optional package.
+    """
+    reader = import_module(f"kaidan.readers.formats.{form.reader}")
+    try:
+        return reader.read(source, hints)
+    except ModuleNotFoundError as error:
+        if not form.extra:
+            raise
+        raise MissingExtraError(f"reading {form.title}", form.extra) from error

@@ -1,0 +1,34 @@
+"""Why a file holds no stairs that can be judged, one sentence for each reason."""
+
+from collections.abc import Mapping
+
+REFUSALS: Mapping[str, str] = {
+    "ramp": "It is a ramp of {angle_deg:.0f} deg: no risers stand out of its {residual_mm:.0f} mm "
+    "of scatter.",
+    "rubble": "Its heights do not repeat as steps do: {residual_mm:.0f} mm are left over.",
+    "curved": "It is a curved flight: it turns by {turn_deg:.0f} deg.",
+    "winders": "It has winders: its nosings turn by {turn_deg:.0f} deg.",
+    "ladder": "It is a ladder of {angle_deg:.0f} deg; tracks take up to 60 deg.",
+    "flat": "It is level: its heights differ by {height_mm:.0f} mm.",
+    "none": "No stairs are in it.",
+    "too-few": "Only {steps} steps are seen; at least {needed} are needed.",
+    "irregular": "Its steps are too irregular for stairs: they differ by {spread_mm:.0f} mm.",
+    "ramp-after-steps": "The steps go over into a plane at {range_m:.1f} m: scan closer.",
+    "noisy": "Its scatter of {residual_mm:.0f} mm hides the steps: scan closer or slower.",
+    "coarse": "Its cells of {cell_mm:.0f} mm are too coarse for steps; 20 mm are needed.",
+    "ambiguous": "It is plausible in more than one way, {ways}: state the unit and the up axis.",
+    "splats": "These are Gaussian splats, whose centres are no surface: export a mesh or a point "
+    "cloud.",
+    "usdz": "This is USDZ, which is not read: export glTF, OBJ or PLY.",
+    "revit": "This is a Revit project, which is not read: export IFC.",
+    "citygml": "This is CityGML, which is not read: convert it to IFC or to a mesh.",
+    "ifc5": "This is IFC5 (ifcx), which is not read yet: export IFC4.",
+    "xacro": "This is xacro: expand it to URDF first (xacro FILE > robot.urdf).",
+    "archive": "This is an archive of several files: unpack it and name the one to read.",
+}
+"""Sentence of each reason, with the names of its numbers."""
+
+
+def sentence(why: str, numbers: Mapping[str, float | str]) -> str:
+    """One sentence that says why, with its numbers."""
+    return REFUSALS[why].format(**numbers)

@@ -1,0 +1,136 @@
+"""Estimates of flights: what follows from nosings with a doubt, by hand and by draws."""
+
+import math
+
+import numpy as np
+import pytest
+
+from kaidan.errors import InputError
+from kaidan.readers.estimate import (
+    FlightEstimate,
+    LandingEstimate,
+    Refusal,
+    StairsEstimate,
+    chi2_tail,
+)
+from kaidan.readers.kinds import Provenance
+from kaidan.text.refusals import REFUSALS
+
+HERE = Provenance(path="here", digest="", form="by hand")
+
+
+def flight(
+    rises=(0.18,) * 6, going=0.28, heading=0.0, sigma=(0.002, 0.001), gravity=0.0, scale=0.0, **more
+):
+    """Flight of known steps, one metre wide, whose first nosing is at the origin of the plan."""
+    m = len(rises)
+    s, z = np.arange(m) * going, np.cumsum(rises)
+    ahead = np.array([math.cos(heading), math.sin(heading)])
+    left = np.array([-ahead[1], ahead[0]])
+    at = s[:, None] * ahead
+    return FlightEstimate(
+        left=np.column_stack([at + 0.5 * left, z]),
+        right=np.column_stack([at - 0.5 * left, z]),
+        heading=heading,
+        covariance=np.tile(np.diag(np.square(sigma)), (m, 1, 1)),
+        gravity=gravity,
+        scale=scale,
+        **{"floor": 0.0, **more},
+    )
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.7, -2.5])
+def test_the_line_of_nosings_lies_along_the_heading(heading):
+    line = flight(heading=heading).line()
+    assert line == pytest.approx(np.column_stack([np.arange(6) * 0.28, np.arange(1, 7) * 0.18]))
+
+
+def test_two_tracks_see_two_lines():
+    """A nosing that climbs 20 mm to the left over 1 m is 4 mm higher 0.2 m to the left."""
+    one = flight()
+    one.left[:, 2] += 0.01
+    one.right[:, 2] -= 0.01
+    assert one.line(0.2)[:, 1] - one.line()[:, 1] == pytest.approx(np.full(6, 0.004))
+
+
+def test_regular_flight_by_hand():
+    """Slope of a straight line: variance sigma^2 / sum (i - mean)^2, 17.5 for six nosings."""
+    found = flight().regular
+    assert (found.rise, found.going, found.freedom) == (
+        pytest.approx(0.18), pytest.approx(0.28), 8
+    )  # fmt: skip
+    assert found.rise_sigma == pytest.approx(0.001 / math.sqrt(17.5), rel=1e-6)
+    assert found.going_sigma == pytest.approx(0.002 / math.sqrt(17.5), rel=1e-6)
+    assert found.chi2 == pytest.approx(0.0, abs=1e-9)
+    angle = math.hypot(0.28 * found.rise_sigma, 0.18 * found.going_sigma) / found.spacing**2
+    assert found.sigmas()[0] == pytest.approx(angle, rel=1e-9)
+
+
+def test_one_odd_riser_is_no_regular_flight():
+    """20 mm more in the middle with 1 mm of doubt: the list of steps, not the mean."""
+    odd = flight(rises=(0.18, 0.18, 0.20, 0.18, 0.18, 0.18))
+    assert odd.regular.alike < 1e-6
+    assert odd.stairs().rises == pytest.approx((0.18, 0.18, 0.20, 0.18, 0.18, 0.18))
+    assert flight().stairs().rise == pytest.approx(0.18)
+
+
+def test_first_riser_stands_apart_and_is_assumed_where_no_floor_was_seen():
+    low = flight(rises=(0.15, 0.18, 0.18, 0.18))
+    assert low.stairs().first_rise == pytest.approx(0.15)
+    blind = flight(rises=(0.15, 0.18, 0.18, 0.18), floor=math.nan)
+    assert blind.stairs().first_rise is None
+    assert blind.line()[0, 1] == pytest.approx(0.18)
+
+
+def test_gravity_and_scale_do_not_average_out():
+    """However many nosings: 1 deg of gravity is 1 deg of slope, 1 % of scale 1 % of spacing."""
+    many = flight(rises=(0.18,) * 40, gravity=math.radians(1.0), scale=0.01)
+    assert many.angle_sigma == pytest.approx(math.radians(1.0), rel=1e-3)
+    assert many.spacing_sigma == pytest.approx(0.01 * many.regular.spacing, rel=1e-3)
+    sheet = many.stairs().uncertainty
+    assert (sheet.angle, sheet.nosing_spacing) == (many.angle_sigma, many.spacing_sigma)
+
+
+def test_draws_have_the_covariance_and_profiles_carry_it():
+    doubtful = flight(
+        gravity=0.01, scale=0.005, floor_sigma=0.002, step_spread=0.003, sigma=(0.004, 0.002)
+    )
+    drawn = doubtful.draws(20_000, seed=1).reshape(20_000, -1)
+    covariance = doubtful.full_covariance()
+    sigmas = np.sqrt(np.diag(covariance))
+    # sample covariances of 20,000 draws scatter by 1 % of the variances
+    assert np.abs(np.cov(drawn.T) - covariance).max() < 0.05 * sigmas.max() ** 2
+    assert np.abs(drawn.mean(axis=0) - doubtful.line().ravel()).max() < 0.05 * sigmas.max()
+    profile = doubtful.profile()
+    assert profile.covariance == pytest.approx(covariance)
+    assert profile.nosings == pytest.approx(doubtful.line())
+    assert profile.points[0] == pytest.approx([-2.0, 0.0])
+    assert len(doubtful.draws(3)) == len(flight(sigma=(0.0, 0.0)).draws(3)) == 3
+
+
+def test_a_staircase_has_one_landing_more_than_flights():
+    two = (flight(), flight())
+    landings = (LandingEstimate(), LandingEstimate(depth=1.2, turn=math.pi), LandingEstimate())
+    stairs = StairsEstimate(two, landings, HERE, name="west").stairs()
+    assert [each.name for each in stairs] == ["west-1", "west-2"]
+    assert stairs[0].upper_landing == stairs[1].lower_landing == 1.2
+    with pytest.raises(InputError, match="2 flights need 3 landings, not 1"):
+        StairsEstimate(two, landings[:1], HERE)
+
+
+def test_chi2_of_the_tables():
+    """Abramowitz & Stegun, Table 26.8: 18.307 at 10 degrees of freedom and 5 %."""
+    assert chi2_tail(18.307, 10) == pytest.approx(0.05, abs=1e-5)
+    assert math.isnan(chi2_tail(1.0, 0))
+    assert chi2_tail(1e6, 10) == 0.0
+
+
+def test_every_refusal_is_one_sentence():
+    numbers = dict.fromkeys(
+        ("angle_deg", "residual_mm", "turn_deg", "height_mm", "steps", "needed", "spread_mm",
+         "range_m", "cell_mm", "ways"), 1
+    )  # fmt: skip
+    for why in REFUSALS:
+        said = str(Refusal(why, numbers, HERE))
+        assert said.endswith(".")
+        assert "{" not in said
