@@ -69,4 +69,4 @@ def contents_of(source: Source, form: Format, hints: Hints = NO_HINTS) -> Any:
     except ModuleNotFoundError as error:
         if not form.extra:
             raise
-        raise MissingExtraError(f"reading {form.title}", form.extra) from error
+        raise MissingExtraError(f"{form.title} as input", form.extra) from error
