@@ -131,6 +131,8 @@ FLIPPER_TORQUE = failure_mode("flipper_torque", "N m", "too little torque to mov
 POSTURE_TOLERANCE = failure_mode("posture_tolerance", "", "flippers some degrees off their angles")
 """Of a plan that was found: off its angles its verdict is worse."""
 LANDING_ROOM = failure_mode("landing_room", "m", "a landing shorter than the robot")
+NARROW = failure_mode("narrow", "m", "a flight narrower than the robot needs")
+LOW = failure_mode("low", "m", "a ceiling lower than the robot needs")
 UNWEIGHED = failure_mode("unweighed", "", "a centroid that nobody measured")
 """The sheet has a range: no GO before the robot is weighed."""
 

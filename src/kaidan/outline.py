@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.contact import BELLY, FLIPPER, TRACK
+from kaidan.mechanics.turning import Footprint
 from kaidan.robot import FlipperPair, Payload, Posture, Robot, Stance
 
 Array = NDArray[np.float64]
@@ -85,6 +86,28 @@ class Outline:
         """Outline with nose and tail swapped, x counting towards the tail."""
         swapped = self.parts[:, [3, 4, 5, 0, 1, 2]] * np.array([-1.0, 1.0, 1.0, -1.0, 1.0, 1.0])
         return replace(self, parts=swapped)
+
+
+def footprint_of(robot: Robot, outline: Outline) -> Footprint:
+    """Rectangle that a robot covers in a posture, about its turning centre.
+
+    Of unknown width (NaN) where the robot's sheet states none.
+    """
+    stance = outline.stance
+    ahead = stance.com_from_front - stance.flat_length / 2
+    if robot.turning_centre is not None:
+        ahead = stance.com_from_front - stance.front_extension - robot.turning_centre
+    behind, front = outline.reach
+    return Footprint(front - ahead, behind + ahead, robot.overall_width)
+
+
+def height_of(robot: Robot, outline: Outline) -> float:
+    """Highest point above the underside in a posture [m]; NaN: the robot's sheet states none."""
+    if robot.height is None:
+        return math.nan
+    discs = outline.parts.reshape(-1, 3)
+    tops = discs[:, 1] + discs[:, 2] + outline.stance.com_height
+    return max(robot.height, float(tops.max()))
 
 
 def _main_track(robot: Robot, rear: float, front: float, bottom: float) -> list[tuple[float, ...]]:

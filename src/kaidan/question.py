@@ -386,6 +386,18 @@ class Question(Sheet):
         return self.profile.as_stairs(self.terrain_name)
 
     @property
+    def room(self) -> tuple[float | None, float | None] | None:
+        """Least clear width and headroom of its flights [m]; None: neither is stated."""
+        if isinstance(self.terrain, Profile):
+            return None
+        flights = (self.terrain,) if isinstance(self.terrain, Stairs) else self.terrain
+        widths = [each.width for each in flights if each.width is not None]
+        heights = [each.headroom for each in flights if each.headroom is not None]
+        if not widths and not heights:
+            return None
+        return min(widths, default=None), min(heights, default=None)
+
+    @property
     def terrain_name(self) -> str:
         """What people call the terrain."""
         if isinstance(self.terrain, tuple):

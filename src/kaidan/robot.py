@@ -475,6 +475,20 @@ class Robot(Sheet):
         "tilt to the fall that the robot must keep where it rocks",
         default=None,
     )
+    width: float | None = quantity(
+        "m", 0.05, 5.0, "width over all, where it is wider than its tracks", default=None
+    )
+    height: float | None = quantity(
+        "m", 0.02, 5.0, "highest point above the underside of the track", default=None
+    )
+    turning_centre: float | None = quantity(
+        "m",
+        -1.0,
+        6.0,
+        "point about which it turns on the spot, behind the front end of the flat underside; none: "
+        "the middle of what carries it",
+        default=None,
+    )
     track: Track = Field(description="main tracks")
     front_flippers: FlipperPair | None = Field(default=None, description="front flippers")
     rear_flippers: FlipperPair | None = Field(default=None, description="rear flippers")
@@ -660,6 +674,14 @@ class Robot(Sheet):
         state = self.states[name]
         share = 1.0 if state.mass is None or self.mass is None else state.mass / self.mass
         return share * state.forward, share * state.up
+
+    @property
+    def overall_width(self) -> float:
+        """Width over all, or over the tracks [m]; NaN: the sheet states neither."""
+        gauge, track = self.track.gauge, self.track.width
+        if gauge is None or track is None:
+            return math.nan if self.width is None else self.width
+        return max(gauge + track, self.width or 0.0)
 
     def flippers(self) -> dict[str, FlipperPair]:
         """Pairs of flippers that the robot has, by end: "front", "rear"."""

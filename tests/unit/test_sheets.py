@@ -19,7 +19,8 @@ FLIGHT = {"rise": 0.18, "going": 0.28}
 SURFACE = {"friction_low": 0.5, "friction_high": 0.6}
 ROBOT_FIELDS = (
     "name, title, mass, com_from_front, com_height, com_range, inertia, max_impact_speed, "
-    "fall_reserve, track, front_flippers, rear_flippers, states, theta_d, theta_M, drive, "
+    "fall_reserve, width, height, turning_centre, track, front_flippers, rear_flippers, states, "
+    "theta_d, theta_M, drive, "
     "uncertainty, sources, notes"
 )
 
@@ -281,7 +282,7 @@ def test_what_is_no_table_is_no_sheet(data):
             {**FLIGHT, "run": 0.28},
             "stairs: run is not a known field; known: name, title, rise, going, steps, "
             "first_rise, last_rise, rises, goings, nosing_overhang, nosing_radius_low, "
-            "nosing_radius_high, open_risers, lower_landing, "
+            "nosing_radius_high, open_risers, width, headroom, lower_landing, "
             "upper_landing, direction, uncertainty, sources, notes",
         ),
         (

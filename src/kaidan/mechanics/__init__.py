@@ -11,7 +11,8 @@ equation has no solution. Read the modules in the order of the paper:
 ``transitions`` (entering, riser start, crest), ``rearing`` (a tail in the corner of a tread),
 ``drive`` (traction, torque, power), ``oblique``
 (approach with a yaw), ``margins`` (every failure mode at once), ``weighing`` (the centroid from
-scales, tape and level), ``grousers`` and ``cones`` (what a belt with grousers holds).
+scales, tape and level), ``grousers`` and ``cones`` (what a belt with grousers holds),
+``clearance`` and ``turning`` (room on a flight, at a corner, through a door, on a landing).
 
 Symbols: the glossary in the documentation has them all; ``theta_s`` stair angle [rad],
 ``p`` nosing spacing [m], ``L`` flat length of the track [m], ``C_L`` centroid behind the uphill

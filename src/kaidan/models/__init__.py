@@ -4,6 +4,7 @@ A model is a module with a function ``judge(question, *, known=None) -> Findings
 `kaidan.modes.MODELS`.
 """
 
+from dataclasses import replace
 from importlib import import_module
 from typing import TYPE_CHECKING
 
@@ -32,4 +33,9 @@ def judge(question: "Question", *, known: "Findings | None" = None) -> "Findings
 
         return judge_range(question, judge)
     found: Findings = import_module(MODELS[question.model].module).judge(question, known=known)
-    return found
+    room = question.room
+    if room is None or found.outside:
+        return found
+    from kaidan.models.clearance import findings_of
+
+    return replace(found, each=(*found.each, *findings_of(question, room, found.model)))

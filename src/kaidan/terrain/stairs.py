@@ -112,6 +112,12 @@ class Stairs(Sheet):
         "m", 0.0, 0.05, "largest radius of the nosings; none: 25 mm", default=None
     )
     open_risers: bool = Field(default=False, description="whether there is no riser board")
+    width: float | None = quantity(
+        "m", 0.1, 100.0, "clear width between walls or railings", default=None
+    )
+    headroom: float | None = quantity(
+        "m", 0.2, 100.0, "least plumb height above the line of the nosings", default=None
+    )
     lower_landing: float = quantity("m", 0.0, 100.0, "length of the lower landing", default=2.0)
     upper_landing: float = quantity("m", 0.0, 100.0, "length of the upper landing", default=2.0)
     direction: Literal["up", "down"] = Field(default="up", description="which way the robot goes")

@@ -265,6 +265,35 @@ def _unweighed(
 
 
 _Saying = Callable[["Question", "Findings", "Conclusion", "Finding"], str]
+
+
+def _narrow(
+    question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
+) -> str:
+    assert question.room is not None
+    return _needs("The flight", "wide", question.room[0], finding, "going straight", "off line")
+
+
+def _low(
+    question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
+) -> str:
+    assert question.room is not None
+    return _needs("The headroom", "", question.room[1], finding, "lying flat", "rearing")
+
+
+def _needs(
+    what: str, way: str, given: float | None, finding: "Finding", best: str, worst: str
+) -> str:
+    """What there is beside what the best and the worst case need, in mm."""
+    has = (given or 0.0) * 1e3
+    least, most = (has - float(each.min()) * 1e3 for each in (finding.best, finding.worst))
+    way = f" {way}" if way else ""
+    return (
+        f"{what} is {has:.0f} mm{way}; the robot needs {least:.0f} mm {best}, {most:.0f} mm "
+        f"{worst}."
+    )
+
+
 _SAYINGS: dict[str, _Saying] = {
     "tip_downhill": _tips,
     "tip_uphill": _tips,
@@ -285,6 +314,8 @@ _SAYINGS: dict[str, _Saying] = {
     "flipper_torque": _torque,
     "posture_tolerance": _tolerance,
     "unweighed": _unweighed,
+    "narrow": _narrow,
+    "low": _low,
 }
 """Sentences of the modes that have one of their own; others have the general one."""
 

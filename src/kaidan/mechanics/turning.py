@@ -1,0 +1,307 @@
+r"""Turning on a landing: drive and spin, back and forth, until the robot faces the next flight.
+
+::
+
+          arriving lane   next flight
+         |      ^       |   |||||||   |
+         |      |       |   |||||||   |
+         |  .-------.   |-------------|   the footprint stays off every wall; its turning centre
+         |  |   o   |                 |   stays on the landing, so that it does not tip down the
+         |  '-------'                 |   flight over which its tail still hangs
+         '----------------------------'
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+STRIDE = 0.03
+"""Length of a drive of the search, and of a cell in which one pose is kept [m]."""
+TURN = np.radians(5.0)
+"""Largest turn of one step of the search [rad]."""
+BEYOND = np.radians(60.0)
+"""How far a manoeuvre may turn further than it must [rad]."""
+ABOUT_FACE = np.radians(150.0)
+"""Turn from which it may be made either way round [rad]."""
+MOST_STEPS = 800
+_DRIVES = np.array([1, -1, 0, 0])
+_SPINS = np.array([0, 0, 1, -1])
+
+
+class Footprint(NamedTuple):
+    """Rectangle that a robot covers, about its turning centre."""
+
+    front: float
+    """From the turning centre to the front [m]."""
+    rear: float
+    """From the turning centre to the rear [m]."""
+    width: float
+    """Over all [m]."""
+
+
+class Goal(NamedTuple):
+    """The foot of the next flight."""
+
+    x: float
+    y: float
+    """Middle of its first riser [m]."""
+    heading: float
+    """Of the flight [rad]."""
+    width: float
+    """Clear width of the flight [m]."""
+
+
+class Manoeuvre(NamedTuple):
+    """How a robot turns on a landing."""
+
+    poses: Array
+    """Shape (n, 3): x, y of the turning centre [m] and heading [rad], from the start on."""
+    moves: int
+    """Drives and turns on the spot in a row, each until the next begins."""
+    reversals: int
+    """Changes between driving forward and back."""
+
+
+def walls_of(polygon: Array) -> Array:
+    """Sides of a polygon as walls, shape (n, 4): x, y of one end and of the other [m]."""
+    corners = np.asarray(polygon, dtype=float)
+    return np.hstack([corners, np.roll(corners, -1, axis=0)])
+
+
+def blocked(footprint: Footprint, poses: Array, walls: Array) -> NDArray[np.bool_]:
+    """Whether a wall cuts the footprint, for each pose; separating axes, exact.
+
+    Parameters
+    ----------
+    footprint : Footprint
+    poses : array, shape (n, 3)
+        x, y [m] and heading [rad].
+    walls : array, shape (m, 4)
+        Segments [m].
+
+    Returns
+    -------
+    array of bool, shape (n,)
+        A wall that only touches does not block.
+
+    Examples
+    --------
+    >>> square = walls_of([(0, 0), (1, 0), (1, 1), (0, 1)])
+    >>> print(blocked(Footprint(0.4, 0.4, 0.5), np.array([[0.5, 0.5, 0], [0.7, 0.5, 0]]), square))
+    [False  True]
+    """
+    x, y, psi = (each[:, None] for each in poses.T)
+    cos, sin = np.cos(psi), np.sin(psi)
+    middle, half = (footprint.front - footprint.rear) / 2, footprint.width / 2
+    reach = (footprint.front + footprint.rear) / 2
+    ends = []
+    for k in (0, 2):
+        dx, dy = walls[None, :, k] - x, walls[None, :, k + 1] - y
+        ends.append((dx * cos + dy * sin - middle, dy * cos - dx * sin))
+    (ax, ay), (bx, by) = ends
+    tiny = 1e-9
+    apart = (np.minimum(ax, bx) >= reach - tiny) | (np.maximum(ax, bx) <= tiny - reach)
+    apart |= (np.minimum(ay, by) >= half - tiny) | (np.maximum(ay, by) <= tiny - half)
+    apart |= np.abs(ax * by - ay * bx) >= reach * np.abs(by - ay) + half * np.abs(bx - ax) - tiny
+    return np.asarray(~apart.all(axis=1))
+
+
+def inside(points: Array, polygon: Array) -> NDArray[np.bool_]:
+    """Whether points (n, 2) lie in a polygon (m, 2), by the even-odd rule."""
+    x, y = points[:, :1], points[:, 1:2]
+    ax, ay, bx, by = walls_of(polygon).T
+    crosses = (ay > y) != (by > y)
+    rise = np.where(by == ay, 1.0, by - ay)
+    left = x < ax + (y - ay) * (bx - ax) / rise
+    return np.asarray((crosses & left).sum(axis=1) % 2 == 1)
+
+
+def manoeuvre(
+    footprint: Footprint,
+    *,
+    start: tuple[float, float, float],
+    goal: Goal,
+    landing: Array,
+    walls: Array,
+) -> Manoeuvre | None:
+    """Shortest manoeuvre that is found from one flight to the foot of the next; None: none.
+
+    A breadth-first search over poses that the robot really reaches: one stride straight on or
+    back, or one step of a turn on the spot, of which each cell keeps the first. What it finds can
+    be driven; that it finds nothing is no proof below the size of a cell.
+
+    Parameters
+    ----------
+    footprint : Footprint
+    start : (float, float, float)
+        x, y [m] and heading [rad] on arrival.
+    goal : Goal
+    landing : array, shape (n, 2)
+        Corners of the landing, on which the turning centre stays [m].
+    walls : array, shape (m, 4)
+        Segments that the footprint may not cross [m].
+
+    Returns
+    -------
+    Manoeuvre or None
+
+    Examples
+    --------
+    A landing of 1.2 by 2.2 m between two lanes of 1 m, for a robot 0.7 by 0.5 m and another 2 m:
+
+    >>> landing = np.array([(0, 0), (1.2, 0), (1.2, 2.2), (0, 2.2)])
+    >>> room = np.array([(-1, 0), (1.2, 0), (1.2, 2.2), (0, 2.2), (0, 1), (-1, 1)])
+    >>> case = dict(start=(0.02, 0.5, 0.0), goal=Goal(0.0, 1.7, np.pi, 1.0), landing=landing,
+    ...              walls=walls_of(room))
+    >>> manoeuvre(Footprint(0.35, 0.35, 0.5), **case).moves
+    6
+    >>> manoeuvre(Footprint(1.0, 1.0, 0.5), **case) is None
+    True
+
+    References
+    ----------
+    Derived: docs/theory/clearance.md.
+    """
+    turn = (goal.heading - start[2] + np.pi) % (2 * np.pi) - np.pi
+    steps = max(1, int(np.ceil(abs(turn) / TURN - 1e-9)))
+    each = abs(turn) / steps or TURN
+    spare = int(BEYOND / each)
+    goals = {steps if turn > 0 else -steps} if turn else {0}
+    low, high = min(0, *goals) - spare, max(0, *goals) + spare
+    if abs(turn) > ABOUT_FACE and np.isclose(abs(turn), np.pi):
+        goals = {-steps, steps}
+        low, high = -steps - spare, steps + spare
+    origin = np.minimum(landing.min(axis=0), start[:2]) - STRIDE
+    size = np.ceil((landing.max(axis=0) - origin) / STRIDE).astype(int) + 2
+    seen = np.zeros((high - low + 1, *size), dtype=bool)
+    poses = [np.array([start])]
+    turns = [np.zeros(1, dtype=np.int64)]
+    parents = [np.full(1, -1)]
+    if blocked(footprint, poses[0], walls)[0]:
+        return None
+    total, kind = 0, np.zeros(1, dtype=np.int64)
+    for _ in range(MOST_STEPS):
+        at, k = poses[-1], turns[-1]
+        arrived = _arrived(footprint, at, k, goals, goal)
+        if arrived.any():
+            return _path(poses, turns, parents, int(np.argmax(arrived)))
+        along = STRIDE * np.column_stack([np.cos(at[:, 2]), np.sin(at[:, 2]), 0 * k])
+        spun = np.array([0.0, 0.0, each])
+        new = (at[:, None] + along[:, None] * _DRIVES[:, None] + spun * _SPINS[:, None]).reshape(
+            -1, 3
+        )
+        new_k = (k[:, None] + _SPINS).ravel()
+        parent = total + np.repeat(np.arange(len(k)), 4)
+        new_kind = np.tile(np.arange(1, 5), len(k))
+        goes_on = np.argsort(new_kind != np.repeat(kind, 4), kind="stable")  # these come first
+        fine = goes_on[
+            (new_k[goes_on] >= low) & (new_k[goes_on] <= high) & inside(new[goes_on, :2], landing)
+        ]
+        total += len(k)
+        cell = np.floor((new[fine, :2] - origin) / STRIDE).astype(int)
+        code = np.ravel_multi_index((new_k[fine] - low, cell[:, 0], cell[:, 1]), seen.shape)
+        fresh = fine[~seen.ravel()[code]]
+        code = code[~seen.ravel()[code]]
+        code, first = np.unique(code, return_index=True)
+        free = ~blocked(footprint, new[fresh[first]], walls)
+        keep = np.sort(first[free])
+        if len(keep) == 0:
+            return None
+        seen.ravel()[code[free]] = True
+        keep = fresh[keep]
+        poses.append(new[keep])
+        turns.append(new_k[keep])
+        parents.append(parent[keep])
+        kind = new_kind[keep]
+    return None
+
+
+def _arrived(
+    footprint: Footprint, at: Array, k: NDArray[np.int64], goals: set[int], goal: Goal
+) -> NDArray[np.bool_]:
+    """Whether poses stand before the next flight, in line with it, within a stride of its riser."""
+    cos, sin = np.cos(goal.heading), np.sin(goal.heading)
+    dx, dy = goal.x - at[:, 0], goal.y - at[:, 1]
+    ahead = dx * cos + dy * sin - footprint.front
+    off = np.abs(dy * cos - dx * sin)
+    return np.asarray(
+        np.isin(k, list(goals))
+        & (np.abs(ahead) <= STRIDE)
+        & (off <= (goal.width - footprint.width) / 2)
+    )
+
+
+def _path(
+    poses: list[Array], turns: list[NDArray[np.int64]], parents: list[NDArray[np.int64]], last: int
+) -> Manoeuvre:
+    """Poses from the start to one of the last wave, and how many moves they are."""
+    every, turned, before = np.vstack(poses), np.concatenate(turns), np.concatenate(parents)
+    at = len(every) - len(poses[-1]) + last
+    line = []
+    while at >= 0:
+        line.append(at)
+        at = int(before[at])
+    line.reverse()
+    path, k = every[line], turned[line]
+    forward = np.cos(path[:-1, 2]) * np.diff(path[:, 0]) + np.sin(path[:-1, 2]) * np.diff(
+        path[:, 1]
+    )
+    kinds = np.where(np.diff(k) != 0, 2 * np.sign(np.diff(k)), np.sign(forward))
+    drives = kinds[np.abs(kinds) == 1]
+    return Manoeuvre(
+        path,
+        int(len(kinds) > 0) + int((np.diff(kinds) != 0).sum()),
+        int((np.diff(drives) != 0).sum()),
+    )
+
+
+def inscribed_circle(walls: Array, polygon: Array, *, precision: float = 0.005) -> Array:
+    """Largest circle inside a polygon that crosses no wall: x, y of its middle and its radius.
+
+    Parameters
+    ----------
+    walls : array, shape (m, 4)
+        Segments, the sides of the polygon among them [m].
+    polygon : array, shape (n, 2)
+        Corners [m].
+    precision : float
+        By how much the radius may fall short [m].
+
+    Returns
+    -------
+    array, shape (3,)
+
+    Examples
+    --------
+    >>> square = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
+    >>> print(inscribed_circle(walls_of(square), square).round(2))
+    [0.5 0.5 0.5]
+    """
+    corners = np.asarray(polygon, dtype=float)
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    half = float((high - low).max()) / 2
+    middles = ((low + high) / 2)[None]
+    best = np.array([*middles[0], 0.0])
+    while half > 0 and len(middles):
+        distance = np.where(inside(middles, corners), 1.0, -1.0) * _to_walls(middles, walls)
+        top = int(np.argmax(distance))
+        if distance[top] > best[2]:
+            best = np.array([*middles[top], distance[top]])
+        keep = distance + half * np.sqrt(2.0) > best[2] + precision
+        half /= 2
+        quarters = half * np.array([(-1, -1), (1, -1), (-1, 1), (1, 1)])
+        middles = (middles[keep][:, None] + quarters).reshape(-1, 2)
+    return best
+
+
+def _to_walls(points: Array, walls: Array) -> Array:
+    """Distance of each point to the nearest wall [m]."""
+    a, d = walls[None, :, :2], walls[None, :, 2:] - walls[None, :, :2]
+    from_a = points[:, None] - a
+    length = np.maximum((d**2).sum(axis=-1), 1e-18)
+    t = np.clip((from_a * d).sum(axis=-1) / length, 0.0, 1.0)
+    off = from_a - t[..., None] * d
+    return np.asarray(np.sqrt((off**2).sum(axis=-1)).min(axis=1))

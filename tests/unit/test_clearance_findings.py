@@ -1,0 +1,100 @@
+"""Width and headroom of stairs entered by hand: further findings beside any model's own."""
+
+import math
+
+import pytest
+
+import kaidan
+from kaidan import Robot, Stairs
+from kaidan.outline import Outline, footprint_of
+from kaidan.robot import Posture
+
+pytestmark = pytest.mark.usefixtures("compiled_kernel")
+
+BOX = Robot(
+    name="box",
+    mass=30.0,
+    com_from_front=0.5,
+    com_height=0.05,
+    height=0.4,
+    track={
+        "flat_length": 1.0,
+        "front_radius": 0.1,
+        "rear_radius": 0.1,
+        "gauge": 0.4,
+        "width": 0.1,
+    },
+)
+"""1.2 by 0.5 by 0.4 m."""
+FLIGHT = Stairs(rise=0.15, going=0.3)
+
+
+def asked(robot=BOX, **more):
+    flight = FLIGHT.model_copy(update=more)
+    return kaidan.assess(robot, flight, friction=2.0, theta_d=0.0, theta_M=0.0)
+
+
+def test_nothing_is_said_where_nothing_is_stated():
+    assert {"narrow", "low"} & set(asked().findings) == set()
+
+
+@pytest.mark.parametrize(("width", "verdict"), [(0.48, "no-go"), (0.6, "caution"), (0.7, "go")])
+def test_width(width, verdict):
+    """500 mm straight; 0.5 cos 3 + 1.2 sin 3 + 0.06 = 622 mm off line."""
+    answer = asked(width=width)
+    needed = 0.5 * math.cos(math.radians(3)) + 1.2 * math.sin(math.radians(3)) + 0.06
+    assert answer.findings["narrow"].margin == pytest.approx((width - needed) * 1e3)
+    assert answer.findings["narrow"].margin_best == pytest.approx((width - 0.5) * 1e3)
+    assert answer.verdict == verdict
+    if verdict != "go":
+        assert answer.governs == "narrow"
+        assert answer.reason == (
+            f"The flight is {width * 1e3:.0f} mm wide; the robot needs 500 mm going straight, "
+            "622 mm off line."
+        )
+
+
+@pytest.mark.parametrize(("headroom", "verdict"), [(0.44, "no-go"), (0.7, "caution"), (2, "go")])
+def test_headroom(headroom, verdict):
+    """0.4 / cos(26.57 deg) = 447 mm flat; (1.2 sin 15 + 0.4 cos 15) / cos = 779 mm rearing."""
+    answer = asked(headroom=headroom)
+    cos = 0.3 / math.hypot(0.3, 0.15)
+    assert answer.findings["low"].margin_best == pytest.approx((headroom - 0.4 / cos) * 1e3)
+    assert answer.verdict == verdict
+    if verdict != "go":
+        assert answer.reason == (
+            f"The headroom is {headroom * 1e3:.0f} mm; the robot needs 447 mm lying flat, 779 mm "
+            "rearing."
+        )
+
+
+def test_of_a_robot_of_unknown_size_it_is_not_known():
+    answer = asked(robot=Robot.named("kenaf"), width=0.3, headroom=0.3)
+    assert answer.findings["narrow"].holds is answer.findings["low"].holds is None
+
+
+def test_the_closed_form_has_them_too():
+    flight = FLIGHT.model_copy(update={"width": 0.4})
+    answer = kaidan.assess(BOX, flight, friction=2.0, model="closed-form")
+    assert (answer.verdict, answer.governs) == ("no-go", "narrow")
+
+
+@pytest.mark.parametrize(
+    ("name", "flippers", "front", "rear"),
+    [
+        ("absolem", "stowed", 0.339, 0.339),
+        ("absolem", "flat", 0.6035, 0.6035),
+        ("ozbot-atr", "stowed", 0.803, 0.780),
+    ],
+)
+def test_footprints_of_the_catalogue(name, flippers, front, rear):
+    """Half the lengths over all; OzBot turns about the origin of its model, 0.485 m from front."""
+    robot = Robot.named(name)
+    found = footprint_of(robot, Outline.of(robot, Posture.parse(flippers, robot)))
+    assert (found.front, found.rear) == pytest.approx((front, rear), abs=5e-4)
+
+
+def test_the_wider_of_tracks_and_body_counts():
+    assert BOX.overall_width == 0.5
+    assert BOX.model_copy(update={"width": 0.6}).overall_width == 0.6
+    assert BOX.model_copy(update={"width": 0.3}).overall_width == 0.5
