@@ -10,8 +10,9 @@ from kaidan.campaign.job import CRASHED, FAILED, Work
 from kaidan.campaign.local import LocalWorkers, Workers
 from kaidan.campaign.plans import Condition, Grid, Plan, Setting, VerificationTest
 from kaidan.campaign.query import State, export, read_batches, read_table, state_of
-from kaidan.campaign.runner import Tally, conduct
+from kaidan.campaign.runner import Kept, Tally, conduct
 from kaidan.campaign.store import Store
+from kaidan.campaign.threads import ThreadWorkers
 from kaidan.campaign.trials import TRIALS
 
 __all__ = [
@@ -21,6 +22,7 @@ __all__ = [
     "Condition",
     "DaskWorkers",
     "Grid",
+    "Kept",
     "LocalWorkers",
     "Plan",
     "PlanProgress",
@@ -28,6 +30,7 @@ __all__ = [
     "State",
     "Store",
     "Tally",
+    "ThreadWorkers",
     "VerificationTest",
     "Work",
     "Workers",

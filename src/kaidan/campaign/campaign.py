@@ -2,7 +2,7 @@
 
 from collections import Counter
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from kaidan.campaign.cluster import DaskWorkers
 from kaidan.campaign.id_set import Known
@@ -12,7 +12,7 @@ from kaidan.campaign.progress import Progress
 from kaidan.campaign.query import read_batches
 from kaidan.campaign.runner import Tally, conduct
 from kaidan.campaign.store import Store
-from kaidan.campaign.store_files import about_store
+from kaidan.campaign.store_files import about_store, refusal
 from kaidan.campaign.trials import TRIALS
 
 
@@ -76,8 +76,7 @@ def resume(
     InputError, MissingExtraError
         As `carry_out`.
     """
-    about = about_store(Path(store))
-    assert about is not None
+    about = _about_trials(Path(store))
     done = found = 0
     outcomes: Counter[str] = Counter()
     for stored in about["plans"]:
@@ -112,8 +111,7 @@ def progress_of(store: str | Path) -> list[PlanProgress]:
         No store, a plan of another version, or no MuJoCo, whose version belongs to a trial.
     """
     folder = Path(store)
-    about = about_store(folder)
-    assert about is not None
+    about = _about_trials(folder)
     known = Known()
     for batch in read_batches(folder, ["id"]):
         known.update(batch.column("id").to_pylist())
@@ -125,6 +123,15 @@ def progress_of(store: str | Path) -> list[PlanProgress]:
             done += different.add(identity) and identity in known
         found.append(PlanProgress(stored["kind"], len(different), done))
     return found
+
+
+def _about_trials(folder: Path) -> dict[str, Any]:
+    """What a store of trials holds."""
+    about = about_store(folder)
+    assert about is not None
+    if about["work"] != TRIALS.name:
+        raise refusal(folder, f"holds {about['work']}: the command that began it goes on with it")
+    return about
 
 
 def _workers(count: int | None, scheduler: str | None) -> Workers:

@@ -5,13 +5,15 @@ import os
 import socket
 import threading
 from collections.abc import Callable, Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass
 from typing import Any, Literal
 
 Row = dict[str, Any]
 """One trial: value by column."""
-Kind = Literal["text", "number", "count", "flag"]
-"""What a column holds: str, float, int or bool; any may be missing (None)."""
+Kind = Literal["text", "number", "count", "flag", "texts", "numbers", "counts"]
+"""What a column holds: str, float, int or bool, or a list of str, float or int; any may be missing
+(None)."""
 
 OWN_COLUMNS: dict[str, Kind] = {
     "id": "text",
@@ -47,6 +49,8 @@ class Work:
     """Version of what computes: results of two versions are two results."""
     columns: Mapping[str, Kind]
     """Columns of `run` and `inputs`, but for `outcome`."""
+    alone: bool = True
+    """Whether a process may run only one at a time, whatever threads it has."""
 
     def all_columns(self) -> dict[str, Kind]:
         """Columns of a row in the order of the store."""
@@ -86,7 +90,7 @@ class Ended:
 
 
 _ONE_AT_A_TIME = threading.Lock()
-"""A process runs one trial at a time, whatever threads its pool gives it."""
+"""Held while a process runs what must be alone in it."""
 
 
 def perform(work: Work, spec: Any, version: str) -> Reply:
@@ -113,7 +117,7 @@ def perform(work: Work, spec: Any, version: str) -> Reply:
         return Reply({}, f"the worker on {host} has {here}, the campaign {version}")
     row: Row = {"outcome": FAILED, "error": None, "host": f"{host}:{os.getpid()}"}
     try:
-        with _ONE_AT_A_TIME:
+        with _ONE_AT_A_TIME if work.alone else nullcontext():
             row |= work.run(spec)
     except ImportError as error:
         return Reply({}, f"the worker on {host}: {error}")

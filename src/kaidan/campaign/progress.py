@@ -17,9 +17,11 @@ class Progress:
         Trials of the plan; those done before are subtracted, so that the time left is right.
     shown : bool
         Whether to show it at all.
+    what : str
+        What is counted.
     """
 
-    def __init__(self, total: int, *, shown: bool) -> None:
+    def __init__(self, total: int, *, shown: bool, what: str = "trials") -> None:
         self._total = total
         self._bar: Bar | None = None
         self._task: TaskID | None = None
@@ -33,7 +35,7 @@ class Progress:
         from rich import progress
 
         self._bar = progress.Progress(
-            progress.TextColumn("trials"),
+            progress.TextColumn(what),
             progress.BarColumn(),
             progress.MofNCompleteColumn(),
             progress.TimeElapsedColumn(),

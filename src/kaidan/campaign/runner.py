@@ -1,19 +1,40 @@
 """The conduct of a campaign: plan lazily, keep the workers busy, store what comes."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from kaidan.campaign.job import Ended, Row, Task
+from kaidan.campaign.id_set import Known
+from kaidan.campaign.job import Ended, Row, Task, Work
 from kaidan.campaign.local import Workers
-from kaidan.campaign.store import Store
 from kaidan.errors import InputError
 
 _LOOK = 0.25
 """Longest time between looks at the clock [s]."""
 _SKIP = 500
 """Most trials that are looked up in the store before results are seen to again."""
+
+
+class Rows(Protocol):
+    """Where rows go: a `Store`, or `Kept`."""
+
+    work: Work
+    known: Known
+
+    def add(self, rows: Sequence[Row]) -> None:
+        """Take rows in."""
+
+
+class Kept:
+    """Rows in memory, for what nobody goes on with later."""
+
+    def __init__(self, work: Work) -> None:
+        self.work, self.known, self.rows = work, Known(), list[Row]()
+
+    def add(self, rows: Sequence[Row]) -> None:
+        """Take rows in."""
+        self.rows += rows
 
 
 class Listener(Protocol):
@@ -36,7 +57,7 @@ class Tally:
 
 
 def conduct(
-    specs: Iterable[Any], store: Store, workers: Workers, *, listener: Listener | None = None
+    specs: Iterable[Any], store: Rows, workers: Workers, *, listener: Listener | None = None
 ) -> Tally:
     """Do what is not in the store yet.
 
@@ -44,7 +65,7 @@ def conduct(
     ----------
     specs : iterable
         What is to be done; taken one by one as workers become free, so it may be endless work.
-    store : Store
+    store : Store or Kept
         Where rows go, open for writing.
     workers : Workers
         Who does it.
@@ -71,7 +92,7 @@ def conduct(
 
 
 class _Campaign:
-    def __init__(self, specs: Iterable[Any], store: Store, workers: Workers) -> None:
+    def __init__(self, specs: Iterable[Any], store: Rows, workers: Workers) -> None:
         self.plan: Iterator[Any] | None = iter(specs)
         self.store, self.workers = store, workers
         self.version = store.work.version()

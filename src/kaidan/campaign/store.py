@@ -49,7 +49,16 @@ SOON, LATE = 1.0, 60.0
 is settled at once and a long one does not leave a myriad of parts."""
 SYNC = 1.0
 """Longest time for which the journal is not forced to disk [s]."""
-_PYTHON: dict[Kind, type] = {"text": str, "number": float, "count": int, "flag": bool}
+_PYTHON: dict[Kind, type] = {
+    "text": str,
+    "number": float,
+    "count": int,
+    "flag": bool,
+    "texts": str,
+    "numbers": float,
+    "counts": int,
+}
+"""What a column holds, or each item of its lists."""
 
 
 class Store:
@@ -210,4 +219,7 @@ class Store:
 
 
 def _as(kind: Kind, value: Any) -> Any:
-    return None if value is None else _PYTHON[kind](value)
+    if value is None:
+        return None
+    of = _PYTHON[kind]
+    return [of(each) for each in value] if kind.endswith("s") else of(value)

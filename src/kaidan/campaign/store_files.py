@@ -20,6 +20,8 @@ from kaidan.files import reason, whole_file
 FORMAT = 2
 ABOUT, PARTS = "campaign.json", "parts"
 _ARROW = {"text": "string", "number": "float64", "count": "int64", "flag": "bool_"}
+_LISTS = {"texts": "text", "numbers": "number", "counts": "count"}
+"""Kinds of columns that hold lists, and what is in the lists."""
 _PART = re.compile(r"part-(\d{6,})-([0-9a-f]{16})\.parquet", re.ASCII)
 _JOURNAL = re.compile(r"journal-(\d{6,})\.jsonl", re.ASCII)
 
@@ -41,7 +43,9 @@ def arrow(module: str = "pyarrow") -> Any:
 def schema_of(columns: dict[str, Kind]) -> Any:
     """Arrow schema of columns."""
     pa = arrow()
-    return pa.schema([(name, getattr(pa, _ARROW[kind])()) for name, kind in columns.items()])
+    types = {kind: getattr(pa, name)() for kind, name in _ARROW.items()}
+    types |= {kind: pa.list_(types[each]) for kind, each in _LISTS.items()}
+    return pa.schema([(name, types[kind]) for name, kind in columns.items()])
 
 
 def refusal(folder: Path, why: str | OSError | ValueError) -> InputError:

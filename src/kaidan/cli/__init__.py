@@ -35,6 +35,7 @@ _COMMANDS = {
     "posture": ("posture",),
     "reproduce": ("reproduce",),
     "schema": ("schema",),
+    "sweep": ("sweep",),
     "traverse": ("traverse",),
 }
 """Commands by the module that registers them: a requested one is loaded alone."""

@@ -29,6 +29,7 @@ KINDS = {
     "calibration": "kaidan.studies.calibration.answer:Calibration",
     "grouser-effects": "kaidan.studies.calibration.answer:GrouserEffects",
     "reproduction": "kaidan.studies.reproduction:Reproduction",
+    "sweep": "kaidan.sweeps.summary:SweepSummary",
     "outcomes": "kaidan.studies.known_outcomes:KnownOutcomes",
 }
 """What has a schema: name on the command line, module and class."""

@@ -2,4 +2,4 @@
 
 from kaidan.sweeps.pairs import stream as stream
 from kaidan.sweeps.pairs import verdicts as verdicts
-from kaidan.sweeps.table import sweep as sweep
+from kaidan.sweeps.sweeping import sweep as sweep

@@ -1,4 +1,4 @@
-"""Labelled sweeps: arrays of any parameter in, an xarray Dataset with units out."""
+"""The paper's formulas over labelled arrays: a Dataset of xarray with units."""
 
 import math
 from collections.abc import Iterable
@@ -59,7 +59,7 @@ _OTHERS = {
 }
 
 
-def sweep(
+def formula_table(
     robot: Robot | str,
     stairs: Stairs | str | None = None,
     *,
@@ -71,7 +71,9 @@ def sweep(
     engine: Engine = "auto",
     **parameters: Any,
 ) -> "xarray.Dataset":
-    """Verdict and every margin of a robot on stairs over arrays of any parameters.
+    """Verdict and every margin of a robot on stairs by the paper's formulas, over arrays.
+
+    What `kaidan.sweep` does without a model.
 
     Parameters
     ----------
@@ -109,7 +111,7 @@ def sweep(
     --------
     >>> from math import radians
     >>> spacings = [0.150, 0.180, 0.200, 0.220]
-    >>> table = sweep("kenaf", angle=radians(40), nosing_spacing=spacings, friction=2.0)
+    >>> table = formula_table("kenaf", angle=radians(40), nosing_spacing=spacings, friction=2.0)
     >>> print(table.margin_angle_deg.round(3).values)
     [60.205 52.936 46.185 37.255]
     """

@@ -47,7 +47,7 @@ def scheduler(folder, workers=2, nanny=False):
         processes.append(start("dask_worker", *quiet, *how, "--local-directory", str(folder)))
     try:
         end = time.monotonic() + 30
-        while not file.exists():
+        while not file.exists() or not file.read_text():  # being written
             assert time.monotonic() < end
             time.sleep(0.05)
         yield json.loads(file.read_text())["address"], processes
@@ -173,3 +173,17 @@ def test_an_address_that_is_none_is_refused_at_once(address):
         " is no address of a Dask scheduler; write for example tcp://10.0.0.1:8786"
     )
     assert len(str(caught.value)) < 200
+
+
+def test_a_sweep_on_a_scheduler_finds_the_same(tmp_path):
+    from kaidan.sweeps.plan import Plan
+    from kaidan.sweeps.running import carried_out
+
+    plan = Plan.of({"robot": "absolem", "stairs": "ibc", "model": "closed-form", "flippers": "flat",
+                    "com_height": [0.1, 0.2, 0.3], "friction": [0.6, 0.9]})  # fmt: skip
+    with scheduler(tmp_path) as (address, _):
+        found = carried_out(plan, scheduler=address)
+        with pytest.raises(InputError, match="a Dask scheduler has workers of its own"):
+            carried_out(plan, scheduler=address, workers=2)
+    here = carried_out(plan)
+    assert found.variables["margin_deg"].tolist() == here.variables["margin_deg"].tolist()
