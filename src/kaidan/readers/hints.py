@@ -32,6 +32,17 @@ class Hints(Sheet):
     resolution: float | None = quantity(
         "m", 1e-4, 10.0, "side of a cell of an elevation map that does not say it", default=None
     )
+    forward: Axis | None = Field(
+        default=None, description="axis of the file that points to the robot's front; +x without"
+    )
+    joints: dict[str, float] = Field(
+        default={}, description="angles of a robot's joints [rad], or ways [m], by their names"
+    )
+    figures: dict[str, float] = Field(
+        default={},
+        description="figures of a robot's sheet that replace those of the file, such as "
+        "track.flat_length, in SI",
+    )
     element: str = Field(
         default="", description="part of the file: a GlobalId, a topic, a scan, a link"
     )

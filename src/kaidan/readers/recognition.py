@@ -6,6 +6,7 @@ which stands in `kaidan.text.refusals` under that word.
 """
 
 import re
+import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -21,6 +22,7 @@ INTERPRETERS: Mapping[str, str] = MappingProxyType(
         "points": "kaidan.readers.interpreters.points",
         "mesh": "kaidan.readers.interpreters.mesh",
         "heights": "kaidan.readers.interpreters.heights",
+        "robot": "kaidan.readers.interpreters.robot",
     }
 )
 """Module of each kind with ``found(contents, hints) -> Found``."""
@@ -78,17 +80,50 @@ def is_splats(source: Source) -> bool:
     )
 
 
-ARCHIVES = (b"PK\x03\x04", b"7z\xbc\xaf", b"Rar!", b"\x1f\x8b")
-"""First bytes of zip, 7-Zip, RAR and gzip."""
+def is_xacro(source: Source) -> bool:
+    """Test of a robot's XML with macros; what xacro has expanded keeps their name space only."""
+    return xml("robot", "xacro")(source) and bool(
+        re.search(rb"<xacro:|\$\{|\$\((?:arg|find|eval|env)", source.head)
+    )
+
+
+def is_packed_splats(source: Source) -> bool:
+    """Test of Gaussian splats in gzip (SPZ), by the first bytes within."""
+    if not source.head.startswith(b"\x1f\x8b"):
+        return False
+    try:
+        return zlib.decompressobj(31).decompress(source.head, 4) == b"NGSP"
+    except zlib.error:
+        return False
+
+
+def is_tar(source: Source) -> bool:
+    """Test of a tar archive."""
+    return source.head[257:262] == b"ustar"
+
+
+ARCHIVES = (
+    b"PK\x03\x04", b"PK\x05\x06", b"7z\xbc\xaf", b"Rar!", b"\x1f\x8b", b"BZh", b"\xfd7zXZ",
+    b"\x28\xb5\x2f\xfd",
+)  # fmt: skip
+"""First bytes of zip, an empty zip, 7-Zip, RAR, gzip, bzip2, xz and Zstandard."""
 
 FORMATS: tuple[Format, ...] = (
     Format("splats", "Gaussian splats", "", is_splats, refusal="splats"),
+    Format("spz", "Gaussian splats", "", is_packed_splats, refusal="splats"),
     Format("usdz", "USDZ", "", holds(".usdc", ".usda", ".usd"), refusal="usdz"),
+    Format("usd", "USD", "", begins(b"PXR-USDC", b"#usda"), refusal="usdz"),
     Format("revit", "a Revit project", "", begins(b"\xd0\xcf\x11\xe0"), refusal="revit"),
     Format("citygml", "CityGML", "", xml("CityModel"), refusal="citygml"),
-    Format("xacro", "xacro", "", xml("robot", having=b"xmlns:xacro"), refusal="xacro"),
-    Format("ifc5", "IFC5", "", json_with("header", "data", "imports"), refusal="ifc5"),
+    Format("cityjson", "CityJSON", "", json_with("type", "CityJSON"), refusal="citygml"),
+    Format("xacro", "xacro", "", is_xacro, refusal="xacro"),
+    Format("urdf", "URDF", "robot", xml("robot"), reader="urdf"),
+    Format("sdf", "SDF", "robot", xml("sdf"), reader="sdf"),
+    Format("mjcf", "MJCF", "robot", xml("mujoco"), reader="mjcf"),
+    Format("ifc5", "IFC5", "", json_with("header", "ifcxVersion"), refusal="ifc5"),
+    Format("ifc5-alpha", "IFC5", "", json_with("header", "data", "imports"), refusal="ifc5"),
     Format("archive", "an archive", "", begins(*ARCHIVES), refusal="archive"),
+    Format("tar", "an archive", "", is_tar, refusal="archive"),
 )  # fmt: skip
 """All formats; the first that fits is it, so archives of one known file stand before archives."""
 

@@ -17,14 +17,20 @@ REFUSALS: Mapping[str, str] = {
     "noisy": "Its scatter of {residual_mm:.0f} mm hides the steps: scan closer or slower.",
     "coarse": "Its cells of {cell_mm:.0f} mm are too coarse for steps; 20 mm are needed.",
     "ambiguous": "It is plausible in more than one way, {ways}: state the unit and the up axis.",
+    "massless": "Its {links} links have no mass in this file: state mass, com_from_front and "
+    "com_height, or weigh the robot (kaidan measure robot --help).",
+    "mesh-tracks": "Its tracks are meshes, which are not opened ({names}): state flat_length, "
+    "com_from_front and com_height, or measure them. Its masses add up to {mass_kg:.1f} kg.",
+    "no-flat-run": "Nothing on which it stands is level within 3 deg: this is no tracked robot, or "
+    "its axes are others than x forward and z up.",
     "splats": "These are Gaussian splats, whose centres are no surface: export a mesh or a point "
     "cloud.",
-    "usdz": "This is USDZ, which is not read: export glTF, OBJ or PLY.",
-    "revit": "This is a Revit project, which is not read: export IFC.",
-    "citygml": "This is CityGML, which is not read: convert it to IFC or to a mesh.",
+    "usdz": "This is USD (USDZ), which is not read: export glTF, OBJ or PLY.",
+    "revit": "This is a Revit project (an OLE compound file), which is not read: export IFC.",
+    "citygml": "This is CityGML or CityJSON, which is not read: convert it to IFC or to a mesh.",
     "ifc5": "This is IFC5 (ifcx), which is not read yet: export IFC4.",
     "xacro": "This is xacro: expand it to URDF first (xacro FILE > robot.urdf).",
-    "archive": "This is an archive of several files: unpack it and name the one to read.",
+    "archive": "This is a compressed file or an archive: unpack it and name the one to read.",
 }
 """Sentence of each reason, with the names of its numbers."""
 

@@ -1,5 +1,6 @@
 """Files of strangers: sizes checked before memory is taken, nothing followed, one clear line."""
 
+import gzip
 import io
 import os
 import zipfile
@@ -37,9 +38,19 @@ def test_upright_is_a_rotation_that_lifts_the_axis(axis):
         (b"ply\nproperty float scale_0\nproperty float rot_0\nproperty float opacity\n", "splats"),
         (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "revit"),
         (b"<?xml version='1.0'?><!-- a --><core:CityModel xmlns:core='x'/>", "citygml"),
-        (b"<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'>", "xacro"),
+        (b"<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'><xacro:include/>", "xacro"),
+        (b"<robot name='r'><link name='${side}_track'/></robot>", "xacro"),
         (b'{"header": {"version": "ifcx_alpha"}, "imports": [], "data": []}', "ifc5"),
+        (b'{"header": {"ifcxVersion": "ifcx_alpha"}, "data": []}', "ifc5"),
+        (b'{"type": "CityJSON", "version": "2.0"}', "citygml"),
+        (b"PXR-USDC\0\0", "usdz"),
+        (b"#usda 1.0", "usdz"),
+        (gzip.compress(b"NGSP\2\0\0\0"), "splats"),
         (b"\x1f\x8b\x08", "archive"),
+        (gzip.compress(b"ply"), "archive"),
+        (b"BZh91AY", "archive"),
+        (b"\xfd7zXZ\0", "archive"),
+        (b"\0" * 257 + b"ustar\0", "archive"),
     ],
 )
 def test_what_is_not_read_is_answered_in_one_sentence(tmp_path, content, why):
