@@ -14,6 +14,9 @@ PICTURES = {
     "go.png": "traverse absolem ibc --friction 1.0 --flippers=22deg,flat --side",
     "dimensions.svg": "robots kenaf --figure",
     "weighing.svg": "measure robot --figure",
+    "battery.png": "design absolem ibc --flippers=22deg,flat --friction 1.0 "
+    "--payload=5kg@200mm,300mm --free=payload.from_front=-300mm..800mm "
+    "--free=payload.height=50mm..600mm --figure",
 }
 """Commands by the file that they write; a traverse is named after its verdict."""
 

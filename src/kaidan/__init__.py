@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from kaidan.terrain.stairs import Stairs
     from kaidan.verbs.comparison import compare
     from kaidan.verbs.d_a_plane import plane
+    from kaidan.verbs.design.designing import design
     from kaidan.verbs.margin_curve import margin
     from kaidan.verbs.measure_robot import measure_robot
     from kaidan.verbs.measure_stairs import measure_stairs
@@ -40,6 +41,7 @@ _HOME = {
     "Stairs": "kaidan.terrain.stairs",
     "Surface": "kaidan.surface",
     "compare": "kaidan.verbs.comparison",
+    "design": "kaidan.verbs.design.designing",
     "experiment": "kaidan.studies.experiment",
     "margin": "kaidan.verbs.margin_curve",
     "measure_robot": "kaidan.verbs.measure_robot",
@@ -61,6 +63,7 @@ __all__ = [  # noqa: RUF022 - what a user meets first
     "margin",
     "plane",
     "compare",
+    "design",
     "reproduce",
     "agree",
     "experiment",

@@ -56,6 +56,7 @@ ELSEWHERE = {
     "pip install 'kaidan[sweeps]'   # tables in Parquet and Zarr, stores, labelled Datasets": (
         ".ci/run, within '.[dev]'"
     ),
+    "pip install 'kaidan[design]'   # scipy, which searches": ".ci/run, within '.[dev]'",
     "dask scheduler --port 8786": "test_cluster.py",
     "dask worker tcp://10.0.0.1:8786 --nworkers auto --nthreads 1": "test_cluster.py",
     "kaidan experiment kenaf --store belt --scheduler tcp://10.0.0.1:8786": "test_cluster.py",

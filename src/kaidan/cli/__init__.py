@@ -25,6 +25,7 @@ _COMMANDS = {
     "campaign": ("campaign",),
     "catalogs": ("robots", "stairs", "surfaces", "new"),
     "compare": ("compare",),
+    "design": ("design",),
     "experiment": ("experiment",),
     "margin": ("margin",),
     "measure": ("measure",),

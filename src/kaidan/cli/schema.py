@@ -29,6 +29,7 @@ KINDS = {
     "calibration": "kaidan.studies.calibration.answer:Calibration",
     "grouser-effects": "kaidan.studies.calibration.answer:GrouserEffects",
     "reproduction": "kaidan.studies.reproduction:Reproduction",
+    "design": "kaidan.verbs.design.answer:Design",
     "sweep": "kaidan.sweeps.summary:SweepSummary",
     "outcomes": "kaidan.studies.known_outcomes:KnownOutcomes",
 }

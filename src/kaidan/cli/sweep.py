@@ -1,6 +1,5 @@
 """``kaidan sweep``: verdicts over anything in a question."""
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -70,12 +69,7 @@ def _one_or_many(text: str) -> Any:
     return names if len(names) > 1 and not Path(text).exists() else text
 
 
-def _several(function: Callable[..., None]) -> Callable[..., None]:
-    """Decorator that gives a command the options of a question as values by parameter."""
-    return shared((question_options,), values_of)(function)
-
-
-@_several
+@shared((question_options,), values_of)
 def sweep(
     values: dict[str, Any],
     vary: Vary = None,

@@ -99,7 +99,7 @@ def run(chunk: Chunk) -> Mapping[str, Any]:
     contact = first is not None and first.model == CONTACT.name
     rows: list[Row] = []
     known: Findings | None = None
-    with expected_work(each * len(questions) if contact else 0.0):
+    with expected_work(each * chunk.of if contact else 0.0):
         for question, key in zip(questions, keys, strict=True):
             if isinstance(question, InputError):
                 rows.append(_refused(question))

@@ -237,3 +237,42 @@ def shaped(stairs: Any, shape: Mapping[str, Any]) -> Any:
         angle, spacing = shape.get("angle", angle), shape.get("nosing_spacing", spacing)
         changes |= {"rise": spacing * math.sin(angle), "going": spacing * math.cos(angle)}
     return Stairs(**stated | changes)
+
+
+def value_now(values: Mapping[str, Any], name: str) -> float | None:
+    """Value that a parameter has as it stands; None where the sheet or the question has none.
+
+    Parameters
+    ----------
+    values : mapping of str to object
+        As `question_of` takes them.
+    name : str
+        Parameter that is a number.
+
+    Examples
+    --------
+    >>> value_now({"robot": "kenaf", "stairs": "ibc"}, "flat_length")
+    0.47
+    """
+    if name in values:
+        return None if isinstance(values[name], tuple) else float(values[name])
+    if name in SHAPE and values.get("stairs") is None:
+        return None
+    if name in SHAPE:
+        flight = sheet_of(values["stairs"], Stairs)
+        return None if flight.rise is None else float(getattr(flight, name))
+    if name in NUMBERS:
+        return None
+    own = figures(values.get("override", ()), OVERRIDES, "override")
+    if name in own:
+        return own[name]
+    place: Any = sheet_of(values["robot"], Robot)
+    path = name.split(".")
+    if path[0] == _PAYLOAD:
+        each = tuple(payloads_of(values.get(_PAYLOAD, ())))
+        return float(getattr(each[0], path[1])) if len(each) == 1 else None
+    if name in ("flat_length", "gauge"):
+        place = place.track
+    for part in path:
+        place = getattr(place, part, None)
+    return None if place is None else float(place)

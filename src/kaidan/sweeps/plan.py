@@ -64,6 +64,8 @@ class Chunk:
     codes: Mapping[str, Counts]
     """Which of them each cell has."""
     cells: int
+    of: int
+    """Cells of the whole plan: so much work is expected."""
 
     def values(self) -> Iterator[dict[str, Any]]:
         """Values of each cell by the names of parameters."""
@@ -208,7 +210,16 @@ class Plan:
             which, code = np.unique(place, return_inverse=True)
             distinct[name] = tuple(given.values[k] for k in which)
             codes[name] = code
-        return Chunk(self.digest, first, self.screen, self.base, distinct, codes, stop - first)
+        return Chunk(
+            self.digest,
+            first,
+            self.screen,
+            self.base,
+            distinct,
+            codes,
+            stop - first,
+            self.different,
+        )
 
     def spread(self, values: NDArray[Any]) -> NDArray[Any]:
         """Values of the different cells as an array over `labels`."""

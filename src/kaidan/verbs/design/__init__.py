@@ -1,0 +1,1 @@
+"""Design: which robot takes the stairs that are to be taken."""
