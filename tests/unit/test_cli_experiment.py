@@ -104,9 +104,9 @@ def test_a_store_that_is_being_written(store):
         (["--angles", "60deg..50deg/3"], "angles '60deg..50deg/3': LOW is not less than HIGH"),
         (["--angles", "95deg"], "angles: 95 deg is not within 1 to 89 deg"),
         (["--track", "hover"], "--track 'hover' is not a model; known: smooth-belt, "
-         "sprung-noses, driven-grousers, shoe-chain"),
+         "yielding-belt, sprung-noses, driven-grousers, shoe-chain"),
         (["--track", "sprung-noses"],
-         "trial: sprung-noses need a stiffness; the track of 'kenaf' states none"),
+         "trial: sprung-noses needs a stiffness; the track of 'kenaf' states none"),
         (["--workers", "2", "--scheduler", "tcp://x"],
          "give either --workers or --scheduler, not both"),
         (["--figure", "fig.jpg"], "figure 'fig.jpg': unknown suffix '.jpg'; known: .png, .svg, "

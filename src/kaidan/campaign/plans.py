@@ -91,6 +91,11 @@ class Setting(Sheet):
             **others,
         )
 
+    @property
+    def static_friction(self) -> float:
+        """Friction of the track on the nosings [1], as its trials take it."""
+        return self.trial(Condition(nosing_spacing=0.2, angle=0.5), 0).static_friction
+
     def trial(self, condition: Condition, seed: int, **others: Any) -> TrialSpec:
         """Trial at a condition on a long flight.
 

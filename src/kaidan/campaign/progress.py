@@ -1,5 +1,7 @@
-"""How a campaign goes, on standard error where that is a terminal."""
+"""How a campaign goes, on standard error: a bar on a terminal, a line now and then elsewhere."""
 
+import sys
+import time
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
@@ -7,9 +9,12 @@ if TYPE_CHECKING:
     from rich.progress import Progress as Bar
     from rich.progress import TaskID
 
+FIRST_LINE, NEXT_LINES = 10.0, 60.0
+"""Time to the first line and between the next [s]."""
+
 
 class Progress:
-    """Bar with the number of trials done and the time that is left; nothing in a pipe.
+    """Number of trials done and the time that is left: a bar, or lines where nobody sees a bar.
 
     Parameters
     ----------
@@ -25,12 +30,16 @@ class Progress:
         self._total = total
         self._bar: Bar | None = None
         self._task: TaskID | None = None
+        self._lines = False
+        self._done, self._began, self._said = 0, time.monotonic(), time.monotonic()
+        self._wait = FIRST_LINE
         if not shown:
             return
         from rich.console import Console
 
         console = Console(stderr=True)
         if not console.is_terminal:
+            self._lines = True
             return
         from rich import progress
 
@@ -62,7 +71,21 @@ class Progress:
 
     def advance(self, done: int, skipped: int) -> None:
         """So many trials were done, or skipped as done before, since the last time."""
+        self._total -= skipped
+        self._done += done
+        if self._lines:
+            self._say()
         if self._bar is None or self._task is None or not (done or skipped):
             return
-        self._total -= skipped
         self._bar.update(self._task, advance=done, total=self._total)
+
+    def _say(self) -> None:
+        """Write a line, if it is time to."""
+        now = time.monotonic()
+        if now - self._said < self._wait or not 0 < self._done < self._total:
+            return
+        left = (now - self._began) / self._done * (self._total - self._done)
+        about = f"{left:.0f} s" if left < 100 else f"{left / 60:.0f} min"
+        line = f"kaidan: {self._done} of {self._total} trials, about {about} left"
+        print(line, file=sys.stderr, flush=True)  # noqa: T201
+        self._said, self._wait = now, NEXT_LINES

@@ -67,7 +67,7 @@ def run(spec: TrialSpec) -> dict[str, Any]:
     """Outcome and figures of a trial."""
     result = physics.run(spec)
     figures = result.model_dump(mode="json", include=set(_FIGURES) | {"outcome"})
-    return figures | result.versions
+    return figures | {"mujoco": None} | result.versions
 
 
 def inputs(spec: TrialSpec) -> dict[str, Any]:
@@ -85,7 +85,7 @@ def inputs(spec: TrialSpec) -> dict[str, Any]:
         "rear_radius_m": question.robot.track.rear_radius,
         "mass_kg": spec.mass()[0],
         "stairs": question.terrain_name,
-        "angle_deg": math.degrees(abs(profile.angle)),
+        "angle_deg": round(math.degrees(abs(profile.angle)), 9),
         "nosing_spacing_m": profile.nosing_spacing,
         "friction": spec.static_friction,
         "speed_m_s": spec.speed,

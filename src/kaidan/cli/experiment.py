@@ -58,6 +58,7 @@ def experiment(
     descent: Descent = False,
     track: physics.Track = "smooth-belt",
     stiffness: physics.Stiffness = None,
+    shear_ratio: physics.ShearRatio = None,
     grouser_height: physics.GrouserHeight = None,
     grouser_spacing: physics.GrouserSpacing = None,
     shoes: physics.Shoes = None,
@@ -93,7 +94,9 @@ def experiment(
         trials=trials,
         descent=descent,
         seed=seed,
-        track=physics.track_model(track, stiffness, grouser_height, grouser_spacing, shoes),
+        track=physics.track_model(
+            track, stiffness, shear_ratio, grouser_height, grouser_spacing, shoes
+        ),
         speed=speed,
         friction=friction,
         ground=ground,

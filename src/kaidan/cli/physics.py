@@ -17,11 +17,21 @@ group = typer.Typer(
 
 Track = Annotated[
     str,
-    typer.Option(help="Model: smooth-belt, sprung-noses, driven-grousers or shoe-chain."),
+    typer.Option(
+        help="Model: smooth-belt, yielding-belt, sprung-noses (stairs that yield), "
+        "driven-grousers or shoe-chain."
+    ),
 ]
 Stiffness = Annotated[
     str | None,
-    typer.Option(help="Of a nosing (sprung-noses) or a grouser (driven-grousers): 30kN/m."),
+    typer.Option(
+        help="Of the track at a nosing (yielding-belt), of a step (sprung-noses) or of a grouser "
+        "(driven-grousers): 30kN/m."
+    ),
+]
+ShearRatio = Annotated[
+    float | None,
+    typer.Option(help="Stiffness along the track to that across it (yielding-belt) [1]."),
 ]
 GrouserHeight = Annotated[str | None, typer.Option(help="Above the belt, for example 10mm.")]
 GrouserSpacing = Annotated[str | None, typer.Option(help="Along the belt, for example 33mm.")]
@@ -69,6 +79,7 @@ def register(app: typer.Typer) -> None:
 def _options(
     track: Track = "smooth-belt",
     stiffness: Stiffness = None,
+    shear_ratio: ShearRatio = None,
     grouser_height: GrouserHeight = None,
     grouser_spacing: GrouserSpacing = None,
     shoes: Shoes = None,
@@ -88,6 +99,7 @@ def _spec(
     *,
     track: str,
     stiffness: str | None,
+    shear_ratio: float | None,
     grouser_height: str | None,
     grouser_spacing: str | None,
     shoes: int | None,
@@ -108,7 +120,9 @@ def _spec(
     return TrialSpec.model_validate(
         {
             "question": question_of(**of_question),
-            "track": track_model(track, stiffness, grouser_height, grouser_spacing, shoes),
+            "track": track_model(
+                track, stiffness, shear_ratio, grouser_height, grouser_spacing, shoes
+            ),
             "begin": begin,
             "nosings": nosings,
             "ground": ground,
@@ -135,7 +149,8 @@ _trial = shared(
 def export(spec: "TrialSpec", file: ModelFile) -> None:
     """Write the model of a trial as MJCF, which MuJoCo's own viewer opens.
 
-    A belt runs at once; what drives grousers and chains is no part of MJCF, so they stand still.
+    A belt runs at once; what drives grousers and chains is no part of MJCF, so they stand still,
+    and a yielding belt is rigid there.
     """
     from kaidan import files
     from kaidan.errors import InputError
@@ -193,7 +208,12 @@ def trial(
 
 
 def track_model(
-    kind: str, stiffness: str | None, height: str | None, spacing: str | None, shoes: int | None
+    kind: str,
+    stiffness: str | None = None,
+    shear_ratio: float | None = None,
+    height: str | None = None,
+    spacing: str | None = None,
+    shoes: int | None = None,
 ) -> "TrackModel":
     """Model of the track from the options that go with its kind."""
     from kaidan.errors import InputError
@@ -205,6 +225,7 @@ def track_model(
     given: dict[str, Any] = {}
     for option, field, text, what in (
         ("--stiffness", "stiffness", stiffness, "stiffness"),
+        ("--shear-ratio", "shear_ratio", shear_ratio, None),
         ("--grouser-height", "height", height, "length"),
         ("--grouser-spacing", "spacing", spacing, "length"),
         ("--shoes", "shoes", shoes, None),

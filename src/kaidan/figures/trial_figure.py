@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from kaidan.physics import TrialLog
 
 _HEIGHT = 5.6
-_MARKS = ((look.BLUE, "-"), (look.VERMILION, "--"), (look.GREEN, "-."), (look.PURPLE, ":"))
+_COLOURS = (look.BLUE, look.VERMILION, look.GREEN, look.PURPLE, look.ORANGE, look.SKY, look.BLACK)
+_STYLES = ("-", "--", "-.", ":")
 
 
 def trial_figure(log: "TrialLog") -> Figure:
@@ -64,7 +65,7 @@ def _draw_forces(axes: Axes, belt: look.Array, forces: look.Array) -> None:
     touched = np.flatnonzero(np.abs(forces).max(axis=0) > 0)
     top = 1.15 * float(np.quantile(forces.max(axis=1), 0.98)) if len(touched) else 1.0
     for place, k in enumerate(touched):
-        colour, style = _MARKS[place % len(_MARKS)]
+        colour, style = _COLOURS[place % len(_COLOURS)], _STYLES[place % len(_STYLES)]
         axes.plot(belt, forces[:, k], color=colour, linestyle=style, linewidth=1.0,
                   label=f"nosing {k + 1}")  # fmt: skip
     axes.set_ylim(0.0, max(top, 1.0))

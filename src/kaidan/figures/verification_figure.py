@@ -21,6 +21,7 @@ _MARKS: dict[str, dict[str, Any]] = {
     "circle": {"marker": "o", "markerfacecolor": "none"},
     "cross": {"marker": "x"},
     "triangle": {"marker": "^", "markerfacecolor": "none"},
+    "plus": {"marker": "+"},
     "square": {"marker": "s", "markerfacecolor": "none"},
 }
 
@@ -98,8 +99,8 @@ def _draw_main(axes: Axes, found: "Verification") -> list[Line2D]:
     if held:
         x, y = zip(*held, strict=True)
         handles += axes.plot(
-            x, y, color=look.GREEN, linestyle="--", marker="_", markersize=9,
-            label="contact model, grade two",
+            x, y, color=look.GREEN, linestyle="none", marker="_", markersize=12,
+            markeredgewidth=1.6, label="contact model, grade two",
         )  # fmt: skip
     shift = 0.025 * width if any(each.down for each in found.spacings) else 0.0
     seen: dict[str, Line2D] = {}
@@ -132,6 +133,7 @@ _TEXTS = {
     "circle": "did not fall at any time",
     "cross": "fell every time",
     "triangle": "fell sometimes (how often)",
+    "plus": "could not be placed (how often)",
     "square": "some did neither (how many)",
 }
 
@@ -145,7 +147,11 @@ def _draw_counts(
         axes.plot(x, count.angle_deg, color=color, zorder=4, **style)
         if symbol not in seen:
             seen[symbol] = Line2D([], [], color=_UP, label=_TEXTS[symbol], **style)
-        number = {"triangle": count.fell, "square": sum(count.others.values())}.get(symbol)
+        number = {
+            "triangle": count.fell,
+            "plus": count.fell_at_start,
+            "square": sum(count.others.values()),
+        }.get(symbol)
         if number is not None:
             axes.annotate(
                 str(number), (x, count.angle_deg), (4.0, -3.0), textcoords="offset points",
@@ -160,11 +166,12 @@ def _draw_corrected(axes: Axes, found: "Verification", aside: float) -> list[Lin
         if each.corrected_deg is not None
     ]
     for x, corrected in points:
-        _bar(axes, x, corrected, look.VERMILION)
+        _bar(axes, x, corrected, look.GREY, hollow=True)
     if not points:
         return []
-    return [Line2D([], [], color=look.VERMILION, marker="D", linestyle="none", markersize=4.0,
-                   label="corrected, Eq. (24)")]  # fmt: skip
+    return [Line2D([], [], color=look.GREY, marker="D", linestyle="none", markersize=4.0,
+                   markerfacecolor="none",
+                   label="Eq. (24) with these trials' own angles: no prediction")]  # fmt: skip
 
 
 def _draw_printed(axes: Axes, found: "Verification") -> list[Line2D]:
@@ -189,10 +196,11 @@ def _draw_printed(axes: Axes, found: "Verification") -> list[Line2D]:
                    label="printed in the paper: fell / rotated")]  # fmt: skip
 
 
-def _bar(axes: Axes, x: float, value: "Range", color: str) -> None:
+def _bar(axes: Axes, x: float, value: "Range", color: str, *, hollow: bool = False) -> None:
     axes.errorbar(
         x, value.mean, yerr=[[value.mean - value.low], [value.high - value.mean]], color=color,
         marker="D", markersize=4.0, capsize=2.5, linestyle="none", linewidth=1.0, zorder=5,
+        markerfacecolor="none" if hollow else color,
     )  # fmt: skip
 
 

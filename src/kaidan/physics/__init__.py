@@ -14,6 +14,7 @@ from kaidan.physics.tracks import (
     SmoothBelt,
     SprungNoses,
     TrackModel,
+    YieldingBelt,
 )
 from kaidan.physics.trial import record, run
 
@@ -29,6 +30,7 @@ __all__ = [
     "TrialLog",
     "TrialResult",
     "TrialSpec",
+    "YieldingBelt",
     "mjcf",
     "model_of",
     "record",

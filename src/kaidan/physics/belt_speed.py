@@ -2,22 +2,30 @@
 
 import math
 
-from kaidan.physics.model import Model
+from kaidan.physics.initial_pose import Course
+from kaidan.physics.spec import TrialSpec
 
 RAMP = 0.4
 """Time in which grousers and chains come to speed [s]; belts start with the robot moving."""
 
 
 class Belt:
-    """How fast the belt runs and how far it has run."""
+    """How fast the belt runs and how far it has run.
 
-    def __init__(self, model: Model) -> None:
-        spec = model.spec
+    Parameters
+    ----------
+    spec : TrialSpec
+    course : Course
+    at_once : bool
+        Whether the robot moves when the drive begins; else it comes to speed in `RAMP`.
+    """
+
+    def __init__(self, spec: TrialSpec, course: Course, *, at_once: bool) -> None:
         self.lowest = spec.speed
         acceleration = spec.question.acceleration
         self.along = -acceleration if spec.downhill else acceleration
-        self.ramp = 0.0 if model.field.any() and model.motion is None else RAMP
-        gain = 2 * abs(self.along) * model.course.distance
+        self.ramp = 0.0 if at_once else RAMP
+        gain = 2 * abs(self.along) * course.distance
         self.first = math.sqrt(spec.speed**2 + gain) if self.along < 0 else spec.speed
         self.coasting = (
             (self.lowest - self.first) / self.along if self.along < 0 else math.inf

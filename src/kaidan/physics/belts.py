@@ -155,8 +155,8 @@ def add_wheel(
 ) -> None:
     """Add a cylinder that is seen and touches nothing, for a capsule that touches unseen."""
     body.add_geom(
-        type=engine().mjtGeom.mjGEOM_CYLINDER, size=[radius, half, 0.0], pos=at, quat=_ACROSS,
-        contype=0, conaffinity=0, rgba=colour,
+        type=engine().mjtGeom.mjGEOM_CYLINDER, size=[radius, half + 0.002, 0.0], pos=at,
+        quat=_ACROSS, contype=0, conaffinity=0, rgba=colour,
     )  # fmt: skip
 
 

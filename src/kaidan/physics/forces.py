@@ -19,14 +19,12 @@ class Forces:
         self.elliptic = bool(model.compiled.opt.cone)
         self.count = len(model.course.profile.nosings)
 
-    def read(self, data: object) -> tuple[Array, float, float, int]:
+    def read(self, data: object) -> tuple[Array, int]:
         """Forces at this moment.
 
         Returns
         -------
         force on the robot from each nosing along their line and normal to it [N], (nosings, 2)
-        sum of the magnitudes of all normal forces [N]
-        traction [N]: what drives the robot along the surface of its track
         number of contacts
         """
         by_nosing = np.zeros((self.count, 2))
@@ -37,23 +35,18 @@ class Forces:
         # stairs against robot, and nothing within the robot
         real = (row >= 0) & ((number == -2).sum(axis=1) == 1)
         if not real.any():
-            return by_nosing, 0.0, 0.0, 0
+            return by_nosing, 0
         row, number, frame = row[real], number[real], contact.frame[real].reshape(-1, 3, 3)
         first_is_stairs = number[:, 0] != -2
-        own = np.where(first_is_stairs, geoms[real, 1], geoms[real, 0])
         number = np.where(first_is_stairs, number[:, 0], number[:, 1])
         in_frame = self._in_frame(data, row, contact.friction[real, 0])
         # the contact's x axis points from its first geom to its second
         sign = np.where(first_is_stairs, 1.0, -1.0)[:, None]
         force = sign * np.einsum("ik,ikj->ij", in_frame, frame)
-        outward = sign * frame[:, 0]  # from the stairs into the robot
-        forward = np.column_stack([outward[:, 2], np.zeros(len(row)), -outward[:, 0]])
-        driven = self.model.driven[own]
-        traction = float((force * forward).sum(axis=1) @ driven)
         on = number >= 0
         np.add.at(by_nosing[:, 0], number[on], force[on] @ self.along)
         np.add.at(by_nosing[:, 1], number[on], force[on] @ self.normal)
-        return by_nosing, float(in_frame[:, 0].sum()), traction, len(row)
+        return by_nosing, len(row)
 
     def _in_frame(self, data: object, row: NDArray[np.int32], friction: Array) -> Array:
         """Normal and two tangential forces of contacts [N], shape (contacts, 3)."""

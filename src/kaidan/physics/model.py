@@ -28,6 +28,7 @@ CLEARANCE = 1e-4
 _SOLIMP = [0.95, 0.99, 0.001, 0.5, 2.0]
 _IMPRATIO = 10.0
 """Friction is this much stiffer than the normal direction: less creep under load."""
+_CHASSIS = (0.90, 0.62, 0.0, 1.0)
 ROBOT = "robot"
 
 
@@ -67,6 +68,7 @@ def model_of(spec: TrialSpec) -> Model:
     numbers = add_terrain(scene, spec, course.profile, course.window, wide)
     body = _robot(scene, spec, course)
     contacts = {"contype": 2, "conaffinity": 1, "condim": 3}
+    _add_chassis(body, spec, course)
     field: dict[str, Array] = {}
     driven: list[str] = []
     motion = None
@@ -149,6 +151,23 @@ def _robot(scene: Any, spec: TrialSpec, course: Course) -> Any:
     body.add_joint(name="z", type=slide, axis=[s, 0.0, c], ref=z)
     body.add_joint(name="phi", type=hinge, axis=[0.0, -1.0, 0.0], ref=course.phi)
     return body
+
+
+def _add_chassis(body: Any, spec: TrialSpec, course: Course) -> None:
+    """Add the robot's body to what is seen: a box that stands a little above the tracks.
+
+    Nothing touches it: where the robot's underside is, belts and belly say.
+    """
+    stance = course.outline.stance
+    bottom = 0.25 * stance.com_height
+    highest = max(part[1] + part[2] for part in course.outline.parts[:1]) + stance.com_height
+    top = max(2.0 * stance.com_height, highest + 0.04)
+    body.add_geom(
+        type=engine().mjtGeom.mjGEOM_BOX,
+        size=[0.38 * stance.flat_length, 0.7 * half_width(spec), (top - bottom) / 2],
+        pos=[(course.front + course.rear) / 2, 0.0, (top + bottom) / 2 - stance.com_height],
+        contype=0, conaffinity=0, rgba=_CHASSIS,
+    )  # fmt: skip
 
 
 def _possible(about_x: float, about_y: float, about_z: float) -> tuple[float, float]:

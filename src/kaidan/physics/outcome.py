@@ -57,13 +57,13 @@ class TrialResult(Answer):
     largest_extra_deg: float
     """Largest inclination beyond the line of the nosings, towards the downhill end [deg]."""
     largest_normal_N: float
-    """Largest force from one nosing, normal to the line of the nosings [N]."""
+    """Largest force of the ground normal to the line of the nosings, mean over 20 ms [N]."""
     largest_traction_N: float
-    """Largest sum of the tractive forces [N]."""
+    """Largest force that drives the robot along its track, mean over 20 ms [N]."""
     largest_torque_Nm: float | None
-    """Largest torque at the sprockets [N m]; null without a sprocket or an end's radius."""
+    """Torque at the sprockets of that traction [N m]; null without a sprocket or end's radius."""
     largest_power_W: float
-    """Largest power at the track [W]."""
+    """Largest power of traction and belt, mean over 20 ms [W]."""
     slip_m: float
     """How much further the belt ran than the robot drove [m]."""
     time_s: float
@@ -76,8 +76,8 @@ class TrialResult(Answer):
     """Speed of the belt, the lowest if it changes [m/s]."""
     timestep_s: float
     """Time step [s]."""
-    contact_time_s: float
-    """Time in which a contact pushes back what has sunk in [s]."""
+    contact_time_s: float | None
+    """Time in which a contact pushes back what has sunk in [s]; null where the track yields."""
     start_offset: float
     """Share of a spacing by which the downhill end hung over its nosing at the start [1]."""
     grouser_phase: float
@@ -91,7 +91,7 @@ class TrialResult(Answer):
     wall_time_s: float
     """Time it took [s]; the only figure that is not the same every time."""
     versions: dict[str, str]
-    """Of kaidan and MuJoCo."""
+    """Of kaidan, and of MuJoCo where it was used."""
 
     @property
     def fell(self) -> bool:

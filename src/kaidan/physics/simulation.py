@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.physics.belt_speed import Belt
 from kaidan.physics.engine import engine
 from kaidan.physics.forces import Forces
 from kaidan.physics.model import ROBOT, Model
+from kaidan.physics.moving_body import WILD, MovingBody
 
 Array = NDArray[np.float64]
 
@@ -18,16 +18,10 @@ SETTLE = {"smooth-belt": 0.1, "sprung-noses": 0.4, "driven-grousers": 0.4, "shoe
 """Time on the tether [s], by model of the track."""
 STANDS = 0.5
 """Time free with the track at rest [s], in which what cannot stand begins to fall."""
-FALLEN = math.radians(45.0)
-"""Inclination beyond the line of the nosings, or beyond level, from which it has fallen [rad]."""
-STARTED_TO_FALL = math.radians(15.0)
-"""Rotation before the track moves that counts as a fall at the start [rad]."""
-WILD = 30.0
-"""Speed that nothing here reaches [m/s]: beyond it the simulation has diverged."""
 
 
-class Simulation:
-    """One run of a model."""
+class Simulation(MovingBody):
+    """One run of a model in MuJoCo."""
 
     def __init__(self, model: Model) -> None:
         self.mujoco = engine()
@@ -36,11 +30,9 @@ class Simulation:
         self.data = self.mujoco.MjData(self.compiled)
         self.body = int(self.compiled.body(ROBOT).id)
         self.joints = self._addresses() if self.spec.dimensions == 2 else None
-        self.belt = Belt(model)
+        at_once = bool(model.field.any()) and model.motion is None
+        self.belt = Belt(self.spec, self.course, at_once=at_once)
         self.forces = Forces(model)
-        self.heading_slope = math.asin(
-            math.sin(self.course.slope) * math.cos(self.spec.question.yaw)
-        )
 
     def _addresses(self) -> tuple[Any, Any]:
         place = [int(self.compiled.joint(name).qposadr[0]) for name in ("x", "z", "phi")]
@@ -67,41 +59,51 @@ class Simulation:
 
     def point(self, along: float, up: float) -> tuple[float, float]:
         """Place x, z [m] of a point of the robot, from the centroid along the track and up."""
-        x, z, phi = self.pose()
         if self.joints is not None:
-            c, s = math.cos(phi), math.sin(phi)
-            return x + c * along - s * up, z + s * along + c * up
+            return super().point(along, up)
+        x, z, _ = self.pose()
         away = self.axes @ np.array([along, 0.0, up])
         return x + float(away[0]), z + float(away[2])
 
-    def along_nosings(self, end: float) -> float:
-        """Place of an end of the flat along the line of the nosings [m].
-
-        Parameters
-        ----------
-        end : float
-            Along the track from the centroid [m].
-        """
-        place = self.point(end, -self.course.outline.stance.com_height)
-        return float(np.array(place) @ self.course.along)
+    def rates(self) -> tuple[float, float]:
+        """Velocity of the centroid in x and z [m/s]."""
+        places = (0, 2) if self.joints is None else self.joints[1][:2]
+        v_x, v_z = self.data.qvel[list(places)].tolist()
+        return v_x, v_z
 
     def velocity(self) -> float:
         """Speed of the centroid along the track [m/s]."""
         if self.joints is not None:
-            v_x, v_z, _ = self.data.qvel[self.joints[1]]
-            phi = self.data.qpos[self.joints[0][2]]
-            return float(v_x * math.cos(phi) + v_z * math.sin(phi))
+            return super().velocity()
         return float(self.data.qvel[:3] @ self.axes[:, 0])
 
-    def extra(self, phi: float) -> float:
-        """Inclination beyond the line of the nosings towards the downhill end [rad]."""
-        beyond = phi - self.heading_slope
-        return -beyond if self.course.down else beyond
+    def by_nosing(self) -> tuple[Array, int]:
+        """Forces of the nosings at this moment, and the number of contacts."""
+        return self.forces.read(self.data)
 
-    def fallen(self, phi: float) -> bool:
-        """Whether it has tipped over either end."""
-        low, high = min(0.0, self.course.slope), max(0.0, self.course.slope)
-        return not low - FALLEN <= phi <= high + FALLEN
+    def configuration(self) -> Array:
+        """State of the model."""
+        return np.array(self.data.qpos)
+
+    def in_space(self) -> tuple[float, ...]:
+        """Place across [m], yaw and roll [deg]; nothing in the plane."""
+        if self.joints is not None:
+            return ()
+        axes = self.axes
+        yaw = math.atan2(axes[1, 0], axes[0, 0])
+        roll = math.atan2(axes[2, 1], axes[2, 2])
+        return float(self.data.qpos[1]), math.degrees(yaw), math.degrees(roll)
+
+    @property
+    def tether(self) -> tuple[tuple[float, float], ...]:
+        """It settles on the tether, then stands free."""
+        return (1.0, SETTLE[self.spec.track.kind]), (0.0, STANDS)
+
+    def pull(self, force: float) -> None:
+        """Pull at the centroid up the line of the nosings [N]."""
+        slope = self.course.slope
+        self.data.xfrc_applied[self.body, 0] = force * math.cos(slope)
+        self.data.xfrc_applied[self.body, 2] = force * math.sin(slope)
 
     def diverged(self) -> bool:
         """Whether the simulation has left the realm of robots."""
@@ -140,24 +142,6 @@ class Simulation:
             sprocket = self.compiled.geom("sprocket")
             self.compiled.geom_surfacevel[sprocket.id, 5] = speed / float(sprocket.size[0])
 
-    def settle(self) -> bool:
-        """Let it rest, on a tether and then free; whether it stands."""
-        mass, slope = self.spec.mass()[0], self.course.slope
-        pull = mass * STANDARD_GRAVITY * math.sin(slope)
-        phi = self.pose()[2]
-        for tether, time in ((pull, SETTLE[self.spec.track.kind]), (0.0, STANDS)):
-            steps = max(4, round(time / self.spec.step))
-            self.data.xfrc_applied[self.body, 0] = tether * math.cos(slope)
-            self.data.xfrc_applied[self.body, 2] = tether * math.sin(slope)
-            for part in range(4):
-                self.drive(0.0, steps // 4 + (part < steps % 4), on=False)
-                now = self.pose()[2]
-                if self.diverged():
-                    return False
-                if abs(now - phi) > STARTED_TO_FALL or self.fallen(now):
-                    return False
-        return True
-
     def set_going(self) -> None:
         """Give the robot the belt's speed, where it starts moving."""
         if self.belt.ramp > 0.0:
@@ -168,15 +152,3 @@ class Simulation:
             self.data.qvel[self.joints[1]] += (speed * math.cos(phi), speed * math.sin(phi), 0.0)
             return
         self.data.qvel[:3] += speed * self.axes[:, 0]
-
-    def servo_power(self) -> float:
-        """Power that the grousers take from the belt [W].
-
-        From the state at the end of the step, as the integrator sees the servos; the force that
-        the engine reports is that at its beginning, off by stiffness times a step's path.
-        """
-        joints = self.compiled.actuator_trnid[:, 0]
-        place = self.data.qpos[self.compiled.jnt_qposadr[joints]]
-        speed = self.data.qvel[self.compiled.jnt_dofadr[joints]]
-        stiff, damping = self.compiled.actuator_gainprm[:, 0], self.compiled.actuator_biasprm[:, 2]
-        return float((stiff * (self.data.ctrl - place) + damping * speed) @ speed)

@@ -12,7 +12,7 @@ from pydantic import Field, field_validator
 
 from kaidan.modes import PHYSICS
 from kaidan.outline import Outline
-from kaidan.physics.tracks import SmoothBelt, SprungNoses, TrackModel
+from kaidan.physics.tracks import SmoothBelt, SprungNoses, TrackModel, YieldingBelt
 from kaidan.question import Question
 from kaidan.sheet import Sheet, model_validator, quantity
 from kaidan.terrain.profile import Profile
@@ -30,11 +30,17 @@ SMOOTH_FRICTION = 3.0
 """Friction of belts where none is stated [1]: they do not slip below 71 degrees."""
 RUBBER_FRICTION = 0.8
 """Friction of grousers where none is stated [1]: rubber on something dry, 0.6 to 1.0."""
-_SMOOTH = ("smooth-belt", "sprung-noses", "shoe-chain")
+_SMOOTH = ("smooth-belt", "yielding-belt", "sprung-noses", "shoe-chain")
 FROM_THE_LANDING = 0.02
 """Contact time of a trial that drives against risers [s]: a rigid belt that never slows down and a
 rigid riser throw each other about; rubber does not."""
-_STEPS = {"smooth-belt": 1e-3, "sprung-noses": 1e-3, "driven-grousers": 1e-3, "shoe-chain": 2.5e-4}
+_STEPS = {
+    "smooth-belt": 1e-3,
+    "yielding-belt": 1e-3,
+    "sprung-noses": 1e-3,
+    "driven-grousers": 1e-3,
+    "shoe-chain": 2.5e-4,
+}
 _NO_PART = ("theta_d", "theta_M", "risk", "accept")
 """Fields of a question that play no part in a trial."""
 
@@ -146,10 +152,8 @@ class TrialSpec(Sheet):
                 )
             if track.gap:
                 raise self.refuse(f"{kind} needs a track without a gap")
-        if kind == "sprung-noses" and self.stiffness is None:
-            raise self.refuse(
-                f"sprung-noses need a stiffness; the track of {robot.name!r} states none"
-            )
+        if kind in ("sprung-noses", "yielding-belt") and self.stiffness is None:
+            raise self.refuse(f"{kind} needs a stiffness; the track of {robot.name!r} states none")
         if kind == "shoe-chain" and self.outline().kinds.max() > 0:
             raise self.refuse("shoe-chain is modelled without flippers and belly")
 
@@ -161,7 +165,7 @@ class TrialSpec(Sheet):
     @property
     def stiffness(self) -> float | None:
         """Stiffness of a nosing under both tracks [N/m]; None where it is rigid or unknown."""
-        if isinstance(self.track, SprungNoses):
+        if isinstance(self.track, SprungNoses | YieldingBelt):
             return self.track.stiffness or self.question.robot.track.stiffness
         return None
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from kaidan.physics.engine import engine
 from kaidan.physics.spec import TrialSpec
+from kaidan.physics.tracks import SprungNoses
 from kaidan.terrain.profile import Profile
 
 Array = NDArray[np.float64]
@@ -20,6 +21,8 @@ _THICK = 0.05
 _PLATE = 0.01
 """Thickness of what slopes [m]: little of its square ends sticks out beside it."""
 _OVERLAP = 0.01
+_ASIDE = 0.002
+"""By which every second box is narrower on each side [m]."""
 MOST_BLOCKS = 5000
 """Boxes of a terrain; with that many a second of the robot's time costs a third of a second."""
 _COLOURS = ((0.78, 0.76, 0.72, 1.0), (0.70, 0.68, 0.64, 1.0))
@@ -147,12 +150,14 @@ def add_terrain(
         if name in numbers:
             name = f"{name}.{k}"
         owner, at = scene.worldbody, [block.x, 0.0, block.z]
-        if spec.stiffness is not None and block.nosing >= 0:
-            owner, at = _sprung(scene, spec, block, name, spec.stiffness), [0.0, 0.0, 0.0]
+        track = spec.track
+        if isinstance(track, SprungNoses) and block.nosing >= 0 and spec.stiffness is not None:
+            owner, at = _sprung(scene, track, block, name, spec.stiffness), [0.0, 0.0, 0.0]
         owner.add_geom(
             name=name,
             type=mujoco.mjtGeom.mjGEOM_BOX,
-            size=[block.half_length, half_width, block.half_height],
+            # of two that overlap one is narrower: their sides do not coincide in pictures
+            size=[block.half_length, half_width - _ASIDE * (k % 2), block.half_height],
             pos=at,
             quat=turned(block.angle),
             rgba=_COLOURS[k % 2],
@@ -164,11 +169,10 @@ def add_terrain(
     return numbers
 
 
-def _sprung(scene: Any, spec: TrialSpec, block: Block, name: str, stiffness: float) -> Any:
+def _sprung(scene: Any, track: SprungNoses, block: Block, name: str, stiffness: float) -> Any:
     """Body of a step on two springs, its weight carried."""
     mujoco = engine()
-    track = spec.track
-    mass, ratio = getattr(track, "nose_mass"), getattr(track, "damping_ratio")  # noqa: B009
+    mass, ratio = track.nose_mass, track.damping_ratio
     body = scene.worldbody.add_body(name=name, pos=[block.x, 0.0, block.z], gravcomp=1.0)
     body.mass, body.inertia, body.ipos = mass, [mass] * 3, [0.0, 0.0, 0.0]
     body.explicitinertial = True

@@ -1,4 +1,4 @@
-"""Models of the track of a trial: smooth belt, sprung noses, driven grousers, chain of shoes."""
+"""Models of the track of a trial: smooth and yielding belt, sprung noses, grousers, chain."""
 
 from typing import Annotated, ClassVar, Literal
 
@@ -15,9 +15,9 @@ class SmoothBelt(Sheet):
 
 
 class SprungNoses(Sheet):
-    """Smooth belt on nosings that yield: the compliance of the track, moved into the stairs.
+    """Smooth belt on stairs that yield: each step rests on two springs, level and upright.
 
-    Each step rests on two springs, along and across the line of the nosings.
+    The loaded step travels downhill with the robot, so this is no model of a track that yields.
     """
 
     label: ClassVar[str] = "track model: sprung noses"
@@ -31,6 +31,26 @@ class SprungNoses(Sheet):
     )
     nose_mass: float = quantity("kg", 0.05, 100.0, "mass of a step on its springs", default=1.0)
     damping_ratio: float = quantity("1", 0.0, 5.0, "of a step on its springs", default=0.5)
+
+
+class YieldingBelt(Sheet):
+    """Smooth belt whose rubber presses in and shears at each nosing: compliance in the robot."""
+
+    label: ClassVar[str] = "track model: yielding belt"
+    kind: Literal["yielding-belt"] = "yielding-belt"
+    stiffness: float | None = quantity(
+        "N/m",
+        1e2,
+        1e8,
+        "force per length by which a nosing presses into both tracks; the robot sheet's without",
+        default=None,
+    )
+    shear_ratio: float = quantity(
+        "1", 0.01, 100.0, "stiffness along the track to that across it", default=1.0
+    )
+    damping_ratio: float = quantity(
+        "1", 0.0, 5.0, "of the robot's mass on the rubber at one nosing", default=0.08
+    )
 
 
 class DrivenGrousers(Sheet):
@@ -74,10 +94,12 @@ class ShoeChain(Sheet):
 
 
 TrackModel = Annotated[
-    SmoothBelt | SprungNoses | DrivenGrousers | ShoeChain, Field(discriminator="kind")
+    SmoothBelt | YieldingBelt | SprungNoses | DrivenGrousers | ShoeChain,
+    Field(discriminator="kind"),
 ]
-KINDS: dict[str, type[SmoothBelt | SprungNoses | DrivenGrousers | ShoeChain]] = {
+KINDS: dict[str, type[SmoothBelt | YieldingBelt | SprungNoses | DrivenGrousers | ShoeChain]] = {
     "smooth-belt": SmoothBelt,
+    "yielding-belt": YieldingBelt,
     "sprung-noses": SprungNoses,
     "driven-grousers": DrivenGrousers,
     "shoe-chain": ShoeChain,

@@ -13,10 +13,14 @@ from numpy.typing import NDArray
 
 from kaidan.modes import Phase
 from kaidan.physics.engine import engine_version, quiet
+from kaidan.physics.mean_forces import MeanForces
 from kaidan.physics.model import model_of
+from kaidan.physics.moving_body import MovingBody
 from kaidan.physics.outcome import Outcome, TrialLog, TrialResult
+from kaidan.physics.planar import RubberBody
 from kaidan.physics.simulation import Simulation
 from kaidan.physics.spec import TrialSpec
+from kaidan.physics.tracks import YieldingBelt
 from kaidan.traversal.phases import flights_span, step_at
 
 Array = NDArray[np.float64]
@@ -84,6 +88,9 @@ def record(spec: TrialSpec) -> TrialLog:
         MuJoCo is not installed.
     """
     began = perf_counter()
+    if isinstance(spec.track, YieldingBelt):
+        drive = _Drive(RubberBody(spec))
+        return drive.log(drive.outcome(), began)
     with quiet():
         drive = _Drive(Simulation(model_of(spec)))
         return drive.log(drive.outcome(), began)
@@ -92,7 +99,7 @@ def record(spec: TrialSpec) -> TrialLog:
 class _Drive:
     """A simulation driven to its end, and what is noted on the path."""
 
-    def __init__(self, simulation: Simulation) -> None:
+    def __init__(self, simulation: MovingBody) -> None:
         self.simulation = simulation
         self.spec, self.course = simulation.spec, simulation.course
         self.rows: list[tuple[float, ...]] = []
@@ -107,6 +114,7 @@ class _Drive:
         self.passed = 0
         self.furthest, self.slip_then = 0, 0.0
         """Nosings that both ends had reached at most, and the slip by then [m]."""
+        self.forces = MeanForces(simulation)
         self.ends = (0.0, 0.0)
         """x of the trailing and the leading end of the flat when it was upright last [m]."""
 
@@ -119,14 +127,16 @@ class _Drive:
                 f"it takes {expected / 3600:.1f} h at {spec.speed:g} m/s; at most "
                 f"{LONGEST / 3600:g} h is simulated"
             )
-        if not simulation.settle():
-            return Outcome.UNSTABLE if simulation.diverged() else Outcome.START_FALL
+        ended = simulation.settle()
+        if ended is not None:
+            return ended
         simulation.set_going()
         self.start = simulation.along_nosings(course.downhill_end)
         self.behind_at_start = int((course.nosings <= self.start).sum())
         limit = PATIENCE * expected + GRACE
         steps = max(1, round(min(spec.log_interval, CHUNK) / spec.step))
         every = max(1, round(spec.log_interval / (steps * spec.step)))
+        self.forces.look(0.0)
         time, looks = 0.0, 0
         while time < limit:
             before = simulation.velocity()
@@ -150,6 +160,7 @@ class _Drive:
         extra = simulation.extra(phi)
         self.largest = max(self.largest, extra)
         slip = simulation.belt.run(time) - self.driven
+        self.forces.look(time)
         if noted:
             self._note(time, x, z, phi, at, slip)
         if extra < UPRIGHT:
@@ -199,49 +210,45 @@ class _Drive:
     def _note(self, time: float, x: float, z: float, phi: float, at: float, slip: float) -> None:
         """Add a row to the log."""
         simulation = self.simulation
-        by_nosing, normal, traction, contacts = simulation.forces.read(simulation.data)
-        speed = simulation.belt.speed(time)
-        if simulation.model.motion is not None and speed > 0.0:
-            traction += simulation.servo_power() / speed
-        robot = self.spec.question.robot
-        radius = robot.drive.sprocket_radius or robot.track.rear_radius
-        torque = traction * radius if radius else math.nan
+        by_nosing, contacts = simulation.by_nosing()
+        forces = self.forces
         row = [
             time, simulation.belt.run(time), x, z, math.degrees(phi),
             math.degrees(simulation.extra(phi)), at - self.start, slip, simulation.velocity(),
-            normal, traction, torque, traction * speed, float(contacts),
+            forces.normal, forces.traction, forces.traction * self._sprocket_radius,
+            forces.traction * simulation.belt.speed(time), float(contacts),
         ]  # fmt: skip
-        if simulation.joints is None:
-            axes = simulation.axes
-            yaw = math.atan2(axes[1, 0], axes[0, 0])
-            roll = math.atan2(axes[2, 1], axes[2, 2])
-            row += [float(simulation.data.qpos[1]), math.degrees(yaw), math.degrees(roll)]
-        self.rows.append(tuple(row))
+        self.rows.append((*row, *simulation.in_space()))
         self.by_nosing.append(by_nosing)
-        self.poses.append(simulation.data.qpos.copy())
+        self.poses.append(simulation.configuration())
+
+    @property
+    def _sprocket_radius(self) -> float:
+        """Radius at which the belt is driven [m]; NaN: not known."""
+        robot = self.spec.question.robot
+        return robot.drive.sprocket_radius or robot.track.rear_radius or math.nan
 
     def log(self, outcome: Outcome, began: float) -> TrialLog:
         """All that was noted, with the result."""
-        names = _COLUMNS if self.simulation.joints is not None else (*_COLUMNS, *_IN_SPACE)
+        names = _COLUMNS if self.spec.dimensions == 2 else (*_COLUMNS, *_IN_SPACE)
         table = np.array(self.rows) if self.rows else np.zeros((0, len(names)))
         columns = {name: table[:, k].copy() for k, name in enumerate(names)}
         forces = np.array(self.by_nosing) if self.by_nosing else np.zeros((0, 0, 2))
         return TrialLog(
-            result=self._result(outcome, columns, forces, began),
+            result=self._result(outcome, columns, began),
             columns=columns,
             forces=forces,
             poses=np.array(self.poses),
         )
 
-    def _result(
-        self, outcome: Outcome, columns: dict[str, Array], forces: Array, began: float
-    ) -> TrialResult:
+    def _result(self, outcome: Outcome, columns: dict[str, Array], began: float) -> TrialResult:
         spec = self.spec
         offset, grouser_phase = spec.drawn()
         mass, assumed = spec.mass()
+        yields = isinstance(spec.track, YieldingBelt)
         nowhere = outcome in (Outcome.CLIMBED, Outcome.UNSTABLE, Outcome.START_FALL)
         phase, step = (None, None) if nowhere else self._place()
-        torque = columns["torque_Nm"]
+        forces, radius = self.forces, self._sprocket_radius
         return TrialResult(
             spec=spec,
             outcome=outcome,
@@ -249,29 +256,26 @@ class _Drive:
             step=step,
             nosings_passed=self.passed,
             largest_extra_deg=math.degrees(self.largest),
-            largest_normal_N=float(forces[..., 1].max(initial=0.0)),
-            largest_traction_N=_largest(columns["traction_N"]),
-            largest_torque_Nm=None if np.isnan(torque).any() else _largest(torque),
-            largest_power_W=_largest(columns["power_W"]),
+            largest_normal_N=forces.largest_normal,
+            largest_traction_N=forces.largest_traction,
+            largest_torque_Nm=None if math.isnan(radius) else forces.largest_traction * radius,
+            largest_power_W=forces.largest_power,
             slip_m=_last(columns["slip_m"]),
             time_s=_last(columns["time_s"]),
             friction=spec.static_friction,
             stiffness_N_m=spec.stiffness,
             speed_m_s=spec.speed,
             timestep_s=spec.step,
-            contact_time_s=spec.softness,
+            contact_time_s=None if yields else spec.softness,
             start_offset=offset,
             grouser_phase=grouser_phase,
             mass_kg=mass,
             mass_assumed=assumed,
             inertia_estimated=self.course.outline.gyration_estimated,
             wall_time_s=perf_counter() - began,
-            versions={"kaidan": version("kaidan"), "mujoco": engine_version()},
+            versions={"kaidan": version("kaidan")}
+            | ({} if yields else {"mujoco": engine_version()}),
         )
-
-
-def _largest(values: Array) -> float:
-    return float(np.abs(values).max(initial=0.0))
 
 
 def _last(values: Array) -> float:

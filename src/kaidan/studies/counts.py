@@ -7,9 +7,12 @@ from typing import Literal, NamedTuple
 from kaidan.answer import Part
 from kaidan.campaign import Condition
 
-FELL = ("fell_backward", "fell_forward", "start_fall")
-"""Outcomes that are a fall; `start_fall` before the track moved, counted apart."""
+START_FALL = "start_fall"
+FELL = ("fell_backward", "fell_forward")
+"""Outcomes that are a fall. Where it fell before the track moved (`start_fall`), it was placed
+where it cannot stand: that is counted apart and drawn apart."""
 
+Symbol = Literal["circle", "cross", "triangle", "plus", "square"]
 Bracket = tuple[float, float]
 """The last slope before the first fall, and that of the fall [deg]."""
 
@@ -55,36 +58,40 @@ class Count(Part):
     """Slope [deg]."""
     direction: Literal["up", "down"]
     fell_of_trial: tuple[bool | None, ...]
-    """Whether each trial fell, in the order of their numbers; null: it neither fell nor climbed."""
+    """Whether each trial fell while driving, in the order of their numbers; null: it neither fell
+    so nor climbed."""
     climbed: int
     """Trials that came to the end of their path."""
     fell: int
-    """Trials that fell."""
+    """Trials that fell while driving."""
     fell_at_start: int
     """Trials that fell before the track moved."""
     others: dict[str, int]
-    """Trials that neither fell nor climbed, by outcome."""
-    symbol: Literal["circle", "cross", "triangle", "square"]
-    """Of the paper's Fig. 13: circle, cross, triangle; square where some did neither."""
+    """Trials that neither fell, before or after the track moved, nor climbed, by outcome."""
+    symbol: Symbol
+    """Of the paper's Fig. 13: circle, cross, triangle; plus where some fell before the track moved,
+    square where some neither fell nor climbed."""
     extra_deg: Range | None
     """Largest inclination beyond the line of the nosings, of the trials that climbed."""
 
 
 def count_of(condition: Condition, trials: Sequence[Trial]) -> Count:
     """Count of a condition's trials, in the order of their numbers."""
-    others = [trial.outcome for trial in trials if trial.fell is None]
+    at_start = sum(trial.outcome == START_FALL for trial in trials)
+    neither = [trial.outcome for trial in trials if trial.fell is None]
+    others = [outcome for outcome in neither if outcome != START_FALL]
     fell_of_trial = tuple(trial.fell for trial in trials)
     climbed, fell = fell_of_trial.count(False), fell_of_trial.count(True)
     return Count(
         nosing_spacing_m=condition.nosing_spacing,
-        angle_deg=math.degrees(condition.angle),
+        angle_deg=round(math.degrees(condition.angle), 9),
         direction=condition.direction,
         fell_of_trial=fell_of_trial,
         climbed=climbed,
         fell=fell,
-        fell_at_start=sum(trial.outcome == "start_fall" for trial in trials),
+        fell_at_start=at_start,
         others={outcome: others.count(outcome) for outcome in sorted(set(others))},
-        symbol=_symbol(climbed, fell, len(others)),
+        symbol=_symbol(climbed, fell, at_start, len(others)),
         extra_deg=range_of(
             trial.extra_deg
             for trial in trials
@@ -93,11 +100,11 @@ def count_of(condition: Condition, trials: Sequence[Trial]) -> Count:
     )
 
 
-def _symbol(
-    climbed: int, fell: int, others: int
-) -> Literal["circle", "cross", "triangle", "square"]:
+def _symbol(climbed: int, fell: int, at_start: int, others: int) -> Symbol:
     if others:
         return "square"
+    if at_start:
+        return "plus"
     if not fell:
         return "circle"
     return "triangle" if climbed else "cross"
@@ -117,8 +124,11 @@ def all_climbed(counts: Sequence[Count]) -> list[Count]:
 
 
 def all_fell(counts: Sequence[Count]) -> list[Count]:
-    """Conditions, from the steepest on, at which every trial fell."""
-    return list(while_true(reversed(counts), lambda count: count.symbol == "cross"))
+    """Conditions, from the steepest on, at which every trial fell; where none could be placed,
+    none is among them.
+    """
+    placed = (count for count in reversed(counts) if count.fell or count.climbed or count.others)
+    return list(while_true(placed, lambda count: count.symbol == "cross"))
 
 
 def margin(counts: Sequence[Count]) -> Range | None:

@@ -167,7 +167,8 @@ def angles_of(given: Any) -> list[float]:
         if not first < last:
             raise InputError(f"angles {shown(part)}: LOW is not less than HIGH")
         steps = int(count) - 1
-        found |= {round(first + (last - first) * k / steps, 9) for k in range(steps + 1)}
+        slopes = (math.degrees(first + (last - first) * k / steps) for k in range(steps + 1))
+        found |= {math.radians(round(slope, 9)) for slope in slopes}
     for angle in found:
         if not SLOPES[0] <= angle <= SLOPES[1]:
             raise InputError(f"angles: {math.degrees(angle):g} deg is not within 1 to 89 deg")

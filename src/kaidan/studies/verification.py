@@ -52,7 +52,8 @@ class Spacing(Part):
     theta_M_deg: Range | None
     """Descending margin less the ascending one, as in Fig. 19."""
     corrected_deg: Range | None
-    """theta_s_sup less theta_d and theta_M, Eq. (24), as in Fig. 21."""
+    """theta_s_sup less theta_d and theta_M of these same trials, Eq. (24): a decomposition of what
+    was simulated, no prediction of it."""
     up: tuple[Count, ...]
     """Conditions going up, by slope."""
     down: tuple[Count, ...]
@@ -174,7 +175,7 @@ def verification(plan: VerificationTest, rows: Iterable[Mapping[str, Any]]) -> V
         track=track.kind,
         stiffness_N_m=getattr(track, "stiffness", None) or own,
         speed_m_s=setting.speed,
-        friction=setting.trial(plan.conditions[0], 0).static_friction,
+        friction=setting.static_friction,
         trials=plan.trials,
         seed=plan.seed,
         version=TRIALS.version(),
@@ -278,7 +279,8 @@ def usual_conditions(
     """Twelve slopes a spacing around the margins of closed form and contact model.
 
     Ascending from 6 degrees below the lower of the two to 5 above the higher one; descending from
-    the higher one to 22 above it, since the downward margin lies higher.
+    the higher one to 22 above it, since the downward margin lies higher. Without grousers no slope
+    is steeper than the angle of friction, where it slides and a fall says nothing.
 
     Raises
     ------
@@ -296,7 +298,14 @@ def usual_conditions(
         if descent:
             ranges.append(("down", max(known), max(known) + 22.0))
         for direction, low, high in ranges:
-            for angle in np.linspace(max(low, 5.0), min(high, 80.0), 12):
+            for angle in np.linspace(max(low, 5.0), max(low, min(high, _steepest(setting))), 12):
                 rounded = math.radians(round(2.0 * float(angle)) / 2.0)
                 conditions.append(Condition(nosing_spacing=p, angle=rounded, direction=direction))
     return tuple(dict.fromkeys(conditions))
+
+
+def _steepest(setting: Setting) -> float:
+    """Steepest slope that is tried [deg]: a degree below that from which a belt slides."""
+    if setting.track.kind == "driven-grousers":
+        return 80.0
+    return min(80.0, math.degrees(math.atan(setting.static_friction)) - 1.0)

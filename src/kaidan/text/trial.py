@@ -23,14 +23,19 @@ def text(result: "TrialResult") -> str:
         ("extra inclination", f"{result.largest_extra_deg:.2f} deg at most"),
         ("nosings passed", f"{result.nosings_passed}, begun at {result.start_offset:.3f} of a "
                            "spacing"),
-        ("largest forces", f"{result.largest_normal_N:.0f} N on a nosing, traction "
-                           f"{result.largest_traction_N:.0f} N{torque}"),
+        ("largest forces", f"{result.largest_normal_N:.0f} N normal to the stairs, traction "
+                           f"{result.largest_traction_N:.0f} N{torque}, means over 20 ms"),
         ("slip", f"{1e3 * result.slip_m:.1f} mm"),
         ("time", f"{result.time_s:.2f} s"),
-        ("made with", f"MuJoCo {result.versions['mujoco']}, seed {spec.seed}"),
+        ("made with", f"{_engine(result)}, seed {spec.seed}"),
     )  # fmt: skip
     head = f"{ended(result).upper()}{place(result)}  {subject(question)}"
     return "\n".join([head, *(f"  {name:<18} {value}" for name, value in rows)])
+
+
+def _engine(result: "TrialResult") -> str:
+    found = result.versions.get("mujoco")
+    return "kaidan's planar solver" if found is None else f"MuJoCo {found}"
 
 
 def ended(result: "TrialResult") -> str:

@@ -38,7 +38,8 @@ def text(found: "Verification") -> str:
                 lines.append(f"  {1e3 * each.nosing_spacing_m:g} mm {name:<5} {shown}")
     lines += [
         "",
-        "  o climbed every time, x fell every time, a number: fell so often; ? did neither",
+        "  o climbed every time, x fell every time, a number: fell so often; + fell before the "
+        "track moved; ? did neither",
     ]
     others = {outcome for count in found.counts for outcome in count.others}
     if others:
@@ -60,6 +61,8 @@ def _row(each: "Spacing") -> dict[str, str]:
 
 
 def _symbol(count: "Count") -> str:
+    if count.symbol == "plus":
+        return f"{count.fell_at_start}+"
     if count.symbol == "square":
         return f"{sum(count.others.values())}?"
     return {"circle": "o", "cross": "x"}.get(count.symbol, str(count.fell))

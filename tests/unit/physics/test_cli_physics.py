@@ -113,8 +113,8 @@ def test_export_opens_in_mujoco(tmp_path):
     [
         (
             ("trial", "kenaf", *STEEP, "--track", "wheels"),
-            "--track 'wheels' is not a model; known: smooth-belt, sprung-noses, driven-grousers, "
-            "shoe-chain",
+            "--track 'wheels' is not a model; known: smooth-belt, yielding-belt, sprung-noses, "
+            "driven-grousers, shoe-chain",
         ),
         (
             ("trial", "kenaf", *STEEP, "--shoes", "50"),
@@ -122,7 +122,7 @@ def test_export_opens_in_mujoco(tmp_path):
         ),
         (
             ("trial", "kenaf", *STEEP, "--track", "sprung-noses"),
-            "trial: sprung-noses need a stiffness; the track of 'kenaf' states none",
+            "trial: sprung-noses needs a stiffness; the track of 'kenaf' states none",
         ),
         (
             ("trial", "kenaf", *STEEP, "--track", "sprung-noses", "--stiffness", "30"),

@@ -64,7 +64,7 @@ def test_an_old_mujoco_is_told_apart(monkeypatch):
     [
         (
             {"track": SprungNoses()},
-            "trial: sprung-noses need a stiffness; the track of 'kenaf-like' states none",
+            "trial: sprung-noses needs a stiffness; the track of 'kenaf-like' states none",
         ),
         (
             {"dimensions": 3, "track": DrivenGrousers()},

@@ -18,7 +18,7 @@ class CountShown(Part):
     extras_deg: tuple[float, ...]
     """Largest extra inclination of each that did not fall [deg]."""
     slid: int
-    """Trials that did not fall and slid, or came to the end without driving there."""
+    """Trials that neither fell nor came to the end of their path."""
     unplaced: int
     """Trials, beside those that began, that fell before the track moved."""
 

@@ -44,15 +44,18 @@ class Count(NamedTuple):
     extras: tuple[float, ...]
     """Largest extra inclination of each that did not fall [deg]."""
     slid: int = 0
-    """Trials that did not fall and slid, or came to the end without driving there."""
+    """Trials that neither fell nor came to the end of their path."""
     unplaced: int = 0
     """Trials, beside those that began, that fell before the track moved."""
 
     @property
     def lost(self) -> float:
-        """Share of all that did not hold on the slope, in whatever way [1]; NaN of none."""
-        whole = self.trials + self.unplaced
-        return (self.falls + self.slid + self.unplaced) / whole if whole else math.nan
+        """Share that fell of all that fell or held [1]; NaN of none.
+
+        What slides is neither: beyond the angle of friction falls are not looked for.
+        """
+        whole = self.trials - self.slid + self.unplaced
+        return (self.falls + self.unplaced) / whole if whole else math.nan
 
 
 def with_ends(robot: Robot, radius: float) -> Robot:
@@ -120,8 +123,7 @@ def count_of(figures: Iterable[Figures], fall: float = FALL) -> Count:
         trials=len(began),
         falls=len(began) - len(stood),
         extras=tuple(extra for _, extra, _ in stood),
-        # one that passed no nosing slid down to the end before the track moved
-        slid=sum(outcome != "climbed" or passed == 0 for outcome, _, passed in stood),
+        slid=sum(outcome != "climbed" for outcome, _, _ in stood),
         unplaced=len(known) - len(began),
     )
 

@@ -1,0 +1,204 @@
+"""The inner loop of a yielding track: one rigid body on rubber at each contact, in the plane.
+
+::
+
+             n (into the robot)     a contact is a nosing under the outline, or an end on a tread
+        robot ^                     or riser. Depth d below the undeformed outline:
+       _______|____ outline           N = k d + c d'                    never pulls
+          d |/                        T = kt s + ct s',  |T| <= mu N    s: shear since it was met
+       -----*----> t (forward)      the force acts at the nosing, which stands still
+
+Explicit in the forces, implicit in the places (symplectic Euler). Ordinary Python of floats and
+arrays: `kaidan.physics.planar` hands it to numba.
+"""
+
+import math
+
+from numpy import float64
+from numpy.typing import NDArray
+
+Array = NDArray[float64]
+Flags = NDArray[float64]
+
+
+def depth_below(part: Array, x: float, z: float, thickest: float) -> tuple[float, float, float]:
+    """Depth of a point inside a part's outline from below [m], and the outward normal there.
+
+    Parameters
+    ----------
+    part : array, shape (12,)
+        Discs x, z, r, x, z, r [m]; start x, z, unit vector and length of the lower tangent, its
+        outward normal's x (z follows from the unit vector).
+    x, z : float
+        Point in the body's frame [m].
+    thickest : float
+        Depth from which the point is taken to lie above the part [m].
+    """
+    e_x, e_z = part[8], part[9]
+    away_x, away_z = x - part[6], z - part[7]
+    s = away_x * e_x + away_z * e_z
+    if 0.0 <= s <= part[10]:
+        depth = -(away_x * e_z - away_z * e_x)  # the normal is (e_z, -e_x)
+        return (depth if depth < thickest else 0.0), e_z, -e_x
+    at = 0 if s < 0.0 else 3
+    d_x, d_z = x - part[at], z - part[at + 1]
+    apart = math.sqrt(d_x * d_x + d_z * d_z)
+    if apart >= part[at + 2] or apart < 1e-9:
+        return 0.0, 0.0, -1.0
+    return part[at + 2] - apart, d_x / apart, d_z / apart
+
+
+def advance(
+    state: Array,
+    points: Array,
+    owners: Array,
+    corners: Array,
+    parts: Array,
+    discs: Array,
+    shear: Array,
+    touching: Flags,
+    constants: Array,
+    first: int,
+    last: int,
+    steps: int,
+    dt: float,
+    speed: float,
+    change: float,
+    push: Array,
+    impulses: Array,
+) -> int:
+    """Advance the body by some steps; the number of contacts at the end.
+
+    Parameters
+    ----------
+    state : array, shape (6,)
+        Centroid x, z [m], inclination [rad] and their rates; changed in place.
+    points : array, shape (n, 2)
+        Terrain from left to right [m].
+    owners : array, shape (n, 2)
+        Row of `impulses` that a corner and the piece that follows it belong to.
+    corners : array, shape (n,)
+        1 for a corner that stands out (a nosing), 0 for any other; 2: a nosing alone, which may be
+        touched from any side and has no tread.
+    parts : array, shape (m, 12)
+        See `depth_below`; the twelfth is 1 for a belt that runs.
+    discs : array, shape (e, 4)
+        Ends: x, z, radius [m], 1 for a belt that runs.
+    shear : array, shape (1 + e, n)
+        Shear of each contact, of corners and of each end on each piece [m]; changed in place.
+    touching : array, shape (1 + e, n)
+        1 where there is one; changed in place.
+    constants : array, shape (8,)
+        Mass [kg], inertia [kg m^2], k, kt [N/m], c, ct [N s/m], mu, gravity [m/s^2].
+    first, last : int
+        Points of the terrain that can be reached, the last one excluded.
+    steps, dt : int, float
+        Number and length [s].
+    speed, change : float
+        Of the belt at the start [m/s] and its rate [m/s^2].
+    push : array, shape (2,)
+        Force at the centroid besides gravity [N].
+    impulses : array, shape (r, 2)
+        What the ground gave the robot by rows of `owners` [N s]; added to.
+    """
+    mass, inertia, k, kt, c, ct, mu, gravity = (
+        constants[0], constants[1], constants[2], constants[3], constants[4], constants[5],
+        constants[6], constants[7],
+    )  # fmt: skip
+    n, ends, contacts = len(points), len(discs), 0
+    for step in range(steps):
+        x, z, phi = state[0], state[1], state[2]
+        v_x, v_z, w = state[3], state[4], state[5]
+        cos, sin = math.cos(phi), math.sin(phi)
+        belt = speed + change * step * dt
+        f_x, f_z, moment, contacts = push[0], push[1] - mass * gravity, 0.0, 0
+        for i in range(first, last):
+            for row in range(1 + ends):
+                # depth of the contact, its place, and its normal into the robot
+                depth, n_x, n_z, at_x, at_z, runs = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+                if row == 0:
+                    if corners[i] == 0.0:
+                        continue
+                    at_x, at_z = points[i, 0], points[i, 1]
+                    r_x, r_z = at_x - x, at_z - z
+                    own_x, own_z = cos * r_x + sin * r_z, cos * r_z - sin * r_x
+                    for m in range(len(parts)):
+                        thickest = max(parts[m, 2] + parts[m, 5], 0.03)
+                        deep, out_x, out_z = depth_below(parts[m], own_x, own_z, thickest)
+                        if deep > depth:
+                            depth, runs = deep, parts[m, 11]
+                            n_x, n_z = sin * out_z - cos * out_x, -sin * out_x - cos * out_z
+                    if depth > 0.0 and corners[i] == 1.0:
+                        before_x = points[i, 0] - points[i - 1, 0]
+                        before_z = points[i, 1] - points[i - 1, 1]
+                        after_x = points[i + 1, 0] - points[i, 0]
+                        after_z = points[i + 1, 1] - points[i, 1]
+                        if (
+                            n_x * before_x + n_z * before_z < -1e-12
+                            or n_x * after_x + n_z * after_z > 1e-12
+                        ):
+                            depth = 0.0  # the tread or the riser is met, not the corner
+                elif i + 1 < n and corners[i] != 2.0:
+                    e = row - 1
+                    along_x = points[i + 1, 0] - points[i, 0]
+                    along_z = points[i + 1, 1] - points[i, 1]
+                    length = math.sqrt(along_x * along_x + along_z * along_z)
+                    along_x, along_z = along_x / length, along_z / length
+                    c_x = x + cos * discs[e, 0] - sin * discs[e, 1]
+                    c_z = z + sin * discs[e, 0] + cos * discs[e, 1]
+                    a_x, a_z = c_x - points[i, 0], c_z - points[i, 1]
+                    s = a_x * along_x + a_z * along_z
+                    high = a_z * along_x - a_x * along_z
+                    radius = discs[e, 2]
+                    if 0.0 <= s <= length and -max(radius, 0.03) < high < radius:
+                        depth, n_x, n_z, runs = radius - high, -along_z, along_x, discs[e, 3]
+                        at_x = points[i, 0] + s * along_x
+                        at_z = points[i, 1] + s * along_z
+                if depth <= 0.0:
+                    continue
+                contacts += 1
+                if touching[row, i] == 0.0:
+                    shear[row, i] = 0.0
+                    # driven from a corner onto the piece behind it, or from a piece onto its
+                    # corner, a contact changes its name and keeps its shear
+                    if row > 0 and touching[0, i] == 1.0:
+                        shear[row, i] = shear[0, i]
+                    elif row == 0 and i > 0:
+                        for other in range(1, 1 + ends):
+                            if touching[other, i - 1] == 1.0:
+                                shear[row, i] = shear[other, i - 1]
+                touching[row, i] = 2.0
+                t_x, t_z = n_z, -n_x
+                r_x, r_z = at_x - x, at_z - z
+                p_x, p_z = v_x - w * r_z, v_z + w * r_x
+                closing = -(p_x * n_x + p_z * n_z)
+                sliding = p_x * t_x + p_z * t_z - belt * runs
+                normal = k * depth + c * closing
+                if normal <= 0.0:
+                    normal = 0.0
+                moved = shear[row, i] + sliding * dt
+                holding = kt * moved + ct * sliding
+                if holding > mu * normal:
+                    holding = mu * normal
+                    moved = min(moved, holding / kt)
+                elif holding < -mu * normal:
+                    holding = -mu * normal
+                    moved = max(moved, holding / kt)
+                shear[row, i] = moved
+                g_x, g_z = normal * n_x - holding * t_x, normal * n_z - holding * t_z
+                f_x += g_x
+                f_z += g_z
+                moment += r_x * g_z - r_z * g_x
+                owner = int(owners[i, min(row, 1)])
+                impulses[owner, 0] += g_x * dt
+                impulses[owner, 1] += g_z * dt
+        for i in range(first, last):
+            for row in range(1 + ends):
+                touching[row, i] = 1.0 if touching[row, i] == 2.0 else 0.0
+        state[3] = v_x + f_x / mass * dt
+        state[4] = v_z + f_z / mass * dt
+        state[5] = w + moment / inertia * dt
+        state[0] = x + state[3] * dt
+        state[1] = z + state[4] * dt
+        state[2] = phi + state[5] * dt
+    return contacts
