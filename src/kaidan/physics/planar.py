@@ -182,7 +182,7 @@ class RubberBody(MovingBody):
 
     @property
     def tether(self) -> tuple[tuple[float, float], ...]:
-        """It is slackened by and by, so that the robot does not swing when it stands free."""
+        """Less by and by, so that the robot is at rest when it stands free."""
         return (1.0, 0.3), (0.75, 0.1), (0.5, 0.1), (0.25, 0.1), (0.0, 0.5)
 
     def set_going(self) -> None:

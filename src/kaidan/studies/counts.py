@@ -124,9 +124,7 @@ def all_climbed(counts: Sequence[Count]) -> list[Count]:
 
 
 def all_fell(counts: Sequence[Count]) -> list[Count]:
-    """Conditions, from the steepest on, at which every trial fell; where none could be placed,
-    none is among them.
-    """
+    """Conditions, from the steepest at which any could be placed on, at which every trial fell."""
     placed = (count for count in reversed(counts) if count.fell or count.climbed or count.others)
     return list(while_true(placed, lambda count: count.symbol == "cross"))
 
