@@ -13,7 +13,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any
@@ -31,6 +31,10 @@ from kaidan.text.refusals import sentence
 UNCHECKED = 0.0095 / math.sqrt(12.0)
 """Standard deviation of single steps below which a reader cannot see [m]: evenly within the 9.5 mm
 that IBC 1011.5.4 allows between the largest and the smallest of a flight."""
+MICROMETRE = 6
+"""Digits to which exact lengths are rounded [m]."""
+EXACT = 1e-4
+"""Standard uncertainty below which a nosing counts as exact [m]: files round to it."""
 ALIKE = 0.01
 """Probability of a chi squared as large as this one, from which steps count as all alike [1]."""
 UNSEEN_LANDING = 2.0
@@ -175,7 +179,9 @@ class FlightEstimate:
         design = np.zeros((m, 2, 4))
         design[:, 0, 0] = design[:, 1, 1] = 1.0
         design[:, 0, 2] = design[:, 1, 3] = number
-        weights = np.linalg.inv(self.covariance + 1e-14 * np.eye(2))
+        weights = np.linalg.inv(
+            self.covariance + (1e-14 if self.covariance.any() else EXACT**2) * np.eye(2)
+        )
         normal = np.einsum("mik,mij,mjl->kl", design, weights, design)
         found = np.linalg.inv(normal)
         line = self.line()
@@ -186,6 +192,11 @@ class FlightEstimate:
         s_going, s_rise = float(np.sqrt(found[2, 2])), float(np.sqrt(found[3, 3]))
         corr = float(found[2, 3]) / (s_going * s_rise)
         return RegularFlight(rise, going, s_rise, s_going, corr, chi2, 2 * m - 4)
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether it is drawn and not measured, so that nothing of it is in doubt."""
+        return not (self.covariance.any() or self.gravity or self.scale or self.step_spread)
 
     @property
     def angle_sigma(self) -> float:
@@ -252,8 +263,22 @@ class FlightEstimate:
         """
         line, regular = self.line(), self.regular
         step_going, step_rise = self.doubt_of_a_step()
-        known = {"lower_landing": lower, "upper_landing": upper}
-        sheet: dict[str, Any] = {key: v for key, v in known.items() if math.isfinite(v)}
+        if self.is_exact:  # without the rounding of arithmetic
+            line = line.round(MICROMETRE)
+            regular = replace(
+                regular,
+                rise=round(regular.rise, MICROMETRE),
+                going=round(regular.going, MICROMETRE),
+            )
+        known = {
+            "lower_landing": lower,
+            "upper_landing": upper,
+            "width": self.width,
+            "headroom": self.headroom,
+        }
+        sheet: dict[str, Any] = {
+            key: round(v, MICROMETRE) for key, v in known.items() if math.isfinite(v)
+        }
         if not regular.alike < ALIKE:
             angle, spacing = self.angle_sigma, self.spacing_sigma
             sheet |= {"rise": regular.rise, "going": regular.going, "steps": len(self)}
@@ -264,9 +289,10 @@ class FlightEstimate:
             angle, spacing = self.gravity, self.scale * regular.spacing
             sheet["rises"] = tuple(np.diff(line[:, 1], prepend=0.0).tolist())
             sheet["goings"] = tuple(np.diff(line[:, 0]).tolist())
-        sheet["uncertainty"] = StairsUncertainty(
-            angle=angle, nosing_spacing=spacing, rise=step_rise, going=step_going
-        )
+        if not self.is_exact:
+            sheet["uncertainty"] = StairsUncertainty(
+                angle=angle, nosing_spacing=spacing, rise=step_rise, going=step_going
+            )
         return Stairs(
             name=name, nosing_overhang=self.overhang, open_risers=self.open_risers, **sheet
         )

@@ -23,6 +23,7 @@ INTERPRETERS: Mapping[str, str] = MappingProxyType(
         "mesh": "kaidan.readers.interpreters.mesh",
         "heights": "kaidan.readers.interpreters.heights",
         "robot": "kaidan.readers.interpreters.robot",
+        "building": "kaidan.readers.interpreters.building",
     }
 )
 """Module of each kind with ``found(contents, hints) -> Found``."""
@@ -102,6 +103,12 @@ def is_tar(source: Source) -> bool:
     return source.head[257:262] == b"ustar"
 
 
+def is_model(source: Source) -> bool:
+    """Test of a building model as STEP text."""
+    head = source.head.lstrip(b"\xef\xbb\xbf \t\r\n").upper()
+    return head.startswith(b"ISO-10303-21") and b"'IFC" in head
+
+
 ARCHIVES = (
     b"PK\x03\x04", b"PK\x05\x06", b"7z\xbc\xaf", b"Rar!", b"\x1f\x8b", b"BZh", b"\xfd7zXZ",
     b"\x28\xb5\x2f\xfd",
@@ -122,6 +129,8 @@ FORMATS: tuple[Format, ...] = (
     Format("mjcf", "MJCF", "robot", xml("mujoco"), reader="mjcf"),
     Format("ifc5", "IFC5", "", json_with("header", "ifcxVersion"), refusal="ifc5"),
     Format("ifc5-alpha", "IFC5", "", json_with("header", "data", "imports"), refusal="ifc5"),
+    Format("ifc", "IFC", "building", is_model, reader="ifc", extra="ifc"),
+    Format("ifczip", "zipped IFC", "building", holds(".ifc"), reader="ifc", extra="ifc"),
     Format("archive", "an archive", "", begins(*ARCHIVES), refusal="archive"),
     Format("tar", "an archive", "", is_tar, refusal="archive"),
 )  # fmt: skip

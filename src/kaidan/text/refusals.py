@@ -8,6 +8,7 @@ REFUSALS: Mapping[str, str] = {
     "rubble": "Its heights do not repeat as steps do: {residual_mm:.0f} mm are left over.",
     "curved": "It is a curved flight: it turns by {turn_deg:.0f} deg.",
     "winders": "It has winders: its nosings turn by {turn_deg:.0f} deg.",
+    "ramp-element": "It is drawn as a ramp: there are no steps to judge.",
     "ladder": "It is a ladder of {angle_deg:.0f} deg; tracks take up to 60 deg.",
     "flat": "It is level: its heights differ by {height_mm:.0f} mm.",
     "none": "No stairs are in it.",

@@ -1,0 +1,197 @@
+"""A building model read in a process of its own: run as a script, never imported by kaidan.
+
+The parser is native code, and a malformed model can crash it or make it endless. So it runs apart,
+within bounds of time and memory, and says what it found on its output: one line of JSON, then the
+arrays. It imports nothing of kaidan, so that it starts quickly.
+"""
+
+import json
+import os
+import re
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+MEMORY = "KAIDAN_IFC_MEMORY"
+"""Variable with the bytes of memory that it may take."""
+STAIRS = ("IfcStair", "IfcStairFlight", "IfcRamp", "IfcRampFlight")
+LEVELS = ("IfcSlab",)
+ROUND = ("IfcWall", "IfcColumn", "IfcBeam", "IfcRoof", "IfcCovering", "IfcDoor", "IfcCurtainWall")
+"""What limits width, headroom and landings."""
+UNNAMED = ("IfcBuildingElementProxy", "IfcBuiltElement", "IfcMember", "IfcPlate", "IfcFooting")
+"""What stairs are drawn as where the program knows none."""
+LIKE_STAIRS = re.compile(
+    r"stair|step|trap|trepp|stiege|escal|scal[ae]|trap+e|schod|lestn|лестн|ступен|階段|楼梯|계단|merdiven"
+    r"|porras|trappa",
+    re.IGNORECASE,
+)
+"""Names of stairs in the languages of most models."""
+
+
+def main(path: str, around: bool) -> None:
+    """Read a model and write what was found."""
+    _bound_memory()
+    import ifcopenshell
+    import ifcopenshell.util.element
+    import ifcopenshell.util.unit
+
+    model: Any = ifcopenshell.open(path, format=".ifc")
+    wanted = {each.id(): each for each in _wanted(model, around)}
+    if not wanted:
+        _write({"schema": model.schema, "storeys": _storeys(model), "bodies": []}, [])
+        return
+    shapes = _shapes(model, list(wanted.values()))
+    bodies = [_body(each, key in shapes) for key, each in wanted.items()]
+    found = {
+        "schema": model.schema,
+        "unit": ifcopenshell.util.unit.calculate_unit_scale(model),
+        "storeys": _storeys(model),
+        "bodies": bodies,
+    }
+    _write(found, [array for key in wanted if key in shapes for array in shapes[key]])
+
+
+def _bound_memory() -> None:
+    if MEMORY in os.environ:
+        try:
+            import resource
+        except ImportError:  # Windows
+            return
+        bytes_ = int(os.environ[MEMORY])
+        resource.setrlimit(resource.RLIMIT_AS, (bytes_, bytes_))
+
+
+def _wanted(model: Any, around: bool) -> Iterator[Any]:
+    """Elements to tessellate."""
+
+    def of(*kinds: str) -> Iterator[Any]:
+        for kind in kinds:
+            try:
+                yield from model.by_type(kind)
+            except RuntimeError:  # not in this schema
+                continue
+
+    stairs = list(of(*STAIRS))
+    for each in stairs:
+        yield each
+        yield from _parts(each)
+    yield from of(*LEVELS, "IfcRailing")
+    for each in of(*UNNAMED):
+        name = f"{each.Name or ''} {each.ObjectType or ''}"
+        if not stairs or LIKE_STAIRS.search(name):
+            yield each
+    if around:
+        yield from of(*ROUND)
+
+
+def _parts(element: Any) -> list[Any]:
+    """What an element is made of, and what that is made of, each once."""
+    found: dict[int, Any] = {}
+    left = [element]
+    while left:
+        for link in left.pop().IsDecomposedBy:
+            for each in link.RelatedObjects:
+                if each.id() not in found and each.is_a("IfcElement"):
+                    found[each.id()] = each
+                    left.append(each)
+    return list(found.values())
+
+
+def _shapes(model: Any, wanted: list[Any]) -> dict[int, tuple[Any, Any]]:
+    """Vertices and triangles of each element, in metres in the world's frame."""
+    import ifcopenshell.geom
+    import numpy as np
+
+    settings = ifcopenshell.geom.settings()
+    settings.set("use-world-coords", True)
+    settings.set("no-normals", True)
+    settings.set("apply-default-materials", False)
+    drawn = [each for each in wanted if getattr(each, "Representation", None)]
+    found: dict[int, tuple[Any, Any]] = {}
+    if not drawn:
+        return found
+    threads = min(os.cpu_count() or 1, 4) if len(drawn) > 50 else 1
+    iterator = ifcopenshell.geom.iterator(settings, model, threads, include=drawn)
+    if not iterator.initialize():
+        return found
+    while True:
+        shape = iterator.get()
+        vertices = np.frombuffer(shape.geometry.verts_buffer, dtype=np.float64)
+        faces = np.frombuffer(shape.geometry.faces_buffer, dtype=np.int32)
+        if len(faces):
+            found[shape.id] = (vertices.copy(), faces.astype(np.int32))
+        if not iterator.next():
+            return found
+
+
+def _body(element: Any, has_shape: bool) -> dict[str, Any]:
+    import ifcopenshell.util.element as elements
+
+    parent = elements.get_aggregate(element)
+    storey = elements.get_container(element, ifc_class="IfcBuildingStorey")
+    facts: dict[str, Any] = {"step": element.id()}
+    if element.is_a() in ("IfcStair", "IfcStairFlight", "IfcBuildingElementProxy", "IfcSlab"):
+        facts["stated"] = _stated(element)
+    if element.is_a("IfcDoor"):
+        facts["door"] = [element.OverallWidth, element.OverallHeight]
+    kind = elements.get_predefined_type(element)
+    return {
+        "id": element.GlobalId,
+        "name": element.Name or "",
+        "category": element.is_a(),
+        "type": kind or "",
+        "parent": parent.GlobalId if parent is not None and parent.is_a("IfcElement") else "",
+        "storey": storey.GlobalId if storey is not None else "",
+        "shape": has_shape,
+        "facts": facts,
+    }
+
+
+def _stated(element: Any) -> dict[str, Any]:
+    """Numbers of attributes and property sets, by their place."""
+    import ifcopenshell.util.element as elements
+
+    found: dict[str, Any] = {}
+    for name, value in element.get_info(recursive=False).items():
+        if isinstance(value, int | float) and not isinstance(value, bool) and name != "id":
+            found[name] = value
+    for group, values in elements.get_psets(element).items():
+        for name, value in values.items():
+            if isinstance(value, int | float) and not isinstance(value, bool) and name != "id":
+                found[f"{group}.{name}"] = value
+    return found
+
+
+def _storeys(model: Any) -> list[dict[str, Any]]:
+    import ifcopenshell.util.placement
+    import ifcopenshell.util.unit
+
+    scale = ifcopenshell.util.unit.calculate_unit_scale(model)
+    found = []
+    for each in model.by_type("IfcBuildingStorey"):
+        level = ifcopenshell.util.placement.get_local_placement(each.ObjectPlacement)[2, 3]
+        found.append({"id": each.GlobalId, "name": each.Name or "", "level": float(level) * scale})
+    return found
+
+
+def _write(found: dict[str, Any], arrays: list[Any]) -> None:
+    """One line of JSON, then the arrays one after another; their lengths stand in the line."""
+    found["lengths"] = [len(each) for each in arrays]
+    out = sys.stdout.buffer
+    out.write(json.dumps(found, allow_nan=True).encode() + b"\n")
+    for each in arrays:
+        out.write(each.tobytes())
+    out.flush()
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1], sys.argv[2] == "around")
+    except ImportError:
+        sys.exit(4)
+    except (MemoryError, RecursionError) as error:
+        sys.stderr.write(f"KAIDAN {type(error).__name__}\n")
+        sys.exit(3)
+    except Exception as error:
+        sys.stderr.write("KAIDAN " + " ".join(str(error).split())[:300] + "\n")
+        sys.exit(3)

@@ -1,0 +1,158 @@
+"""Level surfaces that can be stood on: treads, landings, floors.
+
+Faces that look up are gathered by height and joined where they meet; a face with something a hand's
+breadth above it, such as the concrete below a tread, is none.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan.readers.solids.rays import Triangles, first_hits
+
+Array = NDArray[np.float64]
+
+STEEPEST_TREAD = math.radians(4.0)
+"""Slope up to which a face counts as level [rad]: treads fall a little, so that water runs off."""
+SAME_LEVEL = 0.003
+"""Heights closer together than that are one level [m]: less than any riser."""
+JOINT = 0.015
+"""Half the width of the joints between boards that are closed over [m]."""
+LEAST_AREA = 0.02
+"""Least area of a tread [m^2]."""
+LEAST_SPACE = 0.25
+"""Space above a face that it takes to set a foot on it [m]."""
+LEVELED = 1e-6
+"""Grid on which outlines meet [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Plate:
+    """A level surface, seen from above."""
+
+    level: float
+    """Height [m]."""
+    shape: Any
+    """Plan outline, a shapely polygon [m]."""
+    owners: tuple[int, ...]
+    """Numbers of the solids that it belongs to, the one with most of it first."""
+
+    @cached_property
+    def corners(self) -> Array:
+        """Corners of the outline, shape (n, 2), counter-clockwise [m]."""
+        import shapely
+
+        ring = shapely.get_exterior_ring(shapely.normalize(self.shape))
+        found = np.asarray(shapely.get_coordinates(ring)[:-1], dtype=np.float64)
+        x, y = found.T
+        area = float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+        return found if area > 0 else found[::-1]
+
+    @cached_property
+    def box(self) -> tuple[float, float]:
+        """Long and short side of the smallest rectangle about it [m]."""
+        import shapely
+
+        corners = shapely.get_coordinates(shapely.minimum_rotated_rectangle(self.shape))
+        if len(corners) < 4:
+            return 0.0, 0.0
+        one, two = (float(np.hypot(*(corners[k + 1] - corners[k]))) for k in (0, 1))
+        return max(one, two), min(one, two)
+
+    @property
+    def depth(self) -> float:
+        """Mean depth: area over the long side [m]."""
+        import shapely
+
+        long = self.box[0]
+        return float(shapely.area(self.shape)) / long if long > 0 else 0.0
+
+    @property
+    def middle(self) -> Array:
+        """Centroid in the plan, shape (2,) [m]."""
+        import shapely
+
+        return np.asarray(shapely.get_coordinates(shapely.centroid(self.shape))[0])
+
+
+def plates_of(solids: Triangles) -> list[Plate]:
+    """Level surfaces that can be stood on, from the lowest up.
+
+    Parameters
+    ----------
+    solids : Triangles
+        Faces of all solids, looking outward.
+
+    Returns
+    -------
+    list of Plate
+    """
+    normals = solids.normals
+    length = np.linalg.norm(normals, axis=1)
+    level = normals[:, 2] > math.cos(STEEPEST_TREAD) * np.maximum(length, 1e-12)
+    up = np.flatnonzero(level & (length > 1e-8))
+    if len(up) == 0:
+        return []
+    heights = solids.corners[up, :, 2].mean(axis=1)
+    order = np.argsort(heights, kind="stable")
+    up, heights = up[order], heights[order]
+    groups = np.split(up, np.flatnonzero(np.diff(heights) > SAME_LEVEL) + 1)
+    found = [plate for group in groups for plate in _joined(solids, group)]
+    return [plate for plate, free in zip(found, _uncovered(found, solids), strict=True) if free]
+
+
+def _joined(solids: Triangles, group: NDArray[np.int64]) -> Iterator[Plate]:
+    """Plates that faces of one level make up."""
+    import shapely
+
+    flat = solids.corners[group][:, :, :2]
+    faces = shapely.polygons(flat)
+    joined = shapely.union_all(shapely.make_valid(faces), grid_size=LEVELED)
+    square = {"join_style": "mitre", "mitre_limit": 2.0}
+    closed = shapely.buffer(shapely.buffer(joined, JOINT, **square), -JOINT, **square)
+    parts = [
+        each
+        for each in shapely.get_parts(closed)
+        if shapely.get_type_id(each) == 3 and shapely.area(each) > LEAST_AREA
+    ]
+    if not parts:
+        return
+    middles = shapely.points(flat.mean(axis=1))
+    areas = np.abs(solids.normals[group, 2]) / 2
+    heights = solids.corners[group, :, 2].mean(axis=1)
+    for part in parts:
+        part = shapely.simplify(part, LEVELED)
+        within = shapely.dwithin(part, middles, LEVELED)
+        if not within.any():
+            continue
+        weights = np.bincount(solids.owner[group][within], weights=areas[within])
+        owners = [int(k) for k in np.argsort(-weights) if weights[k] > 0]
+        height = float(np.average(heights[within], weights=np.maximum(areas[within], 1e-9)))
+        yield Plate(height, part, tuple(owners))
+
+
+def _uncovered(plates: list[Plate], solids: Triangles) -> NDArray[np.bool_]:
+    """Whether there is space to stand on most of each plate."""
+    import shapely
+
+    points, of = [], []
+    for number, plate in enumerate(plates):
+        inner = shapely.buffer(plate.shape, -0.15 * plate.box[1])
+        ring = shapely.get_coordinates(inner)
+        some = ring[:: max(1, len(ring) // 6)] if len(ring) else np.zeros((0, 2))
+        inside = shapely.get_coordinates(shapely.point_on_surface(plate.shape))
+        for x, y in np.vstack([inside, some]):
+            points.append((x, y, plate.level + SAME_LEVEL + 1e-3))
+            of.append(number)
+    if not points:
+        return np.zeros(0, dtype=bool)
+    starts = np.array(points)
+    over = first_hits(starts, np.array([0.0, 0.0, 1.0]), solids) < LEAST_SPACE
+    count = np.bincount(of, minlength=len(plates))
+    covered = np.bincount(of, weights=over, minlength=len(plates))
+    return np.asarray(covered < 0.5 * count)

@@ -1,0 +1,121 @@
+"""Triangles of solids, and rays against them."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+AT_ONCE = 2_000_000
+"""Pairs of a ray and a triangle that are worked out at once."""
+
+
+@dataclass(frozen=True, eq=False)
+class Triangles:
+    """Faces of solids that look outward, counter-clockwise."""
+
+    corners: Array
+    """Shape (n, 3, 3) [m]."""
+    owner: NDArray[np.int64]
+    """Number of the solid of each."""
+
+    @classmethod
+    def of(cls, solids: "list[tuple[Array, NDArray[np.int64]]]") -> Self:
+        """Triangles of solids given as vertices and faces.
+
+        A closed solid of negative volume is inside out, as mirrored ones are, and is turned.
+        """
+        corners, owner = [np.zeros((0, 3, 3))], [np.zeros(0, dtype=np.int64)]
+        for number, (vertices, faces) in enumerate(solids):
+            each = vertices[faces]
+            if len(each) and _volume(each) < 0:
+                each = each[:, ::-1]
+            corners.append(each)
+            owner.append(np.full(len(each), number))
+        return cls(np.concatenate(corners), np.concatenate(owner))
+
+    @cached_property
+    def normals(self) -> Array:
+        """Normals, as long as twice the area, shape (n, 3) [m^2]."""
+        a, b, c = (self.corners[:, k] for k in range(3))
+        return np.asarray(np.cross(b - a, c - a))
+
+    @cached_property
+    def low(self) -> Array:
+        """Least coordinates of each, shape (n, 3) [m]."""
+        return np.asarray(self.corners.min(axis=1))
+
+    @cached_property
+    def high(self) -> Array:
+        """Largest coordinates of each, shape (n, 3) [m]."""
+        return np.asarray(self.corners.max(axis=1))
+
+    def of_owners(self, owners: "set[int]") -> "Triangles":
+        """Those of some solids."""
+        keep = np.isin(self.owner, list(owners))
+        return Triangles(self.corners[keep], self.owner[keep])
+
+    def within(self, low: Array, high: Array) -> "Triangles":
+        """Those that reach into a box."""
+        keep = np.all((self.high >= low) & (self.low <= high), axis=1)
+        return Triangles(self.corners[keep], self.owner[keep])
+
+
+def _volume(corners: Array) -> float:
+    """Volume inside faces that look outward [m^3]; 0 within rounding for an open surface."""
+    from_middle = corners - corners.reshape(-1, 3).mean(axis=0)
+    a, b, c = (from_middle[:, k] for k in range(3))
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
+
+
+def first_hits(starts: Array, direction: Array, solids: Triangles) -> Array:
+    """Distance from each start to the first face in a direction [m]; infinite: none.
+
+    Parameters
+    ----------
+    starts : array, shape (n, 3)
+        Where the rays begin [m].
+    direction : array, shape (3,)
+        Of all rays, of length 1.
+    solids : Triangles
+
+    Returns
+    -------
+    array, shape (n,)
+
+    Seen along the direction each face is a triangle in a plane: a ray hits it where the barycentric
+    coordinates of its point are none of them negative.
+    """
+    found = np.full(len(starts), np.inf)
+    if len(solids.corners) == 0 or len(starts) == 0:
+        return found
+    side = np.cross(direction, np.eye(3)[np.argmin(np.abs(direction))])
+    side /= np.linalg.norm(side)
+    frame = np.stack([side, np.cross(direction, side), direction])
+    corners, points = solids.corners @ frame.T, starts @ frame.T
+    low, high = points.min(axis=0), points.max(axis=0)
+    near = (corners[:, :, :2].max(axis=1) >= low[:2] - 1e-9).all(axis=1)
+    near &= (corners[:, :, :2].min(axis=1) <= high[:2] + 1e-9).all(axis=1)
+    a = corners[near, 0]
+    one, two = corners[near, 1] - a, corners[near, 2] - a
+    determinant = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+    meets = np.abs(determinant) > 1e-12
+    a, one, two, determinant = a[meets], one[meets], two[meets], determinant[meets]
+    if len(a) == 0:
+        return found
+    of_u = np.stack([two[:, 1], -two[:, 0]]) / determinant
+    of_v = np.stack([-one[:, 1], one[:, 0]]) / determinant
+    u_0, v_0 = ((each.T * a[:, :2]).sum(axis=1) for each in (of_u, of_v))
+    of_t = of_u * one[:, 2] + of_v * two[:, 2]
+    t_0 = a[:, 2] - u_0 * one[:, 2] - v_0 * two[:, 2]
+    edge, step = 1e-9, max(1, AT_ONCE // len(a))
+    for at in range(0, len(points), step):
+        some = points[at : at + step]
+        u, v = some[:, :2] @ of_u - u_0, some[:, :2] @ of_v - v_0
+        t = some[:, :2] @ of_t + t_0 - some[:, 2:]
+        hit = (u >= -edge) & (v >= -edge) & (u + v <= 1 + edge) & (t > edge)
+        found[at : at + step] = np.where(hit, t, np.inf).min(axis=1)
+    return found

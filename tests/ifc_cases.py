@@ -1,0 +1,214 @@
+"""Building models that the tests author themselves, with ifcopenshell; lengths in metres."""
+
+import math
+
+import ifcopenshell
+import ifcopenshell.guid
+import numpy as np
+
+UNITS = {"m": 1.0, "mm": 1e-3, "ft": 0.3048}
+
+
+class House:
+    """A model to which storeys and elements are added."""
+
+    def __init__(self, schema="IFC4", unit="mm", storeys=((0.0, "Ground"), (3.0, "First"))):
+        self.file = ifcopenshell.file(schema=schema)
+        self.scale = 1.0 / UNITS[unit]
+        make = self.make
+        self.owner = None
+        if schema == "IFC2X3":
+            person = make(
+                "IfcPersonAndOrganization",
+                make("IfcPerson", None, "a"),
+                make("IfcOrganization", None, "b"),
+            )
+            tool = make("IfcApplication", person.TheOrganization, "1", "c", "c")
+            self.owner = make("IfcOwnerHistory", person, tool, None, "ADDED", None, None, None, 0)
+        length = make("IfcSIUnit", None, "LENGTHUNIT", "MILLI" if unit == "mm" else None, "METRE")
+        if unit == "ft":
+            foot = make(
+                "IfcMeasureWithUnit", self.file.create_entity("IfcLengthMeasure", 0.3048), length
+            )
+            of_length = make("IfcDimensionalExponents", 1, 0, 0, 0, 0, 0, 0)
+            length = make("IfcConversionBasedUnit", of_length, "LENGTHUNIT", "FOOT", foot)
+        self.context = make(
+            "IfcGeometricRepresentationContext", None, "Model", 3, 1e-6, self.axes((0, 0, 0)), None
+        )
+        self.project = self.root(
+            "IfcProject",
+            Name="house",
+            UnitsInContext=make("IfcUnitAssignment", [length]),
+            RepresentationContexts=[self.context],
+        )
+        self.building = self.root("IfcBuilding", Name="b", ObjectPlacement=self.place())
+        self.aggregate(self.project, [self.building])
+        self.storeys = [
+            self.root(
+                "IfcBuildingStorey",
+                Name=name,
+                Elevation=level * self.scale,
+                ObjectPlacement=self.place((0, 0, level)),
+            )
+            for level, name in storeys
+        ]
+        self.levels = [level for level, _ in storeys]
+        if storeys:
+            self.aggregate(self.building, self.storeys)
+
+    def make(self, kind, *values):
+        return self.file.create_entity(kind, *values)
+
+    def root(self, kind, **values):
+        made = self.file.create_entity(kind, GlobalId=ifcopenshell.guid.new(), **values)
+        if self.owner is not None:
+            made.OwnerHistory = self.owner
+        return made
+
+    def aggregate(self, whole, parts):
+        self.root("IfcRelAggregates", RelatingObject=whole, RelatedObjects=parts)
+
+    def point(self, *xyz):
+        return self.make("IfcCartesianPoint", [float(each) * self.scale for each in xyz])
+
+    def axes(self, origin, axis=None, ahead=None):
+        directions = [
+            None if each is None else self.make("IfcDirection", [float(v) for v in each])
+            for each in (axis, ahead)
+        ]
+        return self.make("IfcAxis2Placement3D", self.point(*origin), *directions)
+
+    def place(self, origin=(0, 0, 0), degrees=0.0, within=None):
+        ahead = (math.cos(math.radians(degrees)), math.sin(math.radians(degrees)), 0)
+        return self.make("IfcLocalPlacement", within, self.axes(origin, (0, 0, 1), ahead))
+
+    def extruded(self, corners, depth, axes):
+        line = self.make("IfcPolyline", [self.point(*each) for each in (*corners, corners[0])])
+        profile = self.make("IfcArbitraryClosedProfileDef", "AREA", None, line)
+        up = self.make("IfcDirection", [0.0, 0.0, 1.0])
+        return self.make("IfcExtrudedAreaSolid", profile, axes, up, float(depth) * self.scale)
+
+    def slab(self, corners, top, thickness=0.2):
+        """Solid of a plan outline below a level."""
+        return self.extruded(corners, thickness, self.axes((0, 0, top - thickness)))
+
+    def side(self, corners, width, t=0.0):
+        """Solid of a side view (s, z), from t to the right over a width."""
+        return self.extruded(corners, width, self.axes((0, t, 0), (0, -1, 0), (1, 0, 0)))
+
+    def shape(self, items, kind="SweptSolid"):
+        body = self.make("IfcShapeRepresentation", self.context, "Body", kind, list(items))
+        return self.make("IfcProductDefinitionShape", None, None, [body])
+
+    def mapped(self, items, mirrored=False):
+        """Items by way of a map, mirrored across the ascent."""
+        body = self.make("IfcShapeRepresentation", self.context, "Body", "SweptSolid", list(items))
+        source = self.make("IfcRepresentationMap", self.axes((0, 0, 0)), body)
+        across = self.make("IfcDirection", [0.0, -1.0 if mirrored else 1.0, 0.0])
+        operator = self.make(
+            "IfcCartesianTransformationOperator3D",
+            self.make("IfcDirection", [1.0, 0.0, 0.0]),
+            across,
+            self.point(0, 0, 0),
+            1.0,
+            self.make("IfcDirection", [0.0, 0.0, 1.0]),
+        )
+        item = self.make("IfcMappedItem", source, operator)
+        return self.shape([item], "MappedRepresentation")
+
+    def add(
+        self,
+        kind,
+        name,
+        items=(),
+        *,
+        at=(0, 0, 0),
+        degrees=0.0,
+        storey=0,
+        shape=None,
+        parent=None,
+        **more,
+    ):
+        if shape is None and items:
+            shape = self.shape(items)
+        made = self.root(
+            kind, Name=name, ObjectPlacement=self.place(at, degrees), Representation=shape, **more
+        )
+        if parent is not None:
+            self.aggregate(parent, [made])
+        elif self.storeys:
+            self.root(
+                "IfcRelContainedInSpatialStructure",
+                RelatedElements=[made],
+                RelatingStructure=self.storeys[storey],
+            )
+        return made
+
+    def properties(self, element, name, **values):
+        kinds = {int: "IfcCountMeasure", float: "IfcPositiveLengthMeasure"}
+        made = [
+            self.make(
+                "IfcPropertySingleValue",
+                key,
+                None,
+                self.file.create_entity(kinds[type(value)], value),
+                None,
+            )
+            for key, value in values.items()
+        ]
+        group = self.root("IfcPropertySet", Name=name, HasProperties=made)
+        self.root(
+            "IfcRelDefinesByProperties", RelatedObjects=[element], RelatingPropertyDefinition=group
+        )
+
+    def write(self, path):
+        self.file.write(str(path))
+        return path
+
+
+def monolith(house, rises, goings, width=1.0, *, last=True):
+    """Flight of one solid from the origin along x; its last tread reaches one going further.
+
+    With `last` False the last riser is left to the slab.
+    """
+    s, z, top = 0.0, 0.0, []
+    goings = [*goings, goings[-1]]
+    count = len(rises) if last else len(rises) - 1
+    for rise, going in zip(rises[:count], goings, strict=False):
+        z += rise
+        top += [(s, z), (s + going, z)]
+        s += going
+    return house.side([(0, 0), *top, (s, z - 0.3), (0.3, -0.0)], width, t=width / 2)
+
+
+def boards(house, rises, goings, width=1.0, overhang=0.03, thickness=0.04):
+    """Treads as separate boards, each over the one below by the overhang: open risers."""
+    z, s, found = 0.0, 0.0, []
+    for rise, going in zip(rises, [*goings, goings[-1]], strict=True):
+        z += rise
+        outline = [
+            (s, -width / 2),
+            (s + going + overhang, -width / 2),
+            (s + going + overhang, width / 2),
+            (s, width / 2),
+        ]
+        found.append(house.slab(outline, z, thickness))
+        s += going
+    return found
+
+
+def wedges(house, count, turn, rise=0.18, inner=0.3, outer=1.3, first=0.0):
+    """Treads about a point, each turned by an angle [degrees]: winders or a spiral."""
+    found = []
+    for k in range(count):
+        a, b = math.radians(k * turn), math.radians((k + 1) * turn)
+        outline = [
+            (r * math.sin(v), -r * math.cos(v))
+            for r, v in ((inner, a), (outer, a), (outer, b), (inner, b))
+        ]
+        found.append(house.slab(outline, first + (k + 1) * rise, rise))
+    return found
+
+
+def regular(n, rise, going):
+    return np.full(n, rise), np.full(n - 1, going)
