@@ -14,8 +14,6 @@ import argparse
 import ast
 import copy
 import gc
-import importlib.abc
-import importlib.util
 import json
 import os
 import resource
@@ -347,30 +345,6 @@ class Run:
         return answer[0], int(answer[1]) if len(answer) > 1 else None
 
 
-class NoCompiler(importlib.abc.MetaPathFinder):
-    """numba is not there: the kernel runs as plain Python, which is what is changed."""
-
-    def find_spec(self, name: str, path: object, target: object = None) -> None:
-        if name.partition(".")[0] == "numba":
-            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
-
-
-def without_compiler() -> None:
-    sys.meta_path.insert(0, NoCompiler())
-    usual = importlib.util.find_spec
-    importlib.util.find_spec = lambda name, *rest: (
-        None if name.partition(".")[0] == "numba" else usual(name, *rest)
-    )
-
-
-def with_compiler() -> None:
-    """Every test takes the compiled kernel, loaded before the first fork: for code outside it."""
-    os.environ["KAIDAN_KERNEL"] = "compiled"
-    from kaidan.contact.compiling import compiled
-
-    compiled("driver")
-
-
 def main() -> None:
     split = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
     arguments = argparse.ArgumentParser(description=__doc__)
@@ -384,13 +358,10 @@ def main() -> None:
         "--longest", type=float, default=60.0, help="leave out tests that take longer [s]"
     )
     arguments.add_argument(
-        "--compiled", action="store_true", help="on the compiled kernel: for code outside it"
+        "--native", action="store_true", help="on the native kernel: for code outside it"
     )
     chosen = arguments.parse_args(sys.argv[1:split])
-    if chosen.compiled:
-        with_compiler()
-    else:
-        without_compiler()
+    os.environ["KAIDAN_KERNEL"] = "native" if chosen.native else "plain"
     tests = sys.argv[split + 1 :]
     pytest.main(
         ["-q", "-s", "-p", "no:cacheprovider", "-p", "no:xdist", *tests], plugins=[Run(chosen)]

@@ -2,7 +2,6 @@ import os
 import sys
 from pathlib import Path
 
-import pytest
 from hypothesis import settings
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -13,16 +12,3 @@ os.environ.pop("COLUMNS", None)  # tables as wide as they like, whatever screen 
 settings.register_profile("same", derandomize=True, deadline=None)
 settings.register_profile("random", deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
-
-
-@pytest.fixture(scope="module")
-def compiled_kernel():
-    """Contact kernel compiled if numba is there, for tests that ask many contact answers.
-
-    One worker compiles, the others wait and read numba's cache. Without numba the plain kernel
-    answers the same, hundreds of times more slowly.
-    """
-    from kaidan import contact
-
-    with contact.using_kernel("compiled" if contact.numba_is_installed() else "plain"):
-        yield

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from kaidan.verbs.comparison import compare
     from kaidan.verbs.d_a_plane import plane
     from kaidan.verbs.design.designing import design
+    from kaidan.verbs.doctor import doctor
     from kaidan.verbs.margin_curve import margin
     from kaidan.verbs.measure_robot import measure_robot
     from kaidan.verbs.measure_stairs import measure_stairs
@@ -42,6 +43,7 @@ _HOME = {
     "Surface": "kaidan.surface",
     "compare": "kaidan.verbs.comparison",
     "design": "kaidan.verbs.design.designing",
+    "doctor": "kaidan.verbs.doctor",
     "experiment": "kaidan.studies.experiment",
     "margin": "kaidan.verbs.margin_curve",
     "measure_robot": "kaidan.verbs.measure_robot",
@@ -64,6 +66,7 @@ __all__ = [  # noqa: RUF022 - what a user meets first
     "plane",
     "compare",
     "design",
+    "doctor",
     "reproduce",
     "agree",
     "experiment",

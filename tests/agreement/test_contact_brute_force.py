@@ -8,12 +8,9 @@ letting down from above jumps over walls.
 
 import numba
 import numpy as np
-import pytest
 
 from contact_cases import stadium, steps
 from kaidan.contact import Status, traverse
-
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 DRIVE = 1e-3  # m
 TURN = np.radians(0.03)

@@ -12,8 +12,6 @@ from scipy.optimize import linprog
 from contact_cases import random_robot, random_terrain, stadium, steps
 from kaidan.contact import traverse
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 G = 9.80665
 
 

@@ -10,8 +10,6 @@ from contact_cases import flight, stadium
 from kaidan.contact import traverse
 from kaidan.traversal.static_criterion import Tread, static_criterion
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 G = 9.80665
 TOLERANCE = 1e-6  # rad; the brief's. The two differ by rounding of coordinates only: about 1e-13
 

@@ -11,8 +11,6 @@ from kaidan.question import Question
 from kaidan.robot import Robot, Track
 from kaidan.terrain.stairs import Stairs
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 pytest.importorskip("numba")  # a hundred whole flights take minutes without the compiled kernel
 
 TOLERANCE = 6e-5  # deg: the 1e-6 rad

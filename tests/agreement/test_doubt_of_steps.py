@@ -14,8 +14,6 @@ from kaidan.assessment.verdict import conclude
 from kaidan.models.quasi_static import judge
 from kaidan.modes import Verdict
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 NO_ALLOWANCES = {"theta_d": (0, 0), "theta_M": (0, 0)}
 CASES = {
     "kenaf": ("kenaf", Stairs.inclined(angle="40deg", nosing_spacing="190mm"), (1e-3, 1e-3),

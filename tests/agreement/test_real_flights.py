@@ -17,8 +17,6 @@ from kaidan.models.quasi_static import traverse_of
 from kaidan.modes import FALLS, TIPS, Verdict
 from kaidan.robot import Track
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 COUNT = 12
 CODES = {"ibc": (0.1778, 0.2794), "gentle": (0.150, 0.300), "iso": (0.170, 0.290)}
 """Rise and going [m]."""

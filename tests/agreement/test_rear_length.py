@@ -8,8 +8,6 @@ from kaidan.mechanics.rearing import rear_length_margin
 from kaidan.models.quasi_static import traverse_of
 from kaidan.robot import Track
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 
 def check(seed, count):
     rng = np.random.default_rng(seed)

@@ -10,8 +10,6 @@ from kaidan.question import Question
 from kaidan.robot import Robot, Track
 from kaidan.terrain.stairs import Stairs
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 G = 9.80665
 
 

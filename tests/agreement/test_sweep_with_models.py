@@ -20,7 +20,6 @@ from kaidan.sweeps.parameters import question_of
 from kaidan.sweeps.screen import applies, excluded
 
 UNEVEN = Stairs(rises=(0.1, 0.1, 0.1), goings=(0.3, 0.3))
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 
 def close(one, other):

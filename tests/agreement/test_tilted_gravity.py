@@ -17,8 +17,6 @@ from kaidan.modes import Phase
 from kaidan.robot import Track
 from kaidan.traversal.tilting import LARGEST, WITHIN
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 
 @numba.njit(cache=True, error_model="numpy")
 def leaning(t, u, length, parts, x, x_end, kappa, finer):

@@ -12,8 +12,6 @@ import pytest
 from kaidan import contact
 from kaidan.traversal.static_criterion import Tread, static_criterion
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 
 def spikes(nosings):
     """Nosings with notches of 0.1 m between them, landings well below the robot."""

@@ -17,8 +17,6 @@ from kaidan.modes import FAILURE_MODES, FORMULAS, MODELS, TIPS, Undecided
 from kaidan.question import Question
 from question_cases import SHARES, of_catalogue, random_questions
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 ON_THE_LIMIT = 1e-9
 """Margin at which rounding decides [deg]."""
 SLIP_OR_TIP = {mode.key for mode in (*FORMULAS, *TIPS)}

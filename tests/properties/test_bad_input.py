@@ -24,8 +24,6 @@ from kaidan.allowance import Allowance
 from kaidan.cli import app, main
 from kaidan.modes import CLOSED_FORM, CONTACT, Verdict
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 SCHEMA = jsonschema.Draft202012Validator(Assessment.json_schema())
 WORDS = {verdict.label.split()[0]: verdict.exit_code for verdict in Verdict}
 

@@ -20,8 +20,6 @@ from kaidan.modes import Verdict
 from kaidan.robot import Drive
 from question_cases import random_question, random_robot
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 ROUNDING = 1e-9
 """Margins of the same traverse [deg]."""
 

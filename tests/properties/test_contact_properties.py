@@ -10,8 +10,6 @@ from hypothesis import strategies as st
 from contact_cases import flight, random_robot, random_terrain, stadium, steps
 from kaidan.contact import Status, ground_table, mirror, settle, traverse
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 seeds = st.integers(0, 10_000)
 
 

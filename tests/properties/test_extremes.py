@@ -15,8 +15,6 @@ from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import traverse
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 FINE = 2.5e-4  # m between poses, a twentieth of what is usual
 SETTINGS = settings(
     max_examples=80,

@@ -26,8 +26,6 @@ from kaidan.cli import app_for, run
 from kaidan.errors import KaidanError
 from kaidan.sweeps.pairs import INPUTS as SYMBOLS
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 FLIGHT = Stairs.inclined(angle=0.6, nosing_spacing=0.15)
 KENAF, ABSOLEM = Robot.named("kenaf"), Robot.named("absolem")
 LONG = "x" * 10_000

@@ -14,8 +14,6 @@ from kaidan.assessment.verdict import conclude
 from kaidan.models.quasi_static import judge
 from kaidan.modes import Verdict
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 SIGMA = {
     "com_from_front": 4e-3,
     "com_height": 3e-3,

@@ -16,8 +16,6 @@ from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import traverse
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 STEP = 0.03  # m between poses; events are located whatever it is
 SETTINGS = settings(
     max_examples=12,

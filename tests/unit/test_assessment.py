@@ -21,8 +21,6 @@ from kaidan.modes import (
     Verdict,
 )
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 NAMED_BY_THE_ISSUE = {
     "verdict",
     "model",

@@ -9,8 +9,6 @@ from kaidan import Robot, Stairs
 from kaidan.outline import Outline, footprint_of
 from kaidan.robot import Posture
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 BOX = Robot(
     name="box",
     mass=30.0,

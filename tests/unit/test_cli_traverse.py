@@ -11,8 +11,6 @@ from kaidan.cli import app
 from kaidan.errors import InputError
 from kaidan.terrain.stairs import Stairs
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 SHORT = ("--rise", "178mm", "--going", "279mm", "--steps", "4")
 POINTS = "x,z\n-2,0\n0,0\n0,0.178\n0.279,0.178\n0.279,0.356\n0.558,0.356\n0.558,0.534\n3,0.534\n"
 

@@ -9,8 +9,6 @@ import kaidan
 from kaidan import Payload, Posture, Robot, Stairs, Surface, assess
 from kaidan.assessment.advice import RAISED
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 KENAF = Robot.named("kenaf")
 ABSOLEM = Robot.named("absolem")
 SURE = {"theta_d": 0.0, "theta_M": 0.0}

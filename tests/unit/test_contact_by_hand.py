@@ -19,8 +19,6 @@ from kaidan.modes import Phase, Verdict
 from kaidan.robot import Drive, Track, Uncertainty
 from kaidan.terrain.stairs import StairsUncertainty
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 G = 9.80665
 KENAF = Robot.named("kenaf").model_copy(update={"theta_d": None, "theta_M": None})
 BARE = {"theta_d": 0.0, "theta_M": 0.0}

@@ -17,8 +17,6 @@ from kaidan.models.quasi_static import Basis, findings_of, traverse_of
 from kaidan.modes import FAILURE_MODES, Phase
 from kaidan.robot import Drive, Track
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 G = 9.80665
 KENAF = Robot.named("kenaf")
 UNMEASURED = KENAF.model_copy(update={"theta_d": None, "theta_M": None})

@@ -19,8 +19,6 @@ from kaidan.robot import Robot, Track, Uncertainty
 from kaidan.surface import Surface
 from kaidan.terrain.stairs import Stairs, StairsUncertainty
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 KENAF = Robot.named("kenaf")
 UNMEASURED = KENAF.model_copy(update={"theta_d": None, "theta_M": None})
 WITH_GAUGE = KENAF.model_copy(

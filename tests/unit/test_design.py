@@ -47,7 +47,7 @@ def test_no_point_of_a_brute_force_grid_is_better(goal, free):
     assert loss_of(best, goal) <= brute(problem, goal, 13) + 1e-9
 
 
-def test_no_point_of_a_grid_is_better_by_the_contact_model(compiled_kernel):
+def test_no_point_of_a_grid_is_better_by_the_contact_model():
     values = {"robot": Robot.named("absolem"), "flippers": "22deg,flat", "friction": 1.0}
     free = {"com_from_front": (0.1, 0.5), "com_height": (0.05, 0.3)}
     ibc = Stairs.named("ibc")

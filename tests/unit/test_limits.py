@@ -8,8 +8,6 @@ from kaidan import Robot, Stairs, assess
 from kaidan.assessment.limits import limits
 from kaidan.question import Question
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 FLIGHT = Stairs(name="flight", rise=0.174, going=0.27, steps=8)
 TRACK = {"flat_length": 0.52, "front_radius": 0.085, "rear_radius": 0.085}
 SHORT = Robot(name="short", mass=24.5, com_from_front=0.255, com_height=0.146, track=TRACK)

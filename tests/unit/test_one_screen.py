@@ -12,8 +12,6 @@ from kaidan.cli import app
 from kaidan.modes import FAILURE_MODES
 from kaidan.text.assessment import LINES
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 CASES = {
     "GO": ["kenaf", "--angle", "50deg", "--nosing-spacing", "150mm", "--friction", "2"],
     "GO of uncertain figures": [

@@ -14,8 +14,6 @@ from kaidan.traversal import Phase, traverse
 from kaidan.traversal.extremes import Rise, _closed, rises_about_stays
 from kaidan.traversal.static_criterion import Criterion, Loss
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 G = 9.80665
 KENAF = Outline.of(Robot.named("kenaf"))
 L, C_L, C_N, R = 0.470, 0.196, 0.071, 0.065

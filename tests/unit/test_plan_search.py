@@ -17,8 +17,6 @@ from kaidan.robot import FlipperPair, Posture, PostureChange, Robot, State, Trac
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 PAIR = FlipperPair(
     length=0.3, root_radius=0.09, tip_radius=0.04, pivot_height=0.09, mass=2.0, max_speed=0.5
 )

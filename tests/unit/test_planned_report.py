@@ -13,8 +13,6 @@ from kaidan.verbs.pose_map import pose_map
 from kaidan.verbs.traverse import driven, traverse_report
 from kaidan.verbs.traverse_report import TraverseReport
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 STAIRS = Stairs(name="short", rise=0.178, going=0.279, steps=7)
 PLAN = "35deg,-41deg/traverse:flat/land:-68deg,-20deg"
 

@@ -17,8 +17,6 @@ from kaidan.robot import Posture, PostureChange, Robot, State
 from kaidan.terrain.profile import Profile
 from kaidan.traversal.moves import angles_of, move
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 ABSOLEM = Robot.named("absolem")
 ARMED = Robot.model_validate(
     ABSOLEM.model_dump() | {"states": {"arm-out": {"mass": 5.0, "forward": 0.3, "up": 0.1}}}

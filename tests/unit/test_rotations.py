@@ -14,8 +14,6 @@ from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Chain, Phase, Rotation, traverse
 from kaidan.traversal.rotations import AT_ONCE, ROCKING, together
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 G = 9.80665
 KENAF = Outline.of(Robot.named("kenaf"))
 C_L, C_N, L = 0.196, 0.071, 0.470

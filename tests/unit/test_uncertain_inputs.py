@@ -12,8 +12,6 @@ from kaidan.models.quasi_static import traverse_of
 from kaidan.models.samples import draws, nominal, sample_count, unit_draws
 from kaidan.models.spread import changed_nosings, spread
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 L, C_L, C_N = 0.470, 0.196, 0.071
 THETA, P, MU = math.radians(40), 0.150, 1.0
 SIGMA = [0.004, 0.005, 0.003, 0.01, 0.002, 0.1]

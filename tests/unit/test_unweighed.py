@@ -16,8 +16,6 @@ from kaidan.question import Question
 from kaidan.robot import CentroidRange, Robot
 from kaidan.terrain.stairs import Stairs
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 TRACK = {"flat_length": 0.8, "front_radius": 0.1, "rear_radius": 0.1}
 RANGE = {"from_front": (0.24, 0.48), "height": ("100mm", "240mm")}
 FLIGHT = Stairs(name="flight", rise=0.18, going=0.28, steps=8)

@@ -30,7 +30,6 @@ def test_defaults_are_all_robots_on_all_stairs():
     assert {each["name"] for each in found["without_centroid"]} == set(catalog.gross_robots())
 
 
-@pytest.mark.usefixtures("compiled_kernel")
 @pytest.mark.parametrize("model", ["contact", "closed-form"])
 @pytest.mark.parametrize(
     ("arguments", "options"),

@@ -15,8 +15,6 @@ from kaidan.robot import Drive, FlipperPair, Robot, Track
 from kaidan.terrain.stairs import Stairs
 from kaidan.verbs.posture import PostureAnswer, posture
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 PAIR = FlipperPair(length=0.3, root_radius=0.08, tip_radius=0.03, pivot_height=0.08, max_speed=0.5)
 ONE_PAIR = Robot(
     name="one pair",

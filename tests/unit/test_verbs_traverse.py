@@ -24,8 +24,6 @@ from kaidan.verbs.pose_map import PoseMap, pose_map
 from kaidan.verbs.traverse import driven, traverse_report
 from kaidan.verbs.traverse_report import LogEntryShown, PartShown, PlaceShown, TraverseReport
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 FLIGHT = Stairs(name="short", rise=0.178, going=0.279, steps=4)
 
 

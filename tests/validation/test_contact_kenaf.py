@@ -9,8 +9,6 @@ import pytest
 from contact_cases import flight, stadium
 from kaidan.contact import steepest_flight
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 KENAF = (0.470, 0.196, 0.071)
 
 

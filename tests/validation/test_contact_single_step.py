@@ -11,8 +11,6 @@ from scipy.optimize import brentq
 from contact_cases import stadium, steps
 from kaidan.contact import Status, traverse
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 
 def highest_step(L, C_L, C_N, R):
     """Best height over theta of R (1 - cos) + l_c sin - C_N sin tan, from the cubic in tan."""

@@ -26,6 +26,7 @@ _COMMANDS = {
     "catalogs": ("robots", "stairs", "surfaces", "new"),
     "compare": ("compare",),
     "design": ("design",),
+    "doctor": ("doctor",),
     "experiment": ("experiment",),
     "margin": ("margin",),
     "measure": ("measure",),

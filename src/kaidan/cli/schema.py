@@ -31,6 +31,7 @@ KINDS = {
     "reproduction": "kaidan.studies.reproduction:Reproduction",
     "design": "kaidan.verbs.design.answer:Design",
     "sweep": "kaidan.sweeps.summary:SweepSummary",
+    "doctor": "kaidan.verbs.doctor:Diagnosis",
     "outcomes": "kaidan.studies.known_outcomes:KnownOutcomes",
 }
 """What has a schema: name on the command line, module and class."""

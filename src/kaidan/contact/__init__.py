@@ -30,11 +30,10 @@ from kaidan.contact.records import (
 from kaidan.contact.rest import Settled, resting_height, settle
 from kaidan.contact.steepest import steepest_flight
 from kaidan.contact.switch import (
-    expected_work,
     kernel_in_use,
-    numba_is_installed,
     use_kernel,
     using_kernel,
+    without_native,
 )
 from kaidan.contact.tables import body_table, ground_table, mirror
 from kaidan.contact.traversing import STEP, plain_seconds, traverse, traverse_many
@@ -70,12 +69,10 @@ __all__ = [
     "Tilts",
     "TouchingHeights",
     "body_table",
-    "expected_work",
     "ground_table",
     "joined",
     "kernel_in_use",
     "mirror",
-    "numba_is_installed",
     "pair_forces",
     "plain_seconds",
     "resting_height",
@@ -87,4 +84,5 @@ __all__ = [
     "traverse_many",
     "use_kernel",
     "using_kernel",
+    "without_native",
 ]

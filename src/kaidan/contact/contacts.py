@@ -18,7 +18,7 @@ from kaidan.contact.columns import (
     CONTACT_X,
     CONTACT_Z,
 )
-from kaidan.contact.kernel import forces
+from kaidan.contact.switch import kernel
 from kaidan.contact.tables import FloatArray
 
 MOST = 32
@@ -55,7 +55,7 @@ def contacts_of(
 ) -> tuple[Contact, ...]:
     """Contacts of a pose: every feature whose gap is at most ``touch`` [m], each point once."""
     table = np.empty((MOST, CONTACT_COLUMNS))
-    count, _ = forces.contacts_at(ground, body, x, z, inclination, touch, table, 0)
+    count, _ = kernel().contacts_at(ground, body, x, z, inclination, touch, table, 0)
     return tuple(
         Contact(
             point=(row[CONTACT_X], row[CONTACT_Z]),
@@ -97,7 +97,7 @@ def pair_forces(
     (7.35, 2.45)
     """
     return PairForces(
-        *forces.two_contact_forces(
+        *kernel().two_contact_forces(
             *first.point, *first.normal, *second.point, *second.normal, *com, *pull
         )
     )
@@ -127,5 +127,5 @@ def spring_loads(
     table = np.zeros((len(contacts), CONTACT_COLUMNS))
     table[:, [CONTACT_X, CONTACT_Z]] = [each.point for each in contacts]
     loads = np.zeros(len(contacts))
-    forces.shared_loads(table, len(contacts), *com, tilt, gravity, loads)
+    kernel().shared_loads(table, len(contacts), *com, tilt, gravity, loads)
     return loads

@@ -11,14 +11,12 @@ from numpy.typing import ArrayLike
 
 from kaidan.contact.codes import Feature, PartKind, Status
 from kaidan.contact.columns import ENERGY, POSE_COLUMNS, TILT_COLUMNS
-from kaidan.contact.compiling import kernel_module
 from kaidan.contact.contacts import Contact, contacts_of
-from kaidan.contact.kernel.gaps import on_flat
 from kaidan.contact.kernel.reserves import ROCKING
-from kaidan.contact.kernel.rotation import turned
 from kaidan.contact.margin_records import Margins, Tilts
 from kaidan.contact.records import Body, Events, Ground, Placement, Poses, RotationRecord, Rotations
-from kaidan.contact.tables import FloatArray, IntArray
+from kaidan.contact.switch import kernel
+from kaidan.contact.tables import FloatArray, IntArray, margin_tables
 from kaidan.mechanics import STANDARD_GRAVITY
 
 #: Gap up to which a feature counts as a contact [m].
@@ -140,8 +138,9 @@ class Path:
         table = self.margins.table
         missing = chosen[np.isnan(table[chosen, ENERGY])]
         if len(missing):
-            judge = kernel_module("margins")
-            judge.flow_energy(self.ground.table, self.body.table, self.poses.table, table, missing)
+            kernel().flow_energy(
+                self.ground.table, self.body.table, self.poses.table, table, missing
+            )
         return self.margins.energy[chosen], self.margins.energy_side[chosen]
 
     def tilts(self, rows: ArrayLike, side: float, tolerance: float = ROCKING) -> Tilts:
@@ -164,7 +163,7 @@ class Path:
             raise ValueError("traverse: tilts need with_margins=True")
         chosen = np.atleast_1d(np.asarray(rows, dtype=np.int64))
         found = np.empty((len(chosen), TILT_COLUMNS))
-        kernel_module("margins").flow_tilts(
+        kernel().flow_tilts(
             self.ground.table, self.body.table, self.poses.table, self.margins.table, chosen,
             side, tolerance, found,
         )  # fmt: skip
@@ -190,10 +189,8 @@ class Path:
         """Where the body is after a part of a rotation about its first pivot [rad]."""
         x, z, phi = rotation.start
         turn = rotation.sense * angle
-        return Placement(
-            *turned(self.ground.table, self.body.table, rotation.pivot, x, z, phi, turn),
-            phi + turn,
-        )
+        end = kernel().turned(self.ground.table, self.body.table, rotation.pivot, x, z, phi, turn)
+        return Placement(*end, phi + turn)
 
     def margins_of(
         self, rows: slice, *, acceleration: float = 0.0, gravity: float = STANDARD_GRAVITY,
@@ -214,10 +211,9 @@ class Path:
         Margins
             All but the energy along the flow.
         """
-        judge = kernel_module("margins")
         poses = np.ascontiguousarray(self.poses.table[rows])
-        table, found = judge.new_margins(len(poses))
-        judge.pose_margins(
+        table, found = margin_tables(len(poses))
+        kernel().pose_margins(
             self.ground.table, self.body.table, poses, len(poses), acceleration, gravity, TOUCH,
             table, found,
         )  # fmt: skip
@@ -243,9 +239,8 @@ class Path:
         """
         poses = self._between(events.pose, self._shares(events))
         points = np.array([Feature.of(each.feature).point for each in events], dtype=np.int64)
-        judge = kernel_module("margins")
-        margins, found = judge.new_margins(len(poses))
-        judge.margins_without(
+        margins, found = margin_tables(len(poses))
+        kernel().margins_without(
             self.ground.table, self.body.table, poses, points, acceleration, gravity, TOUCH,
             margins, found,
         )  # fmt: skip
@@ -272,9 +267,8 @@ class Path:
             A pose for each, with its margins; neither events nor rotations.
         """
         poses = self._between(rows, shares)
-        judge = kernel_module("margins")
-        margins, found = judge.new_margins(len(poses))
-        judge.pose_margins(
+        margins, found = margin_tables(len(poses))
+        kernel().pose_margins(
             self.ground.table, self.body.table, poses, len(poses), acceleration, gravity, TOUCH,
             margins, found,
         )  # fmt: skip
@@ -282,7 +276,7 @@ class Path:
 
     def _between(self, rows: IntArray, shares: FloatArray) -> FloatArray:
         poses = np.empty((len(rows), POSE_COLUMNS))
-        kernel_module("renaming").poses_between(
+        kernel().poses_between(
             self.ground.table, self.body.table, self.poses.table, rows, shares, poses
         )
         return poses
@@ -300,8 +294,10 @@ class Path:
     def is_on_flat(self, feature: int, row: int) -> bool:
         """Whether a contact of a pose is a vertex under the straight underside of its part."""
         x, z, phi = self.poses.placement(row)
-        return on_flat(
-            self.ground.table, self.body.table, feature, x, z, math.cos(phi), math.sin(phi)
+        return bool(
+            kernel().on_flat(
+                self.ground.table, self.body.table, feature, x, z, math.cos(phi), math.sin(phi)
+            )
         )
 
     def largest_inclination(self) -> float:

@@ -7,9 +7,7 @@ from typing import NamedTuple
 
 from numpy.typing import ArrayLike
 
-from kaidan.contact.compiling import kernel_module
-from kaidan.contact.kernel.gaps import gap
-from kaidan.contact.kernel.settling import touching
+from kaidan.contact.switch import kernel
 from kaidan.contact.tables import body_table, ground_table
 
 
@@ -45,14 +43,13 @@ def settle(
     >>> round(pose.z, 6), abs(round(pose.inclination, 12))
     (0.071, 0.0)
     """
-    kernel = kernel_module("settling")
     ground, body = ground_table(terrain), body_table(parts, kinds)
-    found, z, angle, rear, front = kernel.settle(ground, body, x, inclination, 0.0)
+    found, z, angle, rear, front = kernel().settle(ground, body, x, inclination, 0.0)
     rear_point = front_point = (math.nan, math.nan)
     if found:
         c, s = math.cos(angle), math.sin(angle)
-        rear_point = gap(ground, body, rear, x, z, c, s)[3:]
-        front_point = gap(ground, body, front, x, z, c, s)[3:]
+        rear_point = kernel().gap(ground, body, rear, x, z, c, s)[3:]
+        front_point = kernel().gap(ground, body, front, x, z, c, s)[3:]
     return Settled(
         bool(found), float(z), float(angle), int(rear), int(front), (rear_point, front_point)
     )
@@ -74,7 +71,7 @@ def resting_height(
     >>> round(resting_height([[0, 0], [4, 0]], robot, 2.0, 0.0), 6)
     0.071
     """
-    z, _ = touching(
+    z, _ = kernel().touching(
         ground_table(terrain), body_table(parts, kinds),
         x, math.cos(inclination), math.sin(inclination),
     )  # fmt: skip

@@ -1,37 +1,39 @@
 """Which kernel answers: one choice for the whole process, never what else happens to be imported.
 
-======== ==================================================================================
-plain    ordinary Python: no start-up time, about a hundred times slower
-compiled by numba: one second to load, half a minute the first time on a machine
-auto     plain, unless the work at hand is announced to take longer than 5 s and numba
-         is installed
-======== ==================================================================================
+====== ====================================================================================
+native machine code built from the kernel's own source when kaidan was installed
+plain  that source as ordinary Python: about a hundred times slower, equal to rounding
+auto   native where it was built from the source that is installed, else plain
+====== ====================================================================================
 
 ``auto`` is the default. The environment variable ``KAIDAN_KERNEL`` or
-:func:`kaidan.contact.use_kernel` choose another; the function wins. Both kernels give the same
-numbers to rounding.
+:func:`kaidan.contact.use_kernel` choose another; the function wins.
 """
 
 from __future__ import annotations
 
-import importlib.util
+import importlib
+import logging
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from contextvars import ContextVar
-from typing import Literal, get_args
+from functools import cache, wraps
+from types import SimpleNamespace
+from typing import Any, Literal, get_args
 
+import numpy as np
+
+from kaidan.contact.entries import KERNEL_MODULES, KERNEL_PACKAGE
+from kaidan.contact.source_mark import source_mark
 from kaidan.errors import InputError, shown
 
-Choice = Literal["auto", "plain", "compiled"]
+Choice = Literal["auto", "plain", "native"]
 
 VARIABLE = "KAIDAN_KERNEL"
-PATIENCE = 5.0
-"""Work of the plain kernel above which the compiled one pays [s]: it may have to compile."""
+
+log = logging.getLogger("kaidan.contact")
 
 _chosen: Choice | None = None
-_work: ContextVar[float] = ContextVar("work", default=0.0)
-_broken = False
 
 
 def use_kernel(choice: Choice | None) -> None:
@@ -39,7 +41,7 @@ def use_kernel(choice: Choice | None) -> None:
 
     Parameters
     ----------
-    choice : {"auto", "plain", "compiled"} or None
+    choice : {"auto", "plain", "native"} or None
         None: as the environment variable ``KAIDAN_KERNEL`` says.
 
     Raises
@@ -62,18 +64,8 @@ def using_kernel(choice: Choice) -> Iterator[None]:
         use_kernel(before)
 
 
-@contextmanager
-def expected_work(seconds: float) -> Iterator[None]:
-    """Announce how long the plain kernel would take for what follows [s]."""
-    token = _work.set(max(seconds, _work.get()))
-    try:
-        yield
-    finally:
-        _work.reset(token)
-
-
-def kernel_in_use(seconds: float = 0.0) -> Literal["plain", "compiled"]:
-    """Which kernel answers, for work that takes the plain one so long [s].
+def kernel_in_use() -> Literal["plain", "native"]:
+    """Which kernel answers.
 
     Raises
     ------
@@ -82,31 +74,88 @@ def kernel_in_use(seconds: float = 0.0) -> Literal["plain", "compiled"]:
 
     Examples
     --------
-    >>> with using_kernel("auto"):
+    >>> with using_kernel("plain"):
     ...     kernel_in_use()
     'plain'
     """
     choice = _choice()
-    if choice != "auto":
-        return choice
-    long = max(seconds, _work.get()) > PATIENCE
-    return "compiled" if long and not _broken and numba_is_installed() else "plain"
+    if choice == "auto":
+        return "plain" if without_native() else "native"
+    return choice
 
 
-def is_chosen() -> bool:
-    """Whether a kernel was chosen by name, so that it is that one or an error."""
-    return _choice() != "auto"
+def kernel() -> Any:
+    """Entries of the kernel in use, by their names.
+
+    Raises
+    ------
+    InputError
+        If the native kernel was chosen by name and is not there.
+    """
+    choice = _choice()
+    if choice == "plain":
+        return _plain()
+    reason = without_native()
+    if not reason:
+        return _native()[0]
+    if choice == "native":
+        raise InputError(f"{VARIABLE} = native: {reason}")
+    _warn_once()
+    return _plain()
 
 
-def numba_is_installed() -> bool:
-    """Whether the optional compiler is there (it is not imported to find out)."""
-    return importlib.util.find_spec("numba") is not None
+def without_native() -> str:
+    """Why the native kernel does not answer; empty if it can."""
+    return _native()[1]
 
 
-def compiler_is_broken() -> None:
-    """Let ``auto`` never try the compiler again in this process."""
-    global _broken
-    _broken = True
+@cache
+def _native() -> tuple[Any, str]:
+    try:
+        module = importlib.import_module("kaidan.contact._native")
+    except ImportError as error:
+        return None, f"the native kernel is not installed ({error})"
+    if source_mark() != module.SOURCE:
+        return None, "the native kernel was built from another source: install kaidan again"
+    return module, ""
+
+
+@cache
+def _warn_once() -> None:
+    log.warning(
+        "%s; the plain kernel answers the same, about a hundred times slower", without_native()
+    )
+
+
+@cache
+def _plain() -> SimpleNamespace:
+    entries = {}
+    for name in KERNEL_MODULES:
+        for key, value in vars(importlib.import_module(f"{KERNEL_PACKAGE}.{name}")).items():
+            if hasattr(value, "_kaidan_entry"):
+                entries[key] = value if name == "batch" else _through_views(value)
+    return SimpleNamespace(**entries)
+
+
+def _through_views(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Entry that reads its tables through views.
+
+    An element of a view is a float, one of an array is an object of numpy's, on which arithmetic
+    takes four times as long: the plain kernel runs nearly twice as fast. Views cannot be cut up, as
+    the batch does with its tables.
+    """
+
+    @wraps(function)
+    def call(*arguments: Any) -> Any:
+        tables = (isinstance(each, np.ndarray) and each.ndim == 2 for each in arguments)
+        return function(
+            *(
+                memoryview(each) if is_table else each
+                for each, is_table in zip(arguments, tables, strict=True)
+            )
+        )
+
+    return call
 
 
 def _choice() -> Choice:

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,12 +23,21 @@ from numpy.typing import ArrayLike, NDArray
 from kaidan.contact.codes import PartKind
 from kaidan.contact.columns import (
     BODY_COLUMNS,
+    CONTACT_COLUMNS,
     CONVEX,
     DISC,
+    EVENT_COLUMNS,
     GROUND_COLUMNS,
+    JOB_COLUMNS,
     LENGTH,
+    MARGIN_COLUMNS,
+    POSE_COLUMNS,
     R1,
     R2,
+    ROTATION_COLUMNS,
+    SETTLED_COLUMNS,
+    SUMMARY_COLUMNS,
+    TILT_COLUMNS,
     U_X,
     U_Z,
     X1,
@@ -39,10 +49,21 @@ from kaidan.contact.columns import (
 )
 
 #: In the kernel: a table (rows, columns), a list of numbers, a list of indices, contiguous all.
-#: Three types, because the compiler's signatures are read from the annotations.
+#: The native build reads types and numbers of columns off the annotations.
 FloatArray = NDArray[np.float64]
 FloatRow = np.ndarray[tuple[int], np.dtype[np.float64]]
 IntArray = NDArray[np.int64]
+GroundTable = Annotated[FloatArray, GROUND_COLUMNS]
+BodyTable = Annotated[FloatArray, BODY_COLUMNS]
+PoseTable = Annotated[FloatArray, POSE_COLUMNS]
+EventTable = Annotated[FloatArray, EVENT_COLUMNS]
+RotationTable = Annotated[FloatArray, ROTATION_COLUMNS]
+MarginTable = Annotated[FloatArray, MARGIN_COLUMNS]
+ContactTable = Annotated[FloatArray, CONTACT_COLUMNS]
+TiltTable = Annotated[FloatArray, TILT_COLUMNS]
+JobTable = Annotated[FloatArray, JOB_COLUMNS]
+SummaryTable = Annotated[FloatArray, SUMMARY_COLUMNS]
+SettledTable = Annotated[FloatArray, SETTLED_COLUMNS]
 #: Numbers that belong together, in the kernel: four, or x, z, cosine, sine and a point.
 Four = tuple[float, float, float, float]
 Pose = tuple[float, float, float, float, float, float]
@@ -201,6 +222,20 @@ def _body_row(
         )  # fmt: skip
     flat = distance * cosine
     return [x1, z1, r1, x2, z2, r2, e_x, e_z, distance, sine, cosine, flat, side, kind]
+
+
+def path_tables(size: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Empty tables of poses, events and rotations for so many poses."""
+    return (
+        np.empty((size, POSE_COLUMNS)),
+        np.zeros((size, EVENT_COLUMNS)),
+        np.zeros((size // 8 + 16, ROTATION_COLUMNS)),
+    )
+
+
+def margin_tables(size: int) -> tuple[FloatArray, FloatArray]:
+    """Empty tables of margins for so many poses, and of the contacts of one pose."""
+    return np.empty((size, MARGIN_COLUMNS)), np.empty((32, CONTACT_COLUMNS))
 
 
 def mirror(terrain: ArrayLike, parts: ArrayLike) -> tuple[FloatArray, FloatArray]:

@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kaidan.contact.codes import Status
-from kaidan.contact.columns import JOB_COLUMNS
-from kaidan.contact.compiling import kernel_module
+from kaidan.contact.columns import JOB_COLUMNS, SUMMARY_COLUMNS
 from kaidan.contact.margin_records import Job, Margins, Summaries
 from kaidan.contact.path import TOUCH, Path
 from kaidan.contact.records import Body, Events, Ground, Poses, Rotations
-from kaidan.contact.switch import expected_work
-from kaidan.contact.tables import FloatArray, body_table, ground_table
+from kaidan.contact.switch import kernel
+from kaidan.contact.tables import body_table, ground_table, margin_tables, path_tables
 from kaidan.mechanics import STANDARD_GRAVITY
 
 #: Arclength between poses [m]: beyond 5 mm grazing contacts could be passed over between two poses.
@@ -106,22 +105,21 @@ def traverse(
         raise ValueError(f"traverse: step {step} must be positive")
     ground = ground_table(terrain)
     body = body_table(parts, kinds)
-    with expected_work(plain_seconds(terrain, parts, x_start, x_end, step)):
-        driver, judge = kernel_module("driver"), kernel_module("margins")
+    entries = kernel()
     size = int(min(4.0 * (x_end - x_start) / step + 64 * len(ground) + 4000, 400_000))
-    poses, events, rotations = kernel_module("recording").new_tables(size)
-    status, n_pose, n_event, n_rotation = driver.drive(
+    poses, events, rotations = path_tables(size)
+    status, n_pose, n_event, n_rotation = entries.drive(
         ground, body, x_start, x_end, inclination, step, acceleration, gravity * math.cos(tilt),
         math.tan(tilt), gyration, poses, events, rotations,
     )  # fmt: skip
     margins = None
     if with_margins:
-        margins, found = judge.new_margins(n_pose)
-        judge.pose_margins(
+        margins, found = margin_tables(n_pose)
+        entries.pose_margins(
             ground, body, poses, n_pose, acceleration, gravity, TOUCH, margins, found
         )
         if with_energy:
-            judge.flow_energy(ground, body, poses, margins, np.arange(n_pose))
+            entries.flow_energy(ground, body, poses, margins, np.arange(n_pose))
     return Path(
         Status(status),
         Poses(poses[:n_pose].copy()),
@@ -145,15 +143,16 @@ def traverse_many(
     size: int = 20_000,
 ) -> Summaries:
     """Many traverses in one call: a row of the summary for each job."""
-    kernel = kernel_module("batch")
     grounds = [ground_table(t) for t in terrains]
     bodies = [body_table(r, None if kinds is None else kinds[k]) for k, r in enumerate(robots)]
-    table: FloatArray = kernel.traverse_many(
+    summaries = np.full((len(jobs), SUMMARY_COLUMNS), math.nan)
+    kernel().traverse_many(
         np.concatenate(grounds),
         np.cumsum([len(g) for g in grounds]),
         np.concatenate(bodies),
         np.cumsum([len(b) for b in bodies]),
         np.array(jobs, dtype=np.float64).reshape(-1, JOB_COLUMNS),
-        step, gravity, TOUCH, with_margins, size,
+        step, gravity, TOUCH, with_margins, *path_tables(size), *margin_tables(size),
+        np.arange(size), summaries,
     )  # fmt: skip
-    return Summaries(table)
+    return Summaries(summaries)

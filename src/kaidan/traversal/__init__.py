@@ -327,18 +327,17 @@ def traverse(
         criterion = criterion.within(*((-x_end, -x_start) if falls else (x_start, x_end)))
     work = contact.plain_seconds(driven.points, body.parts, x_start, x_end, step)
     _refuse_too_long(driven, x_end - x_start, step, work)
-    with contact.expected_work(work):
-        path = _drive(
-            driven, body, start, until,
-            acceleration=along, step=step, with_margins=with_margins,
-            with_energy=with_energy,
-        )  # fmt: skip
-        room = body.stance.flat_length
-        phase = phases_of(path, driven, descending, room)
-        phases: tuple[PhaseExtremes, ...] = ()
-        if path.margins is not None:
-            rises = rises_about_stays(criterion) if whole else ()
-            phases = phase_extremes(path, driven, phase, descending, along, rises, room, whole)
+    path = _drive(
+        driven, body, start, until,
+        acceleration=along, step=step, with_margins=with_margins,
+        with_energy=with_energy,
+    )  # fmt: skip
+    room = body.stance.flat_length
+    phase = phases_of(path, driven, descending, room)
+    phases: tuple[PhaseExtremes, ...] = ()
+    if path.margins is not None:
+        rises = rises_about_stays(criterion) if whole else ()
+        phases = phase_extremes(path, driven, phase, descending, along, rises, room, whole)
     return Traverse(
         status=path.status,
         descending=descending,
@@ -433,8 +432,8 @@ def _refuse_too_long(profile: Profile, way: float, step: float, work: float) -> 
             f"profile: {points} points over {span:.0f} m are more than one traverse takes: "
             "cut or thin it (in millimetres?)"
         )
-    if work > LONG and contact.kernel_in_use(work) == "plain":
+    if work > LONG and contact.kernel_in_use() == "plain":
         raise InputError(
-            f"profile: {points} points over {span:.0f} m are too many without the compiled "
-            "kernel: pip install 'kaidan[fast]', or cut or thin the profile"
+            f"profile: {points} points over {span:.0f} m are too many without the native "
+            "kernel (`kaidan doctor` says why it is not there): cut or thin the profile"
         )

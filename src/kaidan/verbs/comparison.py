@@ -8,16 +8,12 @@ from kaidan import catalog
 from kaidan.answer import Answer, Part
 from kaidan.assessment import with_plan
 from kaidan.assessment.verdict import conclude
-from kaidan.contact import expected_work
 from kaidan.errors import InputError
 from kaidan.modes import Direction, Facing, Verdict
 from kaidan.progress import progress
 from kaidan.question import Question
 from kaidan.robot import Robot
 from kaidan.terrain.stairs import Stairs
-
-A_TRAVERSE, A_SEARCH = 0.12, 3.0
-"""Times of the plain contact kernel for a traverse and its judgement, and for a plan [s]."""
 
 
 class Cell(Part):
@@ -142,10 +138,7 @@ def compare(
         for robot in known
     ]
     first = questions[0]
-    each = A_SEARCH if first.best_of else A_TRAVERSE
-    work = len(questions) * each if first.model == "contact" else 0.0
-    with expected_work(work):
-        cells = [_cell(question) for question in progress(questions, "traverses judged")]
+    cells = [_cell(question) for question in progress(questions, "traverses judged")]
     directions = {each.direction for each in questions}
     return Comparison(
         model=first.model,

@@ -3,12 +3,10 @@
 import numpy as np
 import pytest
 
-from contact_cases import random_robot, random_terrain, stadium, steps
-from kaidan.contact import Event, Status, body_table, ground_table, settle, traverse, using_kernel
+from contact_cases import stadium, steps
+from kaidan.contact import Event, Status, body_table, ground_table, settle, traverse
 from kaidan.contact.kernel.gaps import gap, relabelled
 from kaidan.contact.kernel.rotation import turned
-
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
 
 
 def test_flat_ground():
@@ -99,32 +97,6 @@ def test_events_of_a_step():
 def test_wall_too_high():
     run = traverse(steps(1.5, 1.0, 1), stadium(0.6, 0.28, 0.1, 0.08), -1.5, 1.2)
     assert run.status is Status.FELL_BACKWARD
-
-
-@pytest.mark.parametrize("seed", range(12))
-def test_plain_and_compiled_agree(seed):
-    pytest.importorskip("numba")
-    rng = np.random.default_rng(seed)
-    parts, kinds = random_robot(rng)
-    terrain = random_terrain(rng)
-    runs = []
-    for kernel in ("plain", "compiled"):
-        with using_kernel(kernel):
-            runs.append(
-                traverse(
-                    terrain,
-                    parts,
-                    terrain[0, 0] + 2,
-                    terrain[-1, 0] - 2,
-                    kinds=kinds,
-                    acceleration=0.3,
-                )
-            )
-    assert runs[0].status == runs[1].status
-    assert len(runs[0].poses) == len(runs[1].poses)
-    # m, rad: the compiler may fuse multiply and add; Newton brings both to 1e-13
-    np.testing.assert_allclose(runs[0].poses.placements, runs[1].poses.placements, atol=1e-9)
-    np.testing.assert_allclose(runs[0].margins.table, runs[1].margins.table, rtol=1e-5, atol=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -24,8 +24,6 @@ from kaidan.contact.kernel.reserves import barrier
 from kaidan.contact.kernel.rotation import foot_limit, next_pivot, turned
 from kaidan.contact.kernel.settling import lever
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 G = 9.80665
 ANGLE, SPACING = np.radians(35), 0.15
 L, C_L, C_N, R = 0.47, 0.196, 0.071, 0.06

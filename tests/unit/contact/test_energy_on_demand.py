@@ -12,8 +12,6 @@ from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import traverse
 
-pytestmark = pytest.mark.usefixtures("compiled_kernel")
-
 RNG = np.random.default_rng(7)
 
 

@@ -1,8 +1,7 @@
-"""Which kernel answers, and what happens where the compiler cannot do its work."""
+"""Which kernel answers, and what happens where the native one is not there."""
 
 import json
 import logging
-import os
 import subprocess
 import sys
 from types import SimpleNamespace
@@ -10,169 +9,114 @@ from types import SimpleNamespace
 import pytest
 
 from kaidan import contact
-from kaidan.contact import compiler_cache, compiling, switch
-from kaidan.errors import InputError, MissingExtraError
+from kaidan.contact import switch
+from kaidan.errors import InputError
 
 FLAT, ROBOT = [[0, 0], [4, 0]], [[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]]
-needs_numba = pytest.mark.skipif(not contact.numba_is_installed(), reason="needs numba")
+needs_native = pytest.mark.skipif(bool(contact.without_native()), reason="built pure")
 
 
 @pytest.fixture(autouse=True)
 def untouched(monkeypatch):
-    """No choice but the default's."""
+    """No choice but the default's, nothing loaded yet."""
     monkeypatch.delenv(switch.VARIABLE, raising=False)
     monkeypatch.setattr(switch, "_chosen", None)
-    monkeypatch.setattr(switch, "_broken", False)
+    caches = (switch._native, switch._warn_once)
+    for each in caches:
+        each.cache_clear()
+    yield
+    for each in caches:
+        each.cache_clear()
 
 
-def test_plain_unless_the_work_is_long():
-    assert contact.kernel_in_use() == "plain"
-    with contact.expected_work(switch.PATIENCE + 1):
-        long = "compiled" if contact.numba_is_installed() else "plain"
-        assert contact.kernel_in_use() == long
-        with contact.expected_work(0.0):  # a small part of long work is long work
-            assert contact.kernel_in_use() == long
-    assert contact.kernel_in_use() == "plain"
+def loads(monkeypatch, module):
+    """Let the native module be this one, or the error that loading it raises."""
+
+    def load(name):
+        if isinstance(module, Exception):
+            raise module
+        return module
+
+    monkeypatch.setattr(switch, "importlib", SimpleNamespace(import_module=load))
 
 
-def test_a_choice_holds_whatever_the_work():
+@needs_native
+def test_native_unless_another_is_chosen():
+    assert contact.kernel_in_use() == "native"
     with contact.using_kernel("plain"):
-        assert contact.kernel_in_use(1e6) == "plain"
-    with contact.using_kernel("compiled"):
-        assert contact.kernel_in_use() == "compiled"
-    assert contact.kernel_in_use() == "plain"
+        assert contact.kernel_in_use() == "plain"
+    assert contact.kernel_in_use() == "native"
 
 
+@needs_native
 def test_the_environment_chooses_and_the_function_wins(monkeypatch):
-    monkeypatch.setenv("KAIDAN_KERNEL", "compiled")
-    assert contact.kernel_in_use() == "compiled"
-    contact.use_kernel("plain")
+    monkeypatch.setenv("KAIDAN_KERNEL", "plain")
     assert contact.kernel_in_use() == "plain"
+    contact.use_kernel("native")
+    assert contact.kernel_in_use() == "native"
     contact.use_kernel(None)
-    assert contact.kernel_in_use() == "compiled"
+    assert contact.kernel_in_use() == "plain"
 
 
 def test_unknown_choices(monkeypatch):
     with pytest.raises(InputError) as error:
         contact.use_kernel("fast")
-    assert str(error.value) == "kernel = 'fast' is not known; known: auto, plain, compiled"
+    assert str(error.value) == "kernel = 'fast' is not known; known: auto, plain, native"
     monkeypatch.setenv("KAIDAN_KERNEL", "numba")
     with pytest.raises(InputError) as error:
         contact.settle(FLAT, ROBOT, 2.0)
-    assert str(error.value) == "KAIDAN_KERNEL = 'numba' is not known; known: auto, plain, compiled"
+    assert str(error.value) == "KAIDAN_KERNEL = 'numba' is not known; known: auto, plain, native"
 
 
-@needs_numba
-def test_what_else_is_imported_changes_nothing():
-    """A sweep loads numba; the next question is answered by the same kernel as before."""
+def test_nothing_else_is_imported():
+    """An answer of the contact model loads neither numba nor what builds the native kernel."""
     code = (
         "import sys, json, kaidan\n"
-        "from kaidan import contact\n"
-        "kaidan.sweep('kenaf', 'ibc', friction=[0.5, 1.0], engine='compiled')\n"
-        "loaded = 'numba' in sys.modules\n"
         "kaidan.assess('kenaf', 'ibc', friction=1.0)\n"
-        "print(json.dumps([loaded, contact.kernel_in_use(),\n"
-        "                  [name for name in sys.modules if '_compiled_' in name]]))"
+        "print(json.dumps([name for name in ('numba', 'Cython', 'setuptools')"
+        " if name in sys.modules]))"
     )
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=120
     )
-    assert json.loads(done.stdout) == [True, "plain", []]
+    assert json.loads(done.stdout) == []
 
 
-def test_without_numba(monkeypatch):
-    monkeypatch.setattr(switch, "numba_is_installed", lambda: False)
-    with contact.expected_work(1e6):
+def test_without_the_native_kernel_the_plain_one_answers_and_says_so_once(monkeypatch, caplog):
+    switch._plain()
+    loads(monkeypatch, ImportError("no such file"))
+    with caplog.at_level(logging.WARNING, "kaidan.contact"):
         assert contact.settle(FLAT, ROBOT, 2.0).found
-    monkeypatch.setattr(compiling, "_compiled", {})
-    with contact.using_kernel("compiled"), pytest.raises(MissingExtraError) as error:
+        assert contact.settle(FLAT, ROBOT, 2.0).found
+    (record,) = caplog.records
+    assert record.getMessage() == (
+        "the native kernel is not installed (no such file); "
+        "the plain kernel answers the same, about a hundred times slower"
+    )
+    with contact.using_kernel("native"), pytest.raises(InputError) as error:
         contact.settle(FLAT, ROBOT, 2.0)
     assert str(error.value) == (
-        "the compiled contact kernel needs an optional package: pip install 'kaidan[fast]'"
+        "KAIDAN_KERNEL = native: the native kernel is not installed (no such file)"
     )
 
 
-def test_a_broken_compiler_leaves_the_plain_kernel(monkeypatch, caplog):
-    def fails():
-        raise RuntimeError("no such instruction")
-
-    monkeypatch.setattr(compiling, "_compiled", {})
-    monkeypatch.setattr(compiling, "_compiled_modules", fails)
-    monkeypatch.setattr(switch, "numba_is_installed", lambda: True)
-    with contact.expected_work(1e6), caplog.at_level(logging.WARNING, "kaidan.contact"):
-        assert contact.settle(FLAT, ROBOT, 2.0).found
-        assert contact.settle(FLAT, ROBOT, 2.0).found
-    (record,) = caplog.records
-    assert record.getMessage() == (
-        "the plain contact kernel answers, numba does not work here: no such instruction"
-    )
-    with contact.using_kernel("compiled"), pytest.raises(RuntimeError):
-        contact.settle(FLAT, ROBOT, 2.0)
-
-
-@needs_numba
-def test_without_a_writable_cache(monkeypatch, caplog):
-    """Where numba finds no folder to write to the kernel is compiled for the process alone."""
-    from numba.core import caching
-
-    def refuses(self):
-        raise PermissionError(13, "Permission denied")
-
-    tried = []
-    monkeypatch.setattr(caching._CacheLocator, "ensure_cache_path", refuses)
-    monkeypatch.setattr(compiling, "_compiled", {})
-    monkeypatch.setattr(
-        compiling, "_compile_all", lambda njit, cache: tried.append(cache) or {"settling": None}
-    )
-    with caplog.at_level(logging.WARNING, "kaidan.contact"):
-        compiling.compiled("settling")
-    assert tried == [False]
-    (record,) = caplog.records
-    assert record.getMessage() == (
-        "compiling the contact kernel for this process alone: set NUMBA_CACHE_DIR"
+def test_machine_code_of_another_source_is_not_used(monkeypatch):
+    loads(monkeypatch, SimpleNamespace(SOURCE="of last week"))
+    assert contact.kernel_in_use() == "plain"
+    assert contact.without_native() == (
+        "the native kernel was built from another source: install kaidan again"
     )
 
 
-@needs_numba
-def test_a_cache_that_fails_on_the_way(monkeypatch, caplog, tmp_path):
-    """A full disk, for example."""
-
-    def compile_all(njit, cache):
-        if cache:
-            raise OSError(28, "No space left on device")
-        return {"settling": SimpleNamespace()}
-
-    monkeypatch.setattr(compiling, "_compiled", {})
-    monkeypatch.setattr(compiling, "_compile_all", compile_all)
-    monkeypatch.setattr(compiling, "cache_folder", lambda njit, function: tmp_path)
-    with caplog.at_level(logging.WARNING, "kaidan.contact"):
-        assert compiling.compiled("settling") is not None
-    assert "No space left on device" in caplog.records[0].getMessage()
-
-
-def test_a_process_that_hangs_is_not_waited_for(monkeypatch, tmp_path):
-    fcntl = pytest.importorskip("fcntl")
-    monkeypatch.setattr(compiler_cache, "LONGEST_WAIT", 0.3)
-    with (tmp_path / "kaidan-contact.lock").open("a") as other:
-        fcntl.flock(other, fcntl.LOCK_EX)
-        with compiler_cache.filling(tmp_path):
-            pass
-
-
-@needs_numba
-@pytest.mark.slow
-def test_several_processes_fill_one_cache(tmp_path):
-    """Four at once on an empty cache: all answer, the same, and one of them compiles."""
-    code = f"from kaidan.contact import settle\nprint(repr(settle({FLAT}, {ROBOT}, 2.0, 0.3)))"
-    env = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path), "KAIDAN_KERNEL": "compiled"}
-    started = [
-        subprocess.Popen(
-            [sys.executable, "-c", code], env=env, text=True,
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-        )
-        for _ in range(4)
-    ]  # fmt: skip
-    ended = [each.communicate(timeout=400) for each in started]
-    assert [each.returncode for each in started] == [0, 0, 0, 0], ended
-    assert len({out for out, _ in ended}) == 1
-    assert sum("compiling the contact kernel" in errors for _, errors in ended) == 1
+@needs_native
+@pytest.mark.parametrize("entry", ["drive", "pose_margins", "settle"])
+def test_tables_of_the_wrong_shape_are_refused(entry):
+    native = switch.kernel()
+    ground, body = contact.ground_table(FLAT), contact.body_table(ROBOT)
+    arguments = {
+        "drive": (ground[:, :5].copy(), body, *(0.0,) * 8, *(body,) * 3),
+        "pose_margins": (ground, ground, ground, 1, 0.0, 9.8, 1e-9, ground, ground),
+        "settle": (body, body, 0.0, 0.0, 0.0),
+    }[entry]
+    with pytest.raises(ValueError, match=r"a table of \d+ columns"):
+        getattr(native, entry)(*arguments)

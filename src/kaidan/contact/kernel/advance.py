@@ -21,13 +21,13 @@ from kaidan.contact.columns import (
     U_Z,
     VERTEX,
 )
-from kaidan.contact.compiling import entry, kernel
+from kaidan.contact.entries import entry
 from kaidan.contact.kernel.continuation import ARM, stepped, tilt
 from kaidan.contact.kernel.event_location import PENETRATED, closing_time, quantity
 from kaidan.contact.kernel.gaps import relabelled
 from kaidan.contact.kernel.nearest_feature import nearest
 from kaidan.contact.kernel.settling import lever
-from kaidan.contact.tables import FloatArray
+from kaidan.contact.tables import BodyTable, GroundTable
 
 #: Features that close within this of one another [m] close together.
 TOGETHER = 5e-10
@@ -36,8 +36,7 @@ TOGETHER = 5e-10
 OF_RADIUS = 0.25
 
 
-@kernel
-def shallow(body: FloatArray, feature: int, distance: float) -> bool:
+def shallow(body: BodyTable, feature: int, distance: float) -> bool:
     """Whether a penetration is shallow enough to tell which feature is hit.
 
     A disc that has gone in by less than half its radius still has its centre outside; a thin part
@@ -47,10 +46,9 @@ def shallow(body: FloatArray, feature: int, distance: float) -> bool:
     return bool(distance > -0.5 * min(body[part, R1], body[part, R2]))
 
 
-@kernel
 def lever_rate(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     feature: int,
     x: float,
     z: float,
@@ -73,9 +71,8 @@ def lever_rate(
     return float(along * ground[k, U_X] - t_x)
 
 
-@kernel
 def may_graze(
-    ground: FloatArray, body: FloatArray, one: int, other: int, sign: float,
+    ground: GroundTable, body: BodyTable, one: int, other: int, sign: float,
     kappa: float, kappa1: float,
     x0: float, z0: float, phi0: float, t_x: float, t_z: float, t_w: float,
     x1: float, z1: float, phi1: float, u_x: float, u_z: float, u_w: float, ds: float,
@@ -106,7 +103,7 @@ def may_graze(
 
 
 @entry
-def thinnest_radius(body: FloatArray) -> float:
+def thinnest_radius(body: BodyTable) -> float:
     """Smallest end radius of all parts [m]."""
     thinnest = math.inf
     for part in range(body.shape[0]):
@@ -114,10 +111,9 @@ def thinnest_radius(body: FloatArray) -> float:
     return thinnest
 
 
-@kernel
 def careful(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     rear: int,
     front: int,
     x: float,
@@ -144,10 +140,9 @@ def careful(
     return min(ds, max(0.4 * clear, thinnest, 0.1 * ds))
 
 
-@kernel
 def advance(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     rear: int,
     front: int,
     x: float,

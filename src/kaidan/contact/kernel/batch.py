@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from kaidan.contact.columns import (
     BACK,
     BELLY_TOUCHES,
@@ -24,14 +22,14 @@ from kaidan.contact.columns import (
     POSE_PHI,
     POSE_X,
     ROTATION_ANGLE,
-    SETTLED_COLUMNS,
     SETTLED_FOUND,
     SETTLED_FRONT,
     SETTLED_PHI,
     SETTLED_REAR,
     SETTLED_Z,
     SUMMARY_ANGLE,
-    SUMMARY_COLUMNS,
+    SUMMARY_BELLY,
+    SUMMARY_ENERGY,
     SUMMARY_EVENTS,
     SUMMARY_EXTRA,
     SUMMARY_FRICTION,
@@ -40,21 +38,33 @@ from kaidan.contact.columns import (
     SUMMARY_POSES,
     SUMMARY_REACHED,
     SUMMARY_ROTATIONS,
+    SUMMARY_STABILITY,
     SUMMARY_STATUS,
     SUMMARY_TOPPLES,
     TOPPLES,
 )
-from kaidan.contact.compiling import entry
+from kaidan.contact.entries import entry
 from kaidan.contact.kernel.driver import drive
-from kaidan.contact.kernel.margins import flow_energy, new_margins, pose_margins
-from kaidan.contact.kernel.recording import new_tables
+from kaidan.contact.kernel.margins import flow_energy, pose_margins
 from kaidan.contact.kernel.settling import settle
-from kaidan.contact.tables import FloatArray, FloatRow, IntArray
+from kaidan.contact.tables import (
+    BodyTable,
+    ContactTable,
+    EventTable,
+    FloatRow,
+    GroundTable,
+    IntArray,
+    JobTable,
+    MarginTable,
+    PoseTable,
+    RotationTable,
+    SettledTable,
+    SummaryTable,
+)
 
 
-@entry
 def extremes(
-    poses: FloatArray, n_pose: int, rotations: FloatArray, n_rotation: int
+    poses: PoseTable, n_pose: int, rotations: RotationTable, n_rotation: int
 ) -> tuple[float, float, float, float]:
     """Largest and smallest inclination, largest rotation [rad], any that topples with momentum."""
     top = -math.inf
@@ -72,8 +82,7 @@ def extremes(
     return top, low, angle, momentum
 
 
-@entry
-def worst_margins(margins: FloatArray, count: int) -> tuple[float, float, float, float]:
+def worst_margins(margins: MarginTable, count: int) -> tuple[float, float, float, float]:
     """Largest required friction, smallest static stability and energy margin [m], belly (0, 1)."""
     mu = 0.0
     stable = math.inf
@@ -87,18 +96,25 @@ def worst_margins(margins: FloatArray, count: int) -> tuple[float, float, float,
     return mu, stable, energy, belly
 
 
+@entry
 def traverse_many(
-    grounds: FloatArray,
+    grounds: GroundTable,
     ground_ends: IntArray,
-    bodies: FloatArray,
+    bodies: BodyTable,
     body_ends: IntArray,
-    jobs: FloatArray,
+    jobs: JobTable,
     step: float,
     g: float,
     touch: float,
     with_margins: bool,
-    size: int,
-) -> FloatArray:
+    poses: PoseTable,
+    events: EventTable,
+    rotations: RotationTable,
+    margins: MarginTable,
+    found: ContactTable,
+    rows: IntArray,
+    summaries: SummaryTable,
+) -> None:
     """Drive a list of jobs, each a terrain, a robot, a start and an end.
 
     Parameters
@@ -114,21 +130,16 @@ def traverse_many(
         Arclength between poses [m], gravity [m/s^2], gap of a contact [m].
     with_margins
         Whether to work out every margin at every pose.
-    size
-        Poses held at most.
-
-    Returns
-    -------
-    ndarray (n, 14)
-        status, poses, events, rotations, largest and smallest inclination [rad], largest
-        inclination above the reference [rad], largest rotation [rad], any rotation that
-        topples with momentum (0, 1), x reached [m], then (NaN without margins) largest required
-        friction, smallest static stability margin [m], smallest energy margin along the flow [m],
-        belly touches.
+    poses, events, rotations, margins, found, rows
+        Scratch, see :func:`kaidan.contact.kernel.driver.drive` and
+        :func:`kaidan.contact.kernel.margins.pose_margins`; ``rows`` counts the poses from 0.
+    summaries
+        To be filled, a row a job: status, poses, events, rotations, largest and smallest
+        inclination [rad], largest inclination above the reference [rad], largest rotation [rad],
+        any rotation that topples with momentum (0, 1), x reached [m], then (untouched without
+        margins) largest required friction, smallest static stability margin [m], smallest energy
+        margin along the flow [m], belly touches.
     """
-    poses, events, rotations = new_tables(size)
-    margins, found = new_margins(size)
-    out = np.full((jobs.shape[0], SUMMARY_COLUMNS), math.nan)
     for job in range(jobs.shape[0]):
         terrain = int(jobs[job, JOB_TERRAIN])
         robot = int(jobs[job, JOB_ROBOT])
@@ -145,37 +156,39 @@ def traverse_many(
             ground, body, jobs[job, JOB_START], jobs[job, JOB_END], jobs[job, JOB_PHI], step, a, g,
             0.0, jobs[job, JOB_GYRATION], poses, events, rotations,
         )  # fmt: skip
-        out[job, SUMMARY_STATUS] = status
-        out[job, SUMMARY_POSES] = n_pose
-        out[job, SUMMARY_EVENTS] = n_event
-        out[job, SUMMARY_ROTATIONS] = n_rotation
+        summaries[job, SUMMARY_STATUS] = status
+        summaries[job, SUMMARY_POSES] = n_pose
+        summaries[job, SUMMARY_EVENTS] = n_event
+        summaries[job, SUMMARY_ROTATIONS] = n_rotation
         if n_pose == 0:
             continue
         top, low, angle, momentum = extremes(poses, n_pose, rotations, n_rotation)
-        out[job, SUMMARY_HIGHEST] = top
-        out[job, SUMMARY_LOWEST] = low
-        out[job, SUMMARY_EXTRA] = top - jobs[job, JOB_REFERENCE]
-        out[job, SUMMARY_ANGLE] = angle
-        out[job, SUMMARY_TOPPLES] = momentum
-        out[job, SUMMARY_REACHED] = poses[n_pose - 1, POSE_X]
+        summaries[job, SUMMARY_HIGHEST] = top
+        summaries[job, SUMMARY_LOWEST] = low
+        summaries[job, SUMMARY_EXTRA] = top - jobs[job, JOB_REFERENCE]
+        summaries[job, SUMMARY_ANGLE] = angle
+        summaries[job, SUMMARY_TOPPLES] = momentum
+        summaries[job, SUMMARY_REACHED] = poses[n_pose - 1, POSE_X]
         if with_margins:
             pose_margins(ground, body, poses, n_pose, a, g, touch, margins, found)
-            flow_energy(ground, body, poses, margins, np.arange(n_pose))
-            out[job, SUMMARY_FRICTION:] = worst_margins(margins, n_pose)
-    return out
+            flow_energy(ground, body, poses, margins, rows[0:n_pose])
+            mu, stable, energy, belly = worst_margins(margins, n_pose)
+            summaries[job, SUMMARY_FRICTION] = mu
+            summaries[job, SUMMARY_STABILITY] = stable
+            summaries[job, SUMMARY_ENERGY] = energy
+            summaries[job, SUMMARY_BELLY] = belly
 
 
 @entry
 def settle_many(
-    ground: FloatArray, body: FloatArray, x: FloatRow, phi: FloatRow, kappa: float
-) -> FloatArray:
-    """Settled poses at many x from given inclinations: (n, 5) found, z, phi, rear, front."""
-    out = np.empty((x.shape[0], SETTLED_COLUMNS))
+    ground: GroundTable, body: BodyTable, x: FloatRow, phi: FloatRow, kappa: float,
+    settled: SettledTable,
+) -> None:  # fmt: skip
+    """Settled poses at many x from given inclinations: a row each, found, z, phi, rear, front."""
     for row in range(x.shape[0]):
         found, z, angle, rear, front = settle(ground, body, x[row], phi[row], kappa)
-        out[row, SETTLED_FOUND] = 1.0 if found else 0.0
-        out[row, SETTLED_Z] = z
-        out[row, SETTLED_PHI] = angle
-        out[row, SETTLED_REAR] = rear
-        out[row, SETTLED_FRONT] = front
-    return out
+        settled[row, SETTLED_FOUND] = 1.0 if found else 0.0
+        settled[row, SETTLED_Z] = z
+        settled[row, SETTLED_PHI] = angle
+        settled[row, SETTLED_REAR] = rear
+        settled[row, SETTLED_FRONT] = front

@@ -37,11 +37,10 @@ from kaidan.contact.columns import (
     X,
     Z,
 )
-from kaidan.contact.compiling import kernel
 from kaidan.contact.kernel.event_location import PENETRATED
 from kaidan.contact.kernel.gaps import on_flat
 from kaidan.contact.kernel.rotation import NEVER, turned
-from kaidan.contact.tables import FloatArray
+from kaidan.contact.tables import BodyTable, GroundTable
 
 #: A gap that falls by less than this per radian [m] is one contact under two names, at rest.
 RESTING = 1e-9
@@ -55,10 +54,9 @@ CONVEX_WITHIN = 0.4
 TO_FLAT, TO_ARC_1, TO_ARC_2, FROM_DISC_1, FROM_DISC_2 = range(5)
 
 
-@kernel
 def separation(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     k: int,
     part: int,
     piece: int,
@@ -118,7 +116,6 @@ def separation(
     )
 
 
-@kernel
 def crossing_angle(
     level: float, even: float, rate: float, cosine: float, sine: float, deep: float
 ) -> float:
@@ -146,10 +143,9 @@ def crossing_angle(
     return max(angle, 0.0)
 
 
-@kernel
 def closing_angle(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     k: int,
     part: int,
     piece: int,
@@ -247,10 +243,9 @@ def closing_angle(
     return hi
 
 
-@kernel
 def on_piece(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     k: int,
     part: int,
     piece: int,

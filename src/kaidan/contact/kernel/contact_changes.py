@@ -6,19 +6,17 @@ import math
 
 from kaidan.contact.codes import RotationOutcome
 from kaidan.contact.columns import NO_FEATURE
-from kaidan.contact.compiling import kernel
 from kaidan.contact.kernel.continuation import corrected, gap_rate, tangent
 from kaidan.contact.kernel.gaps import gap
 from kaidan.contact.kernel.recording import write_momentum, write_rotation
 from kaidan.contact.kernel.reserves import ROCKING, barrier
 from kaidan.contact.kernel.settling import lever, settle
 from kaidan.contact.kernel.toppling import fall
-from kaidan.contact.tables import FloatArray
+from kaidan.contact.tables import BodyTable, GroundTable, RotationTable
 
 
-@kernel
 def settled_again(
-    ground: FloatArray, body: FloatArray, x: float, z: float, phi: float, kappa: float,
+    ground: GroundTable, body: BodyTable, x: float, z: float, phi: float, kappa: float,
     t_x: float, t_z: float, t_w: float,
 ) -> tuple[bool, float, float, float, int, int, float, float, float]:  # fmt: skip
     """Settle the robot a little farther on, where the corrector has failed.
@@ -50,9 +48,8 @@ def settled_again(
     return False, 0.0, z, phi, NO_FEATURE, NO_FEATURE, t_x, t_z, t_w
 
 
-@kernel
 def exchanged(
-    ground: FloatArray, body: FloatArray, made: int, rear: int, front: int,
+    ground: GroundTable, body: BodyTable, made: int, rear: int, front: int,
     x: float, z: float, phi: float, kappa: float, t_x: float, t_z: float, t_w: float,
 ) -> tuple[bool, int, int, int, float, float, float, float, float, float]:  # fmt: skip
     """Replace the contact on the side of the centroid on which another has closed.
@@ -92,9 +89,8 @@ def exchanged(
     return True, rear, front, lost, x, z, phi, u_x, u_z, u_w
 
 
-@kernel
 def onset(
-    ground: FloatArray, body: FloatArray, rear: int, front: int,
+    ground: GroundTable, body: BodyTable, rear: int, front: int,
     x: float, z: float, phi: float, kappa: float,
 ) -> float:  # fmt: skip
     """Sense in which the robot rotates: +1 nose up, -1 nose down, 0 while the contacts hold."""
@@ -107,7 +103,6 @@ def onset(
     return 0.0
 
 
-@kernel
 def effective_gravity(a: float, g: float, t_x: float, t_z: float) -> float:
     """Effective gravity for acceleration ``a`` along the path of the centroid [m/s^2]."""
     speed = math.sqrt(t_x * t_x + t_z * t_z)
@@ -117,11 +112,10 @@ def effective_gravity(a: float, g: float, t_x: float, t_z: float) -> float:
     return math.sqrt(max(g * g + a * a + 2.0 * g * a * sin_psi, 0.0))
 
 
-@kernel
 def rotate(
-    ground: FloatArray, body: FloatArray, pivot: int, x: float, z: float, phi: float,
+    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float,
     sense: float, kappa: float, gyration: float, gravity: float, path: float,
-    rotations: FloatArray, count: int, hint: int,
+    rotations: RotationTable, count: int, hint: int,
 ) -> tuple[int, int, int, float, float, float, float, int, int]:  # fmt: skip
     """Rotate about a contact until two hold the robot again, or it falls; and write that down.
 

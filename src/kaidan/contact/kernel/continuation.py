@@ -16,9 +16,8 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.compiling import kernel, leaf
 from kaidan.contact.kernel.gaps import gap, relabelled
-from kaidan.contact.tables import FloatArray
+from kaidan.contact.tables import BodyTable, GroundTable
 
 #: Length by which inclination is counted in the arclength [m]; about half a robot, so that a step
 #: means a like displacement of its ends.
@@ -27,10 +26,9 @@ ARM = 0.3
 CLOSED = 2e-13
 
 
-@kernel
 def tangent(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     rear: int,
     front: int,
     x: float,
@@ -67,10 +65,9 @@ def tangent(
     return t_x, t_z, t_w, size
 
 
-@kernel
 def gap_rate(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     feature: int,
     x: float,
     z: float,
@@ -85,9 +82,8 @@ def gap_rate(
     return n_x * t_x + n_z * t_z + ((p_x - x) * n_z - (p_z - z) * n_x) * t_w / ARM
 
 
-@kernel
 def corrected(
-    ground: FloatArray, body: FloatArray, rear: int, front: int, x: float, z: float, phi: float
+    ground: GroundTable, body: BodyTable, rear: int, front: int, x: float, z: float, phi: float
 ) -> tuple[bool, float, float, float, float, float, float]:
     """Nearest pose at which both gaps are closed (Newton across the tangent).
 
@@ -120,10 +116,9 @@ def corrected(
     return False, x, z, phi, 1.0, 0.0, 0.0
 
 
-@kernel
 def stepped(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     rear: int,
     front: int,
     x: float,
@@ -172,7 +167,6 @@ def stepped(
     return good, x1, z1, phi1, u_x, u_z, u_w, rear, front
 
 
-@leaf
 def tilt(a: float, g: float, kappa_g: float, t_x: float, t_z: float) -> float:
     """Tilt kappa of effective gravity for acceleration ``a`` along the path of the centroid.
 

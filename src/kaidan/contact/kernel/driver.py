@@ -6,7 +6,7 @@ import math
 
 from kaidan.contact.codes import Advance, Event, RotationOutcome, Status
 from kaidan.contact.columns import DISC_1, KIND_MASK, NO_FEATURE, POSE_S
-from kaidan.contact.compiling import entry, kernel
+from kaidan.contact.entries import entry
 from kaidan.contact.kernel.advance import advance, thinnest_radius
 from kaidan.contact.kernel.contact_changes import (
     effective_gravity,
@@ -21,7 +21,7 @@ from kaidan.contact.kernel.recording import record_pose, repeats, write_event
 from kaidan.contact.kernel.renaming import record_renamings
 from kaidan.contact.kernel.settling import settle
 from kaidan.contact.kernel.toppling import same_place
-from kaidan.contact.tables import FloatArray
+from kaidan.contact.tables import BodyTable, EventTable, GroundTable, PoseTable, RotationTable
 
 #: Steps that lead nowhere before the robot counts as stuck.
 IDLE = 20
@@ -29,7 +29,6 @@ IDLE = 20
 FAILURES = 50
 
 
-@kernel
 def end_of_fall(outcome: int, sense: float) -> tuple[int, int]:
     """Status and event of a rotation that no contact arrests."""
     if outcome == RotationOutcome.PAST_VERTICAL or outcome == RotationOutcome.ROCKING:
@@ -43,8 +42,8 @@ def end_of_fall(outcome: int, sense: float) -> tuple[int, int]:
 
 @entry
 def drive(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     x_start: float,
     x_end: float,
     phi_start: float,
@@ -53,9 +52,9 @@ def drive(
     g: float,
     kappa_g: float,
     gyration: float,
-    poses: FloatArray,
-    events: FloatArray,
-    rotations: FloatArray,
+    poses: PoseTable,
+    events: EventTable,
+    rotations: RotationTable,
 ) -> tuple[int, int, int, int]:
     """Drive from ``x_start`` to ``x_end`` (centroid), writing into the three tables.
 
@@ -76,7 +75,7 @@ def drive(
     gyration
         Radius of gyration about the centroid [m], for the energy of rotations.
     poses, events, rotations
-        Tables of :func:`kaidan.contact.kernel.recording.new_tables`; columns in
+        Tables of :func:`kaidan.contact.tables.path_tables`; columns in
         :mod:`kaidan.contact.columns`, meanings in :mod:`kaidan.contact.records`.
 
     Returns

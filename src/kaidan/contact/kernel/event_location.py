@@ -5,21 +5,19 @@ from __future__ import annotations
 import math
 
 from kaidan.contact.codes import Advance
-from kaidan.contact.compiling import kernel
 from kaidan.contact.kernel.continuation import stepped, tilt
 from kaidan.contact.kernel.gaps import gap, relabelled
 from kaidan.contact.kernel.settling import lever
-from kaidan.contact.tables import FloatArray
+from kaidan.contact.tables import BodyTable, GroundTable
 
 #: A gap below minus this [m] is a penetration.  An end's arc leaves a nosing like e^2/(2 R), so an
 #: event is seen sqrt(2 R 2e-12) = 0.5 um late for R = 60 mm; still ten times the corrector's rest.
 PENETRATED = 2e-12
 
 
-@kernel
 def quantity(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     what: int,
     rear: int,
     front: int,
@@ -43,10 +41,9 @@ def quantity(
     return distance + 0.5 * PENETRATED
 
 
-@kernel
 def closing_time(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     what: int,
     rear: int,
     front: int,

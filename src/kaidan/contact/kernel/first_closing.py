@@ -34,7 +34,6 @@ from kaidan.contact.columns import (
     X,
     Z,
 )
-from kaidan.contact.compiling import kernel, leaf
 from kaidan.contact.kernel.closing import (
     BESIDE,
     FROM_DISC_1,
@@ -51,16 +50,15 @@ from kaidan.contact.kernel.event_location import PENETRATED
 from kaidan.contact.kernel.gaps import gap, on_flat
 from kaidan.contact.kernel.nearest_feature import first_index
 from kaidan.contact.kernel.rotation import turned
-from kaidan.contact.tables import FloatArray, Four, Pose
+from kaidan.contact.tables import BodyTable, Four, GroundTable, Pose
 
 #: A pivot this close to an end disc [m] lies on it: five times the gap at which a rotation ends.
 #: One that lies farther off closes with the segment sqrt(2 off / R) later, at a gap of zero.
 SAME_ARC = 1e-11
 
 
-@leaf
 def out_of_reach(
-    ground: FloatArray, k: int, o_x: float, o_z: float, q_x: float, q_z: float, sense: float,
+    ground: GroundTable, k: int, o_x: float, o_z: float, q_x: float, q_z: float, sense: float,
     lifts: bool,
 ) -> bool:  # fmt: skip
     """Whether the pivot's own part never meets point k.
@@ -73,9 +71,8 @@ def out_of_reach(
     return v_x * q_x + v_z * q_z <= 1e-12 and (lifts or sense * (v_x * q_z - v_z * q_x) > 0.0)
 
 
-@leaf
 def vertex_closing(
-    ground: FloatArray, body: FloatArray, k: int, part: int, pivot: int,
+    ground: GroundTable, body: BodyTable, k: int, part: int, pivot: int,
     x: float, z: float, phi: float, o_x: float, o_z: float, sense: float, ce: float, se: float,
     n_x: float, n_z: float, flat_level: float, centres: Four, best: float, which: int,
 ) -> tuple[float, int]:  # fmt: skip
@@ -120,9 +117,8 @@ def vertex_closing(
     return best, which
 
 
-@leaf
 def segment_closing(
-    ground: FloatArray, body: FloatArray, k: int, part: int, pivot: int,
+    ground: GroundTable, body: BodyTable, k: int, part: int, pivot: int,
     o_x: float, o_z: float, sense: float, ce: float, se: float,
     centres: Four, ranges: Four, best: float, which: int,
 ) -> tuple[float, int]:  # fmt: skip
@@ -185,9 +181,8 @@ def segment_closing(
     return best, which
 
 
-@leaf
 def rolling_closing(
-    ground: FloatArray, body: FloatArray, k: int, part: int, pivot: int, free: bool,
+    ground: GroundTable, body: BodyTable, k: int, part: int, pivot: int, free: bool,
     phi: float, start: Pose, finish: Pose, sense: float, end: float, rolled: float,
     centres: Four, ranges: Four, best: float, which: int,
 ) -> tuple[float, int]:  # fmt: skip
@@ -261,10 +256,9 @@ def rolling_closing(
     return best, which
 
 
-@kernel
 def first_closing(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     pivot: int,
     x: float,
     z: float,

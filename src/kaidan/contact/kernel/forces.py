@@ -41,10 +41,10 @@ from kaidan.contact.columns import (
     X,
     Z,
 )
-from kaidan.contact.compiling import kernel
+from kaidan.contact.entries import entry
 from kaidan.contact.kernel.gaps import gap
 from kaidan.contact.kernel.nearest_feature import first_index, height_of_ground
-from kaidan.contact.tables import FloatArray, FloatRow
+from kaidan.contact.tables import BodyTable, ContactTable, FloatRow, GroundTable
 
 NEVER = math.inf
 #: A force below this part of the weight is none: events are located to about 1e-9 m, so a contact
@@ -52,7 +52,6 @@ NEVER = math.inf
 NOTHING = 1e-7
 
 
-@kernel
 def cone_angle(tangential: float, normal: float, scale: float) -> float:
     """Friction coefficient one force needs; 0 for no force, infinite for a pull."""
     if normal <= 0.0:
@@ -64,7 +63,7 @@ def cone_angle(tangential: float, normal: float, scale: float) -> float:
     return abs(tangential) / normal
 
 
-@kernel
+@entry
 def two_contact_forces(
     p1_x: float, p1_z: float, n1_x: float, n1_z: float,
     p2_x: float, p2_z: float, n2_x: float, n2_z: float,
@@ -129,9 +128,8 @@ def two_contact_forces(
     best = NEVER
     at = math.nan
     # at infinity
-    for sign in (-1.0, 1.0):
-        if sign * an1 > 1e-12 and sign * an2 > 1e-12:
-            best = min(best, max(abs(at1 / an1), abs(at2 / an2)))
+    if an1 * an2 > 0.0 and min(abs(an1), abs(an2)) > 1e-12:
+        best = max(abs(at1 / an1), abs(at2 / an2))
     for case in range(8):
         trial = 0.0
         if case == 0:
@@ -172,15 +170,15 @@ def two_contact_forces(
     return best, bn1 + an1 * at, bt1 + at1 * at, bn2 + an2 * at, bt2 + at2 * at
 
 
-@kernel
+@entry
 def contacts_at(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     x: float,
     z: float,
     phi: float,
     touch: float,
-    found: FloatArray,
+    found: ContactTable,
     hint: int,
 ) -> tuple[int, int]:
     """All contacts of a pose: every feature whose gap is at most ``touch``.
@@ -261,9 +259,9 @@ def contacts_at(
     return count, new_hint
 
 
-@kernel
+@entry
 def shared_loads(
-    found: FloatArray,
+    found: ContactTable,
     count: int,
     x: float,
     z: float,

@@ -55,8 +55,8 @@ from kaidan.contact.columns import (
     X,
     Z,
 )
-from kaidan.contact.compiling import kernel, leaf
-from kaidan.contact.tables import FloatArray
+from kaidan.contact.entries import entry
+from kaidan.contact.tables import BodyTable, GroundTable
 
 #: Parts thinner than this are given that much inside below their axis [m], so that a step of some
 #: millimetres into a thin part is still seen as "too deep" and not as "through".
@@ -64,10 +64,9 @@ INSIDE = 0.01
 FAR = 1e9
 
 
-@leaf
 def is_above(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     part: int,
     k: int,
     x: float,
@@ -91,10 +90,10 @@ def is_above(
     return bool(v <= left or v >= right)
 
 
-@leaf
+@entry
 def gap(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     feature: int,
     x: float,
     z: float,
@@ -174,9 +173,8 @@ def gap(
     return distance, n_x, n_z, c_x - reach * n_x, c_z - reach * n_z
 
 
-@leaf
 def relabelled(
-    ground: FloatArray, body: FloatArray, feature: int, x: float, z: float, c: float, s: float
+    ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
 ) -> int:
     """Name the same contact as it is called at this pose.
 
@@ -229,9 +227,9 @@ def relabelled(
     return feature
 
 
-@kernel
+@entry
 def on_flat(
-    ground: FloatArray, body: FloatArray, feature: int, x: float, z: float, c: float, s: float
+    ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
 ) -> bool:
     """Whether a feature is a vertex under the straight underside of its part."""
     if feature & KIND_MASK != VERTEX:

@@ -12,8 +12,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from kaidan.contact.codes import BELLY
 from kaidan.contact.columns import (
     BACK,
@@ -42,7 +40,6 @@ from kaidan.contact.columns import (
     FRONT_T,
     FRONT_X,
     FRONT_Z,
-    MARGIN_COLUMNS,
     OUTER_FRONT,
     OUTER_REAR,
     POSE_FRONT,
@@ -66,11 +63,19 @@ from kaidan.contact.columns import (
     X,
     Z,
 )
-from kaidan.contact.compiling import entry, kernel
+from kaidan.contact.entries import entry
 from kaidan.contact.kernel.continuation import gap_rate, tangent
 from kaidan.contact.kernel.forces import contacts_at, two_contact_forces
 from kaidan.contact.kernel.reserves import ROCKING, barrier, carrying_tilt
-from kaidan.contact.tables import FloatArray, IntArray
+from kaidan.contact.tables import (
+    BodyTable,
+    ContactTable,
+    GroundTable,
+    IntArray,
+    MarginTable,
+    PoseTable,
+    TiltTable,
+)
 
 #: A gap that changes by less than this along a line of poses stays closed [1]: a hundred times the
 #: rounding of the line's direction, a hundredth of the flattest way in which contacts close.
@@ -79,7 +84,6 @@ STAYS = 1e-6
 ONE_PLACE = 1e-8
 
 
-@kernel
 def pivot_rise(p_x: float, p_z: float, x: float, z: float, kappa: float) -> float:
     """Rise of the centroid until it stands over a fixed point (Hirose's energy margin) [m].
 
@@ -90,14 +94,13 @@ def pivot_rise(p_x: float, p_z: float, x: float, z: float, kappa: float) -> floa
     )
 
 
-@kernel
 def lasting(
-    ground: FloatArray,
-    body: FloatArray,
-    poses: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
+    poses: PoseTable,
     row: int,
     sense: float,
-    found: FloatArray,
+    found: ContactTable,
     many: int,
 ) -> int:
     """Keep those contacts of a pose that stay closed along its line of poses.
@@ -131,15 +134,14 @@ def lasting(
     return kept
 
 
-@kernel
 def margins_at(
-    poses: FloatArray,
+    poses: PoseTable,
     row: int,
     a: float,
     g: float,
-    found: FloatArray,
+    found: ContactTable,
     many: int,
-    margins: FloatArray,
+    margins: MarginTable,
 ) -> None:
     """Work out forces and margins at one pose, with its contacts; see :func:`pose_margins`."""
     x = poses[row, POSE_X]
@@ -236,15 +238,15 @@ def margins_at(
 
 @entry
 def pose_margins(
-    ground: FloatArray,
-    body: FloatArray,
-    poses: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
+    poses: PoseTable,
     count: int,
     a: float,
     g: float,
     touch: float,
-    margins: FloatArray,
-    found: FloatArray,
+    margins: MarginTable,
+    found: ContactTable,
 ) -> None:
     """Work out forces and margins at each pose of a table of poses.
 
@@ -283,15 +285,15 @@ def pose_margins(
 
 @entry
 def margins_without(
-    ground: FloatArray,
-    body: FloatArray,
-    poses: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
+    poses: PoseTable,
     without: IntArray,
     a: float,
     g: float,
     touch: float,
-    margins: FloatArray,
-    found: FloatArray,
+    margins: MarginTable,
+    found: ContactTable,
 ) -> None:
     """Work out forces and margins at some poses as if one of their contacts were not there.
 
@@ -324,7 +326,7 @@ def margins_without(
 
 @entry
 def flow_energy(
-    ground: FloatArray, body: FloatArray, poses: FloatArray, margins: FloatArray, rows: IntArray
+    ground: GroundTable, body: BodyTable, poses: PoseTable, margins: MarginTable, rows: IntArray
 ) -> None:
     """Work out the energy margin along the flow, its side and whether it is bounded, at some poses.
 
@@ -338,7 +340,8 @@ def flow_energy(
         Which poses.
     """
     hint = 0
-    for row in rows:
+    for k in range(rows.shape[0]):
+        row = rows[k]
         x = poses[row, POSE_X]
         z = poses[row, POSE_Z]
         phi = poses[row, POSE_PHI]
@@ -372,8 +375,8 @@ def flow_energy(
 
 @entry
 def flow_tilts(
-    ground: FloatArray, body: FloatArray, poses: FloatArray, margins: FloatArray, rows: IntArray,
-    side: float, tolerance: float, found: FloatArray,
+    ground: GroundTable, body: BodyTable, poses: PoseTable, margins: MarginTable, rows: IntArray,
+    side: float, tolerance: float, found: TiltTable,
 ) -> None:  # fmt: skip
     """Work out beyond which tilt of gravity some poses rotate by more than rocking, to one side.
 
@@ -394,15 +397,9 @@ def flow_tilts(
     """
     hint = 0
     column = OUTER_REAR if side > 0.0 else OUTER_FRONT
-    for k in range(len(rows)):
+    for k in range(rows.shape[0]):
         row = rows[k]
         found[k, CARRIED_TO], found[k, ROCKS_BY], hint = carrying_tilt(
             ground, body, int(margins[row, column]), poses[row, POSE_X], poses[row, POSE_Z],
             poses[row, POSE_PHI], side, margins[row, TILT], tolerance, hint,
         )  # fmt: skip
-
-
-@entry
-def new_margins(size: int) -> tuple[FloatArray, FloatArray]:
-    """Empty tables for :func:`pose_margins`."""
-    return np.empty((size, MARGIN_COLUMNS)), np.empty((32, CONTACT_COLUMNS))

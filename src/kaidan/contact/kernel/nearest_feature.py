@@ -30,16 +30,14 @@ from kaidan.contact.columns import (
     X,
     Z,
 )
-from kaidan.contact.compiling import kernel
 from kaidan.contact.kernel.gaps import FAR, INSIDE
-from kaidan.contact.tables import FloatArray
+from kaidan.contact.tables import BodyTable, GroundTable
 
 #: Depth up to which a feature is taken for penetrated and not for "the far side of a fin" [m].
 DEEPEST = 0.02
 
 
-@kernel
-def height_of_ground(ground: FloatArray, x: float) -> float:
+def height_of_ground(ground: GroundTable, x: float) -> float:
     """Height of the terrain at x [m]; at a riser the upper end."""
     lo = 0
     hi = ground.shape[0] - 2
@@ -54,8 +52,7 @@ def height_of_ground(ground: FloatArray, x: float) -> float:
     return float(ground[lo, Z] + (x - ground[lo, X]) * ground[lo, U_Z] / ground[lo, U_X])
 
 
-@kernel
-def first_index(ground: FloatArray, x: float, hint: int) -> int:
+def first_index(ground: GroundTable, x: float, hint: int) -> int:
     """Index of the last point left of x, looked for from a hint: ever farther, then halving."""
     n = ground.shape[0]
     k = int(min(max(hint, 0), n - 2))
@@ -82,10 +79,9 @@ def first_index(ground: FloatArray, x: float, hint: int) -> int:
     return k
 
 
-@kernel
 def nearest(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     x: float,
     z: float,
     c: float,

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from kaidan.contact.columns import (
     BARRIER,
     END_PHI,
     END_X,
     END_Z,
-    EVENT_COLUMNS,
     EVENT_FEATURE,
     EVENT_KIND,
     EVENT_OTHER,
@@ -28,7 +25,6 @@ from kaidan.contact.columns import (
     OUTCOME,
     PIVOT_X,
     PIVOT_Z,
-    POSE_COLUMNS,
     POSE_FRONT,
     POSE_LEG,
     POSE_PHI,
@@ -44,7 +40,6 @@ from kaidan.contact.columns import (
     REAR_X,
     REAR_Z,
     ROTATION_ANGLE,
-    ROTATION_COLUMNS,
     ROTATION_PIVOT,
     ROTATION_S,
     ROTATION_SENSE,
@@ -53,26 +48,14 @@ from kaidan.contact.columns import (
     START_Z,
     TOPPLES,
 )
-from kaidan.contact.compiling import entry, kernel
 from kaidan.contact.kernel.gaps import gap
-from kaidan.contact.tables import FloatArray
+from kaidan.contact.tables import BodyTable, EventTable, GroundTable, PoseTable, RotationTable
 
 
-@entry
-def new_tables(size: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Empty tables of poses, events and rotations for so many poses."""
-    return (
-        np.empty((size, POSE_COLUMNS)),
-        np.zeros((size, EVENT_COLUMNS)),
-        np.zeros((size // 8 + 16, ROTATION_COLUMNS)),
-    )
-
-
-@kernel
 def record_pose(
-    ground: FloatArray,
-    body: FloatArray,
-    poses: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
+    poses: PoseTable,
     row: int,
     path: float,
     x: float,
@@ -109,9 +92,8 @@ def record_pose(
     poses[row, POSE_LEG] = leg
 
 
-@kernel
 def write_event(
-    events: FloatArray,
+    events: EventTable,
     row: int,
     code: int,
     path: float,
@@ -133,10 +115,9 @@ def write_event(
     events[row, EVENT_POSE] = pose
 
 
-@kernel
 def write_rotation(
-    rotations: FloatArray, row: int, sense: float, path: float, pivot: int, p_x: float, p_z: float,
-    x: float, z: float, phi: float, x1: float, z1: float, phi1: float,
+    rotations: RotationTable, row: int, sense: float, path: float, pivot: int,
+    p_x: float, p_z: float, x: float, z: float, phi: float, x1: float, z1: float, phi1: float,
     angle: float, before: float, after: float, outcome: int,
 ) -> None:  # fmt: skip
     """Write one rotation; what it could still do is added by :func:`write_momentum`."""
@@ -157,9 +138,8 @@ def write_rotation(
     rotations[row, PIVOT_Z] = p_z
 
 
-@kernel
 def write_momentum(
-    rotations: FloatArray, row: int, kinetic: float, needed: float, topples: bool
+    rotations: RotationTable, row: int, kinetic: float, needed: float, topples: bool
 ) -> None:
     """Write the energy after the last impact and the energy that toppling needs [J/kg]."""
     rotations[row, KINETIC] = kinetic
@@ -167,8 +147,7 @@ def write_momentum(
     rotations[row, TOPPLES] = 1.0 if topples else 0.0
 
 
-@kernel
-def repeats(rotations: FloatArray, count: int) -> bool:
+def repeats(rotations: RotationTable, count: int) -> bool:
     """Whether the last rotation began as one of the twelve before it: rocking on the spot."""
     last = count - 1
     for row in range(max(0, count - 12), last):

@@ -39,19 +39,18 @@ from kaidan.contact.columns import (
     X,
     Z,
 )
-from kaidan.contact.compiling import entry, kernel
+from kaidan.contact.entries import entry
 from kaidan.contact.kernel.continuation import ARM, stepped, tangent
 from kaidan.contact.kernel.gaps import FAR, gap, on_flat
 from kaidan.contact.kernel.recording import record_pose
-from kaidan.contact.tables import FloatArray, FloatRow, IntArray
+from kaidan.contact.tables import BodyTable, FloatRow, GroundTable, IntArray, PoseTable
 
 #: How well the place is known [m]: a normal on an arc of 5 mm turns by 2e-7 rad in it.
 PLACE = 1e-9
 
 
-@kernel
 def name_room(
-    ground: FloatArray, body: FloatArray, feature: int, x: float, z: float, c: float, s: float
+    ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
 ) -> float:
     """How far a contact may run on before it takes another name [m]; negative: it has run past."""
     kind = feature & KIND_MASK
@@ -76,10 +75,9 @@ def name_room(
     return float(room)
 
 
-@kernel
 def renaming(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     rear: int,
     front: int,
     x: float,
@@ -123,11 +121,10 @@ def renaming(
     return hi
 
 
-@kernel
 def record_renamings(
-    ground: FloatArray,
-    body: FloatArray,
-    poses: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
+    poses: PoseTable,
     n_pose: int,
     path: float,
     x: float,
@@ -172,12 +169,12 @@ def record_renamings(
 
 @entry
 def poses_between(
-    ground: FloatArray,
-    body: FloatArray,
-    poses: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
+    poses: PoseTable,
     rows: IntArray,
     shares: FloatRow,
-    between: FloatArray,
+    between: PoseTable,
 ) -> None:
     """Work out poses between two of a line of poses.
 

@@ -19,12 +19,11 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.compiling import kernel
 from kaidan.contact.kernel.first_closing import first_closing
 from kaidan.contact.kernel.gaps import gap, on_flat
 from kaidan.contact.kernel.rotation import angle_until_over, foot_limit, next_pivot, turned
 from kaidan.contact.kernel.settling import lever
-from kaidan.contact.tables import FloatArray
+from kaidan.contact.tables import BodyTable, GroundTable
 
 #: Rotation that counts as rocking [rad]: the paper's rig turned that far by the yield of its
 #: tracks, and held.
@@ -34,10 +33,9 @@ ROCKING = math.radians(2.6)
 AS_IT_COMES_OVER = 1e-6
 
 
-@kernel
 def barrier(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     pivot: int,
     x: float,
     z: float,
@@ -98,9 +96,8 @@ def barrier(
     return False, best, hint
 
 
-@kernel
 def lean(
-    ground: FloatArray, body: FloatArray, pivot: int, x: float, z: float, phi: float,
+    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float,
     sense: float, kappa: float,
 ) -> float:  # fmt: skip
     """Tilt of gravity at which its line through the centroid passes a contact [rad]."""
@@ -108,9 +105,8 @@ def lean(
     return math.atan2(sense * (x - p_x - kappa * (z - p_z)), z - p_z + kappa * (x - p_x))
 
 
-@kernel
 def carrying_tilt(
-    ground: FloatArray, body: FloatArray, pivot: int, x: float, z: float, phi: float,
+    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float,
     sense: float, kappa: float, tolerance: float, hint: int,
 ) -> tuple[float, float, int]:  # fmt: skip
     """Tilt of gravity beyond which a pose rotates by more than rocking.

@@ -32,15 +32,15 @@ from kaidan.contact.columns import (
     X,
     Z,
 )
-from kaidan.contact.compiling import kernel
-from kaidan.contact.tables import FloatArray
+from kaidan.contact.entries import entry
+from kaidan.contact.tables import BodyTable, GroundTable
 
 NEVER = 1e9
 
 
-@kernel
+@entry
 def turned(
-    ground: FloatArray, body: FloatArray, pivot: int, x: float, z: float, phi: float, angle: float
+    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float, angle: float
 ) -> tuple[float, float]:
     """Centroid after turning by ``angle`` about a contact: closed form, rolling included."""
     c = math.cos(angle)
@@ -68,9 +68,8 @@ def turned(
     )
 
 
-@kernel
 def foot_limit(
-    ground: FloatArray, body: FloatArray, pivot: int, x: float, z: float, phi: float, sense: float
+    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float, sense: float
 ) -> float:
     """Turn after which a rolling disc's foot reaches the end of its segment [rad] (inf: vertex)."""
     kind = pivot & KIND_MASK
@@ -87,9 +86,8 @@ def foot_limit(
     return float(max(ground[k, LENGTH] - foot, 0.0) / body[part, j + DISC_R])
 
 
-@kernel
 def next_pivot(
-    ground: FloatArray, body: FloatArray, pivot: int, x: float, z: float, phi: float, sense: float
+    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float, sense: float
 ) -> int:
     """Name of the pivot after its disc has run to the end of its segment.
 
@@ -106,10 +104,9 @@ def next_pivot(
     return POINT * (k + 1) + (pivot & (POINT - 1))
 
 
-@kernel
 def angle_until_over(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     pivot: int,
     x: float,
     z: float,

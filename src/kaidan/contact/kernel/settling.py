@@ -35,15 +35,15 @@ from kaidan.contact.columns import (
     X,
     Z,
 )
-from kaidan.contact.compiling import entry, leaf
+from kaidan.contact.entries import entry
 from kaidan.contact.kernel.gaps import FAR, gap
 from kaidan.contact.kernel.nearest_feature import first_index
-from kaidan.contact.tables import FloatArray
+from kaidan.contact.tables import BodyTable, GroundTable
 
 
 @entry
 def touching(
-    ground: FloatArray, body: FloatArray, x: float, c: float, s: float
+    ground: GroundTable, body: BodyTable, x: float, c: float, s: float
 ) -> tuple[float, int]:
     """Lowest height of the centroid at which nothing is penetrated, and the feature that touches.
 
@@ -126,10 +126,9 @@ def touching(
     return best, which
 
 
-@leaf
 def lever(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     feature: int,
     x: float,
     z: float,
@@ -147,7 +146,7 @@ def lever(
 
 @entry
 def settle(
-    ground: FloatArray, body: FloatArray, x: float, phi: float, kappa: float
+    ground: GroundTable, body: BodyTable, x: float, phi: float, kappa: float
 ) -> tuple[bool, float, float, int, int]:
     """Stable pose at a given x, the first one in the direction in which the robot turns from phi.
 

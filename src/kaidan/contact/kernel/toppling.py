@@ -19,7 +19,6 @@ import math
 
 from kaidan.contact.codes import RotationOutcome
 from kaidan.contact.columns import NO_FEATURE
-from kaidan.contact.compiling import kernel
 from kaidan.contact.kernel.first_closing import first_closing
 from kaidan.contact.kernel.gaps import gap
 from kaidan.contact.kernel.rotation import (
@@ -30,7 +29,7 @@ from kaidan.contact.kernel.rotation import (
     turned,
 )
 from kaidan.contact.kernel.settling import lever
-from kaidan.contact.tables import FloatArray
+from kaidan.contact.tables import BodyTable, GroundTable
 
 #: Contacts that close within this of a turn are one impact [rad]: on nosings all alike they close
 #: at once, and rounding alone would say which is the first.
@@ -39,10 +38,9 @@ AT_ONCE = 2e-3
 TOUCHES = 1e-9
 
 
-@kernel
 def same_place(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     one: int,
     other: int,
     x: float,
@@ -57,10 +55,9 @@ def same_place(
     return abs(p_x - o_x) < 2e-6 and abs(p_z - o_z) < 2e-6
 
 
-@kernel
 def fall(
-    ground: FloatArray,
-    body: FloatArray,
+    ground: GroundTable,
+    body: BodyTable,
     pivot: int,
     x: float,
     z: float,

@@ -6,10 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from kaidan.contact import expected_work
 from kaidan.errors import InputError
 from kaidan.modes import CONTACT, Verdict
-from kaidan.sweeps.cells import A_CELL
 from kaidan.sweeps.parameters import question_of, settled
 from kaidan.sweeps.plan import Plan
 from kaidan.sweeps.running import carried_out
@@ -99,22 +97,20 @@ def design(
     places = (21 if len(chosen) > 1 else 0) if grid is None else grid
     if places and not 2 <= places <= MOST_GRID:
         raise InputError(f"grid = {places} is not within 2 to {MOST_GRID} places")
-    work = tries * len(terrains) * A_CELL if manner.get("model", "contact") == CONTACT.name else 0.0
-    with expected_work(work):
-        best = optimised(problem, goal, tries=tries, seed=seed)
-        if best.worst.governs == "refused":
-            question_of({**values, "stairs": terrains[0]} | _named(problem, best))
-        found: Swept | None = None
-        if places and len(chosen) > 1:
-            how = {"scheduler": scheduler, "workers": workers, "progress": progress}
-            for _ in range(_MORE):
-                found = _mapped(problem, best, places, how)
-                better = _better_on(problem, found, goal)
-                if better == best:
-                    break
-                best = optimised(problem, goal, tries=tries // 4, seed=seed)
-        points = _front(problem, front, tries, seed)
-        now = problem.now()
+    best = optimised(problem, goal, tries=tries, seed=seed)
+    if best.worst.governs == "refused":
+        question_of({**values, "stairs": terrains[0]} | _named(problem, best))
+    found: Swept | None = None
+    if places and len(chosen) > 1:
+        how = {"scheduler": scheduler, "workers": workers, "progress": progress}
+        for _ in range(_MORE):
+            found = _mapped(problem, best, places, how)
+            better = _better_on(problem, found, goal)
+            if better == best:
+                break
+            best = optimised(problem, goal, tries=tries // 4, seed=seed)
+    points = _front(problem, front, tries, seed)
+    now = problem.now()
     return _answer(problem, goal, best, now, found, points, manner.get("model", CONTACT.name))
 
 

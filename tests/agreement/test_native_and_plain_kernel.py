@@ -1,0 +1,77 @@
+"""The native kernel against its own source as plain Python, on random terrains and robots."""
+
+import numpy as np
+import pytest
+
+from contact_cases import random_robot, random_terrain
+from kaidan.contact import Job, traverse, traverse_many, using_kernel, without_native
+
+pytestmark = pytest.mark.skipif(bool(without_native()), reason="built pure")
+
+
+def both(terrain, parts, kinds, acceleration, way):
+    start = terrain[0, 0] + 2
+    span = start, min(start + way, terrain[-1, 0] - 2)
+    runs = []
+    for kernel in ("plain", "native"):
+        with using_kernel(kernel):
+            runs.append(traverse(terrain, parts, *span, kinds=kinds, acceleration=acceleration))
+    return runs
+
+
+def same(plain, native):
+    """Bit for bit, but for the last digits of libm's and Python's own hypot.
+
+    Newton's corrections bring positions to 1e-13; friction is a ratio of small forces at places.
+    """
+    assert plain.status == native.status
+    assert len(plain.poses) == len(native.poses)
+    assert [each.kind for each in plain.events] == [each.kind for each in native.events]
+    np.testing.assert_allclose(plain.poses.table, native.poses.table, rtol=0, atol=1e-10)
+    np.testing.assert_allclose(plain.rotations.table, native.rotations.table, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(plain.margins.table, native.margins.table, rtol=1e-6, atol=1e-8)
+
+
+def scan(terrain, rng):
+    """The terrain as points 1 cm apart with 3 mm of noise."""
+    x = np.arange(terrain[0, 0], terrain[-1, 0], 0.01)
+    z = np.interp(x, terrain[:, 0] + 1e-9 * np.arange(len(terrain)), terrain[:, 1])
+    return np.stack([x, z + rng.normal(0, 0.003, len(x))], 1)
+
+
+def compare(seeds, way):
+    for seed in seeds:
+        rng = np.random.default_rng(seed)
+        parts, kinds = random_robot(rng)
+        terrain = random_terrain(rng)
+        if seed % 5 == 0:
+            terrain = scan(terrain, rng)
+        acceleration = (0.0, 0.3, -0.5)[seed % 3]
+        same(*both(terrain, parts, kinds, acceleration, way))
+
+
+def test_random_traverses():
+    compare(range(15), way=0.6)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("block", range(100))
+def test_ten_thousand_random_traverses(block):
+    compare(range(1000 + 100 * block, 1100 + 100 * block), way=2.0)
+
+
+def test_a_batch():
+    rng = np.random.default_rng(7)
+    terrains = [random_terrain(rng) for _ in range(4)]
+    robots = [random_robot(rng) for _ in range(4)]
+    jobs = [Job(k, k, terrains[k][0, 0] + 2, terrains[k][0, 0] + 2.1) for k in range(4)]
+    tables = []
+    for kernel in ("plain", "native"):
+        with using_kernel(kernel):
+            tables.append(
+                traverse_many(
+                    terrains, [parts for parts, _ in robots], jobs,
+                    kinds=[kinds for _, kinds in robots], with_margins=True,
+                ).table
+            )  # fmt: skip
+    np.testing.assert_allclose(*tables, rtol=1e-6, atol=1e-8)
