@@ -189,8 +189,8 @@ class Path:
         """Where the body is after a part of a rotation about its first pivot [rad]."""
         x, z, phi = rotation.start
         turn = rotation.sense * angle
-        end = kernel().turned(self.ground.table, self.body.table, rotation.pivot, x, z, phi, turn)
-        return Placement(*end, phi + turn)
+        x, z = kernel().turned(self.ground.table, self.body.table, rotation.pivot, x, z, phi, turn)
+        return Placement(x, z, phi + turn)
 
     def margins_of(
         self, rows: slice, *, acceleration: float = 0.0, gravity: float = STANDARD_GRAVITY,

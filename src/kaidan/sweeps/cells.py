@@ -12,18 +12,15 @@ import numpy as np
 from kaidan.assessment import found_plan, off_plan
 from kaidan.assessment.verdict import conclude
 from kaidan.campaign.job import Kind, Work
-from kaidan.contact import expected_work
 from kaidan.errors import InputError
 from kaidan.models import judge
 from kaidan.models.findings import Findings
-from kaidan.modes import CONTACT, FAILURE_MODES, Verdict
+from kaidan.modes import FAILURE_MODES, Verdict
 from kaidan.question import Question
 from kaidan.sweeps.parameters import question_of
 from kaidan.sweeps.plan import Chunk
 from kaidan.sweeps.screen import excluded
 
-A_CELL, A_SEARCH = 0.12, 3.0
-"""Times of the plain contact kernel for a cell, posture stated or searched [s]."""
 NOT_GO = len(Verdict)
 """Code of a cell of which the closed form alone says that it is no GO."""
 VERDICTS = (*(each.value for each in Verdict), "not-go")
@@ -94,23 +91,19 @@ def run(chunk: Chunk) -> Mapping[str, Any]:
         except InputError as error:
             questions.append(error)
     keys = excluded(questions) if chunk.screen else [None] * len(questions)
-    first = next((each for each in questions if isinstance(each, Question)), None)
-    each = A_SEARCH if first is not None and first.best_of else A_CELL
-    contact = first is not None and first.model == CONTACT.name
     rows: list[Row] = []
     known: Findings | None = None
-    with expected_work(each * chunk.of if contact else 0.0):
-        for question, key in zip(questions, keys, strict=True):
-            if isinstance(question, InputError):
-                rows.append(_refused(question))
-            elif key is not None:
-                rows.append(_without(NOT_GO, key))
-            else:
-                try:
-                    row, known = judged_row(question, known)
-                except InputError as error:
-                    row = _refused(error)
-                rows.append(row)
+    for question, key in zip(questions, keys, strict=True):
+        if isinstance(question, InputError):
+            rows.append(_refused(question))
+        elif key is not None:
+            rows.append(_without(NOT_GO, key))
+        else:
+            try:
+                row, known = judged_row(question, known)
+            except InputError as error:
+                row = _refused(error)
+            rows.append(row)
     return {"outcome": "judged", **{name: [row[name] for row in rows] for name in LISTS}}
 
 
