@@ -37,6 +37,7 @@ _COMMANDS = {
     "posture": ("posture",),
     "reproduce": ("reproduce",),
     "schema": ("schema",),
+    "study": ("study",),
     "sweep": ("sweep",),
     "traverse": ("traverse",),
 }

@@ -30,6 +30,7 @@ KINDS = {
     "grouser-effects": "kaidan.studies.calibration.answer:GrouserEffects",
     "reproduction": "kaidan.studies.reproduction:Reproduction",
     "design": "kaidan.verbs.design.answer:Design",
+    "stock": "kaidan.studies.stock.answer:StockStudy",
     "sweep": "kaidan.sweeps.summary:SweepSummary",
     "doctor": "kaidan.verbs.doctor:Diagnosis",
     "outcomes": "kaidan.studies.known_outcomes:KnownOutcomes",

@@ -51,6 +51,8 @@ SHAPE = {
     "steps": "number",
     "lower_landing": "length",
     "upper_landing": "length",
+    "width": "length",
+    "headroom": "length",
 }
 """Figures of uniform stairs, and what they measure."""
 UNITS = {

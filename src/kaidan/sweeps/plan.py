@@ -115,8 +115,10 @@ class Plan:
             given, own = found
             varied[name] = given._replace(values=tuple(settled(name, v) for v in given.values))
             for dim, each in own.items():
-                if labels.setdefault(dim, each) != each:
+                before = labels.get(dim, each)
+                if before != each and (len(before) != len(each) or not _plain_rows(before, each)):
                     raise InputError(f"{name}: {dim} has other labels or another length before")
+                labels[dim] = each if dim == name or dim not in labels else before
         plan = cls(base, varied, labels, screen)
         if not len(plan):
             raise InputError("a parameter has no value: nothing to sweep")
@@ -231,6 +233,11 @@ class Plan:
         return np.ascontiguousarray(array.transpose([self.order.index(dim) for dim in self.labels]))
 
 
+def _plain_rows(one: tuple[Any, ...], other: tuple[Any, ...]) -> bool:
+    """Whether one of two dimensions as long as each other has no labels but numbers of rows."""
+    return tuple(range(len(one))) in (one, other)
+
+
 def _values(given: Given | None) -> tuple[Any, ...]:
     return () if given is None else given.values
 
@@ -239,8 +246,8 @@ def _axes(name: str, value: Any) -> tuple[Given, dict[str, tuple[Any, ...]]] | N
     """Values of a parameter that varies, and the labels of its dimensions; None: it does not."""
     if isinstance(value, Along):
         values = tuple(map(_plain, value.values))
-        own = {value.dim: tuple(range(len(values)))}
-        return Given((value.dim,), values), own
+        rows = _labels(name, values) if name == value.dim else tuple(range(len(values)))
+        return Given((value.dim,), values), {value.dim: rows}
     if hasattr(value, "dims") and hasattr(value, "coords"):  # a labelled array of xarray
         if not value.dims:
             return None

@@ -133,7 +133,7 @@ def compare(
         for each in (catalog.names("stairs") if stairs is None else stairs)
     ]
     questions = [
-        Question.of(robot, flight, flippers=_flippers(robot, flippers), **manner)
+        Question.of(robot, flight, flippers=laid(robot, flippers), **manner)
         for flight in flights
         for robot in known
     ]
@@ -153,7 +153,7 @@ def compare(
     )
 
 
-def _flippers(robot: Robot, flippers: Any) -> Any:
+def laid(robot: Robot, flippers: Any) -> Any:
     """Posture to ask with: flat means stowed for a robot that has no flippers."""
     bare = robot.front_flippers is None and robot.rear_flippers is None
     is_flat = isinstance(flippers, str) and flippers.strip() == "flat"

@@ -80,10 +80,10 @@ def design(
 
     Examples
     --------
-    >>> found = design("absolem", "iso-14122-3", free={"com_height": (0.05, 0.3)}, friction=1.2,
+    >>> found = design("absolem", "iso-14122-3", free={"com_height": (0.05, 0.3)}, friction=3.0,
     ...                flippers="flat", model="closed-form")
     >>> found.verdict, found.free[0].best
-    ('go', 0.05)
+    ('go', 0.0656)
     """
     if goal not in GOALS:
         raise InputError(f"goal = {goal!r} is not known; known: {', '.join(GOALS)}")
