@@ -24,7 +24,7 @@ _MODES = (
     ("#4c4c4c", None), ("#bdbdbd", None), ("#ffffff", "////"), ("#e0e0e0", "xxxx"),
     ("#ffffff", "...."), ("#8c8c8c", "\\\\\\\\"),
 )  # fmt: skip
-"""Fillings of the most frequent failure modes, told apart without colour."""
+"""Fillings of the most frequent failure modes, legible without colour."""
 _MOST = 24
 """Robots that get a bar each; of more there is a curve."""
 
