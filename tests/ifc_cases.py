@@ -212,3 +212,39 @@ def wedges(house, count, turn, rise=0.18, inner=0.3, outer=1.3, first=0.0):
 
 def regular(n, rise, going):
     return np.full(n, rise), np.full(n - 1, going)
+
+
+def half_turn_house(landing=1.2, *, width=1.0, door=0.9, ceiling=None):
+    """Two storeys joined by two flights of ten risers of 150 by 300 mm with a half-turn between.
+
+    A wall stands behind the landing, a door by the foot; a steep flight leads on to the attic.
+    """
+    h = House(storeys=((0.0, "Ground"), (3.0, "First"), (6.0, "Attic")))
+    stair = h.add("IfcStair", "Stair A")
+    steps = {"rises": [0.15] * 10, "goings": [0.30] * 9, "width": width, "last": False}
+    end, half, across = 9 * 0.30, width / 2, width + 0.2
+    h.add("IfcStairFlight", "A1", [monolith(h, **steps)], parent=stair)
+    outline = [(0, -half), (landing, -half), (landing, across + half), (0, across + half)]
+    h.add("IfcSlab", "landing", [h.slab(outline, 0)], at=(end, 0, 1.5), parent=stair)
+    h.add("IfcStairFlight", "A2", [monolith(h, **steps)], at=(end, across, 1.5), degrees=180,
+          parent=stair)  # fmt: skip
+    for k, level in enumerate((0.0, 3.0, 6.0)):
+        far = 6 if k == 0 else 0
+        floor = [(-3, -2), (far, -2), (far, 3), (-3, 3)]
+        h.add("IfcSlab", f"floor {k}", [h.slab(floor, level)], storey=k)
+    back = end + landing
+    h.add(
+        "IfcWall",
+        "back",
+        [h.slab([(back, -1), (back + 0.2, -1), (back + 0.2, 3), (back, 3)], 6, 6)],
+    )
+    h.add("IfcDoor", "D1", [h.slab([(-1.2, -0.5), (-1.15, -0.5), (-1.15, door - 0.5),
+                                    (-1.2, door - 0.5)], 2.1, 2.1)],
+          OverallWidth=door * h.scale, OverallHeight=2.1 * h.scale)  # fmt: skip
+    if ceiling is not None:
+        h.add("IfcSlab", "low", [h.slab([(0, -half), (end, -half), (end, half), (0, half)],
+                                        1.35 + ceiling + 0.1, 0.1)])  # fmt: skip
+    ladder = h.add("IfcStair", "Stair B", at=(-3, 2.2, 3), storey=1)
+    h.add("IfcStairFlight", "B", [monolith(h, [0.2] * 15, [0.22] * 14, width=0.55, last=False)],
+          at=(-2, 3.0, 3.0), degrees=90, parent=ladder)  # fmt: skip
+    return h

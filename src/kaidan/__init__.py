@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from kaidan.sweeps import stream, sweep, verdicts
     from kaidan.terrain.profile import Profile
     from kaidan.terrain.stairs import Stairs
+    from kaidan.verbs.building import building
     from kaidan.verbs.comparison import compare
     from kaidan.verbs.d_a_plane import plane
     from kaidan.verbs.design.designing import design
@@ -41,6 +42,7 @@ _HOME = {
     "Robot": "kaidan.robot",
     "Stairs": "kaidan.terrain.stairs",
     "Surface": "kaidan.surface",
+    "building": "kaidan.verbs.building",
     "compare": "kaidan.verbs.comparison",
     "design": "kaidan.verbs.design.designing",
     "doctor": "kaidan.verbs.doctor",
@@ -65,6 +67,7 @@ __all__ = [  # noqa: RUF022 - what a user meets first
     "margin",
     "plane",
     "compare",
+    "building",
     "design",
     "doctor",
     "reproduce",

@@ -44,6 +44,7 @@ def test_width(width, verdict):
     assert answer.findings["narrow"].margin == pytest.approx((width - needed) * 1e3)
     assert answer.findings["narrow"].margin_best == pytest.approx((width - 0.5) * 1e3)
     assert answer.verdict == verdict
+    assert (answer.margin_deg > 0) is (verdict != "no-go")  # the sign never disagrees with it
     if verdict != "go":
         assert answer.governs == "narrow"
         assert answer.reason == (

@@ -21,6 +21,7 @@ import typer
 _COMMANDS = {
     "agree": ("agree",),
     "assess": ("assess",),
+    "building": ("building",),
     "calibrate": ("calibrate",),
     "campaign": ("campaign",),
     "catalogs": ("robots", "stairs", "surfaces", "new"),

@@ -22,6 +22,7 @@ KINDS = {
     "robot-measurement": "kaidan.verbs.measure_robot:RobotMeasurement",
     "stairs-measurement": "kaidan.verbs.measure_stairs:StairsMeasurement",
     "compare": "kaidan.verbs.comparison:Comparison",
+    "building": "kaidan.verbs.building.answer:BuildingAnswer",
     "monitor": "kaidan.verbs.monitor.answer:MonitorAnswer",
     "agree": "kaidan.studies.cross_check.answer:Agreement",
     "trial": "kaidan.physics.outcome:TrialResult",

@@ -223,7 +223,7 @@ class _Assembly:
         return Building(
             storeys=self.storeys,
             floors=self.floors,
-            flights=tuple(_told_apart(flights)),
+            flights=_named_apart(tuple(_told_apart(flights))),
             doors=tuple(self._doors()),
             refusals=tuple(
                 {(each.why, each.provenance.element): each for each in refusals}.values()
@@ -443,3 +443,17 @@ def _told_apart(flights: Sequence[Flight]) -> Iterator[Flight]:
             name=f"{each.name} {number}",
             parents=(each.identity, each.name, *each.parents),
         )
+
+
+def _named_apart(flights: Sequence[Flight]) -> tuple[Flight, ...]:
+    """Flights with names of their own; the model's one still means all of them."""
+    total = Counter(each.name for each in flights)
+    seen: Counter[str] = Counter()
+    found = []
+    for each in flights:
+        seen[each.name] += 1
+        more = total[each.name] > 1
+        name = f"{each.name} {seen[each.name]}" if more else each.name
+        parents = (each.name, *each.parents) if more else each.parents
+        found.append(replace(each, name=name, parents=parents))
+    return tuple(found)

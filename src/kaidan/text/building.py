@@ -1,9 +1,98 @@
 """A building and its flights, as text."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+from kaidan.modes import Verdict
+from kaidan.text.comparison import SIGNS, short
+from kaidan.text.tables import table
 
 if TYPE_CHECKING:
     from kaidan.readers.solids.stated import Stated
+    from kaidan.verbs.building.answer import (
+        BuildingAnswer,
+        CellShown,
+        DoorShown,
+        FlightShown,
+        TurnShown,
+        WayShown,
+    )
+
+_HEADS = {
+    "flight": "flight",
+    "storey": "storey",
+    "steps": "n",
+    "rise_m": "rise",
+    "going_m": "going",
+    "angle_deg": "[deg]",
+    "width_m": "width",
+    "headroom_m": "headroom",
+}
+
+
+def text(found: "BuildingAnswer") -> str:
+    """The flights and their verdicts as a table, then the ways to each storey."""
+    lines = [heading(found)]
+    if found.flights:
+        lines += ["", _table(found), "", key()]
+    for each in found.flights:
+        lines += [f"  {each.name}: {note}." for note in each.notes]
+    if found.ways:
+        lines += ["", f"Ways from {found.start}"]
+    for robot in found.robots:
+        for way in found.ways:
+            if way.robot == robot:
+                lines += way_lines(found, way)
+    if found.refusals:
+        lines += ["", "Not judged"]
+    lines += [f"  {each}" for each in found.refusals]
+    lines += [f"Note: {each}." for each in found.notes]
+    return "\n".join(lines)
+
+
+def heading(found: "BuildingAnswer") -> str:
+    """What was read, and what holds for all of it."""
+    ground = found.surface or "friction not stated"
+    flights = _count(len(found.flights), "straight flight")
+    return (
+        f"{found.path}: {found.ifc_schema}, {_count(len(found.storeys), 'storey')}, {flights}; "
+        f"going {found.direction}, {ground}"
+    )
+
+
+def key() -> str:
+    """What the signs of the table mean."""
+    signs = ", ".join(f"{sign} {short(verdict)}" for verdict, sign in SIGNS.items())
+    return f"{signs} the model. Lengths in mm; number: smallest margin [deg], in the worst case."
+
+
+def way_lines(found: "BuildingAnswer", way: "WayShown") -> list[str]:
+    """A way in one line, and one more for each change of posture."""
+    if way.verdict is None:
+        return [f"  {way.robot} to {way.storey}: {way.reason}"]
+    names = {each.identity: each.name for each in found.flights}
+    by = ", ".join(names[each] for each in way.flights)
+    lines = [
+        f"  {way.robot} to {way.storey}: {way.verdict.label} by {by}; {way.binds} decides "
+        f"({way.where}). {way.reason}"
+    ]
+    return lines + [f"    {each}" for each in way.postures]
+
+
+def steps_of(flight: "FlightShown") -> str:
+    """Steps of a flight in a few words."""
+    width, headroom = flight.width_m * 1e3, flight.headroom_m
+    above = "" if headroom is None else f", headroom {headroom * 1e3:.0f}"
+    return (
+        f"{flight.steps} risers of {flight.rise_m * 1e3:.1f} by {flight.going_m * 1e3:.1f} mm, "
+        f"{flight.angle_deg:.1f} deg, width {width:.0f}{above} mm"
+    )
+
+
+def cell_text(cell: "CellShown") -> str:
+    """Verdict of a pair in a cell."""
+    number = "" if cell.margin_deg is None else f" {cell.margin_deg:+.1f}"
+    decides = "" if cell.verdict is Verdict.GO else f" {cell.binds}"
+    return f"{SIGNS[cell.verdict]} {short(cell.verdict)}{number}{decides}"
 
 
 def disagreement(one: "Stated") -> str:
@@ -14,3 +103,70 @@ def disagreement(one: "Stated") -> str:
         f"{one.name} states {one.value:g}, which is {one.in_model_unit * 1e3:.1f} mm in the unit "
         f"of the model; {one.measured * 1e3:.1f} mm are drawn"
     )
+
+
+def no_way(start: str) -> str:
+    """No flights lead to a storey."""
+    return f"no straight flights lead there from {start}."
+
+
+def turning(turn: "TurnShown") -> str:
+    """Why a robot does not get round on a landing."""
+    if turn.way == "unknown":
+        what = "the landing is not drawn" if turn.room_m is None else "its width is not stated"
+        if turn.circle_m is None:
+            what = "the width of the robot is not stated"
+        return f"Whether it can turn by {abs(turn.turn_deg):.0f} deg is not known: {what}."
+    return (
+        f"It cannot turn by {abs(turn.turn_deg):.0f} deg: it sweeps {_m(turn.circle_m)}, the "
+        f"landing has {_m(turn.room_m)}, and no manoeuvre was found."
+    )
+
+
+def turned(turn: "TurnShown", floor: str) -> str:
+    """How a robot turns on a landing."""
+    place = floor if floor.startswith("landing") else f"floor {floor}"
+    how = (
+        f"it sweeps {_m(turn.circle_m)} of {_m(turn.room_m)}"
+        if turn.way == "spin"
+        else f"back and forth in {turn.moves} moves"
+    )
+    raised = f"change the flippers to {turn.flippers} and " if turn.changed else ""
+    return f"On the {place} {raised}turn by {abs(turn.turn_deg):.0f} deg: {how}."
+
+
+def posture_for(flippers: str, flight: str) -> str:
+    """Posture to take up before a flight."""
+    return f"Before {flight} set the flippers to {flippers}."
+
+
+def door(best: "DoorShown", straight: float, needed: float) -> str:
+    """Why the doors of a floor are too narrow or too low."""
+    return (
+        f"The widest door there leaves {best.clear_width_m * 1e3:.0f} by {best.height_m * 1e3:.0f} "
+        f"mm; the robot needs {straight * 1e3:.0f} mm of width going straight, "
+        f"{needed * 1e3:.0f} mm off line."
+    )
+
+
+def _m(value: float | None) -> str:
+    return "an unknown circle" if value is None else f"{value:.2f} m"
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"
+
+
+def _table(found: "BuildingAnswer") -> str:
+    wide = len(found.robots)
+    rows = []
+    for number, flight in enumerate(found.flights):
+        row: dict[str, Any] = {"flight": flight.name}
+        row |= {name: getattr(flight, name) for name in list(_HEADS)[1:]}
+        cells = found.cells[number * wide : (number + 1) * wide]
+        rows.append(row | {cell.robot: cell_text(cell) for cell in cells})
+    flippers = {cell.robot: cell.flippers for cell in found.cells}
+    heads = {
+        name: f"{name} ({flippers[name]})" if flippers.get(name) else name for name in found.robots
+    }
+    return table(rows, _HEADS | heads)

@@ -1,0 +1,236 @@
+"""What a building is for robots: its flights, verdicts, turns on landings, and ways to storeys."""
+
+from typing import Any, ClassVar, Literal
+
+from kaidan.answer import Answer, Part
+from kaidan.modes import Direction, Facing, Verdict
+
+Binding = Literal["stability", "friction", "width", "headroom", "turning", "landing", "doors", ""]
+"""What decides, in a word."""
+TurnWay = Literal["straight", "spin", "manoeuvre", "none", "unknown"]
+
+
+class StoreyShown(Part):
+    """A storey."""
+
+    identity: str
+    """GlobalId."""
+    name: str
+    """Name in the model."""
+    level_m: float
+    """Height [m]."""
+
+
+class FlightShown(Part):
+    """A straight flight, as it is drawn."""
+
+    identity: str
+    """GlobalId; with a number where several flights are one element."""
+    name: str
+    """Name in the model."""
+    storey: str
+    """Storey that it belongs to."""
+    category: str
+    """What the model calls it, such as IfcStairFlight."""
+    steps: int
+    """Risers, the last one onto the floor included."""
+    rise_m: float
+    """Of the regular flight that fits best [m]."""
+    going_m: float
+    """The same [m]."""
+    angle_deg: float
+    """Slope of the line through the nosings [deg]."""
+    nosing_spacing_m: float
+    """Mean distance from nosing to nosing [m]."""
+    irregularity_m: float
+    """Largest minus smallest rise or going, the larger of the two [m]."""
+    width_m: float
+    """Clear width [m]."""
+    headroom_m: float | None
+    """Least height above the nosings [m]; null: nothing is drawn above."""
+    overhang_m: float
+    """Overhang of the nosings [m]."""
+    open_risers: bool
+    """Whether a riser is open."""
+    lower: str
+    """Key of the floor at its foot."""
+    upper: str
+    """Key of the floor at its head."""
+    notes: tuple[str, ...]
+    """What was taken for granted, and what the model states otherwise."""
+    lane: tuple[tuple[float, float], ...]
+    """Corners of the clear lane in the plan, the foot's right one first [m]."""
+    nosings: tuple[tuple[float, float, float, float], ...]
+    """Ends of each nosing in the plan: x, y of the left one, x, y of the right one [m]."""
+
+
+class FloorShown(Part):
+    """Where flights begin and end."""
+
+    key: str
+    """By which flights name it."""
+    name: str
+    """The storey's, or that of a landing."""
+    level_m: float
+    """Height [m]."""
+    landing: bool
+    """Whether it is a landing and no floor of a storey."""
+    outlines: tuple[tuple[tuple[float, float], ...], ...]
+    """Clear outlines in the plan, as far as they are drawn [m]."""
+    walls: tuple[tuple[float, float, float, float], ...]
+    """What stands on it, as segments in the plan [m]."""
+
+
+class DoorShown(Part):
+    """A door at an end of a flight."""
+
+    identity: str
+    """GlobalId."""
+    name: str
+    """Name in the model."""
+    floor: str
+    """Key of the floor."""
+    clear_width_m: float
+    """Width less frame and leaf, 100 mm taken for both [m]."""
+    height_m: float
+    """Of the door [m]."""
+    threshold_m: float
+    """Sill above the floor [m]."""
+    x: float
+    """Middle in the plan [m]."""
+    y: float
+    """The same [m]."""
+
+
+class CellShown(Part):
+    """Verdict on one robot and one flight."""
+
+    robot: str
+    flight: str
+    """Identity of the flight."""
+    direction: Direction
+    facing: Facing
+    """Which end leads."""
+    flippers: str
+    """How they lie, as the option is written; empty for a robot without any."""
+    verdict: Verdict
+    governs: str
+    """Failure mode that decides, or why nothing can be said."""
+    binds: Binding
+    """The same in a word."""
+    reason: str
+    """The verdict in one sentence."""
+    margin_deg: float | None
+    """In the worst case [deg]; null: not known."""
+    margin_best_deg: float | None
+    """In the best case [deg]."""
+
+
+class TurnShown(Part):
+    """How one robot gets from one flight to the next on a landing."""
+
+    robot: str
+    floor: str
+    """Key of the landing."""
+    from_flight: str
+    """Identity of the flight by which it comes."""
+    to_flight: str
+    """Identity of the next one."""
+    turn_deg: float
+    """Angle between them, to the left positive [deg]."""
+    way: TurnWay
+    """Straight on, on the spot, by a manoeuvre, not at all; unknown: its width, or the landing,
+    is."""
+    flippers: str
+    """Posture in which it turns, as the option is written."""
+    changed: bool
+    """Whether that is another posture than the one in which it climbs."""
+    circle_m: float | None
+    """Circle that it sweeps on the spot in that posture [m]; null: of unknown width."""
+    room_m: float | None
+    """Largest circle inside the landing [m]; null: the landing is not drawn."""
+    moves: int
+    """Drives and turns of the manoeuvre."""
+    path: tuple[tuple[float, float, float], ...]
+    """Poses of the manoeuvre: x, y [m], heading [rad]."""
+    footprint: tuple[float, float, float] | None
+    """From the turning centre to front and rear, and width [m]."""
+
+
+class WayShown(Part):
+    """How one robot gets to a storey."""
+
+    robot: str
+    storey: str
+    """Name of the storey."""
+    verdict: Verdict | None
+    """Worst of all that lies between; null: no flights lead there."""
+    binds: Binding
+    """What decides."""
+    where: str
+    """Name of the flight, landing or door at which it does."""
+    reason: str
+    """In one sentence."""
+    flights: tuple[str, ...]
+    """Identities of the flights, in their order."""
+    postures: tuple[str, ...]
+    """Changes of posture between the flights, as sentences."""
+
+
+class BuildingAnswer(Answer):
+    """Flights of a building, and what robots can do on them."""
+
+    text_module: ClassVar[str] = "building"
+
+    path: str
+    """File."""
+    digest: str
+    """SHA-256 of it."""
+    ifc_schema: str
+    """Version of IFC."""
+    direction: Direction
+    """In which all flights of the table are judged."""
+    surface: str | None
+    """Surface under the tracks; null: none was stated."""
+    start: str
+    """Name of the storey from which the ways begin."""
+    robots: tuple[str, ...]
+    """Robots, the columns of the table."""
+    storeys: tuple[StoreyShown, ...]
+    """From the lowest up."""
+    flights: tuple[FlightShown, ...]
+    """Straight flights, the rows of the table."""
+    floors: tuple[FloorShown, ...]
+    """Floors and landings."""
+    cells: tuple[CellShown, ...]
+    """Row by row."""
+    turns: tuple[TurnShown, ...]
+    """On each landing, for each robot."""
+    doors: tuple[DoorShown, ...]
+    """Doors at the ends of flights."""
+    ways: tuple[WayShown, ...]
+    """To each storey, for each robot."""
+    refusals: tuple[str, ...]
+    """What is drawn as stairs and is not judged, and why."""
+    notes: tuple[str, ...]
+    """What had to be repaired in the file."""
+
+    def columns(self) -> dict[str, list[Any]]:
+        """Columns of a table with one line for each robot on each flight."""
+        by_id = {each.identity: each for each in self.flights}
+        of_flight = ("name", "storey", "steps", "rise_m", "going_m", "width_m", "headroom_m")
+        return {
+            **{name: [getattr(one, name) for one in self.cells] for name in CellShown.model_fields},
+            **{
+                name: [getattr(by_id[one.flight], name) for one in self.cells] for name in of_flight
+            },
+        }
+
+    @property
+    def exit_code(self) -> int:
+        """0 where some robot gets to every storey that flights lead to, 1 else, 3 no flights."""
+        if not self.flights:
+            return 3
+        storeys = {way.storey for way in self.ways if way.verdict is not None}
+        reached = {way.storey for way in self.ways if way.verdict in (Verdict.GO, Verdict.CAUTION)}
+        return 0 if storeys <= reached else 1

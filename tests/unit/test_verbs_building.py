@@ -1,0 +1,195 @@
+"""A building of the tests' own: verdicts as assess has them, turns and doors by hand."""
+
+import csv
+import io
+import json
+
+import jsonschema
+import pytest
+
+pytest.importorskip("ifcopenshell", reason="skipped: ifcopenshell not installed")
+
+from typer.testing import CliRunner
+
+import kaidan
+from ifc_cases import House, half_turn_house
+from kaidan import InputError, Stairs
+from kaidan.cli import app
+from kaidan.text.building_page import page
+from kaidan.verbs.building import building
+from kaidan.verbs.building.answer import BuildingAnswer
+
+ROBOTS = ["absolem", "ozbot-atr"]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("houses")
+
+
+@pytest.fixture(scope="module")
+def house(folder):
+    return half_turn_house().write(folder / "house.ifc")
+
+
+@pytest.fixture(scope="module")
+def answer(house):
+    return building(house, ROBOTS, friction=1.0)
+
+
+def cell(answer, robot, name):
+    (flight,) = [each for each in answer.flights if each.name == name]
+    (found,) = [c for c in answer.cells if (c.robot, c.flight) == (robot, flight.identity)]
+    return found
+
+
+def way(answer, robot, storey):
+    (found,) = [each for each in answer.ways if (each.robot, each.storey) == (robot, storey)]
+    return found
+
+
+def test_every_pair_has_the_verdict_of_assess(answer):
+    """The same flight entered by hand: 150 by 300 mm, a landing of 1.2 m, 1.0 m wide."""
+    sheet = Stairs(rise=0.15, going=0.3, steps=10, width=1.0, lower_landing=2.0, upper_landing=1.2)
+    by_hand = kaidan.assess("absolem", sheet, flippers="flat", friction=1.0)
+    found = cell(answer, "absolem", "A1")
+    assert (found.verdict, found.governs) == (by_hand.verdict, by_hand.governs)
+    assert found.margin_deg == pytest.approx(by_hand.margin_deg, abs=1e-3)
+    assert [each.name for each in answer.flights] == ["A1", "A2", "B"]
+    assert [each.steps for each in answer.flights] == [10, 10, 15]
+
+
+def test_a_flight_narrower_than_the_robot_binds_by_its_width(folder):
+    """0.70 m; OzBot's tracks are 0.538 + 0.2 = 0.738 m over all."""
+    path = half_turn_house(width=0.7).write(folder / "narrow.ifc")
+    found = cell(building(path, ["ozbot-atr"], friction=1.2), "ozbot-atr", "A1")
+    assert (found.verdict, found.governs, found.binds) == ("no-go", "narrow", "width")
+    assert found.margin_deg == -90.0
+    assert found.reason.startswith("The flight is 700 mm wide; the robot needs 738 mm going")
+
+
+def test_absolem_raises_its_flippers_to_turn_on_a_landing_of_1_2_m(answer):
+    """Flat it sweeps 1.30 m, stowed 0.84 m."""
+    (turn,) = [each for each in answer.turns if each.robot == "absolem"]
+    assert (turn.way, turn.flippers, turn.changed) == ("spin", "stowed", True)
+    assert turn.circle_m == pytest.approx(0.839, abs=0.001)
+    assert turn.room_m == pytest.approx(1.2, abs=0.02)
+    assert way(answer, "absolem", "First").postures == (
+        "Before A1 set the flippers to flat.",
+        "On the landing at 1.50 m change the flippers to stowed and turn by 180 deg: it sweeps "
+        "0.84 m of 1.20 m.",
+        "Before A2 set the flippers to flat.",
+    )
+
+
+def test_ozbot_does_not_turn_there_and_that_binds(answer):
+    """1.77 m of circle, 1.58 m of length: not in 1.2 m."""
+    (turn,) = [each for each in answer.turns if each.robot == "ozbot-atr"]
+    assert turn.way == "none"
+    found = way(answer, "ozbot-atr", "First")
+    assert (found.verdict, found.binds, found.where) == ("no-go", "turning", "landing at 1.50 m")
+    assert found.reason == (
+        "It cannot turn by 180 deg: it sweeps 1.77 m, the landing has 1.20 m, and no manoeuvre was "
+        "found."
+    )
+
+
+@pytest.mark.parametrize(
+    ("landing", "way_", "changed"),
+    [(1.4, "spin", False), (0.86, "spin", True), (0.6, "none", False)],
+)
+def test_the_landing_decides_how_absolem_turns(folder, landing, way_, changed):
+    path = half_turn_house(landing).write(folder / f"landing{landing}.ifc")
+    found = building(path, ["absolem"], friction=1.0)
+    (turn,) = found.turns
+    assert (turn.way, turn.changed) == (way_, changed)
+
+
+def test_a_door_that_is_too_narrow_binds(folder):
+    """0.55 m less 0.1 m for frame and leaf: 0.45 m, Absolem has 0.494 m."""
+    path = half_turn_house(door=0.55).write(folder / "door.ifc")
+    found = building(path, ["absolem"], friction=1.0)
+    assert way(found, "absolem", "First").binds == "doors"
+    assert way(found, "absolem", "First").verdict == "no-go"
+    assert "The widest door there leaves 450 by 2100 mm" in way(found, "absolem", "First").reason
+
+
+def test_a_ceiling_that_is_too_low_binds(folder):
+    path = half_turn_house(ceiling=0.6).write(folder / "ceiling.ifc")
+    found = building(path, ["absolem"], friction=1.0)
+    assert cell(found, "absolem", "A1").binds == "headroom"
+    assert cell(found, "absolem", "A1").verdict == "no-go"
+
+
+def test_friction_that_nobody_stated_binds(house):
+    found = cell(building(house, ["absolem"], flippers="35deg,-13deg"), "absolem", "A1")
+    assert (found.verdict, found.governs) == ("caution", "friction_unknown")
+    assert found.binds == "friction"
+
+
+def test_ways_may_begin_on_any_storey_and_lead_down(house):
+    found = building(house, ["absolem"], friction=1.0, start="first")
+    assert [each.storey for each in found.ways] == ["Ground", "Attic"]
+    assert len(way(found, "absolem", "Ground").flights) == 2
+    with pytest.raises(InputError, match=r"no storey is called 'cellar'; known: Ground, First"):
+        building(house, ["absolem"], start="cellar")
+
+
+def test_json_both_ways_and_its_schema(answer):
+    document = json.loads(answer.to_json())
+    jsonschema.validate(document, BuildingAnswer.json_schema())
+    assert BuildingAnswer.from_json(answer.to_json()) == answer
+
+
+def test_a_table_with_a_line_for_each_pair(answer):
+    rows = list(csv.DictReader(io.StringIO(kaidan_csv(answer))))
+    assert len(rows) == len(answer.flights) * len(ROBOTS)
+    assert rows[0]["name"] == "A1"
+    assert float(rows[0]["rise_m"]) == pytest.approx(0.15)
+
+
+def kaidan_csv(answer):
+    from kaidan.files import csv_text
+
+    return csv_text(answer.columns())
+
+
+def test_a_page_that_fetches_nothing(answer):
+    from kaidan.figures.building_figure import building_figure
+    from kaidan.figures.saving import figure_bytes
+
+    text = page(answer, figure_bytes(building_figure(answer), "svg").decode())
+    assert text.count("<svg") == 1
+    assert "<script" not in text
+    assert 'src="' not in text
+    assert "Before A1 set the flippers to flat." in text
+    evil = answer.model_copy(update={"notes": ("<img src=x>",)})
+    assert "<img" not in page(evil, "")
+
+
+def test_the_command(house, tmp_path):
+    words = ["building", str(house), "--robots", "absolem", "--friction", "1.0"]
+    done = CliRunner().invoke(app, [*words, "--html", str(tmp_path / "h.html"),
+                                    "--csv", str(tmp_path / "h.csv")])  # fmt: skip
+    assert done.exit_code in (0, 1)
+    assert "A1" in done.stdout
+    assert "Ways from Ground" in done.stdout
+    assert (tmp_path / "h.html").read_text().startswith("<!DOCTYPE html>")
+    assert (tmp_path / "h.csv").exists()
+
+
+def test_a_building_without_stairs(folder):
+    h = House()
+    h.add("IfcWall", "wall", [h.slab([(0, 0), (1, 0), (1, 1), (0, 1)], 1)])
+    found = building(h.write(folder / "bare.ifc"), ["absolem"])
+    assert (found.flights, found.exit_code) == ((), 3)
+    assert "0 straight flights" in str(found)
+
+
+def test_what_is_no_building_is_refused(tmp_path):
+    path = tmp_path / "robot.urdf"
+    path.write_text("<robot name='x'/>")
+    with pytest.raises(InputError, match="URDF is no building model"):
+        building(path, ["absolem"])
+    with pytest.raises(InputError, match="name at least one robot"):
+        building(path, [])
