@@ -242,8 +242,13 @@ def table_of_each(field: FieldInfo) -> type[Sheet] | None:
 def _is_unicode(value: str | dict[str, Any]) -> bool:
     """Whether a text, or all texts of a mapping, can be written as UTF-8."""
     texts = (value,) if isinstance(value, str) else (*value.keys(), *value.values())
-    texts = tuple(text for text in texts if isinstance(text, str))
-    return not any("\ud800" <= character <= "\udfff" for text in texts for character in text)
+    try:
+        for text in texts:
+            if isinstance(text, str):
+                text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def bounds(field: FieldInfo | None) -> tuple[str | None, float, float]:

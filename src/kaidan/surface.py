@@ -70,9 +70,9 @@ class Surface(Sheet):
 
     def of_parts(self, *, best: bool = False) -> tuple[float, float, float]:
         """Static friction of nosings, treads and riser faces [1], in the worst or best case."""
-        general = Friction(low=self.friction_low, high=self.friction_high)
+        general = self.friction_high if best else self.friction_low
         nosings, treads, risers = (
-            (part or general).high if best else (part or general).low
+            general if part is None else part.high if best else part.low
             for part in (self.nosings, self.treads, self.risers)
         )
         return nosings, treads, risers

@@ -72,13 +72,19 @@ class Findings:
 
 
 def at_risk(values: Array, risk: float) -> float:
-    """Value that all but a share `risk` of the samples exceed.
+    """Value that all but a share `risk` of the samples exceed; NaN: none is known.
 
     It is positive just where the share of samples that are zero or negative is at most `risk`.
     """
-    if np.isnan(values).all():
-        return math.nan
-    return float(np.sort(np.where(np.isnan(values), -np.inf, values))[int(risk * len(values))])
+    return float(each_at_risk(values, risk))
+
+
+def each_at_risk(values: Array, risk: float) -> Array:
+    """`at_risk` of several quantities: samples along the last axis."""
+    known = ~np.isnan(values)
+    ordered = np.sort(np.where(known, values, -np.inf), axis=-1)
+    found = ordered[..., int(risk * values.shape[-1])]
+    return np.where(known.any(axis=-1), found, math.nan)
 
 
 def smallest(samples: Iterable[Array]) -> Array:

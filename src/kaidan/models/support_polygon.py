@@ -33,7 +33,7 @@ from kaidan.mechanics.oblique import (
 )
 from kaidan.models.closed_form import no_regular_flight
 from kaidan.models.drive_limits import steepest_for_drive
-from kaidan.models.findings import Array, Finding, Findings, at_risk
+from kaidan.models.findings import Array, Finding, Findings
 from kaidan.models.samples import Draws, draws, nominal
 from kaidan.modes import (
     DRIVE,
@@ -323,7 +323,7 @@ def _hold(question: Question, flight: Stairs, psi: Array) -> Array:
     down, up, side = margins_of(question, flight, psi)
     off = question.allowance_d.high
     worst = np.minimum(np.minimum(down - off - question.allowance_M.high, up - off), side - off)
-    return np.asarray(steady & [at_risk(samples, question.risk) > 0 for samples in worst])
+    return np.asarray(steady & (each_at_risk(worst, question.risk) > 0))
 
 
 def gauge_of(question: Question) -> float:

@@ -176,7 +176,7 @@ class Traverse:
     def _on_flight(self) -> tuple[PhaseExtremes, ...]:
         return tuple(each for each in self.phases if each.phase is Phase.TRAVERSE)
 
-    @property
+    @cached_property
     def rear_length(self) -> tuple[float, float] | None:
         """Margin against being driven upright on its tail, and the riser of which it is least [m].
 

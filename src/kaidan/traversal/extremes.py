@@ -172,15 +172,14 @@ def _comes_back(path: contact.Path) -> NDArray[np.bool_]:
     """
     assert path.margins is not None
     back = np.zeros(len(path.poses), dtype=np.bool_)
-    rear = [contact.Feature.of(code) for code in path.margins.outermost[:, 0].tolist()]
+    rear = contact.FeatureTable.of(path.margins.outermost[:, 0])
     for record in path.rotations:
         pivot = contact.Feature.of(record.pivot)
         if record.sense > 0 or not record.arrested or pivot.kind is not contact.FeatureKind.VERTEX:
             continue
         row = path.row_before(record.s) + 1
-        while row < len(back) and rear[row][::2] == pivot[::2]:
-            back[row] = True
-            row += 1
+        on_it = (rear.point[row:] == pivot.point) & (rear.kind[row:] == pivot.kind)
+        back[row:] |= np.logical_and.accumulate(on_it)
     return back
 
 
