@@ -3,6 +3,7 @@
 from kaidan.contact.codes import (
     BELLY,
     FLIPPER,
+    ROCKING,
     TRACK,
     Event,
     Feature,
@@ -14,7 +15,6 @@ from kaidan.contact.codes import (
 )
 from kaidan.contact.contacts import Contact, PairForces, pair_forces, spring_loads
 from kaidan.contact.heights import TouchingHeights, touching_heights
-from kaidan.contact.kernel.reserves import ROCKING
 from kaidan.contact.margin_records import Job, Margins, Summaries, Tilts
 from kaidan.contact.path import Path, joined
 from kaidan.contact.records import (

@@ -1,10 +1,11 @@
-"""Codes of the contact model as enumerations: statuses, events, outcomes, parts, features.
+"""Codes of the contact model as enumerations, and what counts as rocking.
 
 The kernel writes them into its tables as numbers; nobody has to know which.
 """
 
 from __future__ import annotations
 
+import math
 from enum import IntEnum
 from typing import NamedTuple
 
@@ -22,6 +23,10 @@ from kaidan.contact.columns import (
     POINT_BITS,
     VERTEX,
 )
+
+#: Rotation that counts as rocking [rad]: the paper's rig turned that far by the yield of its
+#: tracks, and held.
+ROCKING = math.radians(2.6)
 
 
 class Status(IntEnum):

@@ -9,10 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kaidan.contact.codes import Feature, PartKind, Status
+from kaidan.contact.codes import ROCKING, Feature, PartKind, Status
 from kaidan.contact.columns import ENERGY, POSE_COLUMNS, TILT_COLUMNS
 from kaidan.contact.contacts import Contact, contacts_of
-from kaidan.contact.kernel.reserves import ROCKING
 from kaidan.contact.margin_records import Margins, Tilts
 from kaidan.contact.records import Body, Events, Ground, Placement, Poses, RotationRecord, Rotations
 from kaidan.contact.switch import kernel

@@ -33,7 +33,7 @@ from kaidan.mechanics.oblique import (
 )
 from kaidan.models.closed_form import no_regular_flight
 from kaidan.models.drive_limits import steepest_for_drive
-from kaidan.models.findings import Array, Finding, Findings
+from kaidan.models.findings import Array, Finding, Findings, each_at_risk
 from kaidan.models.samples import Draws, draws, nominal
 from kaidan.modes import (
     DRIVE,

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.codes import RotationOutcome
+from kaidan.contact.codes import ROCKING, RotationOutcome
 from kaidan.contact.columns import NO_FEATURE
 from kaidan.contact.kernel.continuation import corrected, gap_rate, tangent
 from kaidan.contact.kernel.gaps import gap
 from kaidan.contact.kernel.recording import write_momentum, write_rotation
-from kaidan.contact.kernel.reserves import ROCKING, barrier
+from kaidan.contact.kernel.reserves import barrier
 from kaidan.contact.kernel.settling import lever, settle
 from kaidan.contact.kernel.toppling import fall
 from kaidan.contact.tables import BodyTable, GroundTable, RotationTable

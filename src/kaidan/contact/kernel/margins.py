@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.codes import BELLY
+from kaidan.contact.codes import BELLY, ROCKING
 from kaidan.contact.columns import (
     BACK,
     BACK_RISE,
@@ -66,7 +66,7 @@ from kaidan.contact.columns import (
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.continuation import gap_rate, tangent
 from kaidan.contact.kernel.forces import contacts_at, two_contact_forces
-from kaidan.contact.kernel.reserves import ROCKING, barrier, carrying_tilt
+from kaidan.contact.kernel.reserves import barrier, carrying_tilt
 from kaidan.contact.tables import (
     BodyTable,
     ContactTable,

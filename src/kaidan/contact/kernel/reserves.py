@@ -25,9 +25,6 @@ from kaidan.contact.kernel.rotation import angle_until_over, foot_limit, next_pi
 from kaidan.contact.kernel.settling import lever
 from kaidan.contact.tables import BodyTable, GroundTable
 
-#: Rotation that counts as rocking [rad]: the paper's rig turned that far by the yield of its
-#: tracks, and held.
-ROCKING = math.radians(2.6)
 #: A contact that closes as the centroid comes over the pivot, or this much beyond [rad], closes
 #: first: a robot that rotates back to where its rotation began stands there on what carried it.
 AS_IT_COMES_OVER = 1e-6
