@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from kaidan.verbs.measure_stairs import measure_stairs
     from kaidan.verbs.monitor import monitor
     from kaidan.verbs.posture import posture
+    from kaidan.verbs.read import read
     from kaidan.verbs.traverse import traverse
 
 __version__ = "0.1.0"
@@ -53,6 +54,7 @@ _HOME = {
     "monitor": "kaidan.verbs.monitor",
     "plane": "kaidan.verbs.d_a_plane",
     "posture": "kaidan.verbs.posture",
+    "read": "kaidan.verbs.read",
     "reproduce": "kaidan.studies.reproduction",
     "stream": "kaidan.sweeps",
     "sweep": "kaidan.sweeps",
@@ -77,6 +79,7 @@ __all__ = [  # noqa: RUF022 - what a user meets first
     "verdicts",
     "stream",
     "monitor",
+    "read",
     "measure_robot",
     "measure_stairs",
     "Question",

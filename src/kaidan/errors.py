@@ -16,6 +16,13 @@ class InputError(KaidanError):
     """
 
 
+class RefusedError(InputError):
+    """A file that was read and holds nothing that can be judged; the text has reason and numbers.
+
+    A command ends with the exit code of an answer outside the model.
+    """
+
+
 def shown(value: Any) -> str:
     """Text of any value in one short line, for the text of an error."""
     text = " ".join(repr(value).split())

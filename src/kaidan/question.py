@@ -29,18 +29,16 @@ from kaidan.sheet import Sheet, model_validator, quantity
 from kaidan.spelling import (
     BEST,
     JOINT,
-    OVERRIDES,
     UNCERTAINTIES,
     Terrain,
     allowance_of,
     doubted,
     doubted_terrain,
     figures,
-    overridden,
     payloads_of,
     postures_of,
     quantity_of,
-    sheet_of,
+    robot_of,
     surface_of,
     terrain_of,
     word_of,
@@ -272,7 +270,7 @@ class Question(Sheet):
         InputError
             An input without physical meaning; the text names it.
         """
-        sheet = overridden(sheet_of(robot, Robot), figures(override, OVERRIDES, "override"))
+        sheet = robot_of(robot, override)
         doubts = figures(uncertainty, UNCERTAINTIES, "uncertainty")
         ground = surface_of(surface, friction, doubts)
         terrain = doubted_terrain(terrain_of(stairs), doubts)

@@ -8,8 +8,10 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from kaidan import catalog
 from kaidan.allowance import Allowance
-from kaidan.errors import InputError, shown
+from kaidan.errors import InputError, short, shown
+from kaidan.override import OVERRIDES, kind_of_figure, overridden, paths_of
 from kaidan.robot import Payload, Posture, PostureChange, Robot
 from kaidan.surface import Surface
 from kaidan.terrain.profile import Profile
@@ -26,15 +28,8 @@ PREPARED = ("traverse", "land")
 
 Terrain = Stairs | tuple[Stairs, ...] | Profile
 _Sheet = TypeVar("_Sheet", Robot, Stairs, Surface)
+_NONE: Mapping[str, float] = {}
 
-OVERRIDES = {
-    "com_from_front": "length",
-    "com_height": "length",
-    "flat_length": "length",
-    "gauge": "length",
-    "mass": "mass",
-}
-"""Figures of a robot's sheet that a question may replace, and what they measure."""
 UNCERTAINTIES = {
     "com_from_front": "length",
     "com_height": "length",
@@ -49,7 +44,7 @@ UNCERTAINTIES = {
 
 
 def sheet_of(given: Any, kind: type[_Sheet]) -> _Sheet:
-    """Sheet as given, or by its name or path.
+    """Sheet as given, by its name, or of a file: TOML, or one of which a sheet can be made.
 
     Raises
     ------
@@ -61,11 +56,73 @@ def sheet_of(given: Any, kind: type[_Sheet]) -> _Sheet:
     if isinstance(given, PathLike):
         given = fspath(given)
     if isinstance(given, str):
-        return kind.named(given)
+        return _of_file(given, kind) or kind.named(given)
     raise InputError(
         f"{kind.label} = {shown(given)} is not a {kind.__name__}, a name of the catalogue or a "
         "TOML file"
     )
+
+
+def robot_of(given: Any, override: Any = ()) -> Robot:
+    """Robot as given, by its name or of a file, with the user's own figures in place of its own.
+
+    Raises
+    ------
+    InputError
+        None of these, or a figure without meaning.
+    """
+    own = own_figures(override)
+    if own and isinstance(given, str | PathLike):
+        read = _of_file(fspath(given), Robot, own)
+        if read is not None:
+            return read
+    return overridden(sheet_of(given, Robot), own)
+
+
+def flights_of(name: str) -> tuple[Stairs, ...] | None:
+    """Flights of the one staircase in a file, from bottom to top; None: it is no such file.
+
+    Raises
+    ------
+    InputError
+        A file that cannot be read, holds no staircase, or several.
+    """
+    if not _may_be_a_file(name, "stairs"):
+        return None
+    from kaidan.readers.sheets import staircase_sheets
+
+    return staircase_sheets(name)
+
+
+def _of_file(name: str, kind: type[_Sheet], own: Mapping[str, float] = _NONE) -> _Sheet | None:
+    """Sheet made of a file that holds a robot or stairs; None: the name is of no such file."""
+    if kind is Robot and _may_be_a_file(name, "robots", "unweighed"):
+        from kaidan.readers.hints import Hints
+        from kaidan.readers.sheets import robot_sheet
+
+        made: Any = robot_sheet(name, Hints(figures=paths_of(own)))
+        return made  # type: ignore[no-any-return]
+    if kind is Stairs and (flights := flights_of(name)) is not None:
+        if len(flights) > 1:
+            raise InputError(
+                f"{short(name)}: a staircase of {len(flights)} flights where one flight is needed; "
+                "write each into a sheet with kaidan read -o"
+            )
+        flight: Any = flights[0]
+        return flight  # type: ignore[no-any-return]
+    return None
+
+
+def _may_be_a_file(name: str, *folders: catalog.Folder) -> bool:
+    """Whether a name is in none of these catalogues and there is something of that path."""
+    stem = name.strip().lower()
+    if any(stem in catalog.names(folder) for folder in folders):
+        return False
+    try:
+        paths = (Path(name), Path(name.rpartition("#")[0] or name))
+        return any(path.is_file() or path.is_dir() for path in paths)
+    except (OSError, ValueError):
+        return False
 
 
 def terrain_of(given: Any) -> Terrain:
@@ -80,12 +137,30 @@ def terrain_of(given: Any) -> Terrain:
         return given
     if isinstance(given, str) and JOINT in given and not Path(given).exists():
         given = given.split(JOINT)
+    if isinstance(given, str | PathLike):
+        given = flights_of(fspath(given)) or given
     if not isinstance(given, list | tuple):
         return sheet_of(given, Stairs)
     flights = tuple(sheet_of(each, Stairs) for each in given)
     if not flights:
         raise InputError("stairs: no flight was given")
     return flights[0] if len(flights) == 1 else flights
+
+
+def own_figures(given: Any) -> dict[str, float]:
+    """Figures of a robot's sheet by their short or dotted names, see `figures`.
+
+    Examples
+    --------
+    >>> own_figures("com_height=200mm,front_flippers.length=0.3m")
+    {'com_height': 0.2, 'front_flippers.length': 0.3}
+    """
+    dotted = {
+        key: kind_of_figure(key)
+        for key, _ in _named_values(given, "override", OVERRIDES)
+        if isinstance(key, str) and "." in key
+    }
+    return figures(given, OVERRIDES | dotted, "override")
 
 
 def figures(given: Any, kinds: Mapping[str, str], name: str) -> dict[str, float]:
@@ -140,30 +215,6 @@ def _named_values(given: Any, name: str, kinds: Mapping[str, str]) -> Iterator[t
                 f"{name} {shown(text)}: write NAME=VALUE with a name of {', '.join(kinds)}"
             )
         yield key.strip(), value
-
-
-def overridden(robot: Robot, own: dict[str, float]) -> Robot:
-    """Robot with the user's own figures in place of the sheet's."""
-    if not own:
-        return robot
-    sheet = robot.model_dump()
-    for name in ("flat_length", "gauge"):
-        if name in own:
-            sheet["track"][name] = own.pop(name)
-    if sheet["com_range"] is not None:
-        sheet["com_range"] = _narrowed(sheet["com_range"], own)
-    return Robot.model_validate(sheet | own)
-
-
-def _narrowed(stated: dict[str, Any], own: dict[str, float]) -> dict[str, Any] | None:
-    """Range of a centroid of which some is stated; None where all of it is."""
-    known = {"from_front": "com_from_front", "height": "com_height"}
-    if all(name in own for name in known.values()):
-        return None
-    return {
-        axis: (own[name], own[name]) if name in own else stated[axis]
-        for axis, name in known.items()
-    }
 
 
 def doubted(sheet: Any, doubts: dict[str, float], *names: str) -> Any:

@@ -12,8 +12,9 @@ import xarray as xr
 
 from kaidan import InputError, Payload, Robot, Stairs, sweep
 from kaidan.cli.varying import varied
+from kaidan.override import overridden
 from kaidan.sweeps.cells import CELLS, NOT_GO, VERDICTS
-from kaidan.sweeps.parameters import parameter, question_of, shaped, with_figure
+from kaidan.sweeps.parameters import parameter, question_of, shaped
 from kaidan.sweeps.plan import Along, Plan
 from kaidan.sweeps.running import carried_out
 from kaidan.sweeps.summary import SweepSummary, summary_of
@@ -106,9 +107,9 @@ def test_an_unknown_parameter_is_refused(name, said):
 
 def test_figures_of_a_sheet_by_name():
     robot = Robot.named("absolem")
-    assert with_figure(robot, "front_flippers.length", 0.4).front_flippers.length == 0.4
+    assert overridden(robot, {"front_flippers.length": 0.4}).front_flippers.length == 0.4
     with pytest.raises(InputError, match="robot 'kenaf' has no front_flippers, so no front_"):
-        with_figure(Robot.named("kenaf"), "front_flippers.length", 0.4)
+        overridden(Robot.named("kenaf"), {"front_flippers.length": 0.4})
     question = question_of({"robot": robot, "stairs": "ibc", "payload": "5kg@200mm,300mm",
                             "payload.height": 0.5})  # fmt: skip
     assert question.payload == (Payload(mass=5.0, from_front=0.2, height=0.5),)

@@ -12,7 +12,7 @@ from kaidan.physics import SmoothBelt, TrackModel, TrialSpec
 from kaidan.question import Question
 from kaidan.robot import Payload, Posture, Robot
 from kaidan.sheet import Sheet, model_validator, quantity
-from kaidan.spelling import OVERRIDES, figures, overridden, payloads_of, posture_of, sheet_of
+from kaidan.spelling import payloads_of, posture_of, robot_of
 from kaidan.surface import Surface
 from kaidan.terrain.stairs import Stairs
 from kaidan.units import parse, range_of
@@ -78,8 +78,7 @@ class Setting(Sheet):
         InputError
             An input without physical meaning; the text names it.
         """
-        own = figures(override, OVERRIDES, "override")
-        sheet = overridden(sheet_of(robot, Robot), own).weighed
+        sheet = robot_of(robot, override).weighed
         return cls(
             robot=sheet,
             posture=posture_of(flippers, sheet),

@@ -1,7 +1,7 @@
 """The command line: degrees and millimetres in, verdicts and pictures out.
 
-Exit codes: 0 go or caution, 1 no-go, 2 bad input, 3 outside the model, 70 a fault of kaidan's own,
-130 after Ctrl-C.
+Exit codes: 0 go or caution, 1 no-go, 2 bad input, 3 outside the model, or a file that holds nothing
+to judge, 70 a fault of kaidan's own, 130 after Ctrl-C.
 """
 
 import errno
@@ -36,6 +36,7 @@ _COMMANDS = {
     "physics": ("physics",),
     "plane": ("plane",),
     "posture": ("posture",),
+    "read": ("read",),
     "reproduce": ("reproduce",),
     "schema": ("schema",),
     "study": ("study",),
@@ -131,12 +132,15 @@ def run(words: Sequence[str]) -> int:
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:  # closed by who started it
             setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
-    from kaidan.errors import KaidanError
+    from kaidan.errors import KaidanError, RefusedError
+    from kaidan.modes import Verdict
 
     try:
         code = _outcome(words)
         sys.stdout.flush()
         return code
+    except RefusedError as error:
+        return _complain(str(error), Verdict.OUTSIDE_MODEL.exit_code)
     except KaidanError as error:
         return _complain(str(error))
     except _UsageError as error:

@@ -25,7 +25,8 @@ RobotName = Annotated[
     str,
     typer.Argument(
         metavar="ROBOT",
-        help="Catalogue name (kaidan robots) or TOML file (kaidan measure robot, kaidan new).",
+        help="Catalogue name (kaidan robots), TOML file (kaidan measure robot, kaidan new), or a "
+        "description: URDF, SDF, MJCF (kaidan read).",
         autocompletion=_names("robots", "unweighed"),
     ),
 ]
@@ -41,8 +42,8 @@ TerrainName = Annotated[
     str | None,
     typer.Argument(
         metavar="[STAIRS]",
-        help="Catalogue name (kaidan stairs) or TOML file (kaidan measure stairs); several "
-        "flights, from bottom to top, joined by +.",
+        help="Catalogue name (kaidan stairs), TOML file (kaidan measure stairs), or a model or "
+        "scan (kaidan read), FILE#PART; several flights, from bottom to top, joined by +.",
         autocompletion=_names("stairs"),
     ),
 ]
@@ -112,7 +113,7 @@ Override = Annotated[
     typer.Option(
         "--override",
         help="Own figure for the robot: com_from_front=200mm, com_height=, flat_length=, "
-        "gauge=, mass=20kg.",
+        "gauge=, mass=20kg, or any of its sheet: track.front_radius=90mm.",
     ),
 ]
 UncertaintyText = Annotated[
@@ -151,6 +152,7 @@ def stairs_of(
 ) -> "Stairs":
     """Stairs from a name or from the shape given by options; exactly one of the three ways."""
     from kaidan.errors import InputError
+    from kaidan.spelling import sheet_of
     from kaidan.terrain.stairs import Stairs
     from kaidan.units import parse
 
@@ -160,7 +162,7 @@ def stairs_of(
         if given or steps is not None:
             extra = ", ".join(sorted(given) or ["--steps"])
             raise InputError(f"give either the stairs {name!r} or {extra}, not both")
-        return Stairs.named(name)
+        return sheet_of(name, Stairs)
     count = {} if steps is None else {"steps": steps}
     if given == {"--rise", "--going"}:
         assert rise is not None
@@ -203,8 +205,8 @@ def terrain_of(name: str | None, points: Path | None, **shape: Any) -> Any:
             return Profile.of_points(line, name=points.name)
         except InputError as error:
             raise InputError(f"{points}: {error}") from None
-    if name is not None and JOINT in name and not Path(name).exists():
-        if any(value is not None for value in shape.values()):
-            raise InputError(f"give either the stairs {name!r} or a shape, not both")
+    if name is not None and all(value is None for value in shape.values()):
         return name
+    if name is not None and JOINT in name and not Path(name).exists():
+        raise InputError(f"give either the stairs {name!r} or a shape, not both")
     return stairs_of(name, **shape)

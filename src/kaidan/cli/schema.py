@@ -21,6 +21,7 @@ KINDS = {
     "plane": "kaidan.verbs.d_a_plane:Plane",
     "robot-measurement": "kaidan.verbs.measure_robot:RobotMeasurement",
     "stairs-measurement": "kaidan.verbs.measure_stairs:StairsMeasurement",
+    "file": "kaidan.verbs.read:FileAnswer",
     "compare": "kaidan.verbs.comparison:Comparison",
     "building": "kaidan.verbs.building.answer:BuildingAnswer",
     "monitor": "kaidan.verbs.monitor.answer:MonitorAnswer",

@@ -137,6 +137,11 @@ FORMATS: tuple[Format, ...] = (
 """All formats; the first that fits is it, so archives of one known file stand before archives."""
 
 
+def known(source: Source) -> Format | None:
+    """Format of a file; None: none that is known."""
+    return next((form for form in FORMATS if form.fits(source)), None)
+
+
 def recognised(source: Source) -> Format:
     """Format of a file.
 
@@ -145,9 +150,11 @@ def recognised(source: Source) -> Format:
     InputError
         None that is known; the text says which are.
     """
-    for form in FORMATS:
-        if form.fits(source):
-            return form
+    form = known(source)
+    if form is not None:
+        return form
     readable = ", ".join(dict.fromkeys(form.title for form in FORMATS if not form.refusal))
     what = "a folder" if source.is_folder else "its content"
-    raise source.refuse(f"{what} is of no known format; known: {readable}")
+    raise source.refuse(
+        f"{what} is of no known format; known: {readable}; a sheet in TOML is used as it is"
+    )

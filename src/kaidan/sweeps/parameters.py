@@ -11,10 +11,10 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from kaidan.errors import InputError, did_you_mean, shown
+from kaidan.override import OVERRIDES, unit_of_figure
 from kaidan.question import Question
 from kaidan.robot import Payload, Robot
-from kaidan.sheet import Sheet, bounds, table_of
-from kaidan.spelling import OVERRIDES, figures, payloads_of, sheet_of, surface_of, terrain_of
+from kaidan.spelling import own_figures, payloads_of, sheet_of, surface_of, terrain_of
 from kaidan.terrain.stairs import Stairs
 from kaidan.units import kind_of_unit
 
@@ -102,34 +102,14 @@ def parameter(name: str) -> Parameter:
     if kind is not None:
         return Parameter(name, kind, UNITS[kind])
     if "." in name:
-        unit = _unit_of_field(name)
+        of, _, field = name.partition(".")
+        unit = unit_of_figure(field, Payload) if of == _PAYLOAD else unit_of_figure(name)
         return Parameter(name, "number" if unit == "1" else kind_of_unit(unit), unit)
     known = (*NUMBERS, *OVERRIDES, *SHAPE, *WORDS)
     raise InputError(
         f"unknown parameter {shown(name)}; known: {', '.join(known)}, and figures of the robot's "
         f"sheet such as track.front_radius or payload.height{did_you_mean(name, known)}"
     )
-
-
-def _unit_of_field(name: str) -> str:
-    """Unit of a figure of the robot's sheet, or of a payload."""
-    *path, last = name.split(".")
-    place: type[Sheet] | None = Robot
-    if path == [_PAYLOAD]:
-        place, path = Payload, []
-    for part in path:
-        field = None if place is None else place.model_fields.get(part)
-        place = None if field is None else table_of(field)
-    unit = None if place is None else bounds(place.model_fields.get(last))[0]
-    if unit is None:
-        known = [] if place is None else [f for f in place.model_fields if _is_figure(place, f)]
-        hint = f"; known there: {', '.join(known)}" if known else ""
-        raise InputError(f"{name!r} is no figure of a robot's sheet{hint}")
-    return unit
-
-
-def _is_figure(sheet: type[Sheet], field: str) -> bool:
-    return bounds(sheet.model_fields[field])[0] is not None
 
 
 def settled(name: str, value: Any) -> Any:
@@ -179,23 +159,10 @@ def question_of(values: Mapping[str, Any]) -> Question:
         if name.startswith(f"{_PAYLOAD}."):
             rest[_PAYLOAD] = _moved(rest.get(_PAYLOAD), name, value)
         else:
-            robot = with_figure(sheet_of(robot, Robot), name, value)
+            own[name] = value
     if own:
-        rest["override"] = figures(rest.get("override", ()), OVERRIDES, "override") | own
+        rest["override"] = own_figures(rest.get("override", ())) | own
     return Question.of(robot, shaped(stairs, shape), **rest)
-
-
-def with_figure(robot: Robot, name: str, value: float) -> Robot:
-    """Robot with one figure of its sheet replaced, by its dotted name."""
-    sheet = robot.model_dump()
-    *path, last = name.split(".")
-    place = sheet
-    for part in path:
-        place = place[part]
-        if place is None:
-            raise InputError(f"robot {robot.name!r} has no {'.'.join(path)}, so no {name}")
-    place[last] = value
-    return Robot.model_validate(sheet)
 
 
 def _moved(payload: Any, name: str, value: float) -> tuple[Payload, ...]:
@@ -265,7 +232,7 @@ def value_now(values: Mapping[str, Any], name: str) -> float | None:
         return None if flight.rise is None else float(getattr(flight, name))
     if name in NUMBERS:
         return None
-    own = figures(values.get("override", ()), OVERRIDES, "override")
+    own = own_figures(values.get("override", ()))
     if name in own:
         return own[name]
     place: Any = sheet_of(values["robot"], Robot)

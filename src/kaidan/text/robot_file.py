@@ -35,6 +35,10 @@ FAULTS: Mapping[str, str] = {
     "flippers-only": "It has no main track: the flippers carry it, and between their pivots the "
     "underside is body.",
     "corners": "The {end} end of the track is a corner without a wheel: R = 0.",
+    "range": "Its masses are doubtful, so its centroid is taken as a range, C_L +- {along_mm:.0f} "
+    "and C_N +- {height_mm:.0f} mm, and there is no GO before it is weighed.",
+    "own-frame": "Its base is inclined by {slope_deg:.0f} deg in the file: it is read in its own "
+    "frame, that of {who}.",
     "sloping": "The flat run slopes by {slope_deg:.1f} deg in the file; heights are measured "
     "square to it.",
 }
@@ -44,6 +48,7 @@ HOW_TRACKS: Mapping[str, str] = {
     "declared": "links that a plugin declares to be tracks",
     "named": "links called tracks",
     "turning": "wheels that turn about the lateral axis",
+    "shapes": "shapes called tracks or wheels",
     "everything": "all shapes",
     "flippers": "roots of the flippers",
 }

@@ -13,6 +13,7 @@ from kaidan.modes import Direction, Facing, Verdict
 from kaidan.progress import progress
 from kaidan.question import Question
 from kaidan.robot import Robot
+from kaidan.spelling import sheet_of
 from kaidan.terrain.stairs import Stairs
 
 
@@ -124,13 +125,12 @@ def compare(
     gross = catalog.gross_robots()
     asked = [*catalog.names("robots"), *gross] if robots is None else list(robots)
     apart = [each for each in asked if isinstance(each, str) and each.strip().lower() in gross]
-    known = [each if isinstance(each, Robot) else Robot.named(each)
+    known = [sheet_of(each, Robot)
              for each in asked if each not in apart]  # fmt: skip
     if not known:
         raise InputError(f"no centroid is published of {', '.join(apart)}: nothing to compare")
     flights = [
-        each if isinstance(each, Stairs) else Stairs.named(each)
-        for each in (catalog.names("stairs") if stairs is None else stairs)
+        sheet_of(each, Stairs) for each in (catalog.names("stairs") if stairs is None else stairs)
     ]
     questions = [
         Question.of(robot, flight, flippers=laid(robot, flippers), **manner)

@@ -244,12 +244,18 @@ def test_a_robot_of_flippers_alone_stands_on_their_roots(tmp_path):
 
 
 def test_a_centroid_off_the_middle_is_said(tmp_path):
-    """By hand: 20 kg 80 mm to the left, of 34 kg in all: 47 mm."""
+    """By hand: 20 kg 80 mm to the left, of 34 kg in all: 47 mm; 3 % of 500, 10 % of 166 mm."""
     text = tank_urdf().replace(b'xyz="0.02 0 0.1"', b'xyz="0.02 0.08 0.1"')
     assert robot(tmp_path, text).notes == (
         "The centroid lies 47 mm to the left of the middle of the tracks: axes may be swapped, or "
         "a mass misplaced.",
+        "Its masses are doubtful, so its centroid is taken as a range, C_L +- 15 and C_N +- 17 mm, "
+        "and there is no GO before it is weighed.",
     )
+    span = robot(tmp_path, text).robot().com_range
+    assert span.from_front == pytest.approx((0.2382 - 0.015, 0.2382 + 0.015), abs=1e-4)
+    stated = {"com_from_front": 0.24, "com_height": 0.17}
+    assert robot(tmp_path, text, figures=stated).robot().com_range is None
 
 
 def test_masses_of_zero_and_missing_ones_are_said(tmp_path):

@@ -26,6 +26,8 @@ NEEDED = ("track.flat_length", "com_from_front", "com_height")
 _OFF_MIDDLE = 0.010, 0.04
 """Distance of the centroid from the middle, in metres and as a share of the gauge, from which it is
 doubtful."""
+_INCLINED = math.radians(5.0), math.radians(80.0)
+"""Inclination of the base that is a pose, and neither an error of drawing nor another up axis."""
 _SLOPING = math.radians(0.3)
 
 
@@ -44,10 +46,14 @@ def found(contents: Mechanism, hints: Hints) -> Found:
         An unknown joint, an angle beyond its limits, or axes that are one.
     """
     stated = contents.checked_angles(hints.joints)
-    as_is = Placed(contents, _turned(hints.up or "+z", hints.forward or "+x"), stated)
+    turned = _turned(hints.up or "+z", hints.forward or "+x")
+    as_is = Placed(contents, turned, stated)
+    faults = [*contents.faults, *_of_links(contents)]
+    if hints.up is None and (level := _level(as_is)) is not None:
+        as_is, fault = level
+        faults.append(fault)
     gear = gear_of(as_is)
     flippers = flippers_of(as_is, gear)
-    faults = [*contents.faults, *_of_links(contents)]
     angles, poses = _raised(flippers, stated, faults)
     placed = Placed(contents, as_is.turned, stated | poses)
     whole = placed.mass_properties()
@@ -88,6 +94,18 @@ def _turned(up: Axis, forward: Axis) -> Array:
     if abs(z @ x) > 0.5:
         raise InputError(f"hints: forward = {forward} and up = {up} are along one axis")
     return np.array([x, np.cross(z, x), z])
+
+
+def _level(as_is: Placed) -> tuple[Placed, Fault] | None:
+    """Robot in the frame of its base, where the file has that inclined; None: it has it level."""
+    mechanism = as_is.mechanism
+    base = next(name for name in mechanism.links if name not in mechanism.held_by)
+    turned = mechanism.frames(as_is.angles)[base][:3, :3]
+    slope = math.acos(min(1.0, max(-1.0, float(turned[2, 2]))))
+    if not _INCLINED[0] < slope < _INCLINED[1]:
+        return None
+    fault = Fault("own-frame", base, {"slope_deg": math.degrees(slope)})
+    return Placed(mechanism, as_is.turned @ turned.T, as_is.angles), fault
 
 
 def _unit(axis: Axis) -> Array:

@@ -13,6 +13,13 @@ from kaidan.readers.robots.side_view import SideView
 from kaidan.robot import Robot
 from kaidan.text import robot_file as said
 
+DOUBTFUL = frozenset(("no-mass", "zero-mass", "mesh-mass", "apart", "off-middle", "outside"))
+"""Faults that make the masses of a file doubtful."""
+_ALONG, _LEAST_ALONG, _UP = 0.03, 0.015, 0.1
+"""Half of the range of a doubtful centroid: share of L, metres at least, share of C_N. Two public
+models of one robot, the HD2, differ by 14 mm in C_L and by a tenth in C_N (data of the catalogue:
+superdroid-hd2 and marmotte)."""
+
 
 @dataclass(frozen=True)
 class Figure:
@@ -45,9 +52,25 @@ class RobotEstimate:
     """Angle of the flippers for which the centroid is stated, by end [rad]."""
 
     @property
+    def doubt(self) -> tuple[float, float] | None:
+        """Half of the range of a centroid that is doubtful, of C_L and C_N [m]; None: it is not."""
+        along, up = (self.figures[key] for key in ("com_from_front", "com_height"))
+        if along.how == up.how == said.STATED or not any(
+            fault.kind in DOUBTFUL for fault in self.faults
+        ):
+            return None
+        length = self.figures["track.flat_length"].value
+        return max(_ALONG * length, _LEAST_ALONG), _UP * up.value
+
+    @property
     def notes(self) -> tuple[str, ...]:
         """What is wrong or doubtful, as sentences."""
-        return said.faults(self.faults)
+        faults = self.faults
+        if self.doubt is not None:
+            along, up = self.doubt
+            numbers = {"along_mm": 1e3 * along, "height_mm": 1e3 * up}
+            faults += (Fault("range", numbers=numbers),)
+        return said.faults(faults)
 
     def robot(self) -> Robot:
         """Data sheet.
@@ -66,6 +89,11 @@ class RobotEstimate:
             sheet["sources"][path] = f"U: {said.STATED}" if stated else f"C: {file}, {figure.how}"
         for end, angle in self.angles.items():
             sheet[f"{end}_flippers"]["stowed_angle"] = angle
+        if self.doubt is not None:
+            sheet["com_range"] = {
+                key: (sheet[f"com_{key}"] - half, sheet[f"com_{key}"] + half)
+                for key, half in zip(("from_front", "height"), self.doubt, strict=True)
+            }
         sheet["title"] = self.placed.mechanism.name[:80]
         sheet["notes"] = said.sheet_notes(file, self.provenance.digest, self.notes)
         try:

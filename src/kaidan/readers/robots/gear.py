@@ -60,7 +60,7 @@ class Gear:
     rest: tuple[Piece, ...]
     """Of the body."""
     how: str
-    """How the tracks were found: "declared", "named", "turning" or "everything"."""
+    """How the tracks were found: "declared", "named", "turning", "shapes" or "everything"."""
     how_flippers: str
     """How the flippers were found: "named" or "shaped"; empty: there are none."""
     meshes: tuple[str, ...]
@@ -87,9 +87,15 @@ def gear_of(placed: Placed) -> Gear:
     turning = [name for name in others if _turns(placed, name)]
     links = list(dict.fromkeys([*declared, *named, *turning]))
     how = "declared" if declared else "named" if named else "turning" if turning else "everything"
-    if not links and not flippers:
-        links = others
+    rest = pieces_of(placed, [name for name in others if name not in links])
     pieces = pieces_of(placed, links)
+    if not links and not flippers:
+        called = [_is_called_gear(piece.shape.name) for piece in rest]
+        how = "shapes" if any(called) else how
+        chosen = [each or not any(called) for each in called]
+        pieces = tuple(piece for piece, yes in zip(rest, chosen, strict=True) if yes)
+        rest = tuple(piece for piece, yes in zip(rest, chosen, strict=True) if not yes)
+        links = [] if pieces else others
     alike = Counter((piece.link, piece.shape.size) for piece in pieces)
     standing_out = [_is_grouser(piece, alike) for piece in pieces]
     return Gear(
@@ -97,7 +103,7 @@ def gear_of(placed: Placed) -> Gear:
         grousers=tuple(piece for piece, out in zip(pieces, standing_out, strict=True) if out),
         flippers=flippers,
         on_flippers=pieces_of(placed, [name for name in mechanism.links if name in moved]),
-        rest=pieces_of(placed, [name for name in others if name not in links]),
+        rest=rest,
         how=how,
         how_flippers=how_flippers,
         meshes=tuple(name for name in links if _has_only_meshes(mechanism, name)),
@@ -115,6 +121,11 @@ def gear_of(placed: Placed) -> Gear:
 
 def _is_named_track(mechanism: Mechanism, name: str) -> bool:
     return bool(_TRACK.search(name)) and bool(mechanism.links[name].shapes)
+
+
+def _is_called_gear(name: str) -> bool:
+    """Whether a shape is called a track, a wheel or a flipper."""
+    return any(each.search(name) for each in (_TRACK, _WHEEL, _FLIPPER))
 
 
 def _turns(placed: Placed, name: str) -> bool:

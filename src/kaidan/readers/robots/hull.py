@@ -84,6 +84,23 @@ def hull_of_discs(discs: Array) -> tuple[Edge, ...]:
     return tuple(edges)
 
 
+def outline_of(discs: Array) -> Array:
+    """Points around the convex hull of discs, anticlockwise, arcs every 6 degrees; shape (m, 2)."""
+    edges = hull_of_discs(discs)
+    if not edges:
+        x, z, r = discs[int(discs[:, 2].argmax())]
+        around = np.linspace(0.0, 2 * math.pi, 60, endpoint=False)
+        return np.column_stack([x + r * np.cos(around), z + r * np.sin(around)])
+    points = []
+    for edge, after in zip(edges, (*edges[1:], edges[0]), strict=True):
+        points.append(np.array([edge.begin]))
+        x, z, r = discs[edge.second]
+        turn = (after.normal - edge.normal) % (2 * math.pi)
+        at = edge.normal + np.linspace(0.0, turn, 2 + int(turn / math.radians(6.0)) if r else 1)
+        points.append(np.column_stack([x + r * np.sin(at), z - r * np.cos(at)]))
+    return np.concatenate(points)
+
+
 def outer_discs(discs: Array) -> Array:
     """Discs without those that cannot touch the hull, and each of them once.
 

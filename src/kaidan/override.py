@@ -1,0 +1,96 @@
+"""Figures of a robot's sheet that a person replaces: by short names, or by dotted ones."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from kaidan.errors import InputError
+from kaidan.robot import Robot
+from kaidan.sheet import Sheet, bounds, table_of
+from kaidan.units import kind_of_unit
+
+OVERRIDES = {
+    "com_from_front": "length",
+    "com_height": "length",
+    "flat_length": "length",
+    "gauge": "length",
+    "mass": "mass",
+}
+"""Figures of a robot's sheet that a question may replace by a short name, and what they measure."""
+_IN_TRACK = ("flat_length", "gauge")
+
+
+def kind_of_figure(name: str) -> str:
+    """What a figure measures, by its dotted name such as track.front_radius.
+
+    Raises
+    ------
+    InputError
+        No such figure.
+    """
+    unit = unit_of_figure(name)
+    return "number" if unit == "1" else kind_of_unit(unit) or "number"
+
+
+def unit_of_figure(name: str, sheet: type[Sheet] = Robot) -> str:
+    """SI unit of a figure of a sheet, by its dotted name.
+
+    Raises
+    ------
+    InputError
+        No such figure; the text lists those beside it.
+    """
+    *path, last = name.split(".")
+    place: type[Sheet] | None = sheet
+    for part in path:
+        field = None if place is None else place.model_fields.get(part)
+        place = None if field is None else table_of(field)
+    unit = None if place is None else bounds(place.model_fields.get(last))[0]
+    if unit is None:
+        known = [] if place is None else [f for f in place.model_fields if _is_figure(place, f)]
+        hint = f"; known there: {', '.join(known)}" if known else ""
+        raise InputError(f"{name!r} is no figure of a robot's sheet{hint}")
+    return unit
+
+
+def _is_figure(sheet: type[Sheet], field: str) -> bool:
+    return bounds(sheet.model_fields[field])[0] is not None
+
+
+def paths_of(own: Mapping[str, float]) -> dict[str, float]:
+    """Figures by their places in a sheet: track.flat_length for flat_length."""
+    return {f"track.{name}" if name in _IN_TRACK else name: each for name, each in own.items()}
+
+
+def overridden(robot: Robot, own: Mapping[str, float]) -> Robot:
+    """Robot with the user's own figures in place of the sheet's.
+
+    Raises
+    ------
+    InputError
+        A figure of a part that the robot does not have, or one without physical meaning.
+    """
+    if not own:
+        return robot
+    sheet = robot.model_dump()
+    for name, value in paths_of(own).items():
+        *path, last = name.split(".")
+        place = sheet
+        for part in path:
+            place = place[part]
+            if place is None:
+                raise InputError(f"robot {robot.name!r} has no {'.'.join(path)}, so no {name}")
+        place[last] = value
+    if robot.com_range is not None:
+        sheet["com_range"] = _narrowed(robot.com_range.model_dump(), own)
+    return Robot.model_validate(sheet)
+
+
+def _narrowed(stated: dict[str, Any], own: Mapping[str, float]) -> dict[str, Any] | None:
+    """Range of a centroid of which some is stated; None where all of it is."""
+    known = {"from_front": "com_from_front", "height": "com_height"}
+    if all(name in own for name in known.values()):
+        return None
+    return {
+        axis: (own[name], own[name]) if name in own else stated[axis]
+        for axis, name in known.items()
+    }
