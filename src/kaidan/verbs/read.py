@@ -160,7 +160,7 @@ def read(
         "element": element,
     }  # fmt: skip
     hints = Hints(**{name: value for name, value in given.items() if value is not None})
-    with working(f"reading {short(path)}"):
+    with working(f"looking at {short(path)}"):
         found = found_in(path, hints)
         form = next(each for each in FORMATS if each.name == found.provenance.form)
         return FileAnswer(
