@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from difflib import get_close_matches
+from importlib import import_module
 from typing import Any
 
 
@@ -53,6 +54,20 @@ class UnknownNameError(InputError):
             f"no {kind} is called {shown(name)} and no such file exists{elsewhere}.{hint} "
             f"Known: {', '.join(known)}."
         )
+
+
+def needed(module: str, purpose: str, extra: str) -> Any:
+    """Module of an optional package.
+
+    Raises
+    ------
+    MissingExtraError
+        It is not installed.
+    """
+    try:
+        return import_module(module)
+    except ImportError:
+        raise MissingExtraError(purpose, extra) from None
 
 
 class MissingExtraError(KaidanError, ImportError):

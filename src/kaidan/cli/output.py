@@ -47,11 +47,13 @@ def checked(figures: Sequence[Path] | None, *others: Path | None) -> tuple[Path,
         A suffix that is no format of pictures, or a file that is to be written twice.
     """
     from kaidan.errors import InputError
-    from kaidan.figures.saving import figure_format
 
     files = tuple(dict.fromkeys(figures or ()))
-    for path in files:
-        figure_format(path)
+    if files:
+        from kaidan.figures.saving import figure_format
+
+        for path in files:
+            figure_format(path)
     every = [*files, *(path for path in others if path is not None)]
     for path in every:
         if every.count(path) > 1:

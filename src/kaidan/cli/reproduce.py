@@ -29,14 +29,16 @@ def reproduce(out: Folder = None, formats: Formats = None, as_json: options.AsJs
     """Reproduce the paper: what its text prints, what kaidan computes, and the difference."""
     from kaidan import files
     from kaidan.errors import InputError
-    from kaidan.figures.saving import FORMATS
     from kaidan.studies import reproduction
 
     if formats and out is None:
         raise InputError("--format needs --out FOLDER")
-    for form in formats or ():
-        if form not in FORMATS:
-            raise InputError(f"--format {form!r} is not known; known: {', '.join(FORMATS)}")
+    if out is not None:
+        from kaidan.figures.saving import FORMATS
+
+        for form in formats or ():
+            if form not in FORMATS:
+                raise InputError(f"--format {form!r} is not known; known: {', '.join(FORMATS)}")
     found = reproduction.reproduce()
     contents: output.Contents = {}
     if out is not None:

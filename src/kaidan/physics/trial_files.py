@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from kaidan import files
-from kaidan.errors import InputError, MissingExtraError
+from kaidan.errors import InputError, MissingExtraError, needed
 from kaidan.films import film_bytes
 from kaidan.physics.outcome import TrialLog
 
@@ -45,8 +45,7 @@ def trial_film(log: TrialLog, suffix: str) -> bytes:
 
 def picture_bytes(log: TrialLog) -> bytes:
     """Picture of the trial as PNG, drawn by MuJoCo."""
-    from matplotlib.image import imsave
-
+    imsave = needed("matplotlib.image", "a picture of a trial", "figures").imsave
     from kaidan.physics.render import picture
 
     buffer = io.BytesIO()

@@ -3,14 +3,13 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.errors import InputError, MissingExtraError, short, shown
+from kaidan.errors import InputError, needed, short, shown
 from kaidan.files import csv_text, whole_file
 from kaidan.sweeps.cells import FIGURES, MODES, TEXTS, VERDICTS
 from kaidan.sweeps.parameters import parameter
@@ -74,7 +73,7 @@ class Swept:
         MissingExtraError
             xarray is not installed.
         """
-        xr = _needed("xarray", "a labelled Dataset")
+        xr = needed("xarray", "a labelled Dataset", "sweeps")
         dims = tuple(self.plan.labels)
         variables: dict[str, Any] = {}
         for name, array in self._known():
@@ -114,7 +113,7 @@ class Swept:
         """
         suffix = table_format(path)
         if suffix == ".zarr":
-            _needed("zarr", "a table in Zarr")
+            needed("zarr", "a table in Zarr", "sweeps")
             try:
                 self.dataset().to_zarr(path, mode="w", zarr_format=2)  # its texts are stable
             except OSError as error:
@@ -124,8 +123,10 @@ class Swept:
             if suffix == ".csv":
                 file.write(csv_text(self.columns()).encode())
                 return
-            table = _needed("pyarrow", "a table in Parquet").table(self.columns())
-            import_module("pyarrow.parquet").write_table(table, file, compression="zstd")
+            table = needed("pyarrow", "a table in Parquet", "sweeps").table(self.columns())
+            needed("pyarrow.parquet", "a table in Parquet", "sweeps").write_table(
+                table, file, compression="zstd"
+            )
 
     def _known(self) -> Iterator[tuple[str, NDArray[Any]]]:
         """Variables that say something anywhere."""
@@ -171,10 +172,3 @@ def _text(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return "+".join(str(_text(each)) for each in value)
     return str(getattr(value, "name", value))
-
-
-def _needed(module: str, purpose: str) -> Any:
-    try:
-        return import_module(module)
-    except ImportError:
-        raise MissingExtraError(purpose, "sweeps") from None

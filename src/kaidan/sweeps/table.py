@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from kaidan.errors import InputError
+from kaidan.errors import InputError, needed
 from kaidan.mechanics.plane import contact_count
 from kaidan.mechanics.verdict import Judged
 from kaidan.models.closed_form import MODES, gap_below
@@ -115,8 +115,7 @@ def formula_table(
     >>> print(table.margin_angle_deg.round(3).values)
     [60.205 52.936 46.185 37.255]
     """
-    import xarray
-
+    needed("xarray", "a labelled table", "sweeps")
     unknown = set(parameters) - set(PARAMETERS)
     if unknown:
         raise InputError(
