@@ -142,7 +142,7 @@ def test_what_comes_off_lies_beyond_the_flat():
     found = driven(Stairs.named("ibc"), KENAF, descending=True, facing="tail-first")
     path, off = found.path, trailing_end_leaves(found.path)
     lies_flat = np.array([path.is_on_flat(int(code), k) for k, code in enumerate(path.poses.rear)])
-    leans = np.arctan2(*path.poses.rear_normal.T)
+    leans = path.poses.rear_lean
     assert not (off & lies_flat).any()
     assert leans[lies_flat] == pytest.approx(-path.inclination[lies_flat], abs=1e-9)
     going_down = np.sin(path.poses.path_direction) < 0

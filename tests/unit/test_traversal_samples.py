@@ -31,7 +31,7 @@ def path(count, **columns):
         "front": np.zeros(count),
         "inclination": np.zeros(count),
         "path_direction": np.zeros(count),
-        "rear_normal": np.tile([0.0, 1.0], (count, 1)),
+        "rear_lean": np.zeros(count),
     }
     friction = np.array(columns.pop("friction", np.zeros(count)), dtype=float)
     poses = Poses(**(usual | {key: np.array(each) for key, each in columns.items()}))
@@ -94,7 +94,7 @@ def test_what_slides_as_it_lands_is_not_the_largest():
     """The trailing contact beyond the flat, the path falling: its friction is told apart."""
     friction = [1, 2, 1, 9, 10]
     beyond = {
-        "rear_normal": [[0, 1]] * 3 + [[0.6, 0.8]] * 2,
+        "rear_lean": [0.0] * 3 + [0.6] * 2,
         "path_direction": [-0.5] * 5,
     }
     assert peaks(friction, "lllll", **beyond) == [1]
@@ -107,7 +107,7 @@ def test_the_trailing_end_leaves_an_edge():
     leans = [0.3, 0.3, 0.3, -0.3, 0.3, 0.0, 1e-12, 1e-6]
     found = path(
         8,
-        rear_normal=np.transpose([np.sin(leans), np.cos(leans)]),
+        rear_lean=leans,
         inclination=[0.0, -0.2, -0.4, 0.0, 0.5, 0.0, 0.0, 0.0],
         path_direction=[-0.1, -0.1, -0.1, -0.1, -0.1, -0.1, -0.1, -0.1],
     )

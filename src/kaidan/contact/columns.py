@@ -29,13 +29,14 @@ POINT, POINT_BITS = 64, 6
 NO_FEATURE = -1
 
 # Poses: arclength [m], centroid [m], inclination [rad], the two features, their points [m] and
-# normals, direction of the path [rad], number of the line of poses.
+# normals (of the belts as they give way), direction of the path [rad], number of the line of poses,
+# tilt of the rear contact's normal on the rigid outline [rad].
 (
     POSE_S, POSE_X, POSE_Z, POSE_PHI, POSE_REAR, POSE_FRONT,
     REAR_X, REAR_Z, FRONT_X, FRONT_Z, REAR_N_X, REAR_N_Z, FRONT_N_X, FRONT_N_Z,
-    POSE_PSI, POSE_LEG,
-) = range(16)  # fmt: skip
-POSE_COLUMNS = 16
+    POSE_PSI, POSE_LEG, REAR_LEAN,
+) = range(17)  # fmt: skip
+POSE_COLUMNS = 17
 
 # Events: kind, arclength [m], centroid [m], inclination [rad], feature, other feature, row of the
 # pose.

@@ -166,13 +166,18 @@ class Poses(_Table):
 
     @property
     def rear_normal(self) -> FloatArray:
-        """Unit normal of the rear contact, into the robot (n, 2)."""
+        """Unit normal of the rear contact, into the belt as it gives way (n, 2)."""
         return self.table[:, at.REAR_N_X : at.REAR_N_Z + 1]
 
     @property
     def front_normal(self) -> FloatArray:
-        """Unit normal of the front contact, into the robot (n, 2)."""
+        """Unit normal of the front contact, into the belt as it gives way (n, 2)."""
         return self.table[:, at.FRONT_N_X : at.FRONT_N_Z + 1]
+
+    @property
+    def rear_lean(self) -> FloatArray:
+        """Tilt of the rear contact's normal on the rigid outline, ahead positive [rad]."""
+        return self._column(at.REAR_LEAN)
 
     @property
     def path_direction(self) -> FloatArray:

@@ -135,11 +135,11 @@ def phase_extremes(
                     (angle for at, angle in rotated if phase[at] == name.value), default=0.0
                 ),
                 tilt_downhill=min(
-                    _rock(seen, downhill_rows, side, profile, descending),
+                    _rock(seen, downhill_rows, side, profile, descending, acceleration),
                     _rotated(path, phase, name, side, profile, descending, whole),
                 ),
                 tilt_uphill=min(
-                    _rock(seen, uphill_rows, -side, profile, descending),
+                    _rock(seen, uphill_rows, -side, profile, descending, acceleration),
                     _rotated(path, phase, name, -side, profile, descending, whole),
                 ),
                 belly_touches=bool(of.belly_touches.any()),
@@ -224,10 +224,11 @@ def rises_about_stays(criterion: Criterion) -> tuple[Rise, ...]:
 
 
 def _rock(
-    path: contact.Path, rows: NDArray[np.int64], side: float, profile: Profile, descending: bool
-) -> tuple[float, int]:
+    path: contact.Path, rows: NDArray[np.int64], side: float, profile: Profile, descending: bool,
+    acceleration: float,
+) -> tuple[float, int]:  # fmt: skip
     """Least tilt at which some poses rotate to one side [rad], and the step."""
-    tilt, row = first_rock(path, rows, side)
+    tilt, row = first_rock(path, rows, side, acceleration=acceleration)
     if row < 0:
         return tilt, 0
     return tilt, step_at(profile, float(path.poses.front_point[row, 0]), descending)

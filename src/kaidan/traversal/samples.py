@@ -156,10 +156,8 @@ def trailing_end_leaves(path: contact.Path) -> NDArray[np.bool_]:
     ahead more than the flat would; and the path falls.
     """
     poses = path.poses
-    normal = poses.rear_normal
-    leans = np.arctan2(normal[:, 0], normal[:, 1])
     flat = np.maximum(-poses.inclination, 0.0)
-    return np.asarray((leans > flat + _ALIKE) & (np.sin(poses.path_direction) < 0.0))
+    return np.asarray((poses.rear_lean > flat + _ALIKE) & (np.sin(poses.path_direction) < 0.0))
 
 
 def _friction(path: contact.Path) -> Array:

@@ -25,6 +25,8 @@ WITHIN = math.radians(0.1)
 """To which the tilt to a fall is found [rad]."""
 _FIRST = math.radians(4.0)
 _AT_ONCE = 8
+_PLACE = 1e-6
+"""To which the place is found where a nosing is left [m]."""
 _TIE = 1e-9
 
 
@@ -49,11 +51,15 @@ class Fall(NamedTuple):
     """Nosing at which, counted from the bottom."""
 
 
-def first_rock(path: contact.Path, rows: NDArray[np.int64], side: float) -> Rock:
+def first_rock(
+    path: contact.Path, rows: NDArray[np.int64], side: float, *, acceleration: float = 0.0
+) -> Rock:
     """Least tilt of gravity at which some poses rotate by more than rocking, to one side.
 
     Of nosings under a flat those too carry that it only rests on after rocking. While it rests on
-    them it is steeper by that much, so the rocking is subtracted; or they do not count.
+    them it is steeper by that much, so the rocking is subtracted; or they do not count. Where the
+    flat leaves such a nosing nothing closes or opens, so that no pose may stand there: the place is
+    halved out between two.
 
     Parameters
     ----------
@@ -63,6 +69,8 @@ def first_rock(path: contact.Path, rows: NDArray[np.int64], side: float) -> Rock
         Which poses.
     side : {1.0, -1.0}
         Back or front.
+    acceleration : float
+        Along the path [m/s^2].
     """
     if len(rows) == 0:
         return Rock(math.inf, -1)
@@ -75,11 +83,60 @@ def first_rock(path: contact.Path, rows: NDArray[np.int64], side: float) -> Rock
         done += len(some)
         found = path.tilts(rows[some], side)
         tilt[some], rocking[some] = found.tilt, found.rocking
+    lost, row = _lost_between(path, rows[alone < tilt.min()], rows, side, acceleration)
+    if lost < tilt.min():
+        tilt = np.append(tilt, lost)
+        alone, rocking = np.append(alone, lost), np.append(rocking, 0.0)
+        rows = np.append(rows, row)
     least = float(tilt.min())
     rocked = least - float(rocking[alone < least].max(initial=0.0))
     if rocked > alone[order[0]]:
         return Rock(rocked, int(rows[np.flatnonzero(tilt <= least + _TIE)[0]]))
     return Rock(float(alone[order[0]]), int(rows[np.flatnonzero(alone <= alone.min() + _TIE)[0]]))
+
+
+def _lost_between(
+    path: contact.Path,
+    rocking: NDArray[np.int64],
+    rows: NDArray[np.int64],
+    side: float,
+    acceleration: float,
+) -> Rock:
+    """Least tilt as the flat comes to leave, or to reach, a nosing that it would rock onto.
+
+    Parameters
+    ----------
+    path, side, acceleration
+        As for `first_rock`.
+    rocking : ndarray of int
+        Poses at which some may be rocked onto.
+    rows : ndarray of int
+        Poses that count.
+    """
+    onto = rocking[path.tilts(rocking, side).rocking > 0.0]
+    begin = np.unique(np.concatenate([onto - 1, onto]))
+    begin = begin[np.isin(begin, rows) & np.isin(begin + 1, rows)]
+    along = (path.poses.leg[begin] == path.poses.leg[begin + 1]) & (
+        path.s[begin] < path.s[begin + 1]
+    )
+    begin = begin[along]
+    ends = [path.tilts(begin + k, side).rocking > 0.0 for k in (0, 1)]
+    differ = ends[0] != ends[1]
+    begin, leaves = begin[differ], ends[0][differ]
+    if len(begin) == 0:
+        return Rock(math.inf, -1)
+    length = path.s[begin + 1] - path.s[begin]
+    low, high = np.zeros(len(begin)), np.ones(len(begin))
+    while float((length * (high - low)).max()) > _PLACE:
+        middle = 0.5 * (low + high)
+        there = path.between(begin, middle, acceleration=acceleration)
+        rocks = there.tilts(np.arange(len(begin)), side).rocking > 0.0
+        first = rocks == leaves
+        low, high = np.where(first, middle, low), np.where(first, high, middle)
+    beyond = path.between(begin, np.where(leaves, high, low), acceleration=acceleration)
+    tilt = beyond.tilts(np.arange(len(begin)), side).tilt
+    least = int(np.argmin(tilt))
+    return Rock(float(tilt[least]), int(begin[least]))
 
 
 def largest_survived(survives: Callable[[float], bool]) -> float:

@@ -171,7 +171,13 @@ def drive(
             )
             if not good:
                 return Status.NOT_CONVERGED, n_pose, n_event, n_rotation
-            if not same_place(ground, body, what, lost, x, z, phi):
+            if same_place(ground, body, what, lost, x, z, phi):
+                # one contact by the name of the part that carries from here on
+                record_pose(
+                    ground, body, poses, n_pose - 1, path, x, z, phi, rear, front, t_x, t_z, t_w,
+                    leg,
+                )  # fmt: skip
+            else:
                 # the same pose with its new contacts: the forces jump here
                 record_pose(
                     ground, body, poses, n_pose, path, x, z, phi, rear, front, t_x, t_z, t_w, leg

@@ -42,7 +42,7 @@ from kaidan.contact.columns import (
     Z,
 )
 from kaidan.contact.entries import entry
-from kaidan.contact.kernel.gaps import gap
+from kaidan.contact.kernel.gaps import gap, pressed_normal
 from kaidan.contact.kernel.nearest_feature import first_index, height_of_ground
 from kaidan.contact.tables import BodyTable, ContactTable, FloatRow, GroundTable
 
@@ -247,6 +247,7 @@ def contacts_at(
                         new = False
                         break
                 if new and count < found.shape[0]:
+                    n_x, n_z = pressed_normal(ground, body, feature, x, z, c, s, n_x, n_z)
                     found[count, CONTACT_FEATURE] = feature
                     found[count, CONTACT_X] = p_x
                     found[count, CONTACT_Z] = p_z

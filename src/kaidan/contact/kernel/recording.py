@@ -35,6 +35,7 @@ from kaidan.contact.columns import (
     POSE_Z,
     RATE_AFTER,
     RATE_BEFORE,
+    REAR_LEAN,
     REAR_N_X,
     REAR_N_Z,
     REAR_X,
@@ -48,7 +49,7 @@ from kaidan.contact.columns import (
     START_Z,
     TOPPLES,
 )
-from kaidan.contact.kernel.gaps import gap
+from kaidan.contact.kernel.gaps import gap, pressed_normal
 from kaidan.contact.tables import BodyTable, EventTable, GroundTable, PoseTable, RotationTable
 
 
@@ -68,11 +69,24 @@ def record_pose(
     t_w: float,
     leg: int,
 ) -> None:
-    """Write one pose: s, x, z, phi, rear, front, their points, normals' angles, tangent, leg."""
+    """Write one pose: s, x, z, phi, rear, front, their points and normals, tangent, leg.
+
+    Normals, and with them the direction of the path, are those of the belt as it gives way.
+    """
     c = math.cos(phi)
     s = math.sin(phi)
     _, m_x, m_z, p_x, p_z = gap(ground, body, rear, x, z, c, s)
     _, n_x, n_z, o_x, o_z = gap(ground, body, front, x, z, c, s)
+    rear_x, rear_z = pressed_normal(ground, body, rear, x, z, c, s, m_x, m_z)
+    front_x, front_z = pressed_normal(ground, body, front, x, z, c, s, n_x, n_z)
+    if rear_x != m_x or rear_z != m_z or front_x != n_x or front_z != n_z:
+        # the way on which both contacts stay closed
+        arm_1 = (p_x - x) * rear_z - (p_z - z) * rear_x
+        arm_2 = (o_x - x) * front_z - (o_z - z) * front_x
+        u_x = rear_z * arm_2 - front_z * arm_1
+        u_z = front_x * arm_1 - rear_x * arm_2
+        ahead = math.copysign(1.0, u_x * t_x + u_z * t_z)
+        t_x, t_z = ahead * u_x, ahead * u_z
     poses[row, POSE_S] = path
     poses[row, POSE_X] = x
     poses[row, POSE_Z] = z
@@ -83,13 +97,14 @@ def record_pose(
     poses[row, REAR_Z] = p_z
     poses[row, FRONT_X] = o_x
     poses[row, FRONT_Z] = o_z
-    poses[row, REAR_N_X] = m_x
-    poses[row, REAR_N_Z] = m_z
-    poses[row, FRONT_N_X] = n_x
-    poses[row, FRONT_N_Z] = n_z
+    poses[row, REAR_N_X] = rear_x
+    poses[row, REAR_N_Z] = rear_z
+    poses[row, FRONT_N_X] = front_x
+    poses[row, FRONT_N_Z] = front_z
     speed = math.sqrt(t_x * t_x + t_z * t_z)
     poses[row, POSE_PSI] = math.atan2(t_z, t_x) if speed > 1e-12 else 0.0
     poses[row, POSE_LEG] = leg
+    poses[row, REAR_LEAN] = math.atan2(m_x, m_z)
 
 
 def write_event(

@@ -19,8 +19,33 @@ from __future__ import annotations
 
 import math
 
+from kaidan.contact.columns import (
+    CONVEX,
+    COSINE,
+    E_X,
+    E_Z,
+    KIND_MASK,
+    NO_FEATURE,
+    PART,
+    POINT,
+    POINT_BITS,
+    R1,
+    R2,
+    SIDE,
+    SINE,
+    VERTEX,
+    X1,
+    X2,
+    Z1,
+    Z2,
+    X,
+    Z,
+)
+from kaidan.contact.kernel.closing import crossing_angle
+from kaidan.contact.kernel.event_location import PENETRATED
 from kaidan.contact.kernel.first_closing import first_closing
 from kaidan.contact.kernel.gaps import gap, on_flat
+from kaidan.contact.kernel.nearest_feature import first_index
 from kaidan.contact.kernel.rotation import angle_until_over, foot_limit, next_pivot, turned
 from kaidan.contact.kernel.settling import lever
 from kaidan.contact.tables import BodyTable, GroundTable
@@ -102,6 +127,64 @@ def lean(
     return math.atan2(sense * (x - p_x - kappa * (z - p_z)), z - p_z + kappa * (x - p_x))
 
 
+def next_under_flat(
+    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float,
+    sense: float, end: float, hint: int,
+) -> tuple[int, float, int]:  # fmt: skip
+    """First vertex that comes under a flat within a rotation of ``end`` about a vertex.
+
+    Ends of the parts are passed over: they may touch before, or never.
+
+    Returns
+    -------
+    feature (-1: none), angle [rad], hint for the next call
+    """
+    c = math.cos(phi)
+    s = math.sin(phi)
+    at_k = pivot >> POINT_BITS
+    o_x = ground[at_k, X]
+    o_z = ground[at_k, Z]
+    cosine = math.cos(end)
+    sine = math.sin(end)
+    best = end
+    which = NO_FEATURE
+    new_hint = ground.shape[0]
+    for part in range(body.shape[0]):
+        a_x = x + c * body[part, X1] - s * body[part, Z1]
+        a_z = z + s * body[part, X1] + c * body[part, Z1]
+        b_x = x + c * body[part, X2] - s * body[part, Z2]
+        e_x = body[part, E_X]
+        e_z = body[part, E_Z] * body[part, SIDE]
+        along = body[part, SINE] * e_x + body[part, COSINE] * e_z
+        up = body[part, SINE] * body[part, E_Z] - body[part, COSINE] * e_x * body[part, SIDE]
+        n_x = c * along - s * up
+        n_z = s * along + c * up
+        level = (o_x - a_x) * n_x + (o_z - a_z) * n_z - body[part, R1]
+        thick = max(body[part, R1], body[part, R2])
+        swept = thick + end * (abs(a_x - o_x) + abs(b_x - o_x) + abs(a_z - o_z) + thick)
+        right = max(a_x, b_x) + swept
+        k = first_index(ground, min(a_x, b_x) - swept, hint)
+        hint = k
+        new_hint = min(new_hint, k)
+        while k < ground.shape[0] - 1 and ground[k, X] <= right:
+            if ground[k, CONVEX] == 1.0 and k != at_k:
+                v_x = ground[k, X] - o_x
+                v_z = ground[k, Z] - o_z
+                angle = crossing_angle(
+                    level, v_x * n_x + v_z * n_z, sense * (v_z * n_x - v_x * n_z), cosine, sine,
+                    PENETRATED,
+                )  # fmt: skip
+                if angle < best:
+                    y_x, y_z = turned(ground, body, pivot, x, z, phi, sense * angle)
+                    turn = phi + sense * angle
+                    feature = POINT * k + PART * part
+                    if on_flat(ground, body, feature, y_x, y_z, math.cos(turn), math.sin(turn)):
+                        best = angle
+                        which = feature
+            k += 1
+    return which, best, new_hint
+
+
 def carrying_tilt(
     ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float,
     sense: float, kappa: float, tolerance: float, hint: int,
@@ -109,7 +192,7 @@ def carrying_tilt(
     """Tilt of gravity beyond which a pose rotates by more than rocking.
 
     Of the nosings under the flats all within ``tolerance`` carry, those that the robot has to rock
-    onto too; an end that only comes to touch in rotating does not.
+    onto too; an end that only comes to touch in rotating does not, and hides none of them.
 
     Parameters
     ----------
@@ -132,10 +215,16 @@ def carrying_tilt(
     rocking = 0.0
     total = 0.0
     for _ in range(20):
-        limit = foot_limit(ground, body, pivot, x, z, phi, sense)
-        closed, angle, hint = first_closing(
-            ground, body, pivot, x, z, phi, sense, min(tolerance - total, limit), hint
-        )
+        if pivot & KIND_MASK == VERTEX:
+            limit = math.inf
+            closed, angle, hint = next_under_flat(
+                ground, body, pivot, x, z, phi, sense, tolerance - total, hint
+            )
+        else:
+            limit = foot_limit(ground, body, pivot, x, z, phi, sense)
+            closed, angle, hint = first_closing(
+                ground, body, pivot, x, z, phi, sense, min(tolerance - total, limit), hint
+            )
         x, z = turned(ground, body, pivot, x, z, phi, sense * angle)
         phi += sense * angle
         total += angle

@@ -1,0 +1,94 @@
+"""Flights that differ by a micrometre have one answer: no verdict and no margin may jump."""
+
+import math
+
+import numpy as np
+import pytest
+
+from kaidan import Question, Robot, Stairs
+from kaidan.assessment.verdict import conclude
+from kaidan.catalog import names
+from kaidan.models import quasi_static
+from kaidan.modes import FALLS, SLIDES_DOWN, SLIDES_UP, TIPS
+from kaidan.traversal import traverse
+from kaidan.traversal.tilting import WITHIN
+from question_cases import random_robot
+
+
+LIMITS = {  # degrees: the project's own target; of traction see docs/theory/contact.md
+    **dict.fromkeys(TIPS, 0.01),
+    **dict.fromkeys((SLIDES_DOWN, SLIDES_UP), 0.012),  # one of 300: risers change by 2 um in all
+    **dict.fromkeys(FALLS, math.degrees(WITHIN) + 0.01),  # to the width of its bisection
+}
+FAR = math.radians(45.0)
+"""Margin beyond which nothing depends on it: of robots as long as the flight, uphill."""
+
+
+def pairs(seed, count, size):
+    """The same question on two flights whose rises and goings differ by up to `size` each."""
+    rng = np.random.default_rng(seed)
+    catalogue = [Robot.named(name) for name in names("robots")]
+    while count:
+        known = rng.random() < 0.6
+        robot = catalogue[rng.integers(len(catalogue))] if known else random_robot(rng)
+        L, n = robot.track.flat_length, int(rng.integers(6, 11))
+        rise, going = rng.uniform(0.14, 0.22), rng.uniform(0.22, 0.32)
+        if robot.name in ("any", "kenaf"):
+            shrink = L / rng.uniform(1.8, 0.8 * n - 2.0) / math.hypot(rise, going)
+            rise, going = rise * shrink, going * shrink
+        uneven = rng.choice([0.0, 0.0, 0.001, 0.003])
+        rises = rise + rng.uniform(-uneven, uneven, n)
+        goings = going + rng.uniform(-uneven, uneven, n - 1)
+        change = size * np.where(np.arange(n) % 2, 1.0, -1.0), rng.uniform(-size, size, n - 1)
+        try:
+            flights = [
+                Stairs(rises=tuple(each[0].tolist()), goings=tuple(each[1].tolist()))
+                for each in ((rises, goings), (rises + change[0], goings + change[1]))
+            ]
+        except ValueError:  # too small a step
+            continue
+        manner = {
+            "direction": str(rng.choice(["up", "down"])),
+            "facing": str(rng.choice(["nose-first", "tail-first"])),
+            "flippers": str(rng.choice(["stowed", "flat"])) if robot.flippers() else "stowed",
+            "friction": float(rng.uniform(0.6, 1.5)),
+        }
+        yield [Question.of(robot, each, **manner) for each in flights]
+        count -= 1
+
+
+def check(seed, count, size, limits):
+    for questions in pairs(seed, count, size):
+        one, other = (quasi_static.judge(each) for each in questions)
+        verdicts = [conclude(*each).verdict for each in zip(questions, (one, other), strict=True)]
+        assert verdicts[0] == verdicts[1], questions[0]
+        for mine in one.each:
+            theirs = other.of(mine.mode)
+            assert theirs is not None
+            if mine.mode in limits:
+                each = float(mine.worst.min()), float(theirs.worst.min())
+                if min(map(abs, each)) < FAR:
+                    jump = math.degrees(abs(each[0] - each[1]))
+                    assert jump <= limits[mine.mode], (mine.mode.key, each, questions[0])
+
+
+def test_a_micrometre_changes_nothing():
+    check(seed=1, count=12, size=1e-6, limits=LIMITS)
+
+
+@pytest.mark.slow
+def test_a_micrometre_changes_nothing_of_300_questions():
+    check(seed=2, count=300, size=1e-6, limits=LIMITS)
+
+
+def test_the_first_rock_does_not_depend_on_where_poses_stand():
+    """MARV rocks as a flat leaves a nosing that it only rocks onto: no event of the path."""
+    marv = Robot.named("marv")
+    rises = (0.18745, 0.18682, 0.18804, 0.18765, 0.18700, 0.18790, 0.18720, 0.18760)
+    goings = (0.22029, 0.22005, 0.21938, 0.22010, 0.21990, 0.22040, 0.21960)
+    question = Question.of(marv, Stairs(rises=rises, goings=goings), friction=1.2, flippers="flat")
+    margins = [
+        traverse(question.profile, question.outline, step=step).phases[1].tilt_downhill[0]
+        for step in (4e-3, 3e-4)
+    ]
+    assert margins[0] == pytest.approx(margins[1], abs=math.radians(0.01))

@@ -1,0 +1,86 @@
+"""Normal of a contact under a belt that gives way, by hand: flat, in between, arc."""
+
+import math
+
+import pytest
+
+from kaidan.contact import body_table, ground_table
+from kaidan.contact.columns import PART, POINT
+from kaidan.contact.kernel.gaps import YIELD, gap, pressed_normal
+
+L, R = 0.5, 0.1
+TRACK = [-0.2, 0.05, R, 0.3, 0.05, R]
+FIRST = math.sqrt(2.0 * R * YIELD * L) / R  # arc up to which the belt carries as the flat [rad]
+
+
+def vertex_under_arc(angle, end, parts=(TRACK,), lean=0.0):
+    """Normals of a vertex so far round an end's arc, rigid and as the belt gives way [rad]."""
+    b_x = 0.3 + R * math.sin(angle) if end > 0 else -0.2 - R * math.sin(angle)
+    b_z = 0.05 - R * math.cos(angle)
+    c, s = math.cos(lean), math.sin(lean)
+    x, z = c * b_x - s * b_z, s * b_x + c * b_z
+    ground = ground_table([(x - 2.0, z - 1.0), (x, z), (x + 2.0, z - 1.0)])
+    body = body_table(list(parts))
+    feature = POINT * 1 + PART * 0
+    distance, n_x, n_z, _, _ = gap(ground, body, feature, 0.0, 0.0, c, s)
+    assert abs(distance) < 1e-12
+    p_x, p_z = pressed_normal(ground, body, feature, 0.0, 0.0, c, s, n_x, n_z)
+    assert math.hypot(p_x, p_z) == pytest.approx(1.0, abs=1e-12)
+    return math.atan2(n_x, n_z), math.atan2(p_x, p_z)
+
+
+@pytest.mark.parametrize("end", [1, -1])
+@pytest.mark.parametrize(
+    ("share", "of_arc"),
+    [
+        (-0.5, 0.0),
+        (0.0, 0.0),
+        (0.5, 0.0),
+        (1.0, 0.0),
+        (2.0, 1.5),
+        (2.8, 2.7),
+        (3.0, 3.0),
+        (5.0, 5.0),
+    ],
+)
+def test_it_turns_from_that_of_the_flat_to_that_of_the_arc(share, of_arc, end):
+    if share < 0:  # on the flat
+        ground = ground_table([(-2.0, -1.05), (0.0, -0.05), (2.0, -1.05)])
+        found = pressed_normal(ground, body_table([TRACK]), POINT, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0)
+        assert found == (0.0, 1.0)
+        return
+    rigid, pressed = vertex_under_arc(share * FIRST, end)
+    assert rigid == pytest.approx(-end * share * FIRST, abs=1e-12)
+    assert pressed == pytest.approx(-end * of_arc * FIRST, abs=1e-12)
+
+
+def test_a_flipper_in_line_makes_a_flat_of_its_own():
+    """Of two flats that end on one disc the nearer one counts: 90 degrees on it is another's."""
+    raised = [0.3, 0.05, R, 0.3 + 0.4 * math.cos(0.5), 0.05 + 0.4 * math.sin(0.5), R]
+    own = math.sqrt(2.0 * R * YIELD * 0.4) / R
+    _, pressed = vertex_under_arc(0.5 + 0.5 * own, 1, (TRACK, raised))
+    assert abs(pressed) == pytest.approx(0.5, abs=1e-9)
+
+
+def test_a_normal_more_upright_than_the_flats_stays():
+    rigid, pressed = vertex_under_arc(0.5 * FIRST, -1, lean=0.2)
+    assert pressed == rigid == pytest.approx(-0.2 + 0.5 * FIRST, abs=1e-12)
+    rigid, pressed = vertex_under_arc(0.5 * FIRST, 1, lean=0.2)
+    assert pressed == pytest.approx(-0.2, abs=1e-12)
+
+
+def test_a_small_end_is_an_edge():
+    """Of 5 mm no more than 0.75 rad of arc is touched by the belt's yield."""
+    small = [-0.2, 0.005, 0.005, 0.3, 0.005, 0.005]
+    angle = 0.76
+    x, z = 0.3 + 0.005 * math.sin(angle), 0.005 - 0.005 * math.cos(angle)
+    ground = ground_table([(x - 2.0, z - 1.0), (x, z), (x + 2.0, z - 1.0)])
+    normal = (-math.sin(angle), math.cos(angle))
+    assert pressed_normal(ground, body_table([small]), POINT, 0, 0, 1, 0, *normal) == normal
+
+
+def test_what_stands_on_a_tread_has_its_normal():
+    ground = ground_table([(-2.0, 0.0), (2.0, 0.0)])
+    disc = POINT * 0 + PART * 0 + 2
+    found = pressed_normal(ground, body_table([TRACK]), disc, 0.0, 0.05, 1.0, 0.0, 0.0, 1.0)
+    assert found == (0.0, 1.0)
