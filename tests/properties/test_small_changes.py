@@ -14,7 +14,6 @@ from kaidan.traversal import traverse
 from kaidan.traversal.tilting import WITHIN
 from question_cases import random_robot
 
-
 LIMITS = {  # degrees: the project's own target; of traction see docs/theory/contact.md
     **dict.fromkeys(TIPS, 0.01),
     **dict.fromkeys((SLIDES_DOWN, SLIDES_UP), 0.012),  # one of 300: risers change by 2 um in all
