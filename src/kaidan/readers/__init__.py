@@ -13,12 +13,13 @@ from typing import Any
 from kaidan.errors import MissingExtraError
 from kaidan.readers.estimate import Found, Refusal
 from kaidan.readers.hints import Hints
-from kaidan.readers.kinds import Provenance
+from kaidan.readers.kinds import Heights, Mesh, Points, Provenance
 from kaidan.readers.opening import Source
 from kaidan.readers.recognition import INTERPRETERS, Format, recognised
 
 NO_HINTS = Hints()
 """Nothing was stated."""
+_KINDS = {Points: "points", Mesh: "mesh", Heights: "heights"}
 
 
 def found_in(path: str | Path, hints: Hints = NO_HINTS) -> Found:
@@ -47,9 +48,9 @@ def found_in(path: str | Path, hints: Hints = NO_HINTS) -> Found:
     if form.refusal:
         provenance = Provenance(path=str(path), digest=source.digest, form=form.name)
         return Found(provenance, refusals=(Refusal(form.refusal, {}, provenance),))
-    found: Found = import_module(INTERPRETERS[form.kind]).found(
-        contents_of(source, form, hints), hints
-    )
+    contents = contents_of(source, form, hints)
+    kind = _KINDS.get(type(contents), form.kind)
+    found: Found = import_module(INTERPRETERS[kind]).found(contents, hints)
     return found
 
 
@@ -63,9 +64,10 @@ def contents_of(source: Source, form: Format, hints: Hints = NO_HINTS) -> Any:
     MissingExtraError
         Its reader needs an optional package.
     """
-    reader = import_module(f"kaidan.readers.formats.{form.reader}")
+    module, _, function = form.reader.partition(":")
+    reader = import_module(f"kaidan.readers.formats.{module}")
     try:
-        return reader.read(source, hints)
+        return getattr(reader, function or "read")(source, hints)
     except ModuleNotFoundError as error:
         if not form.extra:
             raise

@@ -7,6 +7,7 @@ for it. Nothing that a file names is opened.
 import hashlib
 import os
 import stat
+import warnings
 import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -20,7 +21,7 @@ from xml.parsers import expat
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.errors import InputError, short
+from kaidan.errors import InputError, KaidanError, short
 from kaidan.files import reason
 
 HEAD = 65_536
@@ -113,6 +114,23 @@ class Source:
                 yield file
         except (OSError, EOFError) as error:
             raise self.refuse(f"cannot be read: {error}") from None
+
+    @contextmanager
+    def foreign(self, where: str = "") -> Iterator[None]:
+        """Whatever a library raises over a damaged file becomes one line about the file.
+
+        A panic of a library written in Rust is no `Exception`, and is one all the same here.
+        """
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                yield
+        except (KaidanError, ModuleNotFoundError, KeyboardInterrupt, SystemExit, GeneratorExit):
+            raise
+        except BaseException as error:
+            lines = str(error).split("\n")
+            text = short(lines[0]) or type(error).__name__
+            raise self.refuse(f"cannot be read: {text}", where) from None
 
     def content(self, largest: int = LARGEST) -> bytes:
         """All of its bytes.

@@ -12,10 +12,15 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Literal
 
+from kaidan.readers.formats.bags import is_recording
+from kaidan.readers.formats.mesh import is_obj, is_stl
+from kaidan.readers.formats.ply import has_faces
+from kaidan.readers.formats.table import is_table
 from kaidan.readers.opening import Source
 
 Kind = Literal["points", "mesh", "heights", "building", "robot", ""]
-"""What a reader yields: Points, Mesh, Heights; Bodies of a building or of a robot."""
+"""What a reader yields: Points, Mesh, Heights; Bodies of a building or of a robot; empty: its
+content decides between the first three."""
 
 INTERPRETERS: Mapping[str, str] = MappingProxyType(
     {
@@ -39,7 +44,7 @@ class Format:
     kind: Kind
     fits: Callable[[Source], bool]
     reader: str = ""
-    """Module of `kaidan.readers.formats`."""
+    """Module of `kaidan.readers.formats`, and its function after a colon if not ``read``."""
     extra: str = ""
     """Extra of kaidan that its reader needs."""
     refusal: str = ""
@@ -115,9 +120,35 @@ ARCHIVES = (
 )  # fmt: skip
 """First bytes of zip, an empty zip, 7-Zip, RAR, gzip, bzip2, xz and Zstandard."""
 
+
+def is_heights(source: Source) -> bool:
+    """Test of an NPY file with more columns than points have."""
+    shape = re.search(rb"'shape': \((\d+), (\d+)\)", source.head[:200])
+    return source.head.startswith(b"\x93NUMPY") and shape is not None and int(shape[2]) > 8
+
+
+TIFF = (b"II*\0", b"MM\0*", b"II+\0")
+"""First bytes of TIFF, both byte orders, and of BigTIFF."""
+BAGS = (b"#ROSBAG V2", b"\x89MCAP", b"SQLite format 3\0")
+"""First bytes of recordings of ROS 1, MCAP and ROS 2."""
+
 FORMATS: tuple[Format, ...] = (
+    Format("pcd", "PCD", "points", begins(b"# .PCD", b"VERSION", b"#.PCD", b"FIELDS"), "pcd"),
     Format("splats", "Gaussian splats", "", is_splats, refusal="splats"),
     Format("spz", "Gaussian splats", "", is_packed_splats, refusal="splats"),
+    Format("ply-mesh", "PLY", "mesh", has_faces, "mesh:read_ply", "mesh"),
+    Format("ply", "PLY", "points", begins(b"ply\n", b"ply\r\n"), "ply"),
+    Format("npy-heights", "NPY", "heights", is_heights, "npy"),
+    Format("npy", "NPY", "points", begins(b"\x93NUMPY"), "npy"),
+    Format("npz", "NPZ", "", holds(".npy"), "npy"),
+    Format("las", "LAS", "points", begins(b"LASF"), "las", "las"),
+    Format("e57", "E57", "points", begins(b"ASTM-E57"), "e57", "e57"),
+    Format("glb", "GLB", "mesh", begins(b"glTF"), "mesh:read_glb", "mesh"),
+    Format("gltf", "glTF", "mesh", json_with("asset", "accessors"), "mesh:read_gltf", "mesh"),
+    Format("dae", "DAE", "mesh", xml("COLLADA"), "mesh:read_dae", "mesh"),
+    Format("geotiff", "GeoTIFF", "heights", begins(*TIFF), "geotiff", "maps"),
+    Format("bag", "ROS bags", "", begins(*BAGS), "bags", "bags"),
+    Format("bag", "ROS bags", "", is_recording, "bags", "bags"),
     Format("usdz", "USDZ", "", holds(".usdc", ".usda", ".usd"), refusal="usdz"),
     Format("usd", "USD", "", begins(b"PXR-USDC", b"#usda"), refusal="usdz"),
     Format("revit", "a Revit project", "", begins(b"\xd0\xcf\x11\xe0"), refusal="revit"),
@@ -133,6 +164,9 @@ FORMATS: tuple[Format, ...] = (
     Format("ifczip", "zipped IFC", "building", holds(".ifc"), reader="ifc", extra="ifc"),
     Format("archive", "an archive", "", begins(*ARCHIVES), refusal="archive"),
     Format("tar", "an archive", "", is_tar, refusal="archive"),
+    Format("stl", "STL", "mesh", is_stl, "mesh:read_stl", "mesh"),
+    Format("obj", "OBJ", "mesh", is_obj, "mesh:read_obj", "mesh"),
+    Format("table", "XYZ and CSV", "points", is_table, "table"),
 )  # fmt: skip
 """All formats; the first that fits is it, so archives of one known file stand before archives."""
 

@@ -132,7 +132,6 @@ def test_elements_are_named_behind_a_mark(tmp_path, monkeypatch):
 def test_every_format_has_a_reader_or_a_refusal():
     for form in FORMATS:
         assert bool(form.reader) != bool(form.refusal)
-        assert bool(form.kind) == bool(form.reader)
 
 
 def test_a_fifo_is_not_waited_for(tmp_path):
