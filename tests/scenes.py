@@ -119,7 +119,7 @@ def directions(columns, rows, wide, high, pitch, heading=0.0):
     return rays @ turned(heading, -pitch).T
 
 
-def beams(count=64, columns=1024, low=np.radians(-25), high=np.radians(15)):
+def beams(count=64, columns=1024, low=-0.436, high=0.262):
     """Rays of a spinning LiDAR."""
     up, around = np.meshgrid(np.linspace(low, high, count), np.linspace(-np.pi, np.pi, columns))
     up, around = up.ravel(), around.ravel()
@@ -135,6 +135,9 @@ class Seen:
     viewpoint: np.ndarray
     tilt: float
     """Angle by which gravity is off [rad]."""
+    turn: np.ndarray = field(default_factory=lambda: np.eye(3))
+    """Rotation of the scene into the frame of the cloud: its first column is the heading of the
+    first flight, its last one is up."""
 
 
 def seen(
@@ -207,7 +210,7 @@ def seen(
     xyz = (xyz - viewpoint) @ turn.T
     if grid is None:
         xyz = xyz[np.isfinite(xyz).all(axis=1)]
-    return Seen(xyz, grid, np.zeros(3), tilt)
+    return Seen(xyz, grid, np.zeros(3), tilt, turn)
 
 
 def _smoothed(scene, points, which, far):

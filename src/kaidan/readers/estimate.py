@@ -130,6 +130,10 @@ class FlightEstimate:
     """Clear width [m]; NaN: not seen."""
     headroom: float = math.nan
     """Least height above the line of the nosings [m]; NaN: not seen."""
+    run_up: float = math.nan
+    """Length of the floor before the first nosing as far as it was seen [m]; NaN: not seen."""
+    run_out: float = math.nan
+    """Length of the landing behind the last nosing as far as it was seen [m]; NaN: not seen."""
     overhang: float = 0.0
     """Overhang of the nosings over the treads below [m]."""
     open_risers: bool = False

@@ -1,0 +1,278 @@
+"""Staircases in a point cloud: gravity, lanes, steps, gates, flights in a chain."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan.readers.estimate import FlightEstimate, Found, Refusal
+from kaidan.readers.hints import Hints
+from kaidan.readers.kinds import METRES, Array, Known, Points, Provenance, upright
+from kaidan.readers.stairfit.chain import staircases
+from kaidan.readers.stairfit.corridor import Lane, lanes, rotated
+from kaidan.readers.stairfit.gates import refused, surface_refusal
+from kaidan.readers.stairfit.gravity import frame, refined
+from kaidan.readers.stairfit.patches import (
+    SIDE,
+    Patches,
+    directions,
+    patches_of,
+    scatter,
+    thinned,
+)
+from kaidan.readers.stairfit.steps import Steps, steps_of
+from kaidan.text import scans as text
+
+RANGE_ERROR = 0.005
+"""Doubt of distances where nobody states it, as a share of them [1]."""
+STATED, LEVELLED = math.radians(1.5), math.radians(0.2)
+"""Standard error of an up axis that a file states or a person, and of one that a surveyor's
+instrument levelled [rad]."""
+COARSE = 0.03
+"""Side of the cubes of which one point is enough to find stairs [m]."""
+MOST_FLIGHTS = 8
+"""Flights that are looked for in one cloud."""
+MOST_PATCHED = 120_000
+"""Points from which patches are made."""
+MANY_LEFT = 400
+"""Points of the thinned cloud from which another flight is looked for."""
+NOISY, WIDE = 0.008, 0.18
+"""Scatter from which patches are made larger, and their side then [m]."""
+LOWEST_CEILING = 1.2
+"""Height above the nosings from which something is a ceiling and no handrail [m]."""
+SURVEYED = ("las", "e57")
+"""Formats of instruments that level themselves."""
+
+
+LIKELY_RISES = (0.10, 0.24)
+"""Mean rises [m] from which a unit or an up axis that nobody stated is taken for the right one."""
+EXTENTS = (0.5, 300.0)
+"""Smallest and largest extent of a cloud with stairs [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Try:
+    """Flights found with one unit and one direction up."""
+
+    flights: tuple[FlightEstimate, ...]
+    refusals: tuple[Refusal, ...]
+    score: float
+    provenance: Provenance
+
+
+def found(points: Points, hints: Hints) -> Found:
+    """Staircases that a cloud holds, or why it holds none.
+
+    A unit and an up axis that nobody states are those with which stairs come out; where none come
+    out metres are assumed.
+
+    Parameters
+    ----------
+    points : Points
+        As a reader yields them.
+    hints : Hints
+        What the person knows.
+
+    Returns
+    -------
+    Found
+    """
+    xyz = points.xyz[np.isfinite(points.xyz[:, 0])]
+    best: _Try | None = None
+    for unit in _units(points, xyz):
+        metres = METRES[unit.value]  # type: ignore[index]
+        tried = _with_unit(points, xyz * metres, unit, metres, hints)
+        if best is None or tried.score > best.score:
+            best = tried
+        if best.flights:
+            break
+    assert best is not None
+    if best.flights:
+        stairs = staircases(best.flights, best.provenance)
+        return Found(best.provenance, staircases=stairs, contents=points)
+    refusals = sorted(best.refusals, key=lambda each: each.why == "none")
+    refusals = refusals or [Refusal("none", {}, best.provenance)]
+    return Found(best.provenance, refusals=tuple(refusals[:1]), contents=points)
+
+
+def _units(points: Points, xyz: Array) -> list[Known]:
+    if points.provenance.unit is not None:
+        return [points.provenance.unit]
+    extent = float(np.linalg.norm(np.ptp(np.percentile(xyz, [5, 95], axis=0), axis=0)))
+    plausible = [unit for unit in ("m", "mm", "cm", "ft", "in")
+                 if EXTENTS[0] <= extent * METRES[unit] <= EXTENTS[1]]  # fmt: skip
+    return [Known(unit, "scored") for unit in plausible] or [Known("m", "assumed")]
+
+
+def _with_unit(points: Points, xyz: Array, unit: Known, metres: float, hints: Hints) -> _Try:
+    eye = None
+    if points.viewpoint is not None and (
+        points.grid is not None or hints.viewpoint is not None or points.viewpoint.any()
+    ):
+        eye = points.viewpoint * metres
+    some = xyz[:: max(1, len(xyz) // MOST_PATCHED)]
+    noise = scatter(some)
+    patches = patches_of(some, eye, WIDE if noise > NOISY else SIDE)
+    tries = [
+        _with_up(points.provenance, xyz, some, patches, noise, eye, up, unit, known, hints)
+        for up, known in _ups(points.provenance.up, patches, oriented=eye is not None)
+    ]  # fmt: skip
+    return max(tries, key=lambda each: each.score)
+
+
+def _ups(stated: Known | None, patches: Patches, *, oriented: bool) -> list[tuple[Array, Known]]:
+    """Directions that may be up: the one stated, else those in which many patches look."""
+    if stated is not None:
+        return [(upright(stated.value)[2], stated)]
+    ups = []
+    for axis in directions(patches, 4):
+        towards = float(((patches.normal @ axis) > 0.9) @ patches.weight)
+        away = float(((patches.normal @ axis) < -0.9) @ patches.weight)
+        signs = [1.0 if towards >= away else -1.0] if oriented else [1.0, -1.0]
+        for sign in signs:
+            up = sign * axis
+            most = int(np.argmax(np.abs(up)))
+            name = ("+" if up[most] > 0 else "-") + "xyz"[most]
+            ups.append((up, Known(name, "scored")))
+    ups.sort(key=lambda each: -float(each[0][2]))
+    return ups[:6] or [(np.array([0.0, 0.0, 1.0]), Known("+z", "assumed"))]
+
+
+def _with_up(
+    provenance: Provenance, xyz: Array, some: Array, patches: Patches, noise: float,
+    eye: Array | None, up: Array, unit: Known, known: Known, hints: Hints,
+) -> _Try:  # fmt: skip
+    provenance = replace(provenance, unit=unit, up=known)
+    sigma = LEVELLED if provenance.form in SURVEYED else STATED
+    sigma = hints.gravity if hints.gravity is not None else sigma
+    side = upright(known.value)[0]
+    up, gravity = refined(patches, up, sigma if known.how != "scored" else math.radians(20.0))
+    turn = frame(up, side)
+    level = replace(patches, middle=patches.middle @ turn.T, normal=patches.normal @ turn.T)
+    rows = thinned(some, COARSE)
+    thin, of_point = some[rows] @ turn.T, patches.of_point[rows]
+    cloud = xyz @ turn.T
+    view = np.zeros(3) if eye is None else turn @ eye
+    tolerance = min(max(3 * noise, 0.012), 0.04)
+    error = RANGE_ERROR if hints.range_error is None else hints.range_error
+    flights: list[FlightEstimate] = []
+    refusals: list[Refusal] = []
+    score, left = 0.0, np.ones(len(thin), dtype=bool)
+    for _ in range(MOST_FLIGHTS):
+        flight = None
+        for lane in lanes(thin[left], level, of_point[left], tolerance)[:2]:
+            steps, aligned = _steps(lane, cloud, view, noise, error)
+            refusal = refused(steps, lane, noise, provenance)
+            if refusal is not None:
+                refusals.append(refusal)
+                continue
+            assert steps is not None
+            flight = _flight(steps, aligned, gravity, error, cloud)
+            break
+        if flight is None:
+            break
+        rise, going = flight.regular.rise, flight.regular.going
+        likely = 1.0 if LIKELY_RISES[0] <= rise <= LIKELY_RISES[1] else 0.3
+        score += lane.score * likely * (1.0 if rise <= going else 0.5)
+        flights.append(flight)
+        before = left.sum()
+        left &= ~_within(flight, thin)
+        if left.sum() > before - 20 or left.sum() < MANY_LEFT:
+            break
+    if not flights:
+        refusals = surface_refusal(level, provenance) + refusals
+    return _Try(tuple(flights), tuple(refusals), score, provenance)
+
+
+def _steps(
+    lane: Lane, cloud: Array, view: Array, noise: float, error: float
+) -> tuple[Steps | None, Lane]:
+    """Single steps of a lane in all points, after its heading was corrected by its skew."""
+    line = lane.line
+    heading = lane.heading - math.atan(line.skew)
+    s, t, z = rotated(cloud, heading)
+    turn = math.cos(heading - lane.heading)
+    # a point at (s, t) of the lane's frame has s' = s cos + t sin, t' = t cos - s sin
+    sine = math.sin(heading - lane.heading)
+    line = replace(line, s0=line.s0 * turn, going=line.going * turn, skew=0.0)
+    along = line.s0 + line.going * (line.first + line.last) / 2
+    shift = -along / turn * sine
+    low, high = lane.low + shift, lane.high + shift
+    low, high = low - 0.5 * abs(sine), high + 0.5 * abs(sine)
+    ends = line.at(np.array([line.first, line.last]))
+    near = (t > low) & (t < high) & (s > ends[0, 0] - 1.6) & (s < ends[1, 0] + 1.8)
+    near &= (z > ends[0, 1] - 0.9) & (z < ends[1, 1] + 2.4)
+    aligned = replace(lane, heading=heading, line=line, low=low, high=high)
+    eye_s, _, eye_z = rotated(view[None], heading)
+    eye = np.array([eye_s[0], eye_z[0]])
+    steps = steps_of(line, s[near], t[near], z[near], noise=noise, eye=eye, range_error=error)
+    return steps, aligned
+
+
+def _flight(steps: Steps, lane: Lane, gravity: float, error: float, cloud: Array) -> FlightEstimate:
+    """Estimate in the levelled frame of the cloud."""
+    c, s = math.cos(lane.heading), math.sin(lane.heading)
+
+    def placed(t: float) -> Array:
+        along = steps.at[:, 0] + steps.line.skew * t
+        return np.column_stack([along * c - t * s, along * s + t * c, steps.at[:, 1]])
+
+    low, high = steps.width
+    return FlightEstimate(
+        left=placed(high),
+        right=placed(low),
+        heading=lane.heading - math.atan(steps.line.skew),
+        covariance=steps.covariance,
+        gravity=gravity,
+        scale=error,
+        floor=steps.floor,
+        floor_sigma=steps.floor_sigma,
+        ends=steps.ends,
+        roughness=steps.roughness,
+        width=high - low,
+        headroom=_headroom(steps, lane, cloud),
+        run_up=steps.run_up,
+        run_out=steps.landing,
+        notes=tuple(_notes(steps)),
+    )
+
+
+def _notes(steps: Steps) -> list[str]:
+    notes = []
+    if not math.isfinite(steps.floor):
+        notes.append(text.FLOOR_UNSEEN)
+    elif steps.run_up < 1.2 * steps.line.going:
+        notes.append(text.FLOOR_SHORT.format(seen_mm=1e3 * steps.run_up))
+    if not steps.ends:
+        notes.append(text.LANDING_UNSEEN)
+    if not steps.measured.all():
+        alone = int(steps.measured.all(axis=1).sum())
+        notes.append(text.REGULAR.format(alone=alone, steps=len(steps.at)))
+    return notes
+
+
+def _headroom(steps: Steps, lane: Lane, cloud: Array) -> float:
+    """Least height above the line of the nosings of what hangs over it."""
+    s, t, z = rotated(cloud, lane.heading)
+    low, high = steps.width
+    first, last = steps.at[0], steps.at[-1]
+    inside = (t > low + 0.1) & (t < high - 0.1) & (s > first[0]) & (s < last[0])
+    slope = (last[1] - first[1]) / (last[0] - first[0])
+    over = z[inside] - first[1] - slope * (s[inside] - first[0])
+    over = over[over > LOWEST_CEILING]
+    return float(np.percentile(over, 1)) if len(over) > 30 else math.nan
+
+
+def _within(flight: FlightEstimate, thin: Array) -> NDArray[np.bool_]:
+    """Points that belong to a flight: about its steps and between its sides."""
+    s, t, z = rotated(thin, flight.heading)
+    places = rotated(flight.middle, flight.heading)
+    sides = rotated(np.vstack([flight.left, flight.right]), flight.heading)[1]
+    along, up = places[0], places[2]
+    slope = (up[-1] - up[0]) / (along[-1] - along[0])
+    over = z - up[0] - slope * (s - along[0])
+    return np.asarray(
+        (s > along[0] - 0.25) & (s < along[-1] + 0.25) & (np.abs(over) < 0.35)
+        & (t > sides.min() - 0.1) & (t < sides.max() + 0.1)
+    )  # fmt: skip

@@ -1,0 +1,117 @@
+"""Where a cloud repeats itself as stairs do: the autocorrelation of its side view.
+
+Seen from the side, in the plane of distance s and height z, a staircase shifted by one step lies
+upon itself, and shifted by half a step it does not. A ramp lies upon itself at any shift along
+its slope, a wall at any shift upwards, shelves at shifts straight up. So the autocorrelation at
+(going, rise) less that at half of it finds stairs whether treads, risers or both are seen.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from kaidan.readers.kinds import Array
+
+CELL = 0.025
+"""Side of a cell of the side view [m]."""
+LARGEST = (11.0, 7.0)
+"""Largest side view along s and z [m]; what is farther from the middle is left out."""
+SPACINGS = (0.15, 0.5)
+"""Shortest and longest nosing spacing that is stairs [m]."""
+ANGLES = (math.radians(14.0), math.radians(60.0))
+"""Gentlest and steepest slope that is stairs [rad]."""
+RISES, GOINGS = (0.07, 0.32), (0.09, 0.48)
+"""Lowest and highest rise, shortest and longest going [m]."""
+BLUR = 1.5
+"""Blur of the side view before it is compared with itself, twice its variance [cells^2]."""
+_REACH = 62
+"""Cells by which it is shifted at most: three times the longest spacing."""
+
+
+@dataclass(frozen=True)
+class Echo:
+    """A shift by which the side view lies upon itself."""
+
+    going: float
+    """[m], negative: the stairs climb against s."""
+    rise: float
+    """[m]"""
+    contrast: float
+    """Share of the occupied cells that do so, less that at half the shift [1]."""
+
+
+def echoes(s: Array, z: Array, most: int = 3) -> list[Echo]:
+    """Best shifts of a side view, those with the largest contrast first."""
+    bottom = float(np.percentile(z, 1))
+    inside = (np.abs(s - np.median(s)) < LARGEST[0] / 2) & (np.abs(z - bottom) < LARGEST[1])
+    s, z = s[inside], z[inside]
+    if len(s) < 50:
+        return []
+    columns = ((s - s.min()) / CELL).astype(np.int64)
+    rows = ((z - z.min()) / CELL).astype(np.int64)
+    shape = tuple(
+        _round(max(int(each.max()) + 1 + _REACH, 2 * _REACH + 1)) for each in (columns, rows)
+    )
+    view = np.bincount(columns * shape[1] + rows, minlength=shape[0] * shape[1])
+    view = np.sqrt(np.minimum(view.reshape(shape), 12.0))
+    # the root of the power: less weight for what repeats at large, such as blobs and floors
+    power = np.abs(np.fft.rfft2(view))
+    blur = np.exp(-((np.pi * np.fft.fftfreq(shape[0])) ** 2) * BLUR)[:, None] * np.exp(
+        -((np.pi * np.fft.rfftfreq(shape[1])) ** 2) * BLUR
+    )
+    auto = np.fft.irfft2(power * blur, shape)
+    auto = np.roll(auto, _REACH, axis=0)[: 2 * _REACH + 1, : _REACH + 1]
+    auto /= max(float(auto[_REACH, 0]), 1e-12)
+    i, k = np.meshgrid(np.arange(-20.0, 21.0), np.arange(2.0, 14.0), indexing="ij")
+    across, up = i * CELL, k * CELL
+    spacing, angle = np.hypot(across, up), np.arctan2(up, np.abs(across))
+    allowed = (
+        (spacing >= SPACINGS[0] - CELL / 2) & (spacing <= SPACINGS[1] + CELL / 2)
+        & (angle >= ANGLES[0] - 0.05) & (angle <= ANGLES[1] + 0.05)
+        & (np.abs(across) >= GOINGS[0] - 0.01) & (up >= RISES[0] - 0.01)
+    )  # fmt: skip
+    half, more = _at(auto, i / 2, k / 2), _at(auto, 1.5 * i, 1.5 * k)
+    contrast = np.where(allowed, _at(auto, i, k) - 0.5 * half - 0.5 * more, -1.0)
+    found: list[Echo] = []
+    for _ in range(most):
+        at = np.unravel_index(int(np.argmax(contrast)), contrast.shape)
+        if contrast[at] <= 0.0:
+            break
+        found.append(_sharpened(auto, float(i[at]), float(k[at]), float(contrast[at])))
+        contrast[np.abs(i - i[at]) + np.abs(k - k[at]) <= 3] = -1.0
+    return found
+
+
+def _sharpened(auto: Array, i: float, k: float, contrast: float) -> Echo:
+    """Shift between cells, from that of one, two and three steps at once."""
+    fine = np.linspace(-1.0, 1.0, 17)
+    across, up = np.meshgrid(i + fine, k + fine, indexing="ij")
+    many = [steps for steps in (1, 2, 3) if steps * (max(abs(i), k) + 1) < _REACH - 1]
+    total = sum(_at(auto, steps * across, steps * up) for steps in many)
+    at = np.unravel_index(int(np.argmax(total)), across.shape)
+    return Echo(float(across[at]) * CELL, float(up[at]) * CELL, contrast)
+
+
+def _at(auto: Array, i: Any, k: Any) -> Array:
+    """Autocorrelation between cells, bilinear."""
+    i, k = i + _REACH, np.asarray(k, dtype=np.float64)
+    i0, k0 = np.floor(i).astype(int), np.floor(k).astype(int)
+    i1, k1 = np.minimum(i0 + 1, 2 * _REACH), np.minimum(k0 + 1, _REACH)
+    fi, fk = i - i0, k - k0
+    low = auto[i0, k0] * (1 - fi) + auto[i1, k0] * fi
+    high = auto[i0, k1] * (1 - fi) + auto[i1, k1] * fi
+    return np.asarray(low * (1 - fk) + high * fk)
+
+
+def _round(count: int) -> int:
+    """Next number without prime factors above 5, which the transform likes."""
+    while True:
+        rest = count
+        for prime in (2, 3, 5):
+            while rest % prime == 0:
+                rest //= prime
+        if rest == 1:
+            return count
+        count += 1

@@ -1,0 +1,78 @@
+"""What is no staircase, and why: the gates that an estimate has to pass."""
+
+import math
+
+import numpy as np
+
+from kaidan.readers.estimate import Refusal
+from kaidan.readers.kinds import Provenance
+from kaidan.readers.stairfit.corridor import Lane
+from kaidan.readers.stairfit.echo import SPACINGS
+from kaidan.readers.stairfit.patches import Patches
+from kaidan.readers.stairfit.steps import Steps
+
+ANGLES = (math.radians(15.0), math.radians(60.0))
+"""Slopes between which stairs lie [rad]."""
+FEWEST_NOSINGS = 3
+RESIDUAL = 0.010
+"""Median distance of points from the steps that is always allowed [m]; two sigma of the noise
+otherwise."""
+EXPLAINED = 0.25
+"""Least share of the points about a flight that lie on its steps, chance subtracted [1]."""
+IRREGULAR = 0.045
+"""Largest root mean square of nosings off a regular flight [m]."""
+HIDDEN = 0.4
+"""Scatter as a share of the rise that hides steps [1]."""
+
+
+def refused(
+    steps: Steps | None, lane: Lane, noise: float, provenance: Provenance
+) -> Refusal | None:
+    """Reason why a lane is no flight of stairs; None: it is one."""
+    line = lane.line
+    angle = math.atan2(line.rise, line.going)
+    spacing = math.hypot(line.rise, line.going)
+    if steps is None or len(steps.at) < FEWEST_NOSINGS:
+        seen = line.last - line.first if steps is None else len(steps.at)
+        return Refusal("too-few", {"steps": seen, "needed": FEWEST_NOSINGS}, provenance)
+    if angle > ANGLES[1]:
+        return Refusal("ladder", {"angle_deg": math.degrees(angle)}, provenance)
+    if angle < ANGLES[0] or not SPACINGS[0] <= spacing <= SPACINGS[1]:
+        return Refusal("none", {}, provenance)
+    if noise > HIDDEN * line.rise or steps.residual > max(RESIDUAL, 2 * noise):
+        return Refusal("noisy", {"residual_mm": 1e3 * max(noise, steps.residual)}, provenance)
+    if lane.explained < EXPLAINED:
+        return Refusal("rubble", {"residual_mm": 1e3 * steps.residual}, provenance)
+    number = np.arange(len(steps.at))
+    off = steps.at - np.column_stack(
+        [np.polyval(np.polyfit(number, steps.at[:, axis], 1), number) for axis in (0, 1)]
+    )
+    spread = float(np.sqrt(np.mean(off**2)))
+    if spread > IRREGULAR:
+        return Refusal("irregular", {"spread_mm": 1e3 * spread}, provenance)
+    return None
+
+
+def surface_refusal(patches: Patches, provenance: Provenance) -> list[Refusal]:
+    """What the cloud is instead of stairs, if it is one inclined or level plane for the most."""
+    normal, weight = patches.normal, patches.weight
+    if weight.sum() <= 0:
+        return []
+    slope = np.arccos(np.minimum(np.abs(normal[:, 2]), 1.0))
+    inclined = (slope > math.radians(4)) & (slope < math.radians(60))
+    if inclined.sum() >= 10:
+        some = normal[inclined] * np.sign(normal[inclined, 2:3])
+        near = some @ some.T > math.cos(math.radians(6))
+        best = int(np.argmax(near @ weight[inclined]))
+        share = float(weight[inclined][near[best]].sum() / weight[slope < math.radians(60)].sum())
+        if share > 0.25:
+            mean = some[near[best]].mean(axis=0)
+            angle = math.degrees(math.acos(min(1.0, mean[2] / float(np.linalg.norm(mean)))))
+            scatter = 1e3 * float(np.median(patches.thickness[inclined][near[best]]))
+            return [Refusal("ramp", {"angle_deg": angle, "residual_mm": scatter}, provenance)]
+    level = slope < math.radians(4)
+    if weight[level].sum() > 0.9 * weight.sum():
+        height = 1e3 * float(np.ptp(np.percentile(patches.middle[level, 2], [2, 98])))
+        if height < 100:
+            return [Refusal("flat", {"height_mm": height}, provenance)]
+    return []

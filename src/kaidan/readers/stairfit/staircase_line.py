@@ -1,0 +1,216 @@
+"""The stair polyline: regular steps fitted to the points of a side view.
+
+A point belongs to the tread or the riser that is nearest. Treads say where the levels are, risers
+where the faces are: two straight lines over the number of the step, fitted by least squares with
+weights that fall to zero for what lies too far away (Beaton & Tukey 1974).
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan.readers.kinds import Array, Indices
+
+_BINS = 12
+"""Parts of a going in which the phase is sought."""
+EDGE_LANE = 0.05
+"""Width of a lane in which the end of a tread or of a riser is sought [m]."""
+FEWEST_OF_LANE = 3
+"""Points that an end needs in its lane."""
+SCARCE = 0.15
+"""Share of one sort of points below which ends take their place [1]."""
+_LEVEL = 0.02
+"""Height of a bin in which it is sought [m]."""
+
+
+@dataclass(frozen=True)
+class StairLine:
+    """Nosing k stands at s0 + k going + skew t, z0 + k rise, from k = first to last."""
+
+    s0: float
+    z0: float
+    going: float
+    rise: float
+    skew: float = 0.0
+    """Change of s along a nosing with t: its heading is off by so much [rad]."""
+    first: int = 0
+    last: int = 0
+
+    def at(self, k: Array | Indices) -> Array:
+        """(s, z) of nosings at t = 0, shape (m, 2) [m]."""
+        k = np.asarray(k, dtype=np.float64)
+        return np.column_stack([self.s0 + k * self.going, self.z0 + k * self.rise])
+
+    def local(self, s: Array, t: Array, z: Array) -> tuple[Indices, Array, Array]:
+        """Step of each point, and its place ahead of the nosing and above the tread [m]."""
+        ahead = s - self.skew * t - self.s0
+        k = np.floor(ahead / self.going).astype(np.int64)
+        return k, ahead - k * self.going, z - self.z0 - k * self.rise
+
+
+def phase(s: Array, z: Array, going: float, rise: float) -> tuple[StairLine, float]:
+    """Line of known steps that most points lie on, and how many more than on its average shift."""
+    k = np.floor(s / going)
+    u, v = s - k * going, z - k * rise
+    column = np.minimum((u * (_BINS / going)).astype(np.int64), _BINS - 1)
+    low = float(v.min()) - rise - 2 * _LEVEL
+    row = ((v - low) / _LEVEL).astype(np.int64)
+    rows = int(row.max()) + 3
+    view = np.bincount(column * rows + row, minlength=_BINS * rows).reshape(_BINS, rows)
+    view = np.minimum(view, max(8.0, float(np.percentile(view[view > 0], 99)))).astype(np.float64)
+    down = round(rise / _LEVEL)
+    wide = view + 0.5 * (np.roll(view, 1, axis=1) + np.roll(view, -1, axis=1))
+    lowered = np.roll(wide, down, axis=1)
+    before = np.vstack([np.zeros(rows), np.cumsum(lowered, axis=0)[:-1]])
+    behind = wide.sum(axis=0) - np.vstack([np.zeros(rows), np.cumsum(wide, axis=0)[:-1]])
+    faces = np.cumsum(view, axis=1)
+    faces = faces - np.roll(faces, down, axis=1)
+    faces = faces + 0.5 * (np.roll(faces, 1, axis=0) + np.roll(faces, -1, axis=0))
+    score = before + behind + faces
+    score[:, :down] = 0.0
+    kernel = np.ones(down + 1) / (down + 1)
+    mean = np.convolve(score.mean(axis=0), kernel, mode="same")
+    best = np.unravel_index(int(np.argmax(score - mean)), score.shape)
+    found = StairLine(
+        s0=(best[0] + 0.5) * going / _BINS,
+        z0=low + (best[1] + 0.5) * _LEVEL,
+        going=going,
+        rise=rise,
+    )
+    return found, float(score[best] - mean[best[1]])
+
+
+@dataclass(frozen=True, eq=False)
+class Assigned:
+    """Points by the element that they lie on."""
+
+    step: Indices
+    """Tread k begins at nosing k, riser k ends at it."""
+    tread: NDArray[np.bool_]
+    riser: NDArray[np.bool_]
+    off: Array
+    """Distance above the tread or behind the riser [m]; of others the smaller one."""
+
+
+def assigned(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) -> Assigned:
+    """Nearest tread or riser of each point, as far as one is within the tolerance."""
+    k, u, v = line.local(s, t, z)
+    g, r = line.going, line.rise
+    over = v > 0
+    # a point above the tread may lie on the riser ahead, one below it on its own riser
+    face = np.where(over, u - g, u)
+    riser = (np.abs(face) < tolerance) & (np.abs(face) < np.abs(v)) & (v > -r) & (v < r)
+    tread = ~riser & (np.abs(v) < tolerance)
+    step = np.where(riser & over, k + 1, k)
+    return Assigned(step, tread, riser, np.where(riser, face, v))
+
+
+@dataclass(frozen=True, eq=False)
+class Edges:
+    """Ends of treads towards the nosing, or upper ends of risers, lane by lane."""
+
+    step: Indices
+    t: Array
+    at: Array
+    """s of the front of a tread, z of the top of a riser [m]."""
+    gap: Array
+    """Distance to the next point within, by which the end is uncertain [m]."""
+
+
+def fronts(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) -> Edges:
+    """Front ends of treads: least s of the points at the level of a tread."""
+    ahead = s - line.skew * t - line.s0
+    k = np.floor(ahead / line.going + 0.45).astype(np.int64)
+    on = (np.abs(z - line.z0 - k * line.rise) < tolerance) & _within(line, k)
+    found = _ends(k[on], t[on], -ahead[on], 0.3 * line.going)
+    return replace(found, at=-found.at + line.s0 + line.skew * found.t)
+
+
+def tops(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) -> Edges:
+    """Upper ends of risers: greatest z of the points at the face of a riser."""
+    ahead = s - line.skew * t - line.s0
+    k = np.round(ahead / line.going).astype(np.int64)
+    up = z - line.z0 - k * line.rise
+    on = (np.abs(ahead - k * line.going) < tolerance) & (up > -0.75 * line.rise)
+    on &= (up < 0.45 * line.rise) & _within(line, k)
+    return _ends(k[on], t[on], z[on], 0.3 * line.rise)
+
+
+def _within(line: StairLine, k: Indices) -> NDArray[np.bool_]:
+    return np.asarray((k >= line.first) & (k <= line.last))
+
+
+def _ends(k: Indices, t: Array, value: Array, reach: float) -> Edges:
+    """Greatest value in each lane of each step, half a gap added; lanes with few points left out.
+
+    The gap is how far the points within reach of the end lie apart on average.
+    """
+    if len(k) < FEWEST_OF_LANE:
+        return Edges(k[:0], t[:0], t[:0], t[:0])
+    lane = np.floor(t / EDGE_LANE).astype(np.int64)
+    key = (k - k.min()) * (np.ptp(lane) + 1) + lane - lane.min()
+    order = np.lexsort((value, key))
+    k, t, value, key = k[order], t[order], value[order], key[order]
+    begins = np.flatnonzero(np.r_[True, key[1:] != key[:-1]])
+    ends = np.r_[begins[1:], len(key)] - 1
+    top = value[ends]
+    close = value >= np.repeat(top, ends - begins + 1) - reach
+    many = np.add.reduceat(close.astype(np.float64), begins)
+    gap = reach / np.maximum(many, 1.0)
+    middle = np.add.reduceat(t, begins) / (ends - begins + 1)
+    good = many >= FEWEST_OF_LANE
+    return Edges(k[ends][good], middle[good], (top + 0.5 * gap)[good], gap[good])
+
+
+def fitted(
+    line: StairLine, s: Array, t: Array, z: Array, *, tolerances: tuple[float, ...]
+) -> StairLine:
+    """Line through the points, iterated with shrinking tolerances.
+
+    Levels come from treads, faces from risers; where few points lie on treads from the tops of
+    risers, and where few lie on risers from the fronts of treads.
+    """
+    for tolerance in tolerances:
+        at = assigned(line, s, t, z, tolerance)
+        use = _within(line, at.step)
+        weight = (1 - np.minimum(np.abs(at.off) / tolerance, 1.0) ** 2) ** 2
+        tread, riser = at.tread & use, at.riser & use
+        level, face = tread.sum(), riser.sum()
+        k_z, z_z, w_z = at.step[tread], z[tread], weight[tread]
+        k_s, t_s, s_s, w_s = at.step[riser], t[riser], s[riser], weight[riser]
+        wide = max(tolerance, 0.025)
+        if level < SCARCE * face:
+            edges = tops(line, s, t, z, wide)
+            k_z, z_z = np.r_[k_z, edges.step], np.r_[z_z, edges.at]
+            w_z = np.r_[0.1 * w_z, np.full(len(edges.at), 3.0)]
+        if face < SCARCE * level:
+            edges = fronts(line, s, t, z, wide)
+            k_s, t_s, s_s = np.r_[k_s, edges.step], np.r_[t_s, edges.t], np.r_[s_s, edges.at]
+            w_s = np.r_[0.1 * w_s, np.full(len(edges.at), 3.0)]
+        found = line
+        if len(k_z) and np.ptp(k_z) >= 1:
+            z0, rise = robust_plane(np.column_stack([np.ones(len(k_z)), k_z]), z_z, w_z, tolerance)
+            found = replace(found, z0=z0, rise=rise)
+        if len(k_s) and np.ptp(k_s) >= 1:
+            columns = np.column_stack([np.ones(len(k_s)), k_s, t_s])
+            s0, going, skew = robust_plane(columns, s_s, w_s, tolerance)
+            found = replace(found, s0=s0, going=going, skew=skew)
+        if not (0.05 < found.going < 0.6 and 0.05 < found.rise < 0.45 and abs(found.skew) < 0.4):
+            return line
+        line = found
+    return line
+
+
+def robust_plane(columns: Array, value: Array, weight: Array, scale: float) -> list[float]:
+    """Coefficients of a weighted linear fit, what lies far from it left out step by step."""
+    for _ in range(3):
+        weighted = columns * weight[:, None]
+        ridge = 1e-9 * max(float(weight.sum()), 1e-12) * np.eye(columns.shape[1])
+        found = np.linalg.solve(columns.T @ weighted + ridge, weighted.T @ value)
+        off = np.abs(value - columns @ found) / scale
+        weight = weight * (off < 2.0)
+        if weight.sum() < 3:
+            break
+    coefficients: list[float] = found.tolist()
+    return coefficients

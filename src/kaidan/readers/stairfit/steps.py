@@ -1,0 +1,314 @@
+"""Single steps of a flight whose line is known: levels, faces, floor and landing, with their doubt.
+
+Where a tread is seen its level is the mean of its points; where a riser is seen its face is. Where
+only one of them is seen the nosing is the end of that one. A step of which neither is seen is the
+regular one, with the spread that such steps may have.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan.readers.estimate import UNCHECKED
+from kaidan.readers.kinds import Array, Indices
+from kaidan.readers.stairfit.staircase_line import (
+    Edges,
+    StairLine,
+    assigned,
+    fitted,
+    fronts,
+    robust_plane,
+    tops,
+)
+
+FEWEST_POINTS = 12
+"""Points of a tread or a riser from which its mean is taken."""
+FEWEST_LANES = 3
+"""Lanes in which an end must be seen."""
+LOCAL = 0.2
+"""Share of the doubt of the range that differs from one nosing to the next [1]."""
+SMALLEST = 5e-4
+"""Standard uncertainty of a nosing at best [m]: edges are not sharper."""
+STRIP = 0.1
+"""Width of the strips across a step in which it must be seen [m]."""
+SHORTEST_FLOOR = 0.08
+"""Length of the level before the first riser that must be seen [m]."""
+EDGE_OFF = 0.03
+"""Distance of the end of an element from its regular place up to which it is its end [m]."""
+FLOOR_SEEN = 15
+"""Points from which a floor counts as seen."""
+
+
+@dataclass(frozen=True, eq=False)
+class Steps:
+    """Nosings of a flight in the frame of its heading."""
+
+    line: StairLine
+    at: Array
+    """(s, z) of the nosings, shape (m, 2) [m]."""
+    covariance: Array
+    """Of each, shape (m, 2, 2) [m^2]."""
+    measured: NDArray[np.bool_]
+    """Whether s and z of each were measured alone, shape (m, 2)."""
+    floor: float
+    """Level of the floor, NaN: not seen [m]."""
+    floor_sigma: float
+    ends: bool
+    """Whether the landing above was seen."""
+    landing: float
+    """Length of it that was seen, NaN: none [m]."""
+    run_up: float
+    """Length of the floor before the first nosing that was seen, NaN: none [m]."""
+    roughness: float
+    residual: float
+    """Median distance of the points from the steps [m]."""
+    explained: float
+    """Share of the points about the steps that lie on them [1]."""
+    width: tuple[float, float]
+    """Least and greatest t at which steps were seen [m]."""
+
+
+def steps_of(
+    line: StairLine, s: Array, t: Array, z: Array, *, noise: float, eye: Array, range_error: float
+) -> Steps | None:
+    """Single steps along a line, or None where fewer than three are left.
+
+    Parameters
+    ----------
+    line : StairLine
+        Fitted to the thinned cloud.
+    s, t, z : array, shape (n,)
+        Points of the lane in the frame of the heading [m].
+    noise : float
+        Scatter of the points [m].
+    eye : array, shape (2,)
+        (s, z) of the sensor [m].
+    range_error : float
+        Doubt of measured distances as a share of them [1].
+    """
+    tight = min(max(3.0 * noise, 0.008), 0.35 * line.rise)
+    line = fitted(line, s, t, z, tolerances=(1.5 * tight, tight, tight))
+    line = _bottom(_trimmed(line, s, t, z, tight), s, t, z, tight)
+    if line.last - line.first < 2:
+        return None
+    at = assigned(line, s, t, z, tight)
+    within = (at.step >= line.first) & (at.step <= line.last)
+    off = at.off[(at.tread | at.riser) & within]
+    if len(off) < 30:
+        return None
+    number = np.arange(line.first, line.last + 1)
+    front, top = fronts(line, s, t, z, tight), tops(line, s, t, z, tight)
+    regular = line.at(number)
+    found, sigma = regular.copy(), np.full(regular.shape, np.nan)
+    for row, k in enumerate(number.tolist()):
+        tread = at.tread & (at.step == k)
+        _, u, _ = line.local(s[tread], t[tread], z[tread])
+        inner = (u > 0.1 * line.going) & (u < 0.92 * line.going)
+        riser = at.riser & (at.step == k)
+        level = z[tread][inner]
+        found[row, 1], sigma[row, 1] = _level(level, noise, top, k, regular[row, 1], riser.sum())
+        face = s[riser] - line.skew * t[riser]
+        shifted = replace(front, at=front.at - line.skew * front.t)
+        found[row, 0], sigma[row, 0] = _level(face, noise, shifted, k, regular[row, 0], tread.sum())
+    measured = np.isfinite(sigma)
+    if measured.sum(axis=0).min() < 2 or measured.any(axis=1).sum() < 3:
+        return None
+    for axis in (0, 1):
+        _fill(number, found[:, axis], sigma[:, axis], measured[:, axis])
+    floor, floor_sigma, run_up = _floor(line, found[0], s, t, z, noise, tight)
+    found, sigma, measured, landing = _last_riser(found, sigma, measured, line, s, z, noise, tight)
+    away = found - eye
+    ranges = np.hypot(*away.T)
+    ray = away / np.maximum(ranges, 1e-6)[:, None]
+    along = (LOCAL * range_error * ranges)[:, None] * ray
+    covariance = np.einsum("mi,mj->mij", along, along)
+    covariance[:, [0, 1], [0, 1]] += sigma**2 + SMALLEST**2
+    rms = float(np.sqrt(np.mean(np.minimum(np.abs(off), tight) ** 2)))
+    return Steps(
+        line=line, at=found, covariance=covariance, measured=measured,
+        floor=floor, floor_sigma=math.hypot(floor_sigma, LOCAL * range_error * float(ranges[0])),
+        ends=math.isfinite(landing), landing=landing, run_up=run_up,
+        roughness=rms, residual=float(np.median(np.abs(off))),
+        explained=len(off) / max(1, int(_about(line, s, t, z).sum())),
+        width=_width(at.step[at.tread | at.riser], t[at.tread | at.riser], line),
+    )  # fmt: skip
+
+
+def _about(line: StairLine, s: Array, t: Array, z: Array) -> NDArray[np.bool_]:
+    """Points no farther from the line of the nosings than a riser."""
+    k, u, v = line.local(s, t, z)
+    over = v - line.rise * (u / line.going - 0.5)
+    return np.asarray((np.abs(over) < line.rise) & (k >= line.first) & (k < line.last))
+
+
+def _level(
+    values: Array, noise: float, ends: Edges, k: int, regular: float, others: int
+) -> tuple[float, float]:
+    """Mean of the points of an element and its standard uncertainty; else from the ends."""
+    if len(values) >= FEWEST_POINTS and len(values) > 0.04 * others:
+        middle = float(np.median(values))
+        spread = max(1.4826 * float(np.median(np.abs(values - middle))), 1e-4)
+        core = values[np.abs(values - middle) < 3 * spread]
+        return float(core.mean()), spread / math.sqrt(len(core))
+    here = ends.at[ends.step == k]
+    if len(here) >= FEWEST_LANES and abs(float(np.median(here)) - regular) < EDGE_OFF:
+        end = float(np.median(here))
+        spread = 1.4826 * float(np.median(np.abs(here - end)))
+        gap = float(np.median(ends.gap[ends.step == k]))
+        doubt = math.hypot(0.3 * gap, 0.5 * noise)
+        return end, math.hypot(1.25 * spread / math.sqrt(len(here)), doubt)
+    return math.nan, math.nan
+
+
+def _fill(number: Indices, value: Array, sigma: Array, good: NDArray[np.bool_]) -> None:
+    """Regular steps where none was measured alone, from a line through the others."""
+    columns = np.column_stack([np.ones(len(number)), number])
+    weight = 1.0 / (np.where(good, sigma, 1.0) ** 2 + UNCHECKED**2) * good
+    fit = np.array(robust_plane(columns[good], value[good], weight[good], 0.02))
+    variance = np.linalg.inv(columns.T @ (columns * weight[:, None]))
+    own = np.einsum("ij,jk,ik->i", columns, variance, columns)
+    value[~good] = (columns @ fit)[~good]
+    sigma[~good] = np.sqrt(own + UNCHECKED**2)[~good]
+
+
+def _trimmed(line: StairLine, s: Array, t: Array, z: Array, tight: float) -> StairLine:
+    """Line without the steps at its ends that few points make, or points that lie anyhow."""
+    at = assigned(line, s, t, z, tight)
+    on = at.tread | at.riser
+    k, u, v = line.local(s, t, z)
+    near = np.abs(v - line.rise * (u / line.going - 0.5)) < 0.8 * line.rise
+    lane = np.floor(t / STRIP).astype(np.int64)
+    lane -= lane.min()
+    wide = int(lane.max()) + 1
+    steps = np.arange(line.first, line.last + 1)
+    seen = np.array([np.unique(lane[on & (at.step == each)]).size for each in steps]) / wide
+    share = np.array(
+        [(on & near & (k == each)).sum() / max(1, (near & (k == each)).sum()) for each in steps]
+    )
+    usual = float(np.median(seen))
+    good = (seen >= 0.5 * usual) & ((share >= 0.5) | (seen >= 0.9))
+    good &= share >= 0.5 * float(np.median(share))
+    if not good.any():
+        return line
+    kept = np.flatnonzero(good)
+    return replace(line, first=int(steps[kept[0]]), last=int(steps[kept[-1]]))
+
+
+def _bottom(line: StairLine, s: Array, t: Array, z: Array, tight: float) -> StairLine:
+    """Line that begins at the first nosing.
+
+    A level that goes on below its nosing, or of which neither the riser is seen nor a front end at
+    its place with something lower before it, is the floor. A level below that ends after a going,
+    with something lower before it, is a step.
+    """
+    g, r = line.going, line.rise
+    front = fronts(line, s, t, z, tight)
+    while line.last - line.first >= 2:
+        s1, z1 = line.at(np.array([line.first]))[0]
+        ahead = s - line.skew * t - s1
+        level = np.abs(z - z1) < tight
+        before = (level & (ahead > -0.4 * g - 0.15) & (ahead < -0.04)).sum()
+        behind = (level & (ahead > 0.04) & (ahead < 0.9 * g)).sum()
+        face = (np.abs(ahead) < tight) & (z < z1 - 0.15 * r) & (z > z1 - 0.85 * r)
+        ends = (front.at - line.skew * front.t)[front.step == line.first]
+        edge = len(ends) >= FEWEST_LANES and abs(float(np.median(ends)) - s1) < EDGE_OFF
+        if face.sum() >= 5 and face.sum() > before:
+            break
+        below = (ahead < -0.03) & (ahead > -2 * g) & (z < z1 - 0.4 * r) & (z > z1 - 2.5 * r)
+        if before <= 0.3 * behind + 4 and behind >= 4 and edge and below.sum() >= FLOOR_SEEN:
+            break
+        line = replace(line, first=line.first + 1)
+    for _ in range(3):
+        s1, z1 = line.at(np.array([line.first]))[0]
+        ahead = s - line.skew * t - s1
+        tread = (np.abs(z - z1 + r) < tight) & (ahead < -0.04)
+        ends_there = (tread & (ahead > -g - 0.04)).sum() > 0.95 * tread.sum()
+        lower = (z < z1 - 1.5 * r) & (z > z1 - 2.6 * r) & (ahead < -g + 0.04) & (ahead > -2 * g)
+        full = (tread & (ahead < -0.6 * g)).sum() >= 4
+        if not (ends_there and full and lower.sum() >= FLOOR_SEEN):
+            break
+        line = replace(line, first=line.first - 1)
+    return line
+
+
+def _densest(values: Array, width: float) -> tuple[float, float, int]:
+    """Mean of the most crowded level, its standard uncertainty, and its points."""
+    if not len(values):
+        return math.nan, math.nan, 0
+    bins = np.floor((values - values.min()) / width).astype(np.int64)
+    counts = np.bincount(bins)
+    pairs = counts + np.r_[counts[1:], 0]
+    low = values.min() + int(np.argmax(pairs)) * width
+    core = values[(values >= low) & (values < low + 2 * width)]
+    middle = float(np.median(core))
+    spread = max(1.4826 * float(np.median(np.abs(core - middle))), 1e-4)
+    core = values[np.abs(values - middle) < 3 * spread]
+    return float(core.mean()), spread / math.sqrt(len(core)), len(core)
+
+
+def _floor(
+    line: StairLine, first: Array, s: Array, t: Array, z: Array, noise: float, tight: float
+) -> tuple[float, float, float]:
+    """Level of the floor, its doubt, and how far it was seen; NaN where it was not."""
+    ahead = s - line.skew * t - first[0]
+    r = line.rise
+    before = (ahead < -0.03) & (ahead > -1.5) & (z < first[1] - 0.25 * r) & (z > first[1] - 1.8 * r)
+    level, sigma, count = _densest(z[before], max(tight, 0.01))
+    if count < FLOOR_SEEN:
+        return math.nan, 0.0, math.nan
+    on = before & (np.abs(z - level) < tight)
+    reach = -float(np.percentile(ahead[on], 2))
+    if reach < SHORTEST_FLOOR:
+        return math.nan, 0.0, math.nan
+    return level, math.hypot(sigma, SMALLEST), reach
+
+
+def _last_riser(
+    found: Array, sigma: Array, measured: NDArray[np.bool_], line: StairLine, s: Array, z: Array,
+    noise: float, tight: float,
+) -> tuple[Array, Array, NDArray[np.bool_], float]:  # fmt: skip
+    """Nosings with that of the landing, whose riser may be another one, and the landing's length.
+
+    The length is NaN where no landing was seen.
+    """
+    last, r, g = found[-1], line.rise, line.going
+    level = (np.abs(z - last[1]) < tight) & (s > last[0] + 0.03)
+    ahead = s[level] - last[0]
+    if level.sum() >= FLOOR_SEEN and (ahead > g + 0.1).sum() >= 0.15 * level.sum():
+        return found, sigma, measured, float(np.percentile(ahead, 98))
+    above = (s > last[0] + g + 0.03) & (s < last[0] + g + 1.2)
+    above &= (z > last[1] + 0.2 * r) & (z < last[1] + 1.7 * r)
+    height, doubt, count = _densest(z[above], max(tight, 0.01))
+    if count < FLOOR_SEEN:
+        return found, sigma, measured, math.nan
+    on = above & (np.abs(z - height) < tight)
+    reach = float(np.percentile(s[on], 98)) - last[0] - g
+    if reach < 0.1 + 0.5 * g or count < 0.5 * above.sum():
+        return found, sigma, measured, math.nan
+    face = (np.abs(s - last[0] - g) < max(2 * tight, 0.04)) & (z > last[1] + 0.1 * r)
+    face &= z < height - 0.1 * r
+    if face.sum() >= FEWEST_POINTS:
+        front, doubt_s = float(np.median(s[face])), noise / math.sqrt(face.sum())
+    else:
+        front, doubt_s = last[0] + g, UNCHECKED
+    return (
+        np.vstack([found, [front, height]]),
+        np.vstack([sigma, [doubt_s, doubt]]),
+        np.vstack([measured, [True, True]]),
+        reach,
+    )
+
+
+def _width(step: Indices, t: Array, line: StairLine) -> tuple[float, float]:
+    """Median over the steps of where they begin and end across."""
+    low, high = [], []
+    for k in range(line.first, line.last + 1):
+        here = t[step == k]
+        if len(here) >= 10:
+            low.append(float(np.percentile(here, 0.5)))
+            high.append(float(np.percentile(here, 99.5)))
+    if not low:
+        return float(t.min()), float(t.max())
+    return float(np.median(low)), float(np.median(high))

@@ -1,0 +1,15 @@
+"""What the reader of a scan must know, as sentences."""
+
+FLOOR_UNSEEN = (
+    "The floor before the first riser was not seen: the flight may begin lower, and its first "
+    "riser is assumed to be like the others."
+)
+FLOOR_SHORT = (
+    "Only {seen_mm:.0f} mm of the level before the first riser were seen: it may be a tread and no "
+    "floor."
+)
+LANDING_UNSEEN = "No landing was seen behind the last nosing: the flight may go on."
+REGULAR = (
+    "{alone} of {steps} nosings were measured one by one; the others are taken from the regular "
+    "flight that fits best."
+)
