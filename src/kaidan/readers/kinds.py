@@ -21,7 +21,7 @@ How = Literal["file", "format", "person", "scored", "assumed"]
 """How something is known: stated in the file, fixed by the format, stated by the person, the one
 value that makes stairs of it, or taken for granted."""
 
-METRES: Mapping[Unit, float] = MappingProxyType(
+METRES: Mapping[str, float] = MappingProxyType(
     {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
 )
 """Length of each unit [m]."""

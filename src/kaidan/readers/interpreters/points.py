@@ -81,7 +81,7 @@ def found(points: Points, hints: Hints) -> Found:
     xyz = points.xyz[np.isfinite(points.xyz[:, 0])]
     best: _Try | None = None
     for unit in _units(points, xyz):
-        metres = METRES[unit.value]  # type: ignore[index]
+        metres = METRES[unit.value]
         tried = _with_unit(points, xyz * metres, unit, metres, hints)
         if best is None or tried.score > best.score:
             best = tried

@@ -1,7 +1,7 @@
 """Small flat pieces of a cloud: one for each cube of a raster, with a normal.
 
 Sums over the points of a cube give its covariance; the direction of least spread is the normal.
-No neighbours are searched, so it costs a sort and a few passes over the points.
+No search for points nearby is needed, so it costs a sort and a few passes over the points.
 """
 
 from dataclasses import dataclass
