@@ -373,6 +373,9 @@ class StairsEstimate:
     landings: tuple[LandingEstimate, ...]
     """One more than the flights."""
     provenance: Provenance
+    frame: Array | None = None
+    """Rotation from the file's frame to that of the flights, shape (3, 3); None: the one that lifts
+    the up axis."""
     name: str = "stairs"
     facts: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
     """What else is known of it: storey, property sets and what they contradict."""

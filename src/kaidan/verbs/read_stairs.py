@@ -183,8 +183,9 @@ def _cloud(found: StairsEstimate, contents: Any) -> Array | None:
     else:
         return None
     unit, up = found.provenance.unit, found.provenance.up
-    by = 1.0 if unit is None else METRES[unit.value]  # type: ignore[index]
+    by = 1.0 if unit is None else METRES[unit.value]
     turned = np.eye(3) if up is None else upright(up.value)
+    turned = turned if found.frame is None else found.frame
     return np.asarray(xyz[np.isfinite(xyz).all(axis=1)] @ turned.T * by)
 
 

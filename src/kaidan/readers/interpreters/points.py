@@ -59,6 +59,7 @@ class _Try:
     refusals: tuple[Refusal, ...]
     score: float
     provenance: Provenance
+    frame: Array
 
 
 def found(points: Points, hints: Hints) -> Found:
@@ -89,7 +90,7 @@ def found(points: Points, hints: Hints) -> Found:
             break
     assert best is not None
     if best.flights:
-        stairs = staircases(best.flights, best.provenance)
+        stairs = staircases(best.flights, best.provenance, best.frame)
         return Found(best.provenance, staircases=stairs, contents=points)
     refusals = sorted(best.refusals, key=lambda each: each.why == "none")
     refusals = refusals or [Refusal("none", {}, best.provenance)]
@@ -182,7 +183,7 @@ def _with_up(
             break
     if not flights:
         refusals = surface_refusal(level, provenance) + refusals
-    return _Try(tuple(flights), tuple(refusals), score, provenance)
+    return _Try(tuple(flights), tuple(refusals), score, provenance, turn)
 
 
 def _steps(

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from kaidan.readers.estimate import FlightEstimate, LandingEstimate, StairsEstimate
-from kaidan.readers.kinds import Provenance
+from kaidan.readers.kinds import Array, Provenance
 
 SAME_LEVEL = 0.08
 """Difference of levels at which two flights meet on one landing [m]."""
@@ -15,9 +15,13 @@ LONGEST_LANDING = 3.5
 
 
 def staircases(
-    flights: tuple[FlightEstimate, ...], provenance: Provenance
+    flights: tuple[FlightEstimate, ...], provenance: Provenance, frame: Array | None = None
 ) -> tuple[StairsEstimate, ...]:
-    """Staircases from bottom to top, those with most nosings first."""
+    """Staircases from bottom to top, those with most nosings first.
+
+    `frame` is the rotation from the file's frame to that of the flights, where it is another one
+    than that which lifts the up axis.
+    """
     rest = sorted(flights, key=lambda flight: float(flight.middle[0, 2]))
     found: list[StairsEstimate] = []
     while rest:
@@ -28,7 +32,7 @@ def staircases(
                 break
             chain.append(following[0])
             rest.remove(following[0])
-        found.append(_staircase(chain, provenance, len(found)))
+        found.append(_staircase(chain, provenance, len(found), frame))
     found.sort(key=lambda stairs: -sum(map(len, stairs.flights)))
     return tuple(found)
 
@@ -40,7 +44,9 @@ def _follows(below: FlightEstimate, above: FlightEstimate) -> bool:
     return levels < SAME_LEVEL and float(np.hypot(*(foot - head)[:2])) < LONGEST_LANDING
 
 
-def _staircase(chain: list[FlightEstimate], provenance: Provenance, number: int) -> StairsEstimate:
+def _staircase(
+    chain: list[FlightEstimate], provenance: Provenance, number: int, frame: Array | None
+) -> StairsEstimate:
     landings = [LandingEstimate(chain[0].run_up, chain[0].width, chain[0].base)]
     for below, above in pairwise(chain):
         turn = above.heading - below.heading
@@ -49,7 +55,7 @@ def _staircase(chain: list[FlightEstimate], provenance: Provenance, number: int)
     last = chain[-1]
     landings.append(LandingEstimate(last.run_out, last.width, float(last.middle[-1, 2])))
     name = "stairs" if not number else f"stairs-{number + 1}"
-    return StairsEstimate(tuple(chain), tuple(landings), provenance, name=name)
+    return StairsEstimate(tuple(chain), tuple(landings), provenance, frame, name)
 
 
 def _landing(below: FlightEstimate, above: FlightEstimate, turn: float) -> LandingEstimate:
