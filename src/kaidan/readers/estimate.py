@@ -373,14 +373,14 @@ class StairsEstimate:
     landings: tuple[LandingEstimate, ...]
     """One more than the flights."""
     provenance: Provenance
-    frame: Array | None = None
-    """Rotation from the file's frame to that of the flights, shape (3, 3); None: the one that lifts
-    the up axis."""
     name: str = "stairs"
     facts: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
     """What else is known of it: storey, property sets and what they contradict."""
     notes: tuple[str, ...] = ()
     """What the reader must know, as sentences."""
+    frame: Array | None = None
+    """Rotation from the file's frame to that of the flights, shape (3, 3); None: the one that lifts
+    the up axis."""
 
     def __post_init__(self) -> None:
         if not self.flights or len(self.landings) != len(self.flights) + 1:

@@ -55,7 +55,7 @@ def _staircase(
     last = chain[-1]
     landings.append(LandingEstimate(last.run_out, last.width, float(last.middle[-1, 2])))
     name = "stairs" if not number else f"stairs-{number + 1}"
-    return StairsEstimate(tuple(chain), tuple(landings), provenance, frame, name)
+    return StairsEstimate(tuple(chain), tuple(landings), provenance, name, frame=frame)
 
 
 def _landing(below: FlightEstimate, above: FlightEstimate, turn: float) -> LandingEstimate:
