@@ -14,7 +14,13 @@ from kaidan.readers.estimate import FlightEstimate, Refusal
 from kaidan.readers.kinds import Bodies, Body, Provenance
 from kaidan.readers.solids.levels import Plate, plates_of
 from kaidan.readers.solids.rays import Triangles
-from kaidan.readers.solids.room import clear_lane, free_outline, headroom_of, walls_around
+from kaidan.readers.solids.room import (
+    FARTHEST,
+    clear_lane,
+    free_outline,
+    headroom_of,
+    walls_around,
+)
 from kaidan.readers.solids.runs import DEEPEST_TREAD, RISES, Run, runs_of
 from kaidan.readers.solids.section import Section, section_of
 from kaidan.readers.solids.stated import Stated, cross_checked
@@ -188,6 +194,7 @@ class _Assembly:
         self.plates = plates_of(self.solids)
         self.runs = runs_of(self.plates)
         self.floors: dict[str, Floor] = {}
+        self._cleared: dict[int, tuple[Array, Array]] = {}
 
     def _storeys(self) -> Sequence[Mapping[str, Any]]:
         found: Sequence[Mapping[str, Any]] = self.model.facts.get("storeys", ())
@@ -389,8 +396,8 @@ class _Assembly:
             key = f"level:{level:.2f}:{at[0]:.1f}:{at[1]:.1f}"
             name = f"floor at {level:.2f} m"
         known = self.floors.get(key) or Floor(key, name, level, storey.identity if storey else "")
-        if plate is not None:
-            outline, walls = self._clear(plate, at)
+        if plate is not None and number is not None:
+            outline, walls = self._clear(number, at)
             known = replace(
                 known,
                 outlines=(*known.outlines, outline + self.origin[:2]),
@@ -403,8 +410,18 @@ class _Assembly:
         """Whether a surface near the level of a storey is its floor, not a landing beside it."""
         return abs(plate.level - storey.level) <= FLUSH or not self.is_stair[plate.owners[0]]
 
-    def _clear(self, plate: Plate, at: Array) -> tuple[Array, Array]:
-        low, high = at - 5.0, at + 5.0
+    def _clear(self, number: int, at: Array) -> tuple[Array, Array]:
+        """What is clear of a surface about a place; of a landing all of it, worked out once."""
+        if number in self._cleared:
+            return self._cleared[number]
+        plate = self.plates[number]
+        if max(plate.box) < FARTHEST:
+            self._cleared[number] = found = self._clear_about(plate, plate.middle)
+            return found
+        return self._clear_about(plate, at)
+
+    def _clear_about(self, plate: Plate, at: Array) -> tuple[Array, Array]:
+        low, high = at - FARTHEST, at + FARTHEST
         walls = walls_around(self.obstacles, plate.level, low, high)
         shape = free_outline(plate.shape, walls, at[None])
         return Plate(plate.level, shape, plate.owners).corners, walls

@@ -27,6 +27,8 @@ LEAST_AREA = 0.02
 """Least area of a tread [m^2]."""
 LEAST_SPACE = 0.25
 """Space above a face that it takes to set a foot on it [m]."""
+INWARD = 0.7
+"""Where it is looked whether a face is covered: between its middle and its corners [1]."""
 LEVELED = 1e-6
 """Grid on which outlines meet [m]."""
 
@@ -52,6 +54,15 @@ class Plate:
         x, y = found.T
         area = float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
         return found if area > 0 else found[::-1]
+
+    @cached_property
+    def sides(self) -> Array:
+        """Sides of the outline and of its holes, x, y of both ends, shape (n, 4) [m]."""
+        import shapely
+
+        points, ring = shapely.get_coordinates(shapely.get_rings(self.shape), return_index=True)
+        found = np.hstack([points[:-1], points[1:]])
+        return np.asarray(found[ring[:-1] == ring[1:]])
 
     @cached_property
     def box(self) -> tuple[float, float]:
@@ -114,20 +125,23 @@ def _joined(solids: Triangles, group: NDArray[np.int64]) -> Iterator[Plate]:
     faces = shapely.polygons(flat)
     joined = shapely.union_all(shapely.make_valid(faces), grid_size=LEVELED)
     square = {"join_style": "mitre", "mitre_limit": 2.0}
-    closed = shapely.buffer(shapely.buffer(joined, JOINT, **square), -JOINT, **square)
+    if shapely.get_num_geometries(joined) > 1:
+        joined = shapely.buffer(shapely.buffer(joined, JOINT, **square), -JOINT, **square)
     parts = [
         each
-        for each in shapely.get_parts(closed)
+        for each in shapely.get_parts(joined)
         if shapely.get_type_id(each) == 3 and shapely.area(each) > LEAST_AREA
     ]
     if not parts:
         return
-    middles = shapely.points(flat.mean(axis=1))
+    near, which = shapely.STRtree(parts).query_nearest(shapely.points(flat.mean(axis=1)))
+    of_part = np.full(len(flat), -1)
+    of_part[near] = which
     areas = np.abs(solids.normals[group, 2]) / 2
     heights = solids.corners[group, :, 2].mean(axis=1)
-    for part in parts:
-        part = shapely.simplify(part, LEVELED)
-        within = shapely.dwithin(part, middles, LEVELED)
+    parts = list(shapely.simplify(parts, LEVELED))
+    for k, part in enumerate(parts):
+        within = of_part == k
         if not within.any():
             continue
         weights = np.bincount(solids.owner[group][within], weights=areas[within])
@@ -140,18 +154,17 @@ def _uncovered(plates: list[Plate], solids: Triangles) -> NDArray[np.bool_]:
     """Whether there is space to stand on most of each plate."""
     import shapely
 
-    points, of = [], []
+    points: list[Array] = []
+    of: list[int] = []
     for number, plate in enumerate(plates):
-        inner = shapely.buffer(plate.shape, -0.15 * plate.box[1])
-        ring = shapely.get_coordinates(inner)
-        some = ring[:: max(1, len(ring) // 6)] if len(ring) else np.zeros((0, 2))
         inside = shapely.get_coordinates(shapely.point_on_surface(plate.shape))
-        for x, y in np.vstack([inside, some]):
-            points.append((x, y, plate.level + SAME_LEVEL + 1e-3))
-            of.append(number)
+        ring = plate.corners[:: max(1, len(plate.corners) // 6)]
+        some = np.vstack([inside, inside + INWARD * (ring - inside)])
+        points.append(np.column_stack([some, np.full(len(some), plate.level + SAME_LEVEL + 1e-3)]))
+        of += [number] * len(some)
     if not points:
         return np.zeros(0, dtype=bool)
-    starts = np.array(points)
+    starts = np.vstack(points)
     over = first_hits(starts, np.array([0.0, 0.0, 1.0]), solids) < LEAST_SPACE
     count = np.bincount(of, minlength=len(plates))
     covered = np.bincount(of, weights=over, minlength=len(plates))

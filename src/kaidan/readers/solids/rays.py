@@ -2,15 +2,15 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-AT_ONCE = 2_000_000
-"""Pairs of a ray and a triangle that are worked out at once."""
+FEW_PAIRS = 20_000
+"""Pairs of a ray and a triangle up to which all are worked out, without an index."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,9 +58,19 @@ class Triangles:
         keep = np.isin(self.owner, list(owners))
         return Triangles(self.corners[keep], self.owner[keep])
 
+    @cached_property
+    def _plan(self) -> Any:
+        """Index of their boxes in the plan."""
+        import shapely
+
+        return shapely.STRtree(shapely.box(*self.low[:, :2].T, *self.high[:, :2].T))
+
     def within(self, low: Array, high: Array) -> "Triangles":
         """Those that reach into a box."""
-        keep = np.all((self.high >= low) & (self.low <= high), axis=1)
+        import shapely
+
+        some = self._plan.query(shapely.box(low[0], low[1], high[0], high[1]))
+        keep = some[(self.high[some, 2] >= low[2]) & (self.low[some, 2] <= high[2])]
         return Triangles(self.corners[keep], self.owner[keep])
 
 
@@ -111,11 +121,25 @@ def first_hits(starts: Array, direction: Array, solids: Triangles) -> Array:
     u_0, v_0 = ((each.T * a[:, :2]).sum(axis=1) for each in (of_u, of_v))
     of_t = of_u * one[:, 2] + of_v * two[:, 2]
     t_0 = a[:, 2] - u_0 * one[:, 2] - v_0 * two[:, 2]
-    edge, step = 1e-9, max(1, AT_ONCE // len(a))
-    for at in range(0, len(points), step):
-        some = points[at : at + step]
-        u, v = some[:, :2] @ of_u - u_0, some[:, :2] @ of_v - v_0
-        t = some[:, :2] @ of_t + t_0 - some[:, 2:]
-        hit = (u >= -edge) & (v >= -edge) & (u + v <= 1 + edge) & (t > edge)
-        found[at : at + step] = np.where(hit, t, np.inf).min(axis=1)
+    if len(a) * len(points) <= FEW_PAIRS:
+        ray, face = (each.ravel() for each in np.indices((len(points), len(a))))
+    else:
+        ray, face = _near_in_plane(points, corners[near][meets])
+    x, y, z = points[ray].T
+    u, v = x * of_u[0, face] + y * of_u[1, face], x * of_v[0, face] + y * of_v[1, face]
+    u, v = u - u_0[face], v - v_0[face]
+    t = x * of_t[0, face] + y * of_t[1, face] + t_0[face] - z
+    edge = 1e-9
+    hit = (u >= -edge) & (v >= -edge) & (u + v <= 1 + edge) & (t > edge)
+    np.minimum.at(found, ray[hit], t[hit])
     return found
+
+
+def _near_in_plane(points: Array, corners: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Pairs of a point and a triangle whose box in the plane it lies in."""
+    import shapely
+
+    low, high = corners[:, :, :2].min(axis=1) - 1e-9, corners[:, :, :2].max(axis=1) + 1e-9
+    tree = shapely.STRtree(shapely.box(*low.T, *high.T))
+    ray, face = tree.query(shapely.points(points[:, :2]))
+    return ray, face

@@ -79,6 +79,7 @@ def runs_of(plates: Sequence[Plate]) -> list[Run]:
         In the order of their lowest treads.
     """
     up, down = _next_to(plates)
+    reach = _grown([each.shape for each in plates], 2 * REACH)
     depth = [each.depth for each in plates]
     is_tread = [NARROWEST <= each < DEEPEST_TREAD for each in depth]
 
@@ -97,7 +98,7 @@ def runs_of(plates: Sequence[Plate]) -> list[Run]:
         while (high := follows(chain[-1])) is not None:
             chain.append(high)
         above = up.get(chain[-1])
-        found += _cut(plates, chain, below, above)
+        found += _cut(plates, reach, chain, below, above)
     return found
 
 
@@ -132,13 +133,13 @@ def _grown(shapes: Any, by: float) -> Any:
 
 
 def _cut(
-    plates: Sequence[Plate], chain: list[int], below: int | None, above: int | None
+    plates: Sequence[Plate], reach: Any, chain: list[int], below: int | None, above: int | None
 ) -> Iterator[Run]:
     """Straight flights of a chain, and what turns between them."""
     steps = chain if above is None else [*chain, above]
     lower = [below, *chain]
     edges = [
-        None if low is None else _front_edge(plates[high], plates[low])
+        None if low is None else _front_edge(plates[high], reach[low])
         for low, high in zip(lower, steps, strict=False)
     ]
     if edges[0] is None:  # no floor below: the first nosing is taken as parallel to the second
@@ -186,11 +187,10 @@ def _between(one: float, two: float) -> float:
     return (two - one + math.pi / 2) % math.pi - math.pi / 2
 
 
-def _front_edge(upper: Plate, lower: Plate) -> Edge:
-    """Edge of a surface along the one below it."""
+def _front_edge(upper: Plate, reach: Any) -> Edge:
+    """Edge of a surface along the one below it, whose reach that is."""
     import shapely
 
-    reach = _grown(lower.shape, 2 * REACH)[0]
     along = shapely.intersection(shapely.boundary(upper.shape), reach)
     lines = [
         shapely.get_coordinates(each)

@@ -94,9 +94,12 @@ def section_of(
     low, high = float(sides[:, 0].max()), float(sides[:, 1].min())
     if high - low < 4 * INSET:
         return None
+    sides_of = [
+        np.vstack([frame.of(each.sides[:, :2]).T, frame.of(each.sides[:, 2:]).T]) for each in plates
+    ]
     lines = {}
     for name, t in (("left", high - INSET), ("right", low + INSET), ("middle", (low + high) / 2)):
-        lines[name] = _front_edges(plates, frame, t)
+        lines[name] = _front_edges(sides_of, t)
     levels = np.array([each.level for each in plates])
     segments = _cut(solids, frame, (low + high) / 2)
     reach, overhang, is_open = _noses(segments, lines["middle"], levels)
@@ -112,36 +115,25 @@ def section_of(
     )
 
 
-def _front_edges(plates: list[Plate], frame: Frame, t: float) -> Array:
+def _front_edges(sides: list[Array], t: float) -> Array:
     """Where each surface begins along a line: nearest to where the one below it ends."""
     found: list[float] = []
     end = math.nan
-    for plate in plates:
-        s = _crossings(plate, frame, t)
+    for each in sides:
+        s = _crossings(each, t)
         if len(s) == 0:
-            return np.full(len(plates), np.nan)
+            return np.full(len(sides), np.nan)
         found.append(float(s.min() if math.isnan(end) else s[np.argmin(np.abs(s - end))]))
         end = float(s.max())
     return np.array(found)
 
 
-def _crossings(plate: Plate, frame: Frame, t: float) -> Array:
-    """Where the outline of a surface, holes included, crosses a line along the flight, s [m]."""
-    import shapely
-
-    found = [np.zeros(0)]
-    rings = [shapely.get_exterior_ring(plate.shape)]
-    rings += [
-        shapely.get_interior_ring(plate.shape, k)
-        for k in range(int(shapely.get_num_interior_rings(plate.shape)))
-    ]
-    for ring in rings:
-        at = frame.of(shapely.get_coordinates(ring))
-        a, b = at[:-1], at[1:]
-        cut = (a[:, 1] - t) * (b[:, 1] - t) < 0
-        a, b = a[cut], b[cut]
-        found.append(a[:, 0] + (t - a[:, 1]) * (b[:, 0] - a[:, 0]) / (b[:, 1] - a[:, 1]))
-    return np.concatenate(found)
+def _crossings(sides: Array, t: float) -> Array:
+    """Where sides of a surface cross a line along the flight, s [m]."""
+    s_a, t_a, s_b, t_b = sides
+    cut = (t_a - t) * (t_b - t) < 0
+    s_a, t_a, s_b, t_b = s_a[cut], t_a[cut], s_b[cut], t_b[cut]
+    return np.asarray(s_a + (t - t_a) * (s_b - s_a) / (t_b - t_a))
 
 
 def _cut(solids: Triangles, frame: Frame, t: float) -> Array:

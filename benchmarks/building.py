@@ -1,0 +1,113 @@
+"""Reading the flights of building models over ifcopenshell's own opening and tessellating of them.
+
+Both as processes of their own, start included, in turn; and the time to judge a pair of a robot and
+a flight that differs from all others. Models are authored: half-turn staircases of three storeys.
+A file of your own joins them with --file.
+"""
+
+import argparse
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from record import finish, options
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests"))
+
+OWN = """
+import sys
+import ifcopenshell, ifcopenshell.geom
+model = ifcopenshell.open(sys.argv[1], format=".ifc")
+kinds = ("IfcStair", "IfcStairFlight", "IfcSlab", "IfcRailing")
+drawn = {each.id(): each for kind in kinds for each in model.by_type(kind) if each.Representation}
+settings = ifcopenshell.geom.settings()
+settings.set("use-world-coords", True)
+iterator = ifcopenshell.geom.iterator(settings, model, 1, include=list(drawn.values()))
+going = iterator.initialize()
+while going:
+    shape = iterator.get()
+    shape.geometry.verts
+    going = iterator.next()
+"""
+OURS = """
+import sys
+from kaidan.readers.building import building_of
+from kaidan.readers.formats.ifc import read
+from kaidan.readers.hints import Hints
+from kaidan.readers.opening import Source
+building_of(read(Source.of(sys.argv[1]), Hints()))
+"""
+
+
+def town(staircases: int, path: Path) -> Path:
+    from ifc_cases import House, monolith
+
+    house = House(storeys=tuple((3.0 * k, f"S{k}") for k in range(4)))
+    steps = {"rises": [0.15] * 10, "goings": [0.30] * 9, "last": False}
+    for number in range(staircases):
+        x, y, z = number // 3 % 10 * 8, number // 30 * 6, 3.0 * (number % 3)
+        stair = house.add("IfcStair", f"T{number}", storey=number % 3)
+        house.add("IfcStairFlight", "a", [monolith(house, **steps)], at=(x, y, z), parent=stair)
+        outline = [(0, -0.5), (1.2, -0.5), (1.2, 1.7), (0, 1.7)]
+        house.add("IfcSlab", "landing", [house.slab(outline, 0)], at=(x + 2.7, y, z + 1.5),
+                  parent=stair)  # fmt: skip
+        house.add("IfcStairFlight", "b", [monolith(house, **steps)], at=(x + 2.7, y + 1.2, z + 1.5),
+                  degrees=180, parent=stair)  # fmt: skip
+    return Path(house.write(path))
+
+
+def processor_time(code: str, path: Path) -> float:
+    """Time of the processor for a script and what it starts [s], whoever else is busy."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run([sys.executable, "-c", code, str(path)], check=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def ratio(path: Path, runs: int) -> float:
+    each = [(processor_time(OURS, path), processor_time(OWN, path)) for _ in range(runs)]
+    return statistics.median(ours for ours, _ in each) / statistics.median(own for _, own in each)
+
+
+def judging(runs: int) -> float:
+    """Median time of a pair of a robot and a flight that differs from all others [s]."""
+    from kaidan import Question, Robot, Stairs
+    from kaidan.assessment.verdict import conclude
+    from kaidan.models import judge
+
+    robot = Robot.named("absolem")
+    times = []
+    for number in range(runs):
+        flight = Stairs(rise=0.15 + 1e-4 * number, going=0.3, steps=10, width=1.0, headroom=2.2)
+        start = time.process_time()
+        question = Question.of(robot, flight, flippers="flat", friction=1.0)
+        conclude(question, judge(question))
+        times.append(time.process_time() - start)
+    return statistics.median(times)
+
+
+def main() -> None:
+    arguments = options(argparse.ArgumentParser(description=__doc__))
+    arguments.add_argument("--staircases", type=int, default=15)
+    arguments.add_argument("--runs", type=int, default=3)
+    arguments.add_argument("--file", type=Path, action="append", default=[])
+    chosen = arguments.parse_args()
+    figures, targets = {}, {}
+    with tempfile.TemporaryDirectory() as folder:
+        authored = town(chosen.staircases, Path(folder) / "town.ifc")
+        for name, path in [(f"{2 * chosen.staircases} authored flights", authored),
+                           *((each.name, each) for each in chosen.file)]:  # fmt: skip
+            key = f"{name}: reading / ifcopenshell's own"
+            figures[key], targets[key] = ratio(path, chosen.runs), 1.5
+    figures["judging a pair [ms]"] = 1e3 * judging(20)
+    targets["judging a pair [ms]"] = 30.0
+    finish(figures, chosen, targets)
+
+
+if __name__ == "__main__":
+    main()
