@@ -56,6 +56,8 @@ ELSEWHERE = {
     "pip install 'kaidan[sweeps]'   # tables in Parquet and Zarr, stores, labelled Datasets": (
         ".ci/run, within '.[dev]'"
     ),
+    "pip install 'kaidan[ifc]'   # ifcopenshell and shapely": ".ci/run, within '.[dev]'",
+    "python benchmarks/building.py": "by hand",
     "pip install 'kaidan[design]'   # scipy, which searches": ".ci/run, within '.[dev]'",
     "dask scheduler --port 8786": "test_cluster.py",
     "dask worker tcp://10.0.0.1:8786 --nworkers auto --nthreads 1": "test_cluster.py",
@@ -71,6 +73,10 @@ ELSEWHERE = {
     "mutmut run --max-children 1   # about four minutes on one core": "by hand",
     "mutmut results": "by hand",
 }
+
+
+NEEDS = {"docs/buildings.md": "ifcopenshell"}
+"""Optional packages without which a page is skipped."""
 
 
 class Fence(NamedTuple):
@@ -137,7 +143,11 @@ def environment() -> dict[str, str]:
     """As on a plain terminal of no particular width, this Python's commands first."""
     kept = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
     folder = str(Path(sys.executable).parent)
-    return kept | {"PATH": folder + os.pathsep + kept["PATH"], "PYTHONIOENCODING": "utf-8"}
+    return kept | {
+        "PATH": folder + os.pathsep + kept["PATH"],
+        "PYTHONIOENCODING": "utf-8",
+        "KAIDAN_DOCS": str(ROOT / "docs"),
+    }
 
 
 def run_console(fence: Fence, folder: Path) -> None:
@@ -186,7 +196,10 @@ def run_doctest(fence: Fence, page: Path, names: dict[str, object]) -> None:
 
 @pytest.mark.parametrize("page", PAGES, ids=str)
 def test_blocks_of_a_page_do_what_they_show(page, tmp_path, monkeypatch):
+    if str(page) in NEEDS:
+        pytest.importorskip(NEEDS[str(page)], reason=f"skipped: {NEEDS[str(page)]} not installed")
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("KAIDAN_DOCS", str(ROOT / "docs"))
     names: dict[str, object] = {"__name__": "__main__"}
     for fence in fences(page):
         if fence.language == "pycon":
