@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from kaidan.studies.cross_check import agree
     from kaidan.studies.experiment import experiment
     from kaidan.studies.reproduction import reproduce
+    from kaidan.studies.sensitivity import sensitivity
     from kaidan.surface import Surface
     from kaidan.sweeps import stream, sweep, verdicts
     from kaidan.terrain.profile import Profile
@@ -56,6 +57,7 @@ _HOME = {
     "posture": "kaidan.verbs.posture",
     "read": "kaidan.verbs.read",
     "reproduce": "kaidan.studies.reproduction",
+    "sensitivity": "kaidan.studies.sensitivity",
     "stream": "kaidan.sweeps",
     "sweep": "kaidan.sweeps",
     "traverse": "kaidan.verbs.traverse",
@@ -75,6 +77,7 @@ __all__ = [  # noqa: RUF022 - what a user meets first
     "reproduce",
     "agree",
     "experiment",
+    "sensitivity",
     "sweep",
     "verdicts",
     "stream",

@@ -59,6 +59,7 @@ ELSEWHERE = {
     "pip install 'kaidan[ifc]'   # ifcopenshell and shapely": ".ci/run, within '.[dev]'",
     "python benchmarks/building.py": "by hand",
     "pip install 'kaidan[design]'   # scipy, which searches": ".ci/run, within '.[dev]'",
+    "pip install 'kaidan[sensitivity]'   # SALib": ".ci/run, within '.[dev]'",
     "dask scheduler --port 8786": "test_cluster.py",
     "dask worker tcp://10.0.0.1:8786 --nworkers auto --nthreads 1": "test_cluster.py",
     "kaidan experiment kenaf --store belt --scheduler tcp://10.0.0.1:8786": "test_cluster.py",

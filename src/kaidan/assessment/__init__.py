@@ -139,9 +139,11 @@ def judged(
 ) -> Assessment:
     """Answer to a question from what a model found; see `answer_to`."""
     from kaidan.assessment.advice import what_would_help
+    from kaidan.assessment.measuring import to_measure
     from kaidan.text import verdicts
 
     conclusion = conclude(question, found)
+    measure = to_measure(question, found) if advice else ()
     ranged = question.robot.com_range is not None and advice
     return fill_in(
         question,
@@ -150,8 +152,11 @@ def judged(
         plan=plan_of(question, found, search),
         reason=verdicts.reason(question, found, conclusion),
         notes=verdicts.notes(question, found, conclusion),
-        what_would_help=what_would_help(question, found, conclusion, searched=search is not None)
+        what_would_help=what_would_help(
+            question, found, conclusion, measure, searched=search is not None
+        )
         if advice
         else (),
+        to_measure=measure,
         centroid=stretches(question, found) if ranged else None,
     )

@@ -1,11 +1,13 @@
 """What would help: the same question with something changed, judged by the same model again."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from kaidan.allowance import Allowance
 from kaidan.assessment.answer import Change
+from kaidan.assessment.measuring import Measurement
+from kaidan.assessment.uncertain_inputs import SAMPLED, STEPS, without
 from kaidan.assessment.verdict import Conclusion, conclude
 from kaidan.errors import InputError
 from kaidan.mechanics import STANDARD_GRAVITY
@@ -34,6 +36,7 @@ from kaidan.robot import Posture
 from kaidan.sheet import bounds
 from kaidan.surface import Surface
 from kaidan.text import advice as text
+from kaidan.text import measuring
 from kaidan.text import unweighed as weighing
 
 RAISED = math.radians(45.0)
@@ -57,7 +60,12 @@ class Candidate(NamedTuple):
 
 
 def what_would_help(
-    question: Question, found: Findings, conclusion: Conclusion, *, searched: bool = False
+    question: Question,
+    found: Findings,
+    conclusion: Conclusion,
+    measure: Sequence[Measurement] = (),
+    *,
+    searched: bool = False,
 ) -> tuple[Change, ...]:
     """Changes that raise the verdict or the margin, the best first; nothing for a GO.
 
@@ -68,6 +76,8 @@ def what_would_help(
         Of the question.
     conclusion : Conclusion
         Of the findings.
+    measure : sequence of Measurement
+        What to measure next, the first first.
     searched : bool
         Whether postures and facing were searched already, so that none of them would help.
 
@@ -79,7 +89,11 @@ def what_would_help(
         return ()
     better = []
     known = found if question.robot.com_range is None else None
-    for change, changed in _candidates(question, found, conclusion, searched):
+    candidates = (
+        *_candidates(question, found, conclusion, searched),
+        *_known_better(question, measure),
+    )
+    for change, changed in candidates:
         try:
             then = conclude(changed, judge(changed, known=known))
         except InputError:  # a posture or a place of the centroid that the robot cannot have
@@ -140,6 +154,16 @@ def _candidates(
         if conclusion.margin_best > 0:
             yield from _measured(question)
         yield from _centroid_moved(question, found, conclusion)
+
+
+def _known_better(question: Question, measure: Sequence[Measurement]) -> Iterator[Candidate]:
+    """The stated doubt that the margin feels most, measured away."""
+    for each in measure:
+        if set(each.inputs) & {*SAMPLED, STEPS}:
+            changed = without(question, each.what)
+            if changed is not None:
+                yield Candidate(measuring.measure(each.what), changed)
+            return
 
 
 def _weighed(found: Findings) -> Candidate:

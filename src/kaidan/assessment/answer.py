@@ -8,6 +8,7 @@ import numpy as np
 from kaidan.allowance import AllowanceShown
 from kaidan.answer import Answer, Part
 from kaidan.assessment.limits import Limit, limits
+from kaidan.assessment.measuring import Measurement
 from kaidan.assessment.plan import PlanShown
 from kaidan.assessment.unweighed import CentroidShown
 from kaidan.assessment.verdict import Conclusion
@@ -161,6 +162,9 @@ class Assessment(Answer):
     stated."""
     what_would_help: tuple[Change, ...]
     """Changes that raise the verdict or the margin, the best first."""
+    to_measure: tuple[Measurement, ...]
+    """What to measure next: which doubt the margin feels most, that first; empty where every input
+    is exact, or nobody looked for advice."""
     limits: tuple[Limit, ...]
     """What limits the robot here, where the verdict is no go: figures of the stairs that are more
     than it takes, and what it would need."""
@@ -218,6 +222,7 @@ def fill_in(
     reason: str,
     notes: tuple[str, ...],
     what_would_help: tuple[Change, ...],
+    to_measure: tuple[Measurement, ...] = (),
     centroid: CentroidShown | None = None,
 ) -> Assessment:
     """Answer of a question from what a model found and what it comes to."""
@@ -262,6 +267,7 @@ def fill_in(
         physics=_of(found, PhysicsFigures),
         plan=plan,
         what_would_help=what_would_help,
+        to_measure=to_measure,
         limits=() if conclusion.verdict is Verdict.GO else limits(question),
         notes=notes,
     )

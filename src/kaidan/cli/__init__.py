@@ -39,6 +39,7 @@ _COMMANDS = {
     "read": ("read",),
     "reproduce": ("reproduce",),
     "schema": ("schema",),
+    "sensitivity": ("sensitivity",),
     "study": ("study",),
     "sweep": ("sweep",),
     "traverse": ("traverse",),

@@ -32,6 +32,7 @@ KINDS = {
     "grouser-effects": "kaidan.studies.calibration.answer:GrouserEffects",
     "reproduction": "kaidan.studies.reproduction:Reproduction",
     "design": "kaidan.verbs.design.answer:Design",
+    "sensitivity": "kaidan.studies.sensitivity:Sensitivity",
     "stock": "kaidan.studies.stock.answer:StockStudy",
     "sweep": "kaidan.sweeps.summary:SweepSummary",
     "doctor": "kaidan.verbs.doctor:Diagnosis",

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from kaidan.modes import FAILURE_MODES, Verdict
-from kaidan.text import limits, traction
+from kaidan.text import limits, measuring, traction
 from kaidan.text.unweighed import rows, thresholds
 
 if TYPE_CHECKING:
@@ -39,6 +39,8 @@ def text(answer: "Assessment") -> str:
     slip = None if answer.traction is None else traction.slip(answer.traction)
     if slip is not None:
         lines.append(_row("grousers", slip))
+    if answer.question.uncertain and answer.to_measure:
+        lines.append(_row("measure", measuring.first(answer.to_measure)))
     unknown = _unknown(answer)
     if unknown:
         lines.append(_row("not known", unknown))
@@ -128,6 +130,8 @@ def details(answer: "Assessment") -> str:
                 f"{answer.failure_probability:.3f} (accepted: {question.risk:g})",
             )
         )
+    if answer.to_measure:
+        lines.append(_row("measure", measuring.first(answer.to_measure)))
     lines.append(_row("allowances", _allowances(answer)))
     lines.append(_row("friction", _friction(answer)))
     slip = None if answer.traction is None else traction.slip(answer.traction)
