@@ -27,7 +27,7 @@ class Progress:
     """
 
     def __init__(self, total: int, *, shown: bool, what: str = "trials") -> None:
-        self._total = total
+        self._total, self._what = total, what
         self._bar: Bar | None = None
         self._task: TaskID | None = None
         self._lines = False
@@ -86,6 +86,6 @@ class Progress:
             return
         left = (now - self._began) / self._done * (self._total - self._done)
         about = f"{left:.0f} s" if left < 100 else f"{left / 60:.0f} min"
-        line = f"kaidan: {self._done} of {self._total} trials, about {about} left"
+        line = f"kaidan: {self._done} of {self._total} {self._what}, about {about} left"
         print(line, file=sys.stderr, flush=True)  # noqa: T201
         self._said, self._wait = now, NEXT_LINES

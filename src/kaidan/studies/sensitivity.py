@@ -144,7 +144,7 @@ def sensitivity(
     }
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        rows = sample.sample(problem, samples, calc_second_order=False, seed=seed)
+        rows = sample.sample(problem, samples, calc_second_order=False, seed=seed + 1)  # 0 is none
     values = _exact(question) | {
         each.parameter: Along("draw", _clipped(each, rows[:, k]).tolist())
         for k, each in enumerate(drawn)
@@ -261,7 +261,7 @@ def _indices(analyze: Any, problem: dict[str, Any], values: NDArray[Any], seed: 
         return {"S1": nothing, "ST": nothing, "ST_conf": nothing}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return analyze.analyze(problem, values, calc_second_order=False, seed=seed)
+        return analyze.analyze(problem, values, calc_second_order=False, seed=seed + 1)
 
 
 def _within(index: float) -> float:
