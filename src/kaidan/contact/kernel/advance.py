@@ -175,22 +175,22 @@ def advance(
     third = NO_FEATURE
     distance = 0.0
     x1, z1, phi1, u_x, u_z, u_w = x, z, phi, t_x, t_z, t_w
+    c = 1.0
+    s = 0.0
     r1, f1 = rear, front
     behind = 0.0
     ahead = 0.0
     kappa = 0.0
     kappa0 = tilt(a, g, kappa_g, t_x, t_z)
     for _ in range(60):
-        good, x1, z1, phi1, u_x, u_z, u_w, r1, f1 = stepped(
+        good, x1, z1, phi1, c, s, u_x, u_z, u_w, r1, f1 = stepped(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, ds
         )
         if good:
             third, distance, hint = nearest(
-                ground, body, x1, z1, math.cos(phi1), math.sin(phi1), r1, f1, 0.0, hint
+                ground, body, x1, z1, c, s, r1, f1, 0.0, hint
             )
             if third < 0 or ds < 1e-8 or shallow(body, third, distance):
-                c = math.cos(phi1)
-                s = math.sin(phi1)
                 kappa = tilt(a, g, kappa_g, u_x, u_z)
                 behind = -lever(ground, body, r1, x1, z1, c, s, kappa)
                 ahead = lever(ground, body, f1, x1, z1, c, s, kappa)
@@ -221,8 +221,6 @@ def advance(
     deep = PENETRATED
     for again in range(24):
         if again > 0:
-            c = math.cos(phi1)
-            s = math.sin(phi1)
             kappa = tilt(a, g, kappa_g, u_x, u_z)
             behind = -lever(ground, body, r1, x1, z1, c, s, kappa)
             ahead = lever(ground, body, f1, x1, z1, c, s, kappa)
@@ -256,7 +254,7 @@ def advance(
             deep = PENETRATED
         if found == 0 or ds <= 0.0:
             return Advance.NOT_CONVERGED, x, z, phi, t_x, t_z, t_w, rear, front, hint, ds
-        good, x1, z1, phi1, u_x, u_z, u_w, r1, f1 = stepped(
+        good, x1, z1, phi1, c, s, u_x, u_z, u_w, r1, f1 = stepped(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, ds
         )
         if not good:

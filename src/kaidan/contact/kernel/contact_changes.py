@@ -7,7 +7,7 @@ import math
 from kaidan.contact.codes import ROCKING, RotationOutcome
 from kaidan.contact.columns import NO_FEATURE
 from kaidan.contact.kernel.continuation import corrected, gap_rate, tangent
-from kaidan.contact.kernel.gaps import gap
+from kaidan.contact.kernel.gaps import contact_point
 from kaidan.contact.kernel.recording import write_momentum, write_rotation
 from kaidan.contact.kernel.reserves import barrier
 from kaidan.contact.kernel.settling import lever, settle
@@ -71,11 +71,9 @@ def exchanged(
         rear = made
     else:
         front = made
-    good, x1, z1, phi1, _, _, _ = corrected(ground, body, rear, front, x, z, phi)
+    good, x1, z1, phi1, c1, s1, _, _, _ = corrected(ground, body, rear, front, x, z, phi)
     if good and abs(x1 - x) + abs(z1 - z) + abs(phi1 - phi) < 1e-8:
-        x, z, phi = x1, z1, phi1
-        c = math.cos(phi)
-        s = math.sin(phi)
+        x, z, phi, c, s = x1, z1, phi1, c1, s1
     u_x, u_z, u_w, size = tangent(ground, body, rear, front, x, z, c, s)
     if size == 0.0:
         return False, rear, front, lost, x, z, phi, t_x, t_z, t_w
@@ -138,7 +136,7 @@ def rotate(
         One more, unless it was arrested at once.
     hint
     """
-    _, _, _, p_x, p_z = gap(ground, body, pivot, x, z, math.cos(phi), math.sin(phi))
+    p_x, p_z = contact_point(ground, body, pivot, x, z, math.cos(phi), math.sin(phi))
     outcome, rear, front, x1, z1, phi1, before, after, angle, hint = fall(
         ground, body, pivot, x, z, phi, sense, kappa, gyration, gravity, hint
     )
@@ -151,7 +149,9 @@ def rotate(
     if outcome == RotationOutcome.ARRESTED:
         # momentum: what is left after the impact against what is still to climb
         last = rear if sense >= 0.0 else front
-        _, _, _, p_x, p_z = gap(ground, body, last, x1, z1, math.cos(phi1), math.sin(phi1))
+        c1 = math.cos(phi1)
+        s1 = math.sin(phi1)
+        p_x, p_z = contact_point(ground, body, last, x1, z1, c1, s1)
         arm = (x1 - p_x) * (x1 - p_x) + (z1 - p_z) * (z1 - p_z) + gyration * gyration
         kinetic = 0.5 * arm * after * after
         bounded, rise, hint = barrier(ground, body, last, x1, z1, phi1, sense, kappa, ROCKING, hint)

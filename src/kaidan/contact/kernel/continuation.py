@@ -84,16 +84,16 @@ def gap_rate(
 
 def corrected(
     ground: GroundTable, body: BodyTable, rear: int, front: int, x: float, z: float, phi: float
-) -> tuple[bool, float, float, float, float, float, float]:
+) -> tuple[bool, float, float, float, float, float, float, float, float]:
     """Nearest pose at which both gaps are closed (Newton across the tangent).
 
     Returns
     -------
-    converged, x, z, phi, then the unit tangent (x, z, ARM phi), its sign left open
+    converged, x, z, phi, its cosine and sine, then the unit tangent (x, z, ARM phi), its sign left open
     """
+    c = math.cos(phi)
+    s = math.sin(phi)
     for _ in range(12):
-        c = math.cos(phi)
-        s = math.sin(phi)
         g1, m_x, m_z, p_x, p_z = gap(ground, body, rear, x, z, c, s)
         g2, n_x, n_z, o_x, o_z = gap(ground, body, front, x, z, c, s)
         m_w = ((p_x - x) * m_z - (p_z - z) * m_x) / ARM
@@ -103,17 +103,19 @@ def corrected(
         t_w = m_x * n_z - m_z * n_x
         square = t_x * t_x + t_z * t_z + t_w * t_w
         if square < 1e-20:
-            return False, x, z, phi, 1.0, 0.0, 0.0
+            return False, x, z, phi, c, s, 1.0, 0.0, 0.0
         if abs(g1) < CLOSED and abs(g2) < CLOSED:
             size = math.sqrt(square)
-            return True, x, z, phi, t_x / size, t_z / size, t_w / size
+            return True, x, z, phi, c, s, t_x / size, t_z / size, t_w / size
         if abs(g1) > 0.1 or abs(g2) > 0.1:
-            return False, x, z, phi, 1.0, 0.0, 0.0
+            return False, x, z, phi, c, s, 1.0, 0.0, 0.0
         # -(g1 (G2 x t) + g2 (t x G1)) / t.t
         x -= (g1 * (n_z * t_w - n_w * t_z) + g2 * (t_z * m_w - t_w * m_z)) / square
         z -= (g1 * (n_w * t_x - n_x * t_w) + g2 * (t_w * m_x - t_x * m_w)) / square
         phi -= (g1 * (n_x * t_z - n_z * t_x) + g2 * (t_x * m_z - t_z * m_x)) / (square * ARM)
-    return False, x, z, phi, 1.0, 0.0, 0.0
+        c = math.cos(phi)
+        s = math.sin(phi)
+    return False, x, z, phi, c, s, 1.0, 0.0, 0.0
 
 
 def stepped(
@@ -128,27 +130,27 @@ def stepped(
     t_z: float,
     t_w: float,
     ds: float,
-) -> tuple[bool, float, float, float, float, float, float, int, int]:
+) -> tuple[bool, float, float, float, float, float, float, float, float, int, int]:
     """Pose one step of arclength further, contacts renamed where they run on.
 
     Returns
     -------
-    good, x, z, phi, tangent (3, same sense as before), rear, front
+    good, x, z, phi, its cosine and sine, tangent (3, same sense as before), rear, front
     """
-    good, x1, z1, phi1, u_x, u_z, u_w = corrected(
+    good, x1, z1, phi1, c, s, u_x, u_z, u_w = corrected(
         ground, body, rear, front, x + ds * t_x, z + ds * t_z, phi + ds * t_w / ARM
     )
     if good:
         for _ in range(8):
-            c = math.cos(phi1)
-            s = math.sin(phi1)
             new_rear = relabelled(ground, body, rear, x1, z1, c, s)
             new_front = relabelled(ground, body, front, x1, z1, c, s)
             if new_rear == rear and new_front == front:
                 break
             rear = new_rear
             front = new_front
-            good, x1, z1, phi1, u_x, u_z, u_w = corrected(ground, body, rear, front, x1, z1, phi1)
+            good, x1, z1, phi1, c, s, u_x, u_z, u_w = corrected(
+                ground, body, rear, front, x1, z1, phi1
+            )
             if not good:
                 break
     if good:
@@ -164,7 +166,7 @@ def stepped(
         # no jump to another line, no turn too sharp for the step
         if abs(moved - ds) > 0.2 * ds + 1e-10 or turned < 0.9:
             good = False
-    return good, x1, z1, phi1, u_x, u_z, u_w, rear, front
+    return good, x1, z1, phi1, c, s, u_x, u_z, u_w, rear, front
 
 
 def tilt(a: float, g: float, kappa_g: float, t_x: float, t_z: float) -> float:

@@ -82,7 +82,7 @@ def closing_time(
         mid = lo + (hi - lo) * (weight0 + 0.2 * PENETRATED) / (weight0 - weight1)
         if turn % 4 == 3 or not (lo < mid < hi):
             mid = 0.5 * (lo + hi)
-        good, x1, z1, phi1, u_x, u_z, _, new_rear, new_front = stepped(
+        good, x1, z1, phi1, _, _, u_x, u_z, _, new_rear, new_front = stepped(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, mid
         )
         if not good:

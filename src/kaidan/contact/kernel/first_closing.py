@@ -49,7 +49,7 @@ from kaidan.contact.kernel.closing import (
 from kaidan.contact.kernel.event_location import PENETRATED
 from kaidan.contact.kernel.gaps import gap, on_flat
 from kaidan.contact.kernel.nearest_feature import first_index
-from kaidan.contact.kernel.rotation import turned
+from kaidan.contact.kernel.rotation import carried, turned
 from kaidan.contact.tables import BodyTable, Four, GroundTable, Pose
 
 #: A pivot this close to an end disc [m] lies on it: five times the gap at which a rotation ends.
@@ -275,9 +275,11 @@ def first_closing(
     """
     c0 = math.cos(phi)
     s0 = math.sin(phi)
-    x1, z1 = turned(ground, body, pivot, x, z, phi, sense * end)
-    c1 = math.cos(phi + sense * end)
-    s1 = math.sin(phi + sense * end)
+    ce = math.cos(end)
+    se = math.sin(end)
+    x1, z1 = carried(ground, body, pivot, x, z, c0, s0, sense * end, ce, sense * se)
+    c1 = c0 * ce - s0 * sense * se
+    s1 = s0 * ce + c0 * sense * se
     _, q_x, q_z, o_x, o_z = gap(ground, body, pivot, x, z, c0, s0)
     rolls = pivot & KIND_MASK != VERTEX
     own = (pivot >> PART_BITS) & PART_MASK
@@ -298,8 +300,6 @@ def first_closing(
     start = (x, z, c0, s0, o_x, o_z)
     finish = (x1, z1, c1, s1, f_x, f_z)
     bend = 0.125 * end * end
-    ce = math.cos(end)
-    se = math.sin(end)
     n = ground.shape[0]
     which = NO_FEATURE
     best = end

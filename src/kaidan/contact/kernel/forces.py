@@ -55,7 +55,7 @@ NOTHING = 1e-7
 def cone_angle(tangential: float, normal: float, scale: float) -> float:
     """Friction coefficient one force needs; 0 for no force, infinite for a pull."""
     if normal <= 0.0:
-        if math.hypot(tangential, normal) <= NOTHING * scale:
+        if math.sqrt(tangential * tangential + normal * normal) <= NOTHING * scale:
             return 0.0
         return NEVER
     if abs(tangential) <= 1e-14 * scale:
@@ -94,8 +94,8 @@ def two_contact_forces(
     """
     d_x = p2_x - p1_x
     d_z = p2_z - p1_z
-    d = math.hypot(d_x, d_z)
-    size = math.hypot(w_x, w_z)
+    d = math.sqrt(d_x * d_x + d_z * d_z)
+    size = math.sqrt(w_x * w_x + w_z * w_z)
     if d < 1e-12:
         return NEVER, math.nan, math.nan, math.nan, math.nan
     e_x = d_x / d

@@ -181,6 +181,24 @@ def gap(
     return distance, n_x, n_z, c_x - reach * n_x, c_z - reach * n_z
 
 
+def contact_point(
+    ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
+) -> tuple[float, float]:
+    """Contact point of one feature [m], without its gap: a vertex is its own."""
+    kind = feature & KIND_MASK
+    k = feature >> POINT_BITS
+    if kind == VERTEX:
+        return ground[k, X], ground[k, Z]
+    part = (feature >> PART_BITS) & PART_MASK
+    j = DISC * (kind - DISC_1)
+    c_x = x + c * body[part, j + DISC_X] - s * body[part, j + DISC_Z]
+    c_z = z + s * body[part, j + DISC_X] + c * body[part, j + DISC_Z]
+    u_x = ground[k, U_X]
+    u_z = ground[k, U_Z]
+    off = u_x * (c_z - ground[k, Z]) - u_z * (c_x - ground[k, X])
+    return c_x + off * u_z, c_z - off * u_x
+
+
 def pressed_normal(
     ground: GroundTable,
     body: BodyTable,

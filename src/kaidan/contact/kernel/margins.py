@@ -89,9 +89,9 @@ def pivot_rise(p_x: float, p_z: float, x: float, z: float, kappa: float) -> floa
 
     alpha [1 - sin(angle)], angle of the line point to centroid above the effective horizontal.
     """
-    return math.hypot(x - p_x, z - p_z) - (z - p_z + kappa * (x - p_x)) / math.sqrt(
-        1.0 + kappa * kappa
-    )
+    d_x = x - p_x
+    d_z = z - p_z
+    return math.sqrt(d_x * d_x + d_z * d_z) - (d_z + kappa * d_x) / math.sqrt(1.0 + kappa * kappa)
 
 
 def lasting(
@@ -165,10 +165,12 @@ def margins_at(
     back = -(p_x - x + kappa * (z - p_z)) / down
     front = (o_x - x + kappa * (z - o_z)) / down
     belly = 0.0
-    steepest = max(
-        abs(math.atan2(poses[row, REAR_N_X], poses[row, REAR_N_Z])),
-        abs(math.atan2(poses[row, FRONT_N_X], poses[row, FRONT_N_Z])),
-    )
+    # normal of the steepest contact, its x taken positive
+    n_x = abs(poses[row, REAR_N_X])
+    n_z = poses[row, REAR_N_Z]
+    if abs(poses[row, FRONT_N_X]) * n_z > poses[row, FRONT_N_Z] * n_x:
+        n_x = abs(poses[row, FRONT_N_X])
+        n_z = poses[row, FRONT_N_Z]
     r_x, r_z, f_x, f_z = p_x, p_z, o_x, o_z
     # all contacts press one way: the active pair's friction, the slope, is the least already
     one_plane = abs(poses[row, REAR_N_X] - poses[row, FRONT_N_X]) < 1e-12
@@ -178,7 +180,9 @@ def margins_at(
         if int(found[k, CONTACT_KIND]) == BELLY:
             belly = 1.0
         if many > 2:
-            steepest = max(steepest, abs(math.atan2(found[k, CONTACT_N_X], found[k, CONTACT_N_Z])))
+            if abs(found[k, CONTACT_N_X]) * n_z > found[k, CONTACT_N_Z] * n_x:
+                n_x = abs(found[k, CONTACT_N_X])
+                n_z = found[k, CONTACT_N_Z]
             ahead = (found[k, CONTACT_X] - x + kappa * (z - found[k, CONTACT_Z])) / down
             # more than two: the outermost contacts bound the margins
             if ahead > front:
@@ -222,7 +226,7 @@ def margins_at(
     margins[row, ZMP] = back / (back + front) if back + front > 0.0 else math.nan
     margins[row, CONTACTS] = max(many, 2)
     margins[row, BELLY_TOUCHES] = belly
-    margins[row, STEEPEST] = steepest
+    margins[row, STEEPEST] = math.atan2(n_x, n_z)
     margins[row, TILT] = kappa
     margins[row, OUTER_REAR] = poses[row, POSE_REAR]
     margins[row, OUTER_FRONT] = poses[row, POSE_FRONT]

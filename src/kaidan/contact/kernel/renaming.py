@@ -99,13 +99,11 @@ def renaming(
         mid = lo + (hi - lo) * weight0 / (weight0 - weight1)
         if turn % 4 == 3 or not (lo < mid < hi):
             mid = 0.5 * (lo + hi)
-        good, x1, z1, phi1, _, _, _, new_rear, new_front = stepped(
+        good, x1, z1, _, c, s, _, _, _, new_rear, new_front = stepped(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, mid
         )
         if not good:
             break
-        c = math.cos(phi1)
-        s = math.sin(phi1)
         room = min(
             name_room(ground, body, rear, x1, z1, c, s),
             name_room(ground, body, front, x1, z1, c, s),
@@ -153,7 +151,7 @@ def record_renamings(
         cut = renaming(ground, body, rear, front, x, z, phi, t_x, t_z, t_w, left)
         if cut > left - 2.0 * PLACE:  # the pose at the end of the step is it
             break
-        good, x, z, phi, t_x, t_z, t_w, rear, front = stepped(
+        good, x, z, phi, _, _, t_x, t_z, t_w, rear, front = stepped(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, cut
         )
         if not good:
@@ -208,7 +206,7 @@ def poses_between(
         for _ in range(20):
             if left <= PLACE or step <= PLACE:
                 break
-            good, x1, z1, phi1, u_x, u_z, u_w, new_rear, new_front = stepped(
+            good, x1, z1, phi1, _, _, u_x, u_z, u_w, new_rear, new_front = stepped(
                 ground, body, rear, front, x, z, phi, t_x, t_z, t_w, min(step, left)
             )
             if good:

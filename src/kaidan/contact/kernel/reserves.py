@@ -44,9 +44,9 @@ from kaidan.contact.columns import (
 from kaidan.contact.kernel.closing import crossing_angle
 from kaidan.contact.kernel.event_location import PENETRATED
 from kaidan.contact.kernel.first_closing import first_closing
-from kaidan.contact.kernel.gaps import gap, on_flat
+from kaidan.contact.kernel.gaps import contact_point, on_flat
 from kaidan.contact.kernel.nearest_feature import first_index
-from kaidan.contact.kernel.rotation import angle_until_over, foot_limit, next_pivot, turned
+from kaidan.contact.kernel.rotation import angle_until_over, carried, foot_limit, next_pivot, turned
 from kaidan.contact.kernel.settling import lever
 from kaidan.contact.tables import BodyTable, GroundTable
 
@@ -86,7 +86,9 @@ def barrier(
     total = 0.0
     best = 0.0
     for _ in range(60):
-        delta = lever(ground, body, pivot, x, z, math.cos(phi), math.sin(phi), kappa)
+        c = math.cos(phi)
+        s = math.sin(phi)
+        delta = lever(ground, body, pivot, x, z, c, s, kappa)
         over = 0.0
         if delta * sense < 0.0:
             over = max(angle_until_over(ground, body, pivot, x, z, phi, sense, kappa, False), 0.0)
@@ -101,8 +103,12 @@ def barrier(
             end = min(max(over + AS_IT_COMES_OVER, tolerance - total), end)
         closed, angle, hint = first_closing(ground, body, pivot, x, z, phi, sense, end, hint)
         if over < angle:
-            top_x, top_z = turned(ground, body, pivot, x, z, phi, sense * over)
+            c_over = math.cos(over)
+            s_over = sense * math.sin(over)
+            top_x, top_z = carried(ground, body, pivot, x, z, c, s, sense * over, c_over, s_over)
             best = max(best, (top_z + kappa * top_x) / down - height)
+            if closed < 0 and angle < limit and pivot & KIND_MASK == VERTEX:
+                return True, best, hint  # past the highest point of a circle
         x, z = turned(ground, body, pivot, x, z, phi, sense * angle)
         phi += sense * angle
         total += angle
@@ -123,7 +129,7 @@ def lean(
     sense: float, kappa: float,
 ) -> float:  # fmt: skip
     """Tilt of gravity at which its line through the centroid passes a contact [rad]."""
-    _, _, _, p_x, p_z = gap(ground, body, pivot, x, z, math.cos(phi), math.sin(phi))
+    p_x, p_z = contact_point(ground, body, pivot, x, z, math.cos(phi), math.sin(phi))
     return math.atan2(sense * (x - p_x - kappa * (z - p_z)), z - p_z + kappa * (x - p_x))
 
 

@@ -43,8 +43,17 @@ def turned(
     ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float, angle: float
 ) -> tuple[float, float]:
     """Centroid after turning by ``angle`` about a contact: closed form, rolling included."""
-    c = math.cos(angle)
-    s = math.sin(angle)
+    return carried(
+        ground, body, pivot, x, z, math.cos(phi), math.sin(phi), angle,
+        math.cos(angle), math.sin(angle),
+    )  # fmt: skip
+
+
+def carried(
+    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, c0: float, s0: float,
+    angle: float, c: float, s: float,
+) -> tuple[float, float]:  # fmt: skip
+    """Centroid after turning by ``angle``; cosines and sines of the inclination and of the turn."""
     kind = pivot & KIND_MASK
     k = pivot >> POINT_BITS
     if kind == VERTEX:
@@ -55,8 +64,6 @@ def turned(
         return g_x + c * d_x - s * d_z, g_z + s * d_x + c * d_z
     part = (pivot >> PART_BITS) & PART_MASK
     j = DISC * (kind - DISC_1)
-    c0 = math.cos(phi)
-    s0 = math.sin(phi)
     b_x = body[part, j + DISC_X]
     b_z = body[part, j + DISC_Z]
     o_x = c0 * b_x - s0 * b_z
@@ -123,11 +130,12 @@ def angle_until_over(
     on which a disc comes to rest rocking. A vertex is never hung from within 90 degrees.
     """
     k = pivot >> POINT_BITS
-    up = math.atan2(1.0, kappa)
     if pivot & KIND_MASK == VERTEX:
-        angle = sense * (up - math.atan2(z - ground[k, Z], x - ground[k, X]))
         if below:
             return NEVER
+        d_x = x - ground[k, X]
+        d_z = z - ground[k, Z]
+        angle = sense * math.atan2(d_x - kappa * d_z, d_z + kappa * d_x)
         return angle + 2.0 * math.pi if angle < -1e-9 else angle
     part = (pivot >> PART_BITS) & PART_MASK
     j = DISC * ((pivot & KIND_MASK) - DISC_1)
@@ -136,11 +144,11 @@ def angle_until_over(
     d_x = s * body[part, j + DISC_Z] - c * body[part, j + DISC_X]
     d_z = -s * body[part, j + DISC_X] - c * body[part, j + DISC_Z]
     ratio = body[part, j + DISC_R] * (ground[k, U_Z] + kappa * ground[k, U_X])
-    size = math.hypot(d_x, d_z) * math.sqrt(1.0 + kappa * kappa)
+    size = math.sqrt((d_x * d_x + d_z * d_z) * (1.0 + kappa * kappa))
     if abs(ratio) >= size:
         return NEVER
     lean = math.asin(ratio / size)
     if below:
         lean = math.pi - lean
-    angle = sense * (up - lean - math.atan2(d_z, d_x))
+    angle = sense * (math.atan2(1.0, kappa) - lean - math.atan2(d_z, d_x))
     return angle + 2.0 * math.pi if angle < -1e-9 else angle

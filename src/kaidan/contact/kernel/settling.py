@@ -36,7 +36,7 @@ from kaidan.contact.columns import (
     Z,
 )
 from kaidan.contact.entries import entry
-from kaidan.contact.kernel.gaps import FAR, gap
+from kaidan.contact.kernel.gaps import FAR, contact_point, gap
 from kaidan.contact.kernel.nearest_feature import first_index
 from kaidan.contact.tables import BodyTable, GroundTable
 
@@ -140,7 +140,7 @@ def lever(
 
     ``kappa`` is the tilt of effective gravity, a cos psi / (g + a sin psi); 0 at rest.
     """
-    _, _, _, p_x, p_z = gap(ground, body, feature, x, z, c, s)
+    p_x, p_z = contact_point(ground, body, feature, x, z, c, s)
     return p_x - x + kappa * (z - p_z)
 
 

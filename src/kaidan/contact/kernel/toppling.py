@@ -20,7 +20,7 @@ import math
 from kaidan.contact.codes import RotationOutcome
 from kaidan.contact.columns import NO_FEATURE
 from kaidan.contact.kernel.first_closing import first_closing
-from kaidan.contact.kernel.gaps import gap
+from kaidan.contact.kernel.gaps import contact_point, gap
 from kaidan.contact.kernel.rotation import (
     NEVER,
     angle_until_over,
@@ -50,8 +50,8 @@ def same_place(
     """Whether two features are one contact under two names (points within 2 um)."""
     c = math.cos(phi)
     s = math.sin(phi)
-    _, _, _, p_x, p_z = gap(ground, body, one, x, z, c, s)
-    _, _, _, o_x, o_z = gap(ground, body, other, x, z, c, s)
+    p_x, p_z = contact_point(ground, body, one, x, z, c, s)
+    o_x, o_z = contact_point(ground, body, other, x, z, c, s)
     return abs(p_x - o_x) < 2e-6 and abs(p_z - o_z) < 2e-6
 
 
@@ -146,7 +146,7 @@ def fall(
         x, z, phi = x1, z1, phi1
         c = math.cos(phi)
         s = math.sin(phi)
-        _, _, _, a_x, a_z = gap(ground, body, about, x, z, c, s)
+        a_x, a_z = contact_point(ground, body, about, x, z, c, s)
         a_x = x - a_x
         a_z = z - a_z
         omega_minus = math.sqrt(max(2.0 * freely / (k2 + a_x * a_x + a_z * a_z), 0.0))
@@ -163,7 +163,7 @@ def fall(
                 RotationOutcome.PAST_VERTICAL, pivot, NO_FEATURE,
                 x, z, phi, omega_minus, omega_plus, total, hint,
             )  # fmt: skip
-        _, _, _, b_x, b_z = gap(ground, body, closed, x, z, c, s)
+        b_x, b_z = contact_point(ground, body, closed, x, z, c, s)
         b_x = x - b_x
         b_z = z - b_z
         share = max(k2 + a_x * b_x + a_z * b_z, 0.0)
