@@ -39,7 +39,7 @@ from kaidan.contact.columns import (
 )
 from kaidan.contact.kernel.event_location import PENETRATED
 from kaidan.contact.kernel.gaps import on_flat
-from kaidan.contact.kernel.rotation import NEVER, turned
+from kaidan.contact.kernel.rotation import NEVER, carried
 from kaidan.contact.tables import BodyTable, GroundTable
 
 #: A gap that falls by less than this per radian [m] is one contact under two names, at rest.
@@ -152,7 +152,8 @@ def closing_angle(
     pivot: int,
     x: float,
     z: float,
-    phi: float,
+    c0: float,
+    s0: float,
     o_x: float,
     o_z: float,
     sense: float,
@@ -197,10 +198,11 @@ def closing_angle(
             meet = (lo * rate1 - hi * rate0) / (rate1 - rate0)
             if turn % 3 == 2 or not (lo < meet < hi):
                 meet = 0.5 * (lo + hi)
-            x1, z1 = turned(ground, body, pivot, x, z, phi, sense * meet)
-            angle = phi + sense * meet
+            c = math.cos(meet)
+            s = sense * math.sin(meet)
+            x1, z1 = carried(ground, body, pivot, x, z, c0, s0, sense * meet, c, s)
             value, rate = separation(
-                ground, body, k, part, piece, x1, z1, math.cos(angle), math.sin(angle),
+                ground, body, k, part, piece, x1, z1, c0 * c - s0 * s, s0 * c + c0 * s,
                 o_x + meet * u_x, o_z + meet * u_z, sense,
             )  # fmt: skip
             if value < -PENETRATED:
@@ -221,10 +223,11 @@ def closing_angle(
     # secant to begin with, then Newton from the newest point
     at = hi * (g0 - floor) / (g0 - g1) if g0 > floor else 0.5 * hi
     for _ in range(60):
-        x1, z1 = turned(ground, body, pivot, x, z, phi, sense * at)
-        angle = phi + sense * at
+        c = math.cos(at)
+        s = sense * math.sin(at)
+        x1, z1 = carried(ground, body, pivot, x, z, c0, s0, sense * at, c, s)
         value, rate = separation(
-            ground, body, k, part, piece, x1, z1, math.cos(angle), math.sin(angle),
+            ground, body, k, part, piece, x1, z1, c0 * c - s0 * s, s0 * c + c0 * s,
             o_x + at * u_x, o_z + at * u_z, sense,
         )  # fmt: skip
         value -= floor

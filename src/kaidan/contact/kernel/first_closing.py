@@ -49,7 +49,7 @@ from kaidan.contact.kernel.closing import (
 from kaidan.contact.kernel.event_location import PENETRATED
 from kaidan.contact.kernel.gaps import gap, on_flat
 from kaidan.contact.kernel.nearest_feature import first_index
-from kaidan.contact.kernel.rotation import carried, turned
+from kaidan.contact.kernel.rotation import carried
 from kaidan.contact.tables import BodyTable, Four, GroundTable, Pose
 
 #: A pivot this close to an end disc [m] lies on it: five times the gap at which a rotation ends.
@@ -73,7 +73,8 @@ def out_of_reach(
 
 def vertex_closing(
     ground: GroundTable, body: BodyTable, k: int, part: int, pivot: int,
-    x: float, z: float, phi: float, o_x: float, o_z: float, sense: float, ce: float, se: float,
+    x: float, z: float, c0: float, s0: float, o_x: float, o_z: float, sense: float,
+    ce: float, se: float,
     n_x: float, n_z: float, flat_level: float, centres: Four, best: float, which: int,
 ) -> tuple[float, int]:  # fmt: skip
     """Point k meets the flat or the end discs of a part that turns about (o_x, o_z).
@@ -87,10 +88,11 @@ def vertex_closing(
     even = v_x * n_x + v_z * n_z
     at = crossing_angle(flat_level, even, sense * (v_z * n_x - v_x * n_z), ce, se, PENETRATED)
     if at < best:
-        y_x, y_z = turned(ground, body, pivot, x, z, phi, sense * at)
-        angle = phi + sense * at
+        c = math.cos(at)
+        s = sense * math.sin(at)
+        y_x, y_z = carried(ground, body, pivot, x, z, c0, s0, sense * at, c, s)
         feature = POINT * k + PART * part
-        if on_flat(ground, body, feature, y_x, y_z, math.cos(angle), math.sin(angle)):
+        if on_flat(ground, body, feature, y_x, y_z, c0 * c - s0 * s, s0 * c + c0 * s):
             best = at
             which = feature
     square = v_x * v_x + v_z * v_z
@@ -183,7 +185,7 @@ def segment_closing(
 
 def rolling_closing(
     ground: GroundTable, body: BodyTable, k: int, part: int, pivot: int, free: bool,
-    phi: float, start: Pose, finish: Pose, sense: float, end: float, rolled: float,
+    start: Pose, finish: Pose, sense: float, end: float, rolled: float,
     centres: Four, ranges: Four, best: float, which: int,
 ) -> tuple[float, int]:  # fmt: skip
     """Point k or segment k meets a part that rolls: no sinusoid, found between two looks.
@@ -243,14 +245,16 @@ def rolling_closing(
         if g1 >= -PENETRATED and rate0 >= -RESTING:
             continue
         at = closing_angle(
-            ground, body, k, part, piece, pivot, x, z, phi, o_x, o_z, sense, end,
+            ground, body, k, part, piece, pivot, x, z, c0, s0, o_x, o_z, sense, end,
             g0, rate0, g1, rate1, reach,
         )  # fmt: skip
         if at < best:
-            y_x, y_z = turned(ground, body, pivot, x, z, phi, sense * at)
-            c = math.cos(phi + sense * at)
-            s = math.sin(phi + sense * at)
-            if on_piece(ground, body, k, part, piece, y_x, y_z, c, s):
+            c = math.cos(at)
+            s = sense * math.sin(at)
+            y_x, y_z = carried(ground, body, pivot, x, z, c0, s0, sense * at, c, s)
+            y_c = c0 * c - s0 * s
+            y_s = s0 * c + c0 * s
+            if on_piece(ground, body, k, part, piece, y_x, y_z, y_c, y_s):
                 best = at
                 which = feature
     return best, which
@@ -339,13 +343,13 @@ def first_closing(
                 continue
             if rolls:
                 best, which = rolling_closing(
-                    ground, body, k, part, pivot, free, phi, start, finish, sense, end, rolled,
+                    ground, body, k, part, pivot, free, start, finish, sense, end, rolled,
                     centres, ranges, best, which,
                 )  # fmt: skip
             else:
                 if not free and ground[k, CONVEX] == 1.0 and not (k == at_k and part == own):
                     best, which = vertex_closing(
-                        ground, body, k, part, pivot, x, z, phi, o_x, o_z, sense, ce, se,
+                        ground, body, k, part, pivot, x, z, c0, s0, o_x, o_z, sense, ce, se,
                         n_x, n_z, flat_level, centres, best, which,
                     )  # fmt: skip
                 best, which = segment_closing(

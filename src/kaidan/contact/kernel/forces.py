@@ -24,13 +24,18 @@ from kaidan.contact.columns import (
     CONTACT_X,
     CONTACT_Z,
     CONVEX,
+    COSINE,
     DISC_2,
+    E_X,
+    E_Z,
     KIND,
     LENGTH,
     PART,
     POINT,
     R1,
     R2,
+    SIDE,
+    SINE,
     U_X,
     U_Z,
     VERTEX,
@@ -207,6 +212,13 @@ def contacts_at(
         z2 = z + s * body[part, X2] + c * body[part, Z2]
         left = min(x1 - body[part, R1], x2 - body[part, R2]) - touch
         right = max(x1 + body[part, R1], x2 + body[part, R2]) + touch
+        # downward normal of the flat
+        side = body[part, SIDE]
+        b_x = body[part, SINE] * body[part, E_X] + body[part, COSINE] * side * body[part, E_Z]
+        b_z = body[part, SINE] * body[part, E_Z] - body[part, COSINE] * side * body[part, E_X]
+        q_x = c * b_x - s * b_z
+        q_z = s * b_x + c * b_z
+        line = x1 * q_x + z1 * q_z + body[part, R1] + touch
         k = first_index(ground, left, hint)
         hint = k
         if k < new_hint:
@@ -214,7 +226,8 @@ def contacts_at(
         while k < n - 1 and ground[k, X] <= right:
             for kind in range(VERTEX, DISC_2 + 1):
                 if kind == VERTEX:
-                    if ground[k, CONVEX] != 1.0:
+                    # below the line of the flat a vertex is farther from the part than from it
+                    if ground[k, CONVEX] != 1.0 or ground[k, X] * q_x + ground[k, Z] * q_z > line:
                         continue
                 else:
                     to_x = x1 - ground[k, X]

@@ -147,26 +147,25 @@ def nearest(
         while k < n - 1 and ground[k, X] <= right:
             g_x = ground[k, X]
             g_z = ground[k, Z]
-            if ground[k, CONVEX] == 1.0 and g_x >= left:
-                a_x = g_x - x1
-                a_z = g_z - z1
-                along = a_x * e_x + a_z * e_z
-                below = side * (a_x * e_z - a_z * e_x)
-                if below < 0.0 and (below < -thin or g_x <= from_x or g_x >= to_far):
-                    below = -below
+            a_x = g_x - x1
+            a_z = g_z - z1
+            along = a_x * e_x + a_z * e_z
+            below = side * (a_x * e_z - a_z * e_x)
+            if below < 0.0 and (below < -thin or g_x <= from_x or g_x >= to_far):
+                below = -below
+            distance = along * sine + below * cosine - r1  # to the line of the flat: no more
+            if distance < best and ground[k, CONVEX] == 1.0 and g_x >= left:
                 w = along * cosine - below * sine
-                distance = along * sine + below * cosine - r1
+                if w < 0.0:
+                    distance = math.sqrt(along * along + below * below) - r1
+                elif w > flat:
+                    along -= body[part, AXIS]
+                    distance = math.sqrt(along * along + below * below) - r2
                 if distance < best:
-                    if w < 0.0:
-                        distance = math.sqrt(along * along + below * below) - r1
-                    elif w > flat:
-                        along -= body[part, AXIS]
-                        distance = math.sqrt(along * along + below * below) - r2
-                    if distance < best:
-                        feature = POINT * k + PART * part
-                        if feature != skip_1 and feature != skip_2:
-                            best = distance
-                            which = feature
+                    feature = POINT * k + PART * part
+                    if feature != skip_1 and feature != skip_2:
+                        best = distance
+                        which = feature
             next_x = ground[k + 1, X]
             for disc in range(DISC_1, DISC_2 + 1):
                 if disc == DISC_1:

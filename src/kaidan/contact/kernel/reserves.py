@@ -109,7 +109,9 @@ def barrier(
             best = max(best, (top_z + kappa * top_x) / down - height)
             if closed < 0 and angle < limit and pivot & KIND_MASK == VERTEX:
                 return True, best, hint  # past the highest point of a circle
-        x, z = turned(ground, body, pivot, x, z, phi, sense * angle)
+        x, z = carried(
+            ground, body, pivot, x, z, c, s, sense * angle, math.cos(angle), sense * math.sin(angle)
+        )
         phi += sense * angle
         total += angle
         best = max(best, (z + kappa * x) / down - height)
