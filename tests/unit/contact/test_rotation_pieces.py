@@ -273,7 +273,7 @@ def test_where_a_piece_of_a_gap_closes_while_a_disc_rolls(seed):
         return
     steepest = 1.5 * max(abs(piece_at(each)[1]) for each in np.linspace(0, end, 50)) + 0.1
     found = closing_angle(
-        GROUND, BODY, at, 1, piece, pivot, x, z, phi, o_x, o_z, sense, end,
+        GROUND, BODY, at, 1, piece, pivot, x, z, math.cos(phi), math.sin(phi), o_x, o_z, sense, end,
         g0, rate0, g1, rate1, steepest,
     )  # fmt: skip
     grid = np.linspace(0.0, end, 2001)

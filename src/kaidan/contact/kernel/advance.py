@@ -187,9 +187,7 @@ def advance(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, ds
         )
         if good:
-            third, distance, hint = nearest(
-                ground, body, x1, z1, c, s, r1, f1, 0.0, hint
-            )
+            third, distance, hint = nearest(ground, body, x1, z1, c, s, r1, f1, 0.0, hint)
             if third < 0 or ds < 1e-8 or shallow(body, third, distance):
                 kappa = tilt(a, g, kappa_g, u_x, u_z)
                 behind = -lever(ground, body, r1, x1, z1, c, s, kappa)

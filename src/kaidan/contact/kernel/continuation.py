@@ -89,7 +89,7 @@ def corrected(
 
     Returns
     -------
-    converged, x, z, phi, its cosine and sine, then the unit tangent (x, z, ARM phi), its sign left open
+    converged, x, z, phi, its cosine and sine, then the unit tangent (x, z, ARM phi), sign left open
     """
     c = math.cos(phi)
     s = math.sin(phi)
