@@ -30,7 +30,7 @@ from kaidan.contact.source_mark import source_mark
 from kaidan.contact.tables import FloatRow, IntArray
 
 SCALARS = {float: "double", int: "long long", bool: "bint", type(None): "void"}
-MATH = ("acos", "asin", "atan2", "copysign", "cos", "hypot", "isnan", "sin", "sqrt", "tan")
+MATH = ("acos", "asin", "atan2", "copysign", "cos", "isnan", "sin", "sqrt", "tan")
 
 HEAD = """\
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, infer_types=False

@@ -228,14 +228,12 @@ def pressed_normal(
     k = feature >> POINT_BITS
     if on_flat(ground, body, feature, x, z, c, s):
         return n_x, n_z
-    to_1 = math.hypot(
-        x + c * body[part, X1] - s * body[part, Z1] - ground[k, X],
-        z + s * body[part, X1] + c * body[part, Z1] - ground[k, Z],
-    )
-    to_2 = math.hypot(
-        x + c * body[part, X2] - s * body[part, Z2] - ground[k, X],
-        z + s * body[part, X2] + c * body[part, Z2] - ground[k, Z],
-    )
+    d_x = x + c * body[part, X1] - s * body[part, Z1] - ground[k, X]
+    d_z = z + s * body[part, X1] + c * body[part, Z1] - ground[k, Z]
+    to_1 = math.sqrt(d_x * d_x + d_z * d_z)
+    d_x = x + c * body[part, X2] - s * body[part, Z2] - ground[k, X]
+    d_z = z + s * body[part, X2] + c * body[part, Z2] - ground[k, Z]
+    to_2 = math.sqrt(d_x * d_x + d_z * d_z)
     j = 0 if to_1 - body[part, R1] <= to_2 - body[part, R2] else DISC
     radius = body[part, j + DISC_R]
     # of all flats that end on this disc the nearest, and how far the normal has turned from it

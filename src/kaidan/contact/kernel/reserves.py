@@ -183,10 +183,11 @@ def next_under_flat(
                     PENETRATED,
                 )  # fmt: skip
                 if angle < best:
-                    y_x, y_z = turned(ground, body, pivot, x, z, phi, sense * angle)
-                    turn = phi + sense * angle
+                    c1 = math.cos(angle)
+                    s1 = sense * math.sin(angle)
+                    y_x, y_z = carried(ground, body, pivot, x, z, c, s, sense * angle, c1, s1)
                     feature = POINT * k + PART * part
-                    if on_flat(ground, body, feature, y_x, y_z, math.cos(turn), math.sin(turn)):
+                    if on_flat(ground, body, feature, y_x, y_z, c * c1 - s * s1, s * c1 + c * s1):
                         best = angle
                         which = feature
             k += 1
