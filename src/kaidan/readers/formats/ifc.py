@@ -30,6 +30,9 @@ MOST_SECONDS, SECONDS_A_MB = 60.0, 6.0
 MEMORY, MEMORY_A_BYTE = 4 << 30, 60
 """Memory that it may take, in all and more for each byte of the model."""
 
+FARTHEST = 1e7
+"""Distance from the origin of the model beyond which nothing is drawn [m]: the coordinates of
+all maps are smaller."""
 END = b"END-ISO-10303-21"
 """How every model ends."""
 _TAIL = 4096
@@ -71,7 +74,7 @@ def read(source: Source, hints: Hints, *, around: bool = False) -> Bodies:
         line, rest = _parsed(source, path, around)
     try:
         found = json.loads(line)
-        bodies = tuple(_bodies(found, rest))
+        bodies = tuple(_bodies(source, found, rest))
     except (ValueError, KeyError, IndexError, TypeError):
         raise source.refuse("no readable building model: the parser's answer is broken") from None
     unit = found.get("unit", 1.0)
@@ -88,7 +91,7 @@ def read(source: Source, hints: Hints, *, around: bool = False) -> Bodies:
     return Bodies(bodies, provenance, facts)
 
 
-def _bodies(found: dict[str, Any], rest: bytes) -> Iterator[Body]:
+def _bodies(source: Source, found: dict[str, Any], rest: bytes) -> Iterator[Body]:
     at, lengths = 0, iter(found["lengths"])
     for each in found["bodies"]:
         vertices, faces = np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
@@ -97,6 +100,8 @@ def _bodies(found: dict[str, Any], rest: bytes) -> Iterator[Body]:
             vertices = np.frombuffer(rest, np.float64, n, at).reshape(-1, 3)
             faces = np.frombuffer(rest, np.int32, m, at + 8 * n).reshape(-1, 3).astype(np.int64)
             at += 8 * n + 4 * m
+            if not np.abs(vertices).max() < FARTHEST:  # NaN too
+                raise source.refuse(f"drawn farther off than {FARTHEST:g} m", each["id"])
         yield Body(
             identity=each["id"],
             name=each["name"],

@@ -174,6 +174,17 @@ def _storeys(model: Any) -> list[dict[str, Any]]:
     return found
 
 
+def _said(error: Exception) -> str:
+    """What the parser says, with the place from its log where it has one."""
+    text = str(error)
+    if "check logs" not in text:
+        return text
+    import ifcopenshell
+
+    lines = [each for each in ifcopenshell.get_log().splitlines() if "[error]" in each]
+    return lines[0].rpartition("] ")[2] if lines else text
+
+
 def _write(found: dict[str, Any], arrays: list[Any]) -> None:
     """One line of JSON, then the arrays one after another; their lengths stand in the line."""
     found["lengths"] = [len(each) for each in arrays]
@@ -192,6 +203,10 @@ if __name__ == "__main__":
     except (MemoryError, RecursionError) as error:
         sys.stderr.write(f"KAIDAN {type(error).__name__}\n")
         sys.exit(3)
+    except (AttributeError, TypeError, ValueError, KeyError) as error:
+        said = " ".join(str(error).split())[:200]
+        sys.stderr.write(f"KAIDAN an element is not as the schema has it ({said})\n")
+        sys.exit(3)
     except Exception as error:
-        sys.stderr.write("KAIDAN " + " ".join(str(error).split())[:300] + "\n")
+        sys.stderr.write("KAIDAN " + " ".join(_said(error).split())[:300] + "\n")
         sys.exit(3)
