@@ -82,15 +82,20 @@ class House:
         ahead = (math.cos(math.radians(degrees)), math.sin(math.radians(degrees)), 0)
         return self.make("IfcLocalPlacement", within, self.axes(origin, (0, 0, 1), ahead))
 
-    def extruded(self, corners, depth, axes):
-        line = self.make("IfcPolyline", [self.point(*each) for each in (*corners, corners[0])])
-        profile = self.make("IfcArbitraryClosedProfileDef", "AREA", None, line)
+    def extruded(self, corners, depth, axes, hole=None):
+        lines = [
+            self.make("IfcPolyline", [self.point(*each) for each in (*ring, ring[0])])
+            for ring in (corners, hole)
+            if ring is not None
+        ]
+        kind = "IfcArbitraryClosedProfileDef" if hole is None else "IfcArbitraryProfileDefWithVoids"
+        profile = self.make(kind, "AREA", None, lines[0], *([lines[1:]] if hole else []))
         up = self.make("IfcDirection", [0.0, 0.0, 1.0])
         return self.make("IfcExtrudedAreaSolid", profile, axes, up, float(depth) * self.scale)
 
-    def slab(self, corners, top, thickness=0.2):
+    def slab(self, corners, top, thickness=0.2, hole=None):
         """Solid of a plan outline below a level."""
-        return self.extruded(corners, thickness, self.axes((0, 0, top - thickness)))
+        return self.extruded(corners, thickness, self.axes((0, 0, top - thickness)), hole)
 
     def side(self, corners, width, t=0.0):
         """Solid of a side view (s, z), from t to the right over a width."""

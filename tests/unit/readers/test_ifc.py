@@ -176,6 +176,62 @@ def test_what_turns_is_refused_with_its_angle(model):
 
 
 @pytest.fixture(scope="module")
+def hard(tmp_path_factory):
+    """Far from the origin: a slab with a hole, one flight above another, odd treads."""
+    h = House(storeys=((0.0, "G"), (3.0, "F"), (6.0, "S")))
+    x, y = 5e5, 4e6
+    end, floor = 14 * 0.28, [(-3, -3), (8, -3), (8, 3), (-3, 3)]
+    steps = {"rises": [0.2] * 15, "goings": [0.28] * 14, "last": False}
+    h.add("IfcStairFlight", "far", [monolith(h, **steps)], at=(x, y, 0), degrees=20)
+    h.add("IfcStairFlight", "above", [monolith(h, **steps)], at=(x, y, 3), degrees=20, storey=1)
+    h.add("IfcSlab", "ground", [h.slab(floor, 0.0)], at=(x, y, 0), degrees=20)
+    hole = [(-0.2, -0.6), (end, -0.6), (end, 0.6), (-0.2, 0.6)]
+    h.add("IfcSlab", "holed", [h.slab(floor, 3.0, hole=hole)], at=(x, y, 0), degrees=20)
+    run, rise = 0.28, 0.18
+    wide = [h.side([(0, 0), (0, rise), (run, rise), (run, 0)], 1.6, 0.8)]
+    wide += [h.side([(run * k, 0), (run * k, rise * (k + 1)), (run * (k + 1), rise * (k + 1)),
+                     (run * (k + 1), 0)], 1.0, 0.5) for k in range(1, 8)]  # fmt: skip
+    h.add("IfcStairFlight", "wide first step", wide, at=(x + 20, y, 0))
+    falling = [h.side([(run * k, rise * (k + 1) - 0.1), (run * k, rise * (k + 1) - 0.0042),
+                       (run * (k + 1), rise * (k + 1)), (run * (k + 1), rise * (k + 1) - 0.1)],
+                      1.0, 0.5) for k in range(8)]  # fmt: skip
+    h.add("IfcStairFlight", "falling treads", falling, at=(x + 30, y, 0))
+    top = []
+    for k in range(8):
+        z = rise * (k + 1)
+        top += [(run * k, z - 0.01), (run * k + 0.01, z), (run * (k + 1), z)]
+    body = [(0, 0), *top, (run * 8, rise * 8 - 0.3), (0.3, 0)]
+    h.add("IfcStairFlight", "bevelled", [h.side(body, 1.0, 0.5)], at=(x + 40, y, 0))
+    return building(h.write(tmp_path_factory.mktemp("ifc") / "hard.ifc"))
+
+
+@pytest.mark.parametrize(
+    ("name", "rises", "going"),
+    [
+        ("far", [0.2] * 15, 0.28),
+        ("above", [0.2] * 15, 0.28),
+        ("wide first step", [0.18] * 9, 0.28),
+        ("falling treads", [0.1758] + [0.18] * 8, 0.28),
+        ("bevelled", [0.18] * 9, 0.28),
+    ],
+)
+def test_hard_cases_to_a_tenth_of_a_millimetre_too(hard, name, rises, going):
+    """A bevelled nosing counts at the corner that it was cut from."""
+    (flight,) = hard.named(name)
+    line = flight.estimate.line()
+    assert np.diff(np.r_[0.0, line[:, 1]]) == pytest.approx(rises, abs=NEAR)
+    assert np.diff(line[:, 0]) == pytest.approx([going] * (len(rises) - 1), abs=NEAR)
+    assert flight.estimate.width == pytest.approx(1.0, abs=NEAR)
+
+
+def test_a_flight_leads_to_the_slab_with_the_hole_above_it(hard):
+    (far,), (above,) = hard.named("far"), hard.named("above")
+    assert far.upper == above.lower
+    assert far.estimate.notes == ()
+    assert far.estimate.headroom == pytest.approx(2.5, abs=NEAR)
+
+
+@pytest.fixture(scope="module")
 def stated(tmp_path_factory):
     h = House("IFC4", "mm")
     flight = h.add("IfcStairFlight", "one", [monolith(h, *regular(8, 0.175, 0.28))])

@@ -27,6 +27,8 @@ NOSE = 0.04
 """Height of what counts as the nosing, below its tread [m]."""
 REACHING = 0.06
 """Distance by which a nosing may reach beyond its level surface [m]."""
+FALL = 0.012
+"""Largest height by which a tread falls towards its nosing [m]."""
 SEEN = 1e-3
 """Least overhang [m]."""
 
@@ -102,6 +104,7 @@ def section_of(
         lines[name] = _front_edges(sides_of, t)
     levels = np.array([each.level for each in plates])
     segments = _cut(solids, frame, (low + high) / 2)
+    levels = _at_nosings(segments, lines["middle"], levels)
     reach, overhang, is_open = _noses(segments, lines["middle"], levels)
     return Section(
         frame=frame,
@@ -172,6 +175,17 @@ def _clipped(segments: Array, low: float, high: float) -> Array:
         level, (z0 >= low) & (z0 <= high), (np.maximum(z0, z1) > low) & (np.minimum(z0, z1) < high)
     )
     return np.asarray(np.column_stack([s0 + a * (s1 - s0), s0 + b * (s1 - s0)])[inside])
+
+
+def _at_nosings(segments: Array, fronts: Array, levels: Array) -> Array:
+    """Heights of the surfaces at their front edges: a tread may fall towards it."""
+    ends = segments.reshape(-1, 2)
+    found = levels.copy()
+    for k, (s, z) in enumerate(zip(fronts, levels, strict=True)):
+        at = ends[(np.abs(ends[:, 0] - s) < 1e-3) & (np.abs(ends[:, 1] - z) < FALL), 1]
+        if len(at):
+            found[k] = at.max()
+    return found
 
 
 def _noses(segments: Array, fronts: Array, levels: Array) -> tuple[Array, float, bool]:
