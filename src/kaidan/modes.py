@@ -133,6 +133,7 @@ POSTURE_TOLERANCE = failure_mode("posture_tolerance", "", "flippers some degrees
 LANDING_ROOM = failure_mode("landing_room", "m", "a landing shorter than the robot")
 NARROW = failure_mode("narrow", "m", "a flight narrower than the robot needs")
 LOW = failure_mode("low", "m", "a ceiling lower than the robot needs")
+TWIST = failure_mode("twist", "rad", "tipping on nosings that differ from left to right")
 UNWEIGHED = failure_mode("unweighed", "", "a centroid that nobody measured")
 """The sheet has a range: no GO before the robot is weighed."""
 

@@ -396,6 +396,15 @@ class Question(Sheet):
         return min(widths, default=None), min(heights, default=None)
 
     @property
+    def uneven_across(self) -> bool:
+        """Whether the two tracks meet other steps, so that the flight is judged under both."""
+        flights = self.terrain if isinstance(self.terrain, tuple) else (self.terrain,)
+        measured = [each for each in flights if isinstance(each, Stairs)]
+        return any(
+            each.twisted or (self.yaw != 0.0 and each.rises is not None) for each in measured
+        )
+
+    @property
     def terrain_name(self) -> str:
         """What people call the terrain."""
         if isinstance(self.terrain, tuple):

@@ -33,9 +33,14 @@ def judge(question: "Question", *, known: "Findings | None" = None) -> "Findings
 
         return judge_range(question, judge)
     found: Findings = import_module(MODELS[question.model].module).judge(question, known=known)
-    room = question.room
-    if room is None or found.outside:
+    if found.outside:
         return found
-    from kaidan.models.clearance import findings_of
+    if (room := question.room) is not None:
+        from kaidan.models.clearance import findings_of
 
-    return replace(found, each=(*found.each, *findings_of(question, room, found.model)))
+        found = replace(found, each=(*found.each, *findings_of(question, room, found.model)))
+    if question.uneven_across:
+        from kaidan.models.two_tracks import beside
+
+        found = beside(question, found)
+    return found

@@ -25,7 +25,7 @@ from kaidan.readers.kinds import Array, Provenance
 from kaidan.terrain.doubt import factor
 from kaidan.terrain.polyline import frozen
 from kaidan.terrain.profile import Profile
-from kaidan.terrain.stairs import Stairs, StairsUncertainty
+from kaidan.terrain.stairs import MOST_TWISTED, Stairs, StairsUncertainty
 from kaidan.text.refusals import sentence
 
 UNCHECKED = 0.0095 / math.sqrt(12.0)
@@ -37,6 +37,10 @@ EXACT = 1e-4
 """Standard uncertainty below which a nosing counts as exact [m]: files round to it."""
 ALIKE = 0.01
 """Probability of a chi squared as large as this one, from which steps count as all alike [1]."""
+CERTAIN = 3.0
+"""Standard uncertainties from which something stands out of its doubt."""
+_LEVEL = math.tan(math.radians(0.2))
+"""Slope across or skew of a nosing below which it is none [1]."""
 UNSEEN_LANDING = 2.0
 """Length of a landing that was not seen [m], as in a sheet that does not state it."""
 
@@ -297,9 +301,32 @@ class FlightEstimate:
             sheet["uncertainty"] = StairsUncertainty(
                 angle=angle, nosing_spacing=spacing, rise=step_rise, going=step_going
             )
+        sheet |= self._across()
         return Stairs(
             name=name, nosing_overhang=self.overhang, open_risers=self.open_risers, **sheet
         )
+
+    def _across(self) -> dict[str, tuple[float, ...]]:
+        """Slopes across and skews of the nosings, where they stand out of the doubt of their ends.
+
+        The ends are taken to be known as the nosing is, twice its standard uncertainty for half of
+        its length; less than 0.2 degrees is none.
+        """
+        if not 2 <= len(self) <= MOST_TWISTED:
+            return {}
+        way = self.left - self.right
+        along = np.array([math.cos(self.heading), math.sin(self.heading)])
+        aside = way[:, :2] @ np.array([-along[1], along[0]])
+        if (aside < 0.2).any():
+            return {}
+        found = {"cross_slopes": way[:, 2] / aside, "skews": way[:, :2] @ along / aside}
+        sigmas = np.sqrt(np.diagonal(self.covariance, axis1=1, axis2=2))  # of s, of z
+        doubts = {"cross_slopes": 2 * sigmas[:, 1] / aside, "skews": 2 * sigmas[:, 0] / aside}
+        return {
+            name: tuple(np.arctan(each).tolist())
+            for name, each in found.items()
+            if (np.abs(each) > np.maximum(_LEVEL, CERTAIN * doubts[name])).any()
+        }
 
     def profile(
         self,

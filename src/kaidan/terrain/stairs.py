@@ -39,6 +39,11 @@ _MOST_RISERS = 10_000
 _STEEPEST = 1.5533
 """Past 89 degrees no goings are left [rad]."""
 
+MOST_TWISTED = 400
+"""Most risers of a flight whose nosings have slopes across or skews."""
+
+_CrossSlope = Annotated[float, Field(ge=-0.35, le=0.35)]
+_Skew = Annotated[float, Field(ge=-0.8, le=0.8)]
 _Rise = Annotated[float, Field(ge=_ODD_RISE[0], le=_ODD_RISE[1])]
 _Going = Annotated[float, Field(ge=_GOING[0], le=_GOING[1])]
 
@@ -102,6 +107,20 @@ class Stairs(Sheet):
         description="measured goings from bottom to top, one fewer than the risers",
         json_schema_extra={"unit": "m"},
     )
+    cross_slopes: tuple[_CrossSlope, ...] = Field(
+        default=(),
+        max_length=MOST_TWISTED,
+        description="slope of the nosings across the flight, left side up positive: one for each "
+        "riser from bottom to top, or one for all",
+        json_schema_extra={"unit": "rad"},
+    )
+    skews: tuple[_Skew, ...] = Field(
+        default=(),
+        max_length=MOST_TWISTED,
+        description="angle of the nosings in plan off square, left end farther ahead positive: one "
+        "for each riser from bottom to top, or one for all",
+        json_schema_extra={"unit": "rad"},
+    )
     nosing_overhang: float = quantity(
         "m", 0.0, 0.1, "overhang of the nosing over the tread below", default=0.0
     )
@@ -156,6 +175,12 @@ class Stairs(Sheet):
             if self.steps != len(self.rises):
                 raise self.refuse(
                     f"steps = {self.steps} contradicts the {len(self.rises)} rises; leave it out"
+                )
+        for name in ("cross_slopes", "skews"):
+            if len(getattr(self, name)) not in (0, 1, self.steps):
+                raise self.refuse(
+                    f"{name} has {len(getattr(self, name))} values; allowed are one for all "
+                    f"nosings or one for each of the {self.steps}"
                 )
         low, high = self.nosing_radii
         if low > high:
@@ -247,6 +272,11 @@ class Stairs(Sheet):
             return ((self.rise, self.going),) * max(1, self.steps - 2)
         pairs = tuple(zip(self.step_rises[1:], self.step_goings, strict=True))
         return pairs[:-1] if len(pairs) > 2 else pairs
+
+    @property
+    def twisted(self) -> bool:
+        """Whether its nosings differ from left to right."""
+        return any(self.cross_slopes) or any(self.skews)
 
     @property
     def nosing_radii(self) -> tuple[float, float]:
