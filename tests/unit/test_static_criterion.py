@@ -7,7 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from kaidan import Question, Robot, Stairs
 from kaidan.mechanics.margin import theta_s_inf, theta_s_sup
+from kaidan.models.quasi_static import traverse_of
+from kaidan.modes import Phase
 from kaidan.traversal.static_criterion import Tread, static_criterion
 
 KENAF = Tread(0.470, 0.196, 0.071, 0.06, 0.06, 0.2)
@@ -119,3 +122,27 @@ def test_past_half_the_flat_the_formula_goes_on(p):
 def test_no_flight_says_nothing():
     assert static_criterion(np.empty((0, 2)), KENAF).holds is None
     assert static_criterion(flight(0.5, 0.6), KENAF).holds is None  # landings in between
+
+
+def test_going_down_what_is_over_the_upper_landing_enters():
+    """The energy margin of landing below is not that of nosings lost above."""
+    up, down = (
+        traverse_of(Question.of("kenaf", Stairs.inclined(angle=0.7, nosing_spacing=0.15), **way))
+        for way in ({"direction": "up"}, {"direction": "down", "facing": "tail-first"})
+    )
+    over = {each.phase: each.energy_margin for each in up.phases}[Phase.LAND]
+    of_down = {each.phase: each.energy_margin for each in down.phases}
+    assert of_down[Phase.ENTER] == pytest.approx(over, rel=1e-6)
+    assert of_down[Phase.LAND] > 2.0 * over
+
+
+def test_a_step_longer_than_the_flat_in_a_chain_of_flights_is_judged_as_alone():
+    kenaf = Robot.named("kenaf")
+    short = Stairs.inclined(angle=math.radians(35.0), nosing_spacing=0.15, steps=8)
+    long = Stairs.inclined(angle=math.radians(15.0), nosing_spacing=0.50, steps=6)
+    alone, *chains = (
+        traverse_of(Question.of(kenaf, each, friction=2.0)).downhill_margin
+        for each in (long, (short, long), (long, short))
+    )
+    # both from a bisection to 0.1 deg
+    assert chains == pytest.approx([alone, alone], abs=math.radians(0.2))

@@ -262,8 +262,8 @@ def _energy(
     """Smallest energy margin of any pose that nothing obliges to rotate, less the threshold.
 
     Towards the downhill end the height of a slip back onto grousers adds to the threshold of its
-    phase. Obliged to rotate are: going down, the robot over the edge of the upper landing; going
-    up, the same edge; and on the first nosing, where the nose comes down onto the flight. With
+    phase. The robot over the edge of the upper landing, and on the first nosing, where the nose
+    comes down onto the flight, is obliged to rotate: figures of a phase leave that out. With
     `flight` False only what is not the flight counts. A robot that falls has none.
     """
     slips = ({}, {}) if held is None else (held.worst.heights, held.best.heights)
@@ -277,8 +277,7 @@ def _energy(
             if each.phase is (Phase.LAND if found.descending else Phase.ENTER):
                 values.append((down - of_slip[0], down - of_slip[1], each.energy_margin_step))
         else:
-            if each.phase is not Phase.ENTER or not found.descending:
-                values.append((down - of_slip[0], down - of_slip[1], each.energy_margin_step))
+            values.append((down - of_slip[0], down - of_slip[1], each.energy_margin_step))
             if each.phase is Phase.TRAVERSE:
                 values.append((up, up, each.uphill_energy_margin_step))
         for low, high, at in values:

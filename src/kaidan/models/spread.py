@@ -45,16 +45,18 @@ class Spread(NamedTuple):
     """Of the steepest inclination on the flight, which does so where the flight decides [rad]."""
     friction: Array
     """Of the static friction [1]."""
+    over_landing: Phase = Phase.LAND
+    """Phase in which the uphill end is over the landing already: going down ENTER."""
 
     def tip(self, phase: Phase, *, downhill: bool) -> Array:
         """Of the tilt to the first rock in a phase [rad]."""
-        if phase is Phase.LAND and downhill:
+        if phase is self.over_landing and downhill:
             return self.landing
         return self.tip_downhill if downhill else self.tip_uphill
 
     def energy(self, phase: Phase) -> Array:
         """Of the energy margin of a phase [m]."""
-        known = {Phase.TRAVERSE: self.rise, Phase.LAND: self.landing_rise}
+        known = {Phase.TRAVERSE: self.rise, self.over_landing: self.landing_rise}
         return known.get(phase, np.zeros(1))
 
 
@@ -98,6 +100,7 @@ def spread(question: Question, traverse: Traverse) -> Spread:
         angle=angle,
         inclination=_off(found.inclination, nominal_.inclination, angle),
         friction=friction,
+        over_landing=Phase.ENTER if question.direction == "down" else Phase.LAND,
     )
 
 

@@ -29,7 +29,7 @@ from kaidan.traversal.rotations import Chain as Chain
 from kaidan.traversal.rotations import Rotation as Rotation
 from kaidan.traversal.rotations import chains_of, rotations_of, together
 from kaidan.traversal.samples import trailing_end_leaves
-from kaidan.traversal.static_criterion import Criterion, Tread, static_criterion
+from kaidan.traversal.static_criterion import Criterion, Tread, flights_of, static_criterion
 from kaidan.traversal.tilting import Fall as Fall
 from kaidan.traversal.tilting import largest_survived
 
@@ -246,18 +246,23 @@ class Traverse:
         if self.whole and counts and worst is not None:
             each.append(FirstRock(worst.margin, Phase.TRAVERSE, worst.nosing + 1))
         for one in of:
-            if one.phase is Phase.TRAVERSE and self.whole:
-                continue
             found = one.tilt_downhill if downhill else one.tilt_uphill
             if math.isfinite(found[0]):
                 each.append(FirstRock(found[0], one.phase, found[1]))
-        if each and downhill and not self.whole and self.arrived and len(self.profile.nosings) > 1:
+        if each and downhill and self._rocks_beside_flights and self.arrived:
             # poses of the level traverse may be too kind: it rocks no later than it falls
             fall = self.falls_downhill
             each.append(FirstRock(fall.tilt, fall.phase, fall.step))
         least = min((one.margin for one in each), default=math.inf)
         # of those that are alike the first: a pose between two phases is of both
         return next((one for one in each if one.margin < least + _ALIKE), None)
+
+    @property
+    def _rocks_beside_flights(self) -> bool:
+        """Whether poses judge some of several steps: no flat carries, or a step is longer."""
+        nosings = self.profile.nosings
+        on = sum(last - first + 1 for first, last in flights_of(nosings, self.tread.L))
+        return len(nosings) > 1 and not (self.whole and on == len(nosings))
 
     @property
     def centroid_margin(self) -> float:
@@ -336,7 +341,7 @@ def traverse(
     phase = phases_of(path, driven, descending, room)
     phases: tuple[PhaseExtremes, ...] = ()
     if path.margins is not None:
-        rises = rises_about_stays(criterion) if whole else ()
+        rises = rises_about_stays(criterion, descending) if whole else ()
         phases = phase_extremes(path, driven, phase, descending, along, rises, room, whole)
     return Traverse(
         status=path.status,

@@ -14,11 +14,13 @@ from kaidan.terrain.profile import Profile
 from kaidan.traversal.phases import Phase, over_the_top, step_at
 from kaidan.traversal.rotations import together
 from kaidan.traversal.samples import corners, samples_of
-from kaidan.traversal.static_criterion import Criterion
+from kaidan.traversal.static_criterion import Criterion, flights_of
 from kaidan.traversal.tilting import first_rock
 
 _AT_ONCE = 8
 _TIE = 1e-9
+_PLACE = 1e-6
+"""Distance that is none [m]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,7 +37,9 @@ class PhaseExtremes:
     none."""
     energy_margin: float
     """Smallest rise of the centroid that a fall towards the downhill end needs [m]; traversing,
-    that any rotation needs about the contact that stays, as in the paper, whatever arrests it."""
+    that any rotation needs about the contact that stays, as in the paper, whatever arrests it.
+    Entering on the way down the edge of the landing obliges to rotate, so only what stays counts:
+    infinite where no flat carries."""
     energy_margin_step: int
     uphill_energy_margin: float
     """The same towards the uphill end [m], as long as the next nosing uphill is still to come:
@@ -67,7 +71,7 @@ class Rise(NamedTuple):
     step: int
     """Nosing at which, counted from the bottom."""
     phase: Phase
-    """TRAVERSE, or LAND where the uphill end is over the landing already."""
+    """TRAVERSE, or where the uphill end is over the upper landing LAND, going down ENTER."""
 
 
 def phase_extremes(
@@ -88,6 +92,7 @@ def phase_extremes(
     places = seen.poses.front_point[:, 0]
     top = over_the_top(seen, profile, descending, room)
     closed, comes_back = _closed(path, phase), _comes_back(path)
+    of_criterion = _on_a_flight(seen, profile, room) & whole
     extremes = []
     for name in Phase:
         rows = np.flatnonzero(closed[name][samples.row] & samples.lasts)
@@ -100,6 +105,9 @@ def phase_extremes(
         if of_rises:  # where nosings carry, the criterion's contacts count, not those of a moment
             posed[:] = name is not Phase.TRAVERSE
             posed &= ~np.isin(places[rows], profile.nosings[:, 0])
+        if descending and name is Phase.ENTER and len(profile.nosings):
+            # the edge of the landing obliges it to rotate
+            posed[:] = False
         energy, step = _least_rise(of_rises, downhill=True)
         uphill, uphill_step = _least_rise(of_rises, downhill=False)
         least, at = _least_energy(seen, rows[posed], side)
@@ -109,11 +117,11 @@ def phase_extremes(
         least, at = _least_energy(seen, rows[posed & below], -side)
         if least < uphill:
             uphill, uphill_step = least, step_at(profile, at, descending)
-        judged = name is not Phase.TRAVERSE or not whole
-        downhill_rows = rows[:0] if not judged or (descending and name is Phase.ENTER) else rows
+        judged = rows[~of_criterion[rows]] if name is Phase.TRAVERSE else rows
+        downhill_rows = rows[:0] if descending and name is Phase.ENTER else judged
         if not descending:
             downhill_rows = downhill_rows[~comes_back[samples.row[downhill_rows]]]
-        uphill_rows = rows[below] if judged and name is Phase.TRAVERSE else rows[:0]
+        uphill_rows = judged[~top[judged]] if name is Phase.TRAVERSE else rows[:0]
         slides = samples.comes_off[rows] & (name is Phase.LAND)
         friction = samples.friction[rows]
         held = np.where(slides, 0.0, friction)
@@ -146,6 +154,19 @@ def phase_extremes(
             )
         )
     return tuple(extremes)
+
+
+def _on_a_flight(path: contact.Path, profile: Profile, room: float) -> NDArray[np.bool_]:
+    """Poses whose contacts stand on one flight, which the criterion on nosings judges.
+
+    Steps as long as the flat, or longer, are no flight to it, but landings of one step each.
+    """
+    rear, front = path.poses.rear_point[:, 0], path.poses.front_point[:, 0]
+    found = np.zeros(len(rear), dtype=np.bool_)
+    for first, last in flights_of(profile.nosings, room):
+        begin, end = profile.nosings[[first, last], 0]
+        found |= (rear >= begin - _PLACE) & (front <= end + _PLACE)
+    return found
 
 
 def _closed(path: contact.Path, phase: NDArray[np.str_]) -> dict[Phase, NDArray[np.bool_]]:
@@ -210,14 +231,15 @@ def _least_energy(
     return least, float(path.poses.front_point[row, 0])
 
 
-def rises_about_stays(criterion: Criterion) -> tuple[Rise, ...]:
+def rises_about_stays(criterion: Criterion, descending: bool) -> tuple[Rise, ...]:
     """Rises about the contact that stays, of each loss and gain."""
+    over_landing = Phase.ENTER if descending else Phase.LAND
     return tuple(
         Rise(
             each.downhill,
             max(each.rise - each.freed, 0.0),
             each.nosing + 1,
-            Phase.LAND if each.landing else Phase.TRAVERSE,
+            over_landing if each.landing else Phase.TRAVERSE,
         )
         for each in criterion.losses
     )

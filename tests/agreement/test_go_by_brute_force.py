@@ -1,0 +1,94 @@
+"""Every GO on irregular flights, gaps and kerbs against the brute force of small drives and turns.
+
+The same flow as in `test_tilted_gravity`, which knows neither criterion nor rocking: a robot that
+is a GO arrives, and turns nowhere farther than the answer says, nose up or nose down.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from test_tilted_gravity import brute
+
+from kaidan import Question, Robot, Stairs
+from kaidan.assessment.verdict import conclude
+from kaidan.models import quasi_static
+from kaidan.modes import Verdict
+from kaidan.robot import Track
+from kaidan.terrain.profile import Profile
+
+OVER = math.radians(0.15)
+"""What small turns and round ends add [rad]."""
+
+
+def robots(rng):
+    L, R = rng.uniform(0.5, 0.9), rng.uniform(0.1, 0.14)
+    gap = L * rng.uniform(0.1, 0.4) if rng.random() < 0.3 else 0.0
+    return Robot(
+        name="any",
+        com_from_front=L * rng.uniform(0.35, 0.6),
+        com_height=rng.uniform(0.12, 0.3) * L,
+        track=Track(flat_length=L, front_radius=R, rear_radius=R, gap=gap),
+    )
+
+
+def terrains(rng, L):
+    """No face is higher than an end's radius: from above the robot jumps no wall."""
+    kind = rng.random()
+    if kind < 0.6:
+        n, uneven = int(rng.integers(5, 10)), rng.choice([0.001, 0.003, 0.006])
+        rise = rng.uniform(0.06, 0.09)
+        going = rise / math.tan(rng.uniform(0.35, 0.8))
+        rises = rise + rng.uniform(-uneven, uneven, n)
+        goings = np.maximum(going + rng.uniform(-uneven, uneven, n - 1), 0.03)
+        return Stairs(rises=tuple(rises.tolist()), goings=tuple(goings.tolist()))
+    h, x = rng.uniform(0.02, 0.095), rng.uniform(0.1, 1.2) * L
+    if kind < 0.75:  # a kerb, or two
+        second = h + rng.uniform(-0.5, 1.0) * h
+        return Profile.of_points([(-3, 0), (0, 0), (0, h), (x, h), (x, second), (x + 3, second)])
+    if kind < 0.9:  # a gap in the floor
+        x = rng.uniform(0.05, 0.6) * L
+        return Profile.of_points([(-3, 0), (0, 0), (0, -h), (x, -h), (x, 0), (x + 3, 0)])
+    bumps = [(0.3 * k + rng.uniform(0, 0.2), rng.uniform(0.0, 0.06)) for k in range(5)]
+    return Profile.of_points([(-3, 0), (-0.2, 0), *bumps, (1.8, 0), (4.8, 0)])
+
+
+def gos(seed, count):
+    rng = np.random.default_rng(seed)
+    while count:
+        robot = robots(rng)
+        question = Question.of(robot, terrains(rng, robot.track.flat_length), friction=3.0)
+        found = quasi_static.judge(question)
+        if conclude(question, found).verdict is Verdict.GO:
+            count -= 1
+            yield question, found.basis.traverse
+
+
+FINER = (2.0, 8.0, 32.0)
+"""Refinements, one after the other: what turns as it drives turns less in each smaller drive."""
+
+
+def check(seed, count):
+    for question, found in gos(seed, count):
+        rocking = found.criterion.rocking if found.whole else 0.0
+        told = {True: rocking, False: rocking}
+        for chain in found.chains:
+            for each in chain.rotations:
+                side = each.leading_end_down
+                told[side] = max(told[side], chain.angle)
+        for finer in FINER:
+            outcome, up, down = brute(found, 0.0, finer)
+            if outcome == 0.0 and up <= told[False] + OVER and down <= told[True] + OVER:
+                break
+        else:
+            turns = [math.degrees(each) for each in (up, told[False], down, told[True])]
+            pytest.fail(f"outcome {outcome}, turns and what was told {turns}: {question.to_json()}")
+
+
+def test_go_by_brute_force():
+    check(seed=1, count=10)
+
+
+@pytest.mark.slow
+def test_2000_go_by_brute_force():
+    check(seed=2, count=2000)
