@@ -64,6 +64,7 @@ ELSEWHERE = {
     "dask worker tcp://10.0.0.1:8786 --nworkers auto --nthreads 1": "test_cluster.py",
     "kaidan experiment kenaf --store belt --scheduler tcp://10.0.0.1:8786": "test_cluster.py",
     "python benchmarks/campaign.py": "by hand",
+    "python benchmarks/sweep.py": "by hand",
     "python benchmarks/contact.py": "by hand",
     "kaidan calibrate compliance --store compliance --figure compliance.svg": "by hand",
     "kaidan calibrate grousers --store grousers --figure grousers.svg": "by hand",
