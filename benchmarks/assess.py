@@ -60,6 +60,9 @@ def questions() -> dict[str, Callable[[], object]]:
         "caution, contact model, with advice": lambda: kaidan.assess(
             absolem, ibc, surface=Surface.named("concrete-dry"), flippers="flat"
         ),
+        "go, contact model, its plan found": lambda: kaidan.assess(
+            absolem, ibc, friction=1.2, flippers="best"
+        ),
     }
 
 

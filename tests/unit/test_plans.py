@@ -10,6 +10,7 @@ from kaidan.contact import Placement, settle
 from kaidan.errors import InputError
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.models import judge, planned
+from kaidan.models.traction import standing_margins
 from kaidan.modes import FLIPPER_TORQUE, POSTURE_CHANGE, SLIDES_DOWN, Phase
 from kaidan.outline import Outline
 from kaidan.question import Question
@@ -274,3 +275,14 @@ def test_a_fall_ends_the_plan():
     answer = kaidan.assess(plan)
     assert answer.verdict == "no-go"
     assert not answer.contact.grades.arrested
+
+
+def test_the_poses_of_a_change_together_have_the_least_margin_of_each_alone():
+    # oracle: the same worked out pose by pose, each with its own body
+    asked = question("35deg,-13deg/land:-75deg,-13deg", friction="0.6..1.0")
+    poses = planned.drive(asked).moves[0].poses
+    alone = [standing_margins(asked, (each,)) for each in poses]
+    assert len(poses) > 10
+    assert standing_margins(asked, poses) == pytest.approx(
+        tuple(map(min, zip(*alone, strict=True))), abs=1e-12
+    )

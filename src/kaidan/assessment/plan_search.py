@@ -9,8 +9,8 @@ verdict policy, at the angles found and a little off them. A change has to gain 
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
-from itertools import pairwise, product
+from functools import cache, cached_property
+from itertools import chain, pairwise, product
 from typing import NamedTuple
 
 import numpy as np
@@ -109,16 +109,6 @@ class Plan(NamedTuple):
         )
         return question.changed(facing=self.facing, posture=first, changes=changes, best_of=())
 
-    @property
-    def changes(self) -> int:
-        """Number of changes of posture."""
-        return len(_changes([posture for _, posture in self.postures]))
-
-
-def _changes(postures: Sequence[Posture]) -> list[tuple[Posture, Posture]]:
-    """Postures before and after each change."""
-    return [(one, two) for one, two in pairwise(postures) if one != two]
-
 
 def cost_of_drop(drop: float) -> float:
     """Margin that the largest drop of a plan outweighs [deg]."""
@@ -127,13 +117,18 @@ def cost_of_drop(drop: float) -> float:
 
 def cost_of(robot: Robot, postures: Sequence[Posture]) -> float:
     """Margin that the changes of a plan have to gain [deg]."""
-    changes = _changes(postures)
-    turns = [
-        abs(angle - angles_of(robot, one)[end])
-        for one, two in changes
-        for end, angle in angles_of(robot, two).items()
-    ]
-    return A_CHANGE * len(changes) + A_TURN * math.degrees(sum(turns))
+    return _cost([_turns(robot, one, two) for one, two in pairwise(postures) if one != two])
+
+
+def _turns(robot: Robot, one: Posture, two: Posture) -> list[float]:
+    """How far each pair of flippers turns from one posture to another [rad]."""
+    was = angles_of(robot, one)
+    return [abs(angle - was[end]) for end, angle in angles_of(robot, two).items()]
+
+
+def _cost(turns: Sequence[Sequence[float]]) -> float:
+    """Margin that changes with such turns have to gain [deg]."""
+    return A_CHANGE * len(turns) + A_TURN * math.degrees(sum(chain.from_iterable(turns)))
 
 
 class Hope(NamedTuple):
@@ -141,6 +136,8 @@ class Hope(NamedTuple):
 
     plan: Plan
     merit: tuple[bool, int, float]
+    changes: int
+    """Number of changes of posture."""
 
 
 class Judged(NamedTuple):
@@ -269,7 +266,7 @@ def _different(hopes: Iterable["Hope"]) -> list["Hope"]:
     return [
         hope
         for count in range(len(Phase))
-        for hope in [each for each in ranked if each.plan.changes == count][:PROMISING]
+        for hope in [each for each in ranked if each.changes == count][:PROMISING]
     ]
 
 
@@ -303,8 +300,8 @@ def judged_of(question: Question, found: Findings) -> Judged:
 def judge_coarsely(question: Question) -> Findings:
     """Findings of the contact model from poses farther apart."""
     if question.changes:
-        return planned.findings(question, planned.drive(question, step=FINE))
-    return findings_of(question, Basis(question, traverse_of(question, step=FINE)))
+        return planned.findings(question, planned.drive(question, step=FINE), told=False)
+    return findings_of(question, Basis(question, traverse_of(question, step=FINE)), told=False)
 
 
 def _drop(found: Traverse) -> float:
@@ -406,30 +403,37 @@ class _Search:
             enough = min(enough, max(self._of(phase).values(), key=_merit).margin)
         best = {phase: self._ranked(phase) for phase in self.phases}
         alone = [each[0] for each in best.values()]
+        # by their numbers, as there are a thousand plans: postures are slow to compare
+        number: dict[Posture, int] = {}
         choices = [
-            list(dict.fromkeys([*words, *best[phase][:KEPT], *alone])) for phase in self.phases
+            [
+                (number.setdefault(each, len(number)), each, self.score(phase, each))
+                for each in dict.fromkeys([*words, *best[phase][:KEPT], *alone])
+            ]
+            for phase in self.phases
         ]
-        for postures in product(*choices):
-            yield self._hope(postures)
+        known = list(number)
+        turns = cache(lambda one, two: _turns(robot, known[one], known[two]))
+        for chosen in product(*choices):
+            numbers, postures, scores = zip(*chosen, strict=True)
+            changes = [turns(one, two) for one, two in pairwise(numbers) if one != two]
+            plan = Plan(self.facing, tuple(zip(self.phases, postures, strict=True)))
+            yield Hope(plan, self._together(scores, _cost(changes)), len(changes))
 
-    def _hope(self, postures: Sequence[Posture]) -> Hope:
-        plan = Plan(self.facing, tuple(zip(self.phases, postures, strict=True)))
-        scores = [self.score(phase, each) for phase, each in plan.postures]
-        return Hope(plan, self._together(plan, scores))
-
-    def _together(self, plan: Plan, scores: Sequence[Score]) -> tuple[bool, int, float]:
+    def _together(self, scores: Sequence[Score], cost: float) -> tuple[bool, int, float]:
         """Order of plans: the weakest phase counts, and a little the others."""
         value = min(each.margin for each in scores)
         value -= cost_of_drop(max(-each.drop for each in scores))
         value += A_PHASE * sum(each.value for each in scores) / len(scores)
-        value -= cost_of(self.question.robot, [posture for _, posture in plan.postures])
+        value -= cost
         passes, failing = all(s.passes for s in scores), sum(s.failing for s in scores)
         return passes, failing, round(value, 6)
 
     def off(self, plan: Plan) -> tuple[bool, int, float]:
         """What a plan lets one hope for where its angles are a tolerance off."""
         worst = [self._off(phase, posture) for phase, posture in plan.postures]
-        return self._together(plan, worst)
+        postures = [posture for _, posture in plan.postures]
+        return self._together(worst, cost_of(self.question.robot, postures))
 
     def _off(self, phase: Phase, posture: Posture) -> Score:
         """Worst score of a posture and those a tolerance off its angles."""

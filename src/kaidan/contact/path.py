@@ -40,6 +40,8 @@ class Path:
         Forces and margins of each pose, or None.
     ground, body
         Terrain and robot as driven, to read features by.
+    bodies
+        Robot at each pose (n, m, columns), where its posture is not the same in all; else None.
     """
 
     status: Status
@@ -49,6 +51,7 @@ class Path:
     margins: Margins | None
     ground: Ground
     body: Body
+    bodies: FloatArray | None = None
 
     @property
     def s(self) -> FloatArray:
@@ -79,6 +82,17 @@ class Path:
     def arrives_with_momentum(self) -> bool:
         """Grade three: it arrived and no rotation topples with the momentum gained."""
         return self.status is Status.OK and not bool(self.rotations.topples_with_momentum.any())
+
+    def parts(self, rows: IntArray, part: IntArray | int) -> Body:
+        """One part of the robot at each of some poses."""
+        if self.bodies is None:
+            return Body(self.body.table[np.broadcast_to(part, len(rows))])
+        return Body(self.bodies[rows, part])
+
+    def first(self) -> Path:
+        """First pose alone, with its margins; neither events nor rotations."""
+        assert self.margins is not None
+        return self._only(self.poses.table[:1], self.margins.table[:1])
 
     def row_before(self, s: float) -> int:
         """Row of the last pose of a line of poses that ends at an arclength [m].
@@ -307,10 +321,17 @@ class Path:
 
 
 def joined(paths: Sequence[Path]) -> Path:
-    """Poses and margins of several paths over one ground as one, of the first in all else."""
+    """Poses, margins and robots of several paths over one ground as one, the first in all else."""
     margins = [each.margins.table for each in paths if each.margins is not None]
+    bodies = None
+    if any(each.body is not paths[0].body for each in paths):
+        bodies = np.concatenate(
+            [np.broadcast_to(each.body.table, (len(each.poses), *each.body.table.shape))
+             for each in paths]
+        )  # fmt: skip
     return replace(
         paths[0],
         poses=Poses(np.vstack([each.poses.table for each in paths])),
         margins=Margins(np.vstack(margins)) if len(margins) == len(paths) else None,
+        bodies=bodies,
     )

@@ -69,23 +69,6 @@ class Ground(_Table):
         return np.asarray(self.table[:, at.CONVEX] == 1.0)
 
 
-class Part(NamedTuple):
-    """First disc of a part, and how its straight underside runs from there, in the body frame."""
-
-    x: float
-    """Centre of the first disc [m]."""
-    z: float
-    radius: float
-    """Of the first disc [m]."""
-    axis: tuple[float, float]
-    """Unit vector to the centre of the second disc."""
-    sine: float
-    """Of the taper: difference of the radii over the distance of the centres."""
-    cosine: float
-    side: float
-    """+1 if the underside lies to the right of the axis, else -1."""
-
-
 class Body(_Table):
     """The underside of the robot as driven, in the body frame at the centroid."""
 
@@ -104,18 +87,25 @@ class Body(_Table):
         """Length of the straight underside of each part [m]."""
         return self._column(at.FLAT)
 
-    def part(self, number: int) -> Part:
-        """One part."""
-        row = self.table[number].tolist()
-        return Part(
-            x=row[at.X1],
-            z=row[at.Z1],
-            radius=row[at.R1],
-            axis=(row[at.E_X], row[at.E_Z]),
-            sine=row[at.SINE],
-            cosine=row[at.COSINE],
-            side=row[at.SIDE],
-        )
+    @property
+    def axis(self) -> FloatArray:
+        """Unit vectors from the first to the second disc of each part (m, 2)."""
+        return self.table[:, at.E_X : at.E_Z + 1]
+
+    @property
+    def sine(self) -> FloatArray:
+        """Of the taper of each part: difference of the radii over the distance of the centres."""
+        return self._column(at.SINE)
+
+    @property
+    def cosine(self) -> FloatArray:
+        """Of the taper of each part."""
+        return self._column(at.COSINE)
+
+    @property
+    def side(self) -> FloatArray:
+        """+1 if the underside lies to the right of the axis, else -1, of each part."""
+        return self._column(at.SIDE)
 
 
 class Poses(_Table):

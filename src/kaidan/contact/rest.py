@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from numpy.typing import ArrayLike
 
+from kaidan.contact.remembered import body_of, ground_of
 from kaidan.contact.switch import kernel
-from kaidan.contact.tables import body_table, ground_table
 
 
 class Settled(NamedTuple):
@@ -43,7 +43,7 @@ def settle(
     >>> round(pose.z, 6), abs(round(pose.inclination, 12))
     (0.071, 0.0)
     """
-    ground, body = ground_table(terrain), body_table(parts, kinds)
+    ground, body = ground_of(terrain), body_of(parts, kinds)
     found, z, angle, rear, front = kernel().settle(ground, body, x, inclination, 0.0)
     rear_point = front_point = (math.nan, math.nan)
     if found:
@@ -72,7 +72,7 @@ def resting_height(
     0.071
     """
     z, _ = kernel().touching(
-        ground_table(terrain), body_table(parts, kinds),
+        ground_of(terrain), body_of(parts, kinds),
         x, math.cos(inclination), math.sin(inclination),
     )  # fmt: skip
     return float(z)

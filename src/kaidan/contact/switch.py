@@ -162,6 +162,7 @@ def _choice() -> Choice:
     return _chosen or _checked(VARIABLE, os.environ.get(VARIABLE) or "auto")
 
 
+@cache
 def _checked(owner: str, choice: str) -> Choice:
     for known in get_args(Choice):
         if choice == known:

@@ -13,6 +13,7 @@ from kaidan.contact.columns import JOB_COLUMNS, SUMMARY_COLUMNS
 from kaidan.contact.margin_records import Job, Margins, Summaries
 from kaidan.contact.path import TOUCH, Path
 from kaidan.contact.records import Body, Events, Ground, Poses, Rotations
+from kaidan.contact.remembered import body_of, ground_of
 from kaidan.contact.switch import kernel
 from kaidan.contact.tables import body_table, ground_table, margin_tables, path_tables
 from kaidan.mechanics import STANDARD_GRAVITY
@@ -103,8 +104,8 @@ def traverse(
         raise ValueError("traverse: margins are those of upright gravity")
     if not step > 0:
         raise ValueError(f"traverse: step {step} must be positive")
-    ground = ground_table(terrain)
-    body = body_table(parts, kinds)
+    ground = ground_of(terrain)
+    body = body_of(parts, kinds)
     entries = kernel()
     size = int(min(4.0 * (x_end - x_start) / step + 64 * len(ground) + 4000, 400_000))
     poses, events, rotations = path_tables(size)

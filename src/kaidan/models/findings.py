@@ -76,6 +76,8 @@ def at_risk(values: Array, risk: float) -> float:
 
     It is positive just where the share of samples that are zero or negative is at most `risk`.
     """
+    if len(values) == 1:
+        return float(values[0])
     return float(each_at_risk(values, risk))
 
 

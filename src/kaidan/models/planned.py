@@ -52,6 +52,8 @@ class Part(NamedTuple):
 class Planned(NamedTuple):
     """Traverse of a plan."""
 
+    question: Question
+    """As it was driven."""
     parts: tuple[Part, ...]
     """Those that were driven: the last one ends the traverse."""
     moves: tuple[Move, ...]
@@ -118,7 +120,7 @@ def drive(question: Question, *, with_energy: bool = False, step: float = contac
         parts.append(Part(alone, found))
         if not found.arrived:
             break
-    return Planned(tuple(parts), tuple(moves))
+    return Planned(question, tuple(parts), tuple(moves))
 
 
 def stages_of(question: Question) -> Iterator[tuple[Phase, Posture]]:
@@ -137,7 +139,7 @@ def stop(question: Question, profile: Profile, phase: Phase) -> float:
     return float(nosing[0]) - STAND_OFF
 
 
-def findings(question: Question, planned: Planned) -> Findings:
+def findings(question: Question, planned: Planned, *, told: bool = True) -> Findings:
     """Findings of the traverse of a plan: the smallest margins of its parts and changes.
 
     Parameters
@@ -145,6 +147,8 @@ def findings(question: Question, planned: Planned) -> Findings:
     question : Question
         As it was put; what plays no part in the traverse may differ from what was driven.
     planned : Planned
+    told : bool
+        With figures and notes; a verdict needs none.
 
     Returns
     -------
@@ -152,8 +156,10 @@ def findings(question: Question, planned: Planned) -> Findings:
     """
     of_parts = []
     for part in planned.parts:
-        alone = question.changed(posture=part.question.posture, changes=())
-        of_parts.append(findings_of(alone, Basis(part.question, part.traverse)))
+        alone = part.question
+        if question is not planned.question:
+            alone = question.changed(posture=alone.posture, changes=())
+        of_parts.append(findings_of(alone, Basis(part.question, part.traverse), told=told))
     basis = Basis(question, planned)
     outside = next((each.outside for each in of_parts if each.outside), "")
     if outside:
@@ -195,10 +201,8 @@ def _of_move(question: Question, each: Move) -> list[Finding]:
     certain = partial(Finding.certain, phase=each.before, model=CONTACT.name)
     found = [certain(POSTURE_CHANGE, margin, failing=failing)]
     if each.poses:
-        worst, best = (
-            np.array([traction.standing_margin(question, each.poses, best=best)])
-            for best in (False, True)
-        )
+        margins = traction.standing_margins(question, each.poses)
+        worst, best = (np.array([margin]) for margin in margins)
         slides = certain(SLIDES_DOWN, 0.0)
         energy = certain(ENERGY, each.energy - question.energy_threshold, failing=Verdict.CAUTION)
         found += [replace(slides, worst=worst, best=best), energy]

@@ -143,7 +143,9 @@ def _drives_alike(question: Question, other: Question) -> bool:
     )
 
 
-def findings_of(question: Question, basis: Basis, *, phase: Phase | None = None) -> Findings:
+def findings_of(
+    question: Question, basis: Basis, *, phase: Phase | None = None, told: bool = True
+) -> Findings:
     """Findings of a traverse, of the whole of it or of one phase alone.
 
     Parameters
@@ -154,6 +156,8 @@ def findings_of(question: Question, basis: Basis, *, phase: Phase | None = None)
         Its traverse.
     phase : Phase, optional
         Part of the traverse to judge alone.
+    told : bool
+        With figures and notes; a verdict needs none.
 
     Returns
     -------
@@ -176,6 +180,9 @@ def findings_of(question: Question, basis: Basis, *, phase: Phase | None = None)
         *_obstacles(driven, found, phase, phases),
         *balance(question, driven, found, over, phase, held),
     ]
+    required = friction if held is None else held.worst.required
+    if not told:
+        return Findings(model=_NAME, each=tuple(each), required_friction=required, basis=basis)
     gripping = traction.figures_of(driven, found, friction, held, phase)
     looked_for = {FALL_DOWNHILL: "falls_downhill", FALL_UPHILL: "falls_uphill"}
     modes = [one.mode for one in each]
@@ -188,7 +195,7 @@ def findings_of(question: Question, basis: Basis, *, phase: Phase | None = None)
     return Findings(
         model=_NAME,
         each=tuple(each),
-        required_friction=friction if held is None else held.worst.required,
+        required_friction=required,
         figures=tuple(figures),
         notes=() if phase else _notes(question, driven, found) + grips.notes(question, gripping),
         basis=basis,

@@ -1,11 +1,12 @@
 """Friction and grousers of a question: cases of what is given as ranges, and what they come to."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from kaidan import contact
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.grousers import height_lost, rubber_modulus, standing_run
 from kaidan.models.traction_figures import USUAL, TractionFigures
@@ -52,7 +53,7 @@ class Supply(NamedTuple):
     """Kinetic-energy height of that slip in each phase with one [m]."""
 
 
-def standing_margin(question: Question, poses: Iterable[MovePose], *, best: bool) -> float:
+def standing_margins(question: Question, poses: Sequence[MovePose]) -> tuple[float, float]:
     """Angle by which friction may be less while the robot stands and its posture changes [rad].
 
     With grousers it stands on those that hold it already, so it does not slip back first.
@@ -61,23 +62,30 @@ def standing_margin(question: Question, poses: Iterable[MovePose], *, best: bool
     ----------
     question : Question
         Friction that nobody stated is not known: NaN.
-    poses : iterable of MovePose
+    poses : sequence of MovePose
         One after the other.
-    best : bool
-        With every range at its favourable end.
+
+    Returns
+    -------
+    worst, best
+        With every range at its unfavourable, and at its favourable end.
     """
     if question.surface is None:
-        return math.nan
-    low, track = math.inf, question.robot.track
+        return math.nan, math.nan
+    standing = contact.joined([each.path for each in poses])
+    grip = Grip(standing, descending=question.direction == "down", acceleration=0.0)
+    return _standing(question, grip, best=False), _standing(question, grip, best=True)
+
+
+def _standing(question: Question, grip: Grip, *, best: bool) -> float:
+    assert question.surface is not None
+    track = question.robot.track
     nosings, treads, faces = question.surface.of_parts(best=best)
     phi = math.atan(nosings), math.atan(treads), math.atan(faces)
     cases = grousers_of(question, track, best=best) if _bears(question, track, 1.0) else ()
-    for pose in poses:
-        grip = Grip(pose.path, descending=question.direction == "down", acceleration=0.0)
-        alone = grip.by_friction(phi)
-        each = [grip.at_once(phi, one, alone) for one in cases] or [alone]
-        low = min(low, *(float(one[0]) for one in each))
-    return low
+    alone = grip.by_friction(phi)
+    each = [grip.at_once(phi, one, alone) for one in cases] or [alone]
+    return float(np.fmin.reduce(np.concatenate(each)))
 
 
 class Supplies(NamedTuple):

@@ -8,6 +8,7 @@ rests on what it meets from above.
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 from typing import Any, Self
 
 import numpy as np
@@ -28,6 +29,18 @@ Array = NDArray[np.float64]
 
 LARGEST_EXTENT = 1e4
 """Largest coordinate taken for metres [m]."""
+
+
+class _Themselves(tuple[Stairs, ...]):
+    """Flights told apart by what they are, not by what they say: a sheet takes long to compare."""
+
+    __slots__ = ()
+
+    def __hash__(self) -> int:
+        return hash(tuple(map(id, self)))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Themselves) and [*map(id, self)] == [*map(id, other)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,6 +97,12 @@ class Profile:
         """
         if not flights:
             raise InputError("profile: no flight of stairs was given")
+        return cls._of_flights(_Themselves(flights))
+
+    @classmethod
+    @lru_cache(maxsize=64)
+    def _of_flights(cls, flights: "_Themselves") -> Self:
+        """The same, remembered: changed questions have one terrain."""
         x = z = 0.0
         points = [(-max(flights[0].lower_landing, 1e-3), 0.0), (0.0, 0.0)]
         nosings: list[tuple[float, float]] = []
@@ -360,6 +379,10 @@ class Profile:
 
     def reflected(self) -> Self:
         """Profile seen from the other side: x reversed."""
+        return self._reflected
+
+    @cached_property
+    def _reflected(self) -> Self:
         mirror = np.array([-1.0, 1.0])
         doubt = None
         if self.covariance is not None:

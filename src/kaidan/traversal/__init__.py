@@ -379,7 +379,7 @@ def _drive(
     **manner: Any,
 ) -> contact.Path:
     """Path over a profile whose landings are as long as it takes, or over a part of it."""
-    clear = sum(body.reach) + 1.0
+    clear = math.ceil(sum(body.reach) + 1.0)  # whole metres: one ground for most bodies
     ends = driven.points[[0, -1]] + np.array([[-clear, 0.0], [clear, 0.0]])
     ground = np.vstack([ends[0], driven.points, ends[1]])
     return contact.traverse(

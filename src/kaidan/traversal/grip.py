@@ -397,7 +397,8 @@ def _contacts_of(path: contact.Path, descending: bool) -> _Contacts:
     at.is_one[more_row, slots] = True
     at.x[more_row, slots] = path.ground.x[more_point] - path.x[more_row]
     at.z[more_row, slots] = path.ground.z[more_point] - path.z[more_row]
-    at.normal[more_row, slots] = _flat_normal(path, more_part) - path.inclination[more_row]
+    flat = _flat_normal(path.parts(more_row, more_part))
+    at.normal[more_row, slots] = flat - path.inclination[more_row]
     at.point[more_row, slots] = more_point
     tread = _treads(path.ground, descending)
     chosen = at.point != _NONE
@@ -410,19 +411,19 @@ def _name(
     at: _Contacts, slot: int, path: contact.Path, features: FeatureTable, *, descending: bool
 ) -> None:
     """Place, point and curvature of the contacts in a slot."""
-    ground, discs = path.ground, path.body.discs
+    ground, rows = path.ground, np.arange(len(path.poses))
     point, part, kind = features.point, features.part, features.kind
     corner = kind == FeatureKind.VERTEX
     second: Whole = (kind == FeatureKind.DISC_2).astype(np.int64)
-    lengths = path.body.flat_length
-    for each in range(len(discs)):
-        of_part = np.flatnonzero(corner & (part == each))
-        if len(of_part):
-            w = along_flat(path, of_part, point[of_part][:, None], each)[0][:, 0]
-            second[of_part] = (w > 0.0).astype(np.int64)
-            flat = (w >= 0.0) & (w <= lengths[each])
-            second[of_part[flat]] = 2
-    radius = np.where(second == 1, discs[part, 5], discs[part, 2])
+    touched = path.parts(rows, part)
+    on = np.flatnonzero(corner)
+    if len(on):
+        w = along_flat(path, on, point[on][:, None], part[on])[0][:, 0]
+        second[on] = (w > 0.0).astype(np.int64)
+        flat = (w >= 0.0) & (w <= touched.flat_length[on])
+        second[on[flat]] = 2
+    discs = touched.discs
+    radius = np.where(second == 1, discs[:, 5], discs[:, 2])
     at.curvature[:, slot] = np.where(second == 2, 0.0, 1.0 / np.maximum(radius, 1e-3))
     step_x, step_z = np.diff(ground.x)[point], np.diff(ground.z)[point]
     steep = np.abs(np.arctan2(step_z, step_x)) > STEEP
@@ -434,26 +435,23 @@ def _name(
         at.point[face, slot] = above
         c, s = np.cos(path.inclination[face]), np.sin(path.inclination[face])
         which = 3 * (second[face] == 1)
-        b_x, b_z = discs[part[face], which], discs[part[face], which + 1]
+        b_x, b_z = discs[face, which], discs[face, which + 1]
         at.lift[face, slot] = ground.z[above] - (path.z[face] + s * b_x + c * b_z)
 
 
-def _flat_normal(path: contact.Path, parts: Whole) -> Array:
+def _flat_normal(parts: contact.Body) -> Array:
     """Tilt of the normal of the flat of each part, from the ground into it, in the body frame."""
-    tilts = []
-    for number in range(len(path.body)):
-        part = path.body.part(number)
-        (e_x, e_z), side = part.axis, part.side
-        n_x = part.sine * e_x + part.cosine * side * e_z
-        n_z = part.sine * e_z - part.cosine * side * e_x
-        tilts.append(math.atan2(-n_x, -n_z))
-    return np.array(tilts)[parts]
+    (e_x, e_z), across = parts.axis.T, parts.cosine * parts.side
+    return np.asarray(np.arctan2(-parts.sine * e_x - across * e_z, across * e_x - parts.sine * e_z))
 
 
 def _under_flats(path: contact.Path) -> tuple[Whole, Whole, Whole]:
     """Rows, points and parts of all corners under a flat that do not carry their pose."""
     rear, front = FeatureTable.of(path.poses.rear), FeatureTable.of(path.poses.front)
-    reach = float(np.abs(path.body.discs).sum(axis=1).max())
+    table = (
+        path.body.table if path.bodies is None else path.bodies.reshape(-1, path.bodies.shape[2])
+    )
+    reach = float(np.abs(contact.Body(table).discs).sum(axis=1).max())
     rows: list[Whole] = []
     points: list[Whole] = []
     parts: list[Whole] = []
@@ -464,7 +462,8 @@ def _under_flats(path: contact.Path) -> tuple[Whole, Whole, Whole]:
         corners = np.flatnonzero(near & path.ground.convex)
         for part in np.flatnonzero(path.body.kind != BELLY).tolist():
             w, gap = along_flat(path, some, corners, part)
-            on = (np.abs(gap) < TOUCH) & (w >= 0.0) & (w <= float(path.body.flat_length[part]))
+            length = path.parts(some, part).flat_length[:, None]
+            on = (np.abs(gap) < TOUCH) & (w >= 0.0) & (w <= length)
             which, column = np.nonzero(on)
             row, point = some[which], corners[column]
             new = np.ones(len(row), dtype=np.bool_)

@@ -50,7 +50,7 @@ class MovePose:
     outline: Outline
     """As it stands, x towards the leading end."""
     path: contact.Path
-    """Begins with the pose."""
+    """Has the pose alone."""
 
 
 @dataclass(frozen=True)
@@ -213,9 +213,9 @@ def _settled(
         phi = settled.inclination
     path = contact.traverse(
         ground, new.parts, x, x + _AHEAD,
-        kinds=new.kinds, inclination=phi, gyration=new.gyration, with_energy=True,
+        kinds=new.kinds, inclination=phi, gyration=new.gyration, with_energy=False,
     )  # fmt: skip
-    return path if len(path.poses) else None
+    return path.first() if len(path.poses) else None
 
 
 def _along(outline: Outline, phi: float) -> float:
@@ -236,7 +236,7 @@ def _pose(
         rear=angles.get("rear"),
         place=path.poses.placement(0),
         required_friction=friction if math.isfinite(friction) else math.inf,
-        energy=float(path.margins.energy[0]),
+        energy=float(path.energy([0])[0][0]),
         torque=_torques(robot, angles, outline, path, facing),
         outline=outline,
         path=path,

@@ -115,18 +115,26 @@ def _passings(path: contact.Path, rows: NDArray[np.int64], part: int) -> list[_P
 
 
 def along_flat(
-    path: contact.Path, rows: NDArray[np.int64], points: NDArray[np.int64], part: int
+    path: contact.Path,
+    rows: NDArray[np.int64],
+    points: NDArray[np.int64],
+    part: NDArray[np.int64] | int,
 ) -> tuple[Array, Array]:
-    """Place along the flat of a part and gap to its line [m], of some poses and points."""
-    body, phi = path.body.part(part), path.inclination[rows]
+    """Place along the flat of a part and gap to its line [m], of some poses and points.
+
+    The part is one, or one for each pose.
+    """
+    of, phi = path.parts(rows, part), path.inclination[rows]
+    x, z, radius = of.discs.T[:3, :, None]
+    (e_x, e_z), side = of.axis.T[:, :, None], of.side[:, None]
+    sine, cosine = of.sine[:, None], of.cosine[:, None]
     c, s = np.cos(phi)[:, None], np.sin(phi)[:, None]
     d_x = path.ground.x[points] - path.x[rows, None]
     d_z = path.ground.z[points] - path.z[rows, None]
-    a_x, a_z = c * d_x + s * d_z - body.x, c * d_z - s * d_x - body.z
-    along = a_x * body.axis[0] + a_z * body.axis[1]
-    below = body.side * (a_x * body.axis[1] - a_z * body.axis[0])
-    w = along * body.cosine - below * body.sine
-    return w, along * body.sine + below * body.cosine - body.radius
+    a_x, a_z = c * d_x + s * d_z - x, c * d_z - s * d_x - z
+    along = a_x * e_x + a_z * e_z
+    below = side * (a_x * e_z - a_z * e_x)
+    return along * cosine - below * sine, along * sine + below * cosine - radius
 
 
 def _is_reported(path: contact.Path, passing: _Passing) -> bool:

@@ -15,6 +15,7 @@ alike it is the closed form: docs/theory/uneven.md derives it.
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise, takewhile
 from typing import NamedTuple
 
@@ -144,6 +145,13 @@ def static_criterion(nosings: Array, tread: Tread, *, acceleration: float = 0.0)
         Poses over a landing, a distance of nosings of the flat's length or more, are left out: they
         enter or land.
     """
+    return _of_nosings(np.ascontiguousarray(nosings).tobytes(), tread, acceleration)
+
+
+@lru_cache(maxsize=64)
+def _of_nosings(table: bytes, tread: Tread, acceleration: float) -> Criterion:
+    """The same, remembered: most postures leave the flat as it is."""
+    nosings = np.frombuffer(table).reshape(-1, 2)
     losses: list[Loss] = []
     tops: list[float] = []
     seesaw = 0.0
