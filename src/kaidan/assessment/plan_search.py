@@ -300,8 +300,8 @@ def judged_of(question: Question, found: Findings) -> Judged:
 def judge_coarsely(question: Question) -> Findings:
     """Findings of the contact model from poses farther apart."""
     if question.changes:
-        return planned.findings(question, planned.drive(question, step=FINE), told=False)
-    return findings_of(question, Basis(question, traverse_of(question, step=FINE)), told=False)
+        return planned.findings(question, planned.drive(question, step=FINE), whole=False)
+    return findings_of(question, Basis(question, traverse_of(question, step=FINE)), whole=False)
 
 
 def _drop(found: Traverse) -> float:

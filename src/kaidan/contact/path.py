@@ -89,6 +89,12 @@ class Path:
             return Body(self.body.table[np.broadcast_to(part, len(rows))])
         return Body(self.bodies[rows, part])
 
+    @property
+    def reach(self) -> float:
+        """Distance from the centroid that no part of the robot exceeds [m]."""
+        tables = self.body.table if self.bodies is None else np.concatenate(self.bodies)
+        return float(np.abs(Body(tables).discs).sum(axis=1).max())
+
     def first(self) -> Path:
         """First pose alone, with its margins; neither events nor rotations."""
         assert self.margins is not None

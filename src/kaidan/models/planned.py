@@ -139,7 +139,7 @@ def stop(question: Question, profile: Profile, phase: Phase) -> float:
     return float(nosing[0]) - STAND_OFF
 
 
-def findings(question: Question, planned: Planned, *, told: bool = True) -> Findings:
+def findings(question: Question, planned: Planned, *, whole: bool = True) -> Findings:
     """Findings of the traverse of a plan: the smallest margins of its parts and changes.
 
     Parameters
@@ -147,7 +147,7 @@ def findings(question: Question, planned: Planned, *, told: bool = True) -> Find
     question : Question
         As it was put; what plays no part in the traverse may differ from what was driven.
     planned : Planned
-    told : bool
+    whole : bool
         With figures and notes; a verdict needs none.
 
     Returns
@@ -159,7 +159,7 @@ def findings(question: Question, planned: Planned, *, told: bool = True) -> Find
         alone = part.question
         if question is not planned.question:
             alone = question.changed(posture=alone.posture, changes=())
-        of_parts.append(findings_of(alone, Basis(part.question, part.traverse), told=told))
+        of_parts.append(findings_of(alone, Basis(part.question, part.traverse), whole=whole))
     basis = Basis(question, planned)
     outside = next((each.outside for each in of_parts if each.outside), "")
     if outside:

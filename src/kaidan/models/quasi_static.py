@@ -144,7 +144,7 @@ def _drives_alike(question: Question, other: Question) -> bool:
 
 
 def findings_of(
-    question: Question, basis: Basis, *, phase: Phase | None = None, told: bool = True
+    question: Question, basis: Basis, *, phase: Phase | None = None, whole: bool = True
 ) -> Findings:
     """Findings of a traverse, of the whole of it or of one phase alone.
 
@@ -156,7 +156,7 @@ def findings_of(
         Its traverse.
     phase : Phase, optional
         Part of the traverse to judge alone.
-    told : bool
+    whole : bool
         With figures and notes; a verdict needs none.
 
     Returns
@@ -181,7 +181,7 @@ def findings_of(
         *balance(question, driven, found, over, phase, held),
     ]
     required = friction if held is None else held.worst.required
-    if not told:
+    if not whole:
         return Findings(model=_NAME, each=tuple(each), required_friction=required, basis=basis)
     gripping = traction.figures_of(driven, found, friction, held, phase)
     looked_for = {FALL_DOWNHILL: "falls_downhill", FALL_UPHILL: "falls_uphill"}

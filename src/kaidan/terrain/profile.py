@@ -32,7 +32,7 @@ LARGEST_EXTENT = 1e4
 
 
 class _Themselves(tuple[Stairs, ...]):
-    """Flights told apart by what they are, not by what they say: a sheet takes long to compare."""
+    """Flights distinguished by what they are, not by what they say: a sheet takes long to compare."""
 
     __slots__ = ()
 

@@ -448,10 +448,7 @@ def _flat_normal(parts: contact.Body) -> Array:
 def _under_flats(path: contact.Path) -> tuple[Whole, Whole, Whole]:
     """Rows, points and parts of all corners under a flat that do not carry their pose."""
     rear, front = FeatureTable.of(path.poses.rear), FeatureTable.of(path.poses.front)
-    table = (
-        path.body.table if path.bodies is None else path.bodies.reshape(-1, path.bodies.shape[2])
-    )
-    reach = float(np.abs(contact.Body(table).discs).sum(axis=1).max())
+    reach = path.reach
     rows: list[Whole] = []
     points: list[Whole] = []
     parts: list[Whole] = []

@@ -93,7 +93,7 @@ def _straight_pieces(path: contact.Path) -> NDArray[np.int64]:
 
 def _passings(path: contact.Path, rows: NDArray[np.int64], part: int) -> list[_Passing]:
     """Nosings that pass an end of the flat of a part on some pieces of the path."""
-    x, reach = path.x[rows], float(np.abs(path.body.discs).sum(axis=1).max())
+    x, reach = path.x[rows], path.reach
     ground_x = path.ground.x
     near = (ground_x > x.min() - reach) & (ground_x < x.max() + reach)
     points = np.flatnonzero(near & path.ground.convex)
