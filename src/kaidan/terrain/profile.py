@@ -32,7 +32,7 @@ LARGEST_EXTENT = 1e4
 
 
 class _Themselves(tuple[Stairs, ...]):
-    """Flights distinguished by what they are, not by what they say: a sheet takes long to compare."""
+    """Flights, the same if they are the same objects: what sheets say takes long to compare."""
 
     __slots__ = ()
 
