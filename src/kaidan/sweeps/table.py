@@ -116,6 +116,8 @@ def formula_table(
     [60.205 52.936 46.185 37.255]
     """
     needed("xarray", "a labelled table", "sweeps")
+    import xarray
+
     unknown = set(parameters) - set(PARAMETERS)
     if unknown:
         raise InputError(
@@ -160,6 +162,8 @@ def formula_table(
         measured = given.get(name)
         inputs[name] = allowance.high if measured is None else measured
         inputs[f"{name}_spare"] = (allowance.high - allowance.low) if measured is None else 0.0
+    import xarray
+
     arrays = xarray.broadcast(*(xarray.DataArray(value) for value in inputs.values()))
     plain = {name: array.values for name, array in zip(inputs, arrays, strict=True)}
     answer = verdicts(plain, engine=engine)
