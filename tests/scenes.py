@@ -150,6 +150,7 @@ def seen(
     noise=0.003,
     bias=0.0,
     tilt=0.0,
+    ripple=0.0,
     smooth=np.inf,
     double=0.0,
     aside=0.0,
@@ -161,8 +162,8 @@ def seen(
 
     `height` above the floor and `away` before the first nosing say where the sensor stands;
     `from_top` = (s, z) instead, looking down the stairs. `bias` is the error of the range as a
-    share of it, `smooth` the range from which steps become a plane, `double` the offset of a
-    second surface, as a drifting map has it.
+    share of it, `ripple` that which differs from one direction to another, `smooth` the range from
+    which steps become a plane, `double` the offset of a second surface, as a drifting map has it.
     """
     poses = [(-away, aside, height, 0.0)]
     if from_top is not None:
@@ -192,7 +193,9 @@ def seen(
             with np.errstate(invalid="ignore"):
                 rays = np.where(good[:, None], (true - origin) / ranges[:, None], rays)
         off = rng.normal(0, noise, len(rays))
-        measured = np.where(good, ranges * (1 + bias) + off, 0.0)
+        wave = rng.normal(0, 9, (3, 3)), rng.uniform(0, 2 * np.pi, 3)
+        waves = np.cos(rays @ wave[0] + wave[1]).sum(axis=1) * np.sqrt(2 / 3)
+        measured = np.where(good, ranges * (1 + bias + ripple * waves) + off, 0.0)
         cloud = origin + rays * measured[:, None]
         if double and number % 2 == 0:
             shifted = rng.random(len(cloud)) < 0.5

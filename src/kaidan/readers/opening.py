@@ -212,9 +212,9 @@ class Source:
             with zipfile.ZipFile(self.path) as archive, archive.open(info) as file:
                 found = file.read(info.file_size + 1)
         except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError, RuntimeError) as bad:
-            raise self.refuse(f"cannot be unpacked: {bad}", named) from None
+            raise self.refuse(f"cannot be unpacked: {short(bad)}", named) from None
         except Exception as bad:  # zlib.error, lzma.LZMAError: the decompressors' own
-            raise self.refuse(f"cannot be unpacked: {bad}", named) from None
+            raise self.refuse(f"cannot be unpacked: {short(bad)}", named) from None
         if len(found) != info.file_size:
             raise self.refuse("its size is not the one stated", named)
         return found

@@ -61,8 +61,9 @@ def points_of_columns(
     if count > MOST_POINTS:
         raise source.refuse(f"{count} points are more than {MOST_POINTS}: thin or crop it")
     xyz = np.empty((count, 3))
-    for axis, column in enumerate(columns):
-        xyz[:, axis] = column
+    with np.errstate(all="ignore"):  # what is no number is left out below
+        for axis, column in enumerate(columns):
+            xyz[:, axis] = column
     invalid = ~np.isfinite(xyz).all(axis=1) | ~xyz.any(axis=1) | (np.abs(xyz) > 1e9).any(axis=1)
     if hints.crop is not None:
         low, high = np.array(hints.crop[:3]), np.array(hints.crop[3:])

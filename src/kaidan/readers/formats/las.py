@@ -15,6 +15,9 @@ WHOLE = 4_000_000
 """Points up to which all are kept."""
 RASTER = 0.01
 """Side of the cubes of which one point is kept otherwise, in the file's unit."""
+LASZIP, VARIABLE, MOST_IN_CHUNK = 22204, 0xFFFFFFFF, 5_000_000
+"""Number of the record that describes the compression, chunk size that says that it varies, and
+largest one that is believed."""
 MOST_KEPT = 20_000_000
 """Points left after thinning, from which the file must be cropped."""
 
@@ -79,7 +82,46 @@ def _checked(source: Source) -> int:
     source.refuse_missing(points, 0 if compressed else length, begin)
     if compressed and points > 4000 * max(source.size - begin, 1):
         raise source.refuse(f"the header states {points} points in {source.size} bytes")
+    if compressed:
+        _check_chunks(source, begin, records, length, int(struct.unpack_from("<H", head, 94)[0]))
     return int(points)
+
+
+def _check_chunks(source: Source, begin: int, records: int, length: int, at: int) -> None:
+    """Refuse sizes for which the decompressor would take memory that no file of this size needs.
+
+    It ends the process when there is none left.
+    """
+    with source.opened() as file:
+        for _ in range(records):
+            file.seek(at)
+            head = file.read(54)
+            if len(head) < 54:
+                raise source.refuse("a record of the header is cut off", f"byte {at}")
+            number, size = struct.unpack_from("<HH", head, 18)
+            if number == LASZIP:
+                _check_record(source, file.read(size), length)
+            at += 54 + size
+        file.seek(begin)
+        (table,) = struct.unpack("<q", file.read(8).ljust(8, b"\0"))
+        table = table if table > 0 else source.size - 8
+        file.seek(min(table, source.size))
+        _, chunks = struct.unpack("<II", file.read(8).ljust(8, b"\0"))
+    if chunks > source.size or table > source.size:
+        raise source.refuse(f"the table states {chunks} chunks in {source.size} bytes")
+
+
+def _check_record(source: Source, record: bytes, length: int) -> None:
+    if len(record) < 34:
+        raise source.refuse("the record of the compression is cut off")
+    (chunk,) = struct.unpack_from("<I", record, 12)
+    (items,) = struct.unpack_from("<H", record, 32)
+    sizes = [struct.unpack_from("<H", record, 36 + 6 * k)[0] for k in range(items)
+             if 40 + 6 * k <= len(record)]  # fmt: skip
+    if len(sizes) != items or sum(sizes) != length:
+        raise source.refuse(f"the compression states points of {sum(sizes)} bytes, not {length}")
+    if chunk > MOST_IN_CHUNK and chunk != VARIABLE:
+        raise source.refuse(f"the compression states chunks of {chunk} points")
 
 
 def _thinned(

@@ -149,6 +149,8 @@ def _loaded(
         ).astype(np.int64)
     if len(faces) > MOST_FACES:
         raise source.refuse(f"{len(faces)} triangles are more than {MOST_FACES}")
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        raise source.refuse(f"a triangle names a vertex that is none of its {len(vertices)}")
     used = vertices[faces.ravel()]
     if not np.isfinite(used).all() or np.abs(used).max() > 1e9:
         raise source.refuse("a vertex is no finite number")

@@ -10,7 +10,7 @@ from kaidan.readers.estimate import FlightEstimate, Found, Refusal
 from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import METRES, Array, Known, Points, Provenance, upright
 from kaidan.readers.stairfit.chain import staircases
-from kaidan.readers.stairfit.corridor import Lane, lanes, rotated
+from kaidan.readers.stairfit.corridor import NARROWEST, Lane, lanes, rotated
 from kaidan.readers.stairfit.gates import refused, surface_refusal
 from kaidan.readers.stairfit.gravity import frame, refined
 from kaidan.readers.stairfit.patches import (
@@ -35,6 +35,8 @@ MOST_FLIGHTS = 8
 """Flights that are looked for in one cloud."""
 MOST_PATCHED = 120_000
 """Points from which patches are made."""
+SAME_NOSING = 0.04
+"""Distance of nosings that are one [m]."""
 MANY_LEFT = 400
 """Points of the thinned cloud from which another flight is looked for."""
 NOISY, WIDE = 0.008, 0.18
@@ -176,12 +178,17 @@ def _with_up(
         rise, going = flight.regular.rise, flight.regular.going
         likely = 1.0 if LIKELY_RISES[0] <= rise <= LIKELY_RISES[1] else 0.3
         score += lane.score * likely * (1.0 if rise <= going else 0.5)
-        flights.append(flight)
         before = left.sum()
         left &= ~_within(flight, thin)
+        beside = [k for k, other in enumerate(flights) if _beside(flight, other)]
+        if beside:
+            flights[beside[0]] = _wider(flights[beside[0]], flight)
+        elif flight.width >= NARROWEST:
+            flights.append(flight)
         if left.sum() > before - 20 or left.sum() < MANY_LEFT:
             break
     if not flights:
+        score = 0.0
         refusals = surface_refusal(level, provenance) + refusals
     return _Try(tuple(flights), tuple(refusals), score, provenance, turn)
 
@@ -263,6 +270,31 @@ def _headroom(steps: Steps, lane: Lane, cloud: Array) -> float:
     over = z[inside] - first[1] - slope * (s[inside] - first[0])
     over = over[over > LOWEST_CEILING]
     return float(np.percentile(over, 1)) if len(over) > 30 else math.nan
+
+
+def _beside(one: FlightEstimate, other: FlightEstimate) -> bool:
+    """Whether two flights are parts of one, which somebody stood on, side by side."""
+    if abs(math.sin((one.heading - other.heading) / 2)) > 0.03:
+        return False
+    s, _, z = rotated(one.middle, other.heading)
+    line_s, _, line_z = rotated(other.middle, other.heading)
+    k = np.abs(s[:, None] - line_s).argmin(axis=1)
+    return bool(np.median(np.hypot(s - line_s[k], z - line_z[k])) < SAME_NOSING)
+
+
+def _wider(flight: FlightEstimate, beside: FlightEstimate) -> FlightEstimate:
+    """Flight with what lies beside it, its own nosings drawn out over the width of both."""
+    left = np.array([-math.sin(flight.heading), math.cos(flight.heading)])
+    sides = np.vstack([flight.left, flight.right, beside.left, beside.right])[:, :2] @ left
+    across = (flight.left - flight.right) / flight.width
+    middle = flight.middle[:, :2] @ left
+    high, low = float(sides.max()), float(sides.min())
+    return replace(
+        flight,
+        left=flight.middle + across * (high - middle)[:, None],
+        right=flight.middle + across * (low - middle)[:, None],
+        width=high - low,
+    )
 
 
 def _within(flight: FlightEstimate, thin: Array) -> NDArray[np.bool_]:

@@ -9,7 +9,13 @@ from numpy.typing import NDArray
 from kaidan.readers.kinds import Array, Indices
 from kaidan.readers.stairfit.echo import echoes
 from kaidan.readers.stairfit.patches import Patches, directions
-from kaidan.readers.stairfit.staircase_line import StairLine, assigned, fitted, phase
+from kaidan.readers.stairfit.staircase_line import (
+    StairLine,
+    assigned,
+    explained_share,
+    fitted,
+    phase,
+)
 
 LANE = 0.1
 """Width of a lane along the heading [m]."""
@@ -121,19 +127,6 @@ def lanes(xyz: Array, patches: Patches, of_point: Indices, tolerance: float) -> 
     return sorted(found, key=lambda lane: -lane.score)
 
 
-def explained_share(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) -> float:
-    """Share of the points about a line that lie on it, less what would by chance."""
-    k, u, v = line.local(s, t, z)
-    over = v - line.rise * (u / line.going - 0.5)  # above the middle of the steps
-    near = (np.abs(over) < line.rise) & (k >= line.first) & (k < line.last)
-    if near.sum() < 20:
-        return 0.0
-    at = assigned(line, s[near], t[near], z[near], tolerance)
-    weight = np.where(at.tread | at.riser, 1 - np.minimum(np.abs(at.off) / tolerance, 1) ** 2, 0)
-    chance = (2 / 3) * tolerance * (line.going + line.rise) / (line.going * line.rise)
-    return float((weight.mean() - chance) / (1 - chance))
-
-
 def tall(xyz: Array) -> NDArray[np.bool_]:
     """Points of what stands up farther than a riser: walls, people, posts.
 
@@ -157,7 +150,8 @@ def floors(s: Array, z: Array) -> NDArray[np.bool_]:
     usual = np.median(np.lib.stride_tricks.sliding_window_view(padded, 17), axis=1)
     floor = np.zeros(len(count), dtype=bool)
     for each in np.flatnonzero(count > 2.0 * usual + 10):
-        floor[each] = np.ptp(np.percentile(s[level == each], [10, 90])) > 1.0
+        along = np.bincount(((s[level == each] - s.min()) / LANE).astype(np.int64))
+        floor[each] = (along > 0.3 * np.percentile(along[along > 0], 90)).sum() * LANE > 1.0
     floor |= np.r_[floor[1:], False] | np.r_[False, floor[:-1]]
     return np.asarray(floor[level])
 

@@ -106,6 +106,19 @@ def assigned(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) ->
     return Assigned(step, tread, riser, np.where(riser, face, v))
 
 
+def explained_share(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) -> float:
+    """Share of the points about a line that lie on it, less what would by chance."""
+    k, u, v = line.local(s, t, z)
+    over = v - line.rise * (u / line.going - 0.5)  # above the middle of the steps
+    near = (np.abs(over) < line.rise) & (k >= line.first) & (k < line.last)
+    if near.sum() < 20:
+        return 0.0
+    at = assigned(line, s[near], t[near], z[near], tolerance)
+    weight = np.where(at.tread | at.riser, 1 - np.minimum(np.abs(at.off) / tolerance, 1) ** 2, 0)
+    chance = (2 / 3) * tolerance * (line.going + line.rise) / (line.going * line.rise)
+    return float((weight.mean() - chance) / (1 - chance))
+
+
 @dataclass(frozen=True, eq=False)
 class Edges:
     """Ends of treads towards the nosing, or upper ends of risers, lane by lane."""
@@ -118,46 +131,56 @@ class Edges:
     """Distance to the next point within, by which the end is uncertain [m]."""
 
 
-def fronts(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) -> Edges:
+def fronts(
+    line: StairLine, s: Array, t: Array, z: Array, tolerance: float, wide: float = EDGE_LANE
+) -> Edges:
     """Front ends of treads: least s of the points at the level of a tread."""
     ahead = s - line.skew * t - line.s0
     k = np.floor(ahead / line.going + 0.45).astype(np.int64)
     on = (np.abs(z - line.z0 - k * line.rise) < tolerance) & _within(line, k)
-    found = _ends(k[on], t[on], -ahead[on], 0.3 * line.going)
+    found = _ends(k[on], t[on], -ahead[on], 0.3 * line.going, wide)
     return replace(found, at=-found.at + line.s0 + line.skew * found.t)
 
 
-def tops(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) -> Edges:
+def tops(
+    line: StairLine, s: Array, t: Array, z: Array, tolerance: float, wide: float = EDGE_LANE
+) -> Edges:
     """Upper ends of risers: greatest z of the points at the face of a riser."""
     ahead = s - line.skew * t - line.s0
     k = np.round(ahead / line.going).astype(np.int64)
     up = z - line.z0 - k * line.rise
     on = (np.abs(ahead - k * line.going) < tolerance) & (up > -0.75 * line.rise)
     on &= (up < 0.45 * line.rise) & _within(line, k)
-    return _ends(k[on], t[on], z[on], 0.3 * line.rise)
+    return _ends(k[on], t[on], z[on], 0.35 * line.rise, wide)
 
 
 def _within(line: StairLine, k: Indices) -> NDArray[np.bool_]:
     return np.asarray((k >= line.first) & (k <= line.last))
 
 
-def _ends(k: Indices, t: Array, value: Array, reach: float) -> Edges:
+def _ends(k: Indices, t: Array, value: Array, reach: float, wide: float) -> Edges:
     """Greatest value in each lane of each step, half a gap added; lanes with few points left out.
 
-    The gap is how far the points within reach of the end lie apart on average.
+    The gap is the mean distance d from one point near the end to the one below it, each weighted
+    by itself: sum d^2 / sum d. For rows of a camera and rings of a LiDAR, which end at the same
+    place in all lanes, that is their distance; for points that lie anyhow twice the mean one. In
+    both cases the true end is half of it farther on average.
     """
     if len(k) < FEWEST_OF_LANE:
         return Edges(k[:0], t[:0], t[:0], t[:0])
-    lane = np.floor(t / EDGE_LANE).astype(np.int64)
+    lane = np.floor(t / wide).astype(np.int64)
     key = (k - k.min()) * (np.ptp(lane) + 1) + lane - lane.min()
     order = np.lexsort((value, key))
     k, t, value, key = k[order], t[order], value[order], key[order]
     begins = np.flatnonzero(np.r_[True, key[1:] != key[:-1]])
     ends = np.r_[begins[1:], len(key)] - 1
     top = value[ends]
-    close = value >= np.repeat(top, ends - begins + 1) - reach
-    many = np.add.reduceat(close.astype(np.float64), begins)
-    gap = reach / np.maximum(many, 1.0)
+    step = np.r_[np.inf, np.diff(value)]
+    step[begins] = np.inf
+    low = np.repeat(top, ends - begins + 1) - reach
+    step = np.where(value >= low, np.minimum(step, value - low), 0.0)
+    gap = np.add.reduceat(step**2, begins) / np.maximum(np.add.reduceat(step, begins), 1e-9)
+    many = np.add.reduceat((value >= low).astype(np.float64), begins)
     middle = np.add.reduceat(t, begins) / (ends - begins + 1)
     good = many >= FEWEST_OF_LANE
     return Edges(k[ends][good], middle[good], (top + 0.5 * gap)[good], gap[good])

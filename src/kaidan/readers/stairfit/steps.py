@@ -14,9 +14,11 @@ from numpy.typing import NDArray
 from kaidan.readers.estimate import UNCHECKED
 from kaidan.readers.kinds import Array, Indices
 from kaidan.readers.stairfit.staircase_line import (
+    Assigned,
     Edges,
     StairLine,
     assigned,
+    explained_share,
     fitted,
     fronts,
     robust_plane,
@@ -25,6 +27,8 @@ from kaidan.readers.stairfit.staircase_line import (
 
 FEWEST_POINTS = 12
 """Points of a tread or a riser from which its mean is taken."""
+LANES = (0.05, 0.2)
+"""Widths of the lanes in which ends are sought, the second where the first holds too few [m]."""
 FEWEST_LANES = 3
 """Lanes in which an end must be seen."""
 LOCAL = 0.2
@@ -37,6 +41,8 @@ SHORTEST_FLOOR = 0.08
 """Length of the level before the first riser that must be seen [m]."""
 EDGE_OFF = 0.03
 """Distance of the end of an element from its regular place up to which it is its end [m]."""
+OUT_OF_LEVEL = math.tan(math.radians(3.0))
+"""Slope across at which a tread is none; along it, where edges blur it, twice that."""
 FLOOR_SEEN = 15
 """Points from which a floor counts as seen."""
 
@@ -65,7 +71,12 @@ class Steps:
     residual: float
     """Median distance of the points from the steps [m]."""
     explained: float
-    """Share of the points about the steps that lie on them [1]."""
+    """Share of the points about the steps that lie on them, chance subtracted [1]."""
+    depth: float
+    """Scatter about the line of the nosings over that of steps about it: 1 for stairs, near 0 for
+    a ramp."""
+    level: float
+    """Share of the treads, by their points, that are level across and along [1]; NaN: too few."""
     width: tuple[float, float]
     """Least and greatest t at which steps were seen [m]."""
 
@@ -99,7 +110,9 @@ def steps_of(
     if len(off) < 30:
         return None
     number = np.arange(line.first, line.last + 1)
-    front, top = fronts(line, s, t, z, tight), tops(line, s, t, z, tight)
+    front = [fronts(line, s, t, z, tight, wide) for wide in LANES]
+    front = [replace(each, at=each.at - line.skew * each.t) for each in front]
+    top = [tops(line, s, t, z, tight, wide) for wide in LANES]
     regular = line.at(number)
     found, sigma = regular.copy(), np.full(regular.shape, np.nan)
     for row, k in enumerate(number.tolist()):
@@ -110,8 +123,7 @@ def steps_of(
         level = z[tread][inner]
         found[row, 1], sigma[row, 1] = _level(level, noise, top, k, regular[row, 1], riser.sum())
         face = s[riser] - line.skew * t[riser]
-        shifted = replace(front, at=front.at - line.skew * front.t)
-        found[row, 0], sigma[row, 0] = _level(face, noise, shifted, k, regular[row, 0], tread.sum())
+        found[row, 0], sigma[row, 0] = _level(face, noise, front, k, regular[row, 0], tread.sum())
     measured = np.isfinite(sigma)
     if measured.sum(axis=0).min() < 2 or measured.any(axis=1).sum() < 3:
         return None
@@ -131,20 +143,41 @@ def steps_of(
         floor=floor, floor_sigma=math.hypot(floor_sigma, LOCAL * range_error * float(ranges[0])),
         ends=math.isfinite(landing), landing=landing, run_up=run_up,
         roughness=rms, residual=float(np.median(np.abs(off))),
-        explained=len(off) / max(1, int(_about(line, s, t, z).sum())),
+        explained=explained_share(line, s, t, z, tight), depth=_depth(line, s, t, z),
+        level=_level_share(line, at, s, t, z),
         width=_width(at.step[at.tread | at.riser], t[at.tread | at.riser], line),
     )  # fmt: skip
 
 
-def _about(line: StairLine, s: Array, t: Array, z: Array) -> NDArray[np.bool_]:
-    """Points no farther from the line of the nosings than a riser."""
+def _depth(line: StairLine, s: Array, t: Array, z: Array) -> float:
+    """Scatter of the points about the line through mid-steps, over rise / sqrt(12)."""
     k, u, v = line.local(s, t, z)
     over = v - line.rise * (u / line.going - 0.5)
-    return np.asarray((np.abs(over) < line.rise) & (k >= line.first) & (k < line.last))
+    near = (np.abs(over) < 0.8 * line.rise) & (k >= line.first) & (k < line.last)
+    if near.sum() < 20:
+        return 0.0
+    return float(np.sqrt(np.mean(over[near] ** 2))) * math.sqrt(12.0) / line.rise
+
+
+def _level_share(line: StairLine, at: Assigned, s: Array, t: Array, z: Array) -> float:
+    """Points on treads whose plane is level, as a share of those on treads that have one."""
+    good = total = 0
+    for k in range(line.first, line.last + 1):
+        here = at.tread & (at.step == k)
+        x, y, height = s[here], t[here], z[here]
+        if len(x) < 40 or np.std(y) < 0.08:
+            continue
+        columns = np.column_stack([np.ones(len(x)), x - x.mean(), y - y.mean()])
+        _, along, across = np.linalg.lstsq(columns, height, rcond=None)[0].tolist()
+        seen_along = np.std(x) > 0.03
+        total += len(x)
+        level = abs(across) < OUT_OF_LEVEL and (not seen_along or abs(along) < 2 * OUT_OF_LEVEL)
+        good += len(x) if level else 0
+    return good / total if total else math.nan
 
 
 def _level(
-    values: Array, noise: float, ends: Edges, k: int, regular: float, others: int
+    values: Array, noise: float, lanes: list[Edges], k: int, regular: float, others: int
 ) -> tuple[float, float]:
     """Mean of the points of an element and its standard uncertainty; else from the ends."""
     if len(values) >= FEWEST_POINTS and len(values) > 0.04 * others:
@@ -152,13 +185,13 @@ def _level(
         spread = max(1.4826 * float(np.median(np.abs(values - middle))), 1e-4)
         core = values[np.abs(values - middle) < 3 * spread]
         return float(core.mean()), spread / math.sqrt(len(core))
-    here = ends.at[ends.step == k]
-    if len(here) >= FEWEST_LANES and abs(float(np.median(here)) - regular) < EDGE_OFF:
-        end = float(np.median(here))
-        spread = 1.4826 * float(np.median(np.abs(here - end)))
-        gap = float(np.median(ends.gap[ends.step == k]))
-        doubt = math.hypot(0.3 * gap, 0.5 * noise)
-        return end, math.hypot(1.25 * spread / math.sqrt(len(here)), doubt)
+    for ends in lanes:
+        here, gap = ends.at[ends.step == k], ends.gap[ends.step == k]
+        if len(here) >= FEWEST_LANES and abs(float(np.median(here)) - regular) < EDGE_OFF:
+            end = float(np.median(here))
+            spread = 1.4826 * float(np.median(np.abs(here - end)))
+            doubt = math.hypot(0.3 * float(np.median(gap)), 0.5 * noise)
+            return end, math.hypot(1.25 * spread / math.sqrt(len(here)), doubt)
     return math.nan, math.nan
 
 

@@ -1,0 +1,82 @@
+"""Stairs in clouds that were cast from known scenes: failures, errors, doubts, false stairs, time.
+
+The scenes are those of ``tests/cloud_campaign.py``. Times are in passes over the cloud: one pass
+is a copy of it with a rotation.
+"""
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+import cloud_campaign as campaign
+from kaidan.readers.hints import Hints
+from kaidan.readers.interpreters import points as interpreter
+
+TURN = np.array([[0.6, -0.8, 0.0], [0.8, 0.6, 0.0], [0.0, 0.0, 1.0]])
+
+
+def stairs(count: int, first: int, noise: float) -> None:
+    tally = campaign.Tally()
+    for number in range(first, first + count):
+        campaign.judge(number, tally, noise)
+    print(f"{tally.count} scenes with stairs, {tally.partial} seen in part")
+    print(f"  failures {len(tally.failures)}: {tally.failures[:20]}")
+    print(f"  refusals {len(tally.refusals)}: {[each[:2] for each in tally.refusals[:20]]}")
+    print(f"  {'':<12}{'n':>6}{'rms z':>8}{'95 %':>8}{'max z':>8}{'RMSE':>10}{'width/RMSE':>12}")
+    for name in ("spacing", "angle_deg", "first rise", "last rise", "rise", "going"):
+        if tally.ratios[name]:
+            n, rms, within, most, rmse, width = tally.row(name)
+            row = f"{n:>6}{rms:>8.2f}{within:>8.3f}{most:>8.1f}{rmse:>10.5f}{width:>12.1f}"
+            print(f"  {name:<12}{row}")
+
+
+def without(count: int, first: int) -> None:
+    found = []
+    for number in range(first, first + count):
+        cloud, kind = campaign.lookalike(number)
+        if interpreter.found(cloud, Hints()).staircases:
+            found.append((number, kind))
+    print(f"{count} scenes without stairs: {len(found)} false: {found}")
+
+
+def speed() -> None:
+    for sensor, number in (("camera", 9), ("phone", 2), ("lidar", 4)):
+        made = campaign.case(number)
+        xyz = np.tile(made.seen.xyz, (200_000 // len(made.seen.xyz) + 1, 1))[:200_000]
+        xyz = xyz + np.random.default_rng(0).normal(0, 1e-4, xyz.shape)
+        made.seen.xyz, made.seen.grid = xyz, None
+        cloud = campaign.cloud(made.seen)
+        took, one = [], []
+        for _ in range(5):
+            start = time.perf_counter()
+            interpreter.found(cloud, Hints())
+            took.append(time.perf_counter() - start)
+            start = time.perf_counter()
+            _ = xyz @ TURN
+            one.append(time.perf_counter() - start)
+        print(
+            f"{sensor}: 200,000 points in {1e3 * min(took):.0f} ms; a copy with a rotation takes "
+            f"{1e3 * min(one):.1f} ms: {min(took) / min(one):.0f} passes"
+        )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--stairs", type=int, default=100)
+    parser.add_argument("--without", type=int, default=100)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--noise", type=float, default=0.01, help="largest noise [m]")
+    options = parser.parse_args()
+    if options.stairs:
+        stairs(options.stairs, options.first, options.noise)
+    if options.without:
+        without(options.without, options.first)
+    speed()
+
+
+if __name__ == "__main__":
+    main()
