@@ -49,11 +49,9 @@ class Plate:
         """Corners of the outline, shape (n, 2), counter-clockwise [m]."""
         import shapely
 
-        ring = shapely.get_exterior_ring(shapely.normalize(self.shape))
+        ring = shapely.get_exterior_ring(self.shape)
         found = np.asarray(shapely.get_coordinates(ring)[:-1], dtype=np.float64)
-        x, y = found.T
-        area = float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
-        return found if area > 0 else found[::-1]
+        return found if shapely.is_ccw(ring) else found[::-1]
 
     @cached_property
     def sides(self) -> Array:
@@ -123,7 +121,7 @@ def _joined(solids: Triangles, group: NDArray[np.int64]) -> Iterator[Plate]:
 
     flat = solids.corners[group][:, :, :2]
     faces = shapely.polygons(flat)
-    joined = shapely.union_all(shapely.make_valid(faces), grid_size=LEVELED)
+    joined = shapely.union_all(faces)
     square = {"join_style": "mitre", "mitre_limit": 2.0}
     if shapely.get_num_geometries(joined) > 1:
         joined = shapely.buffer(shapely.buffer(joined, JOINT, **square), -JOINT, **square)
@@ -146,7 +144,8 @@ def _joined(solids: Triangles, group: NDArray[np.int64]) -> Iterator[Plate]:
             continue
         weights = np.bincount(solids.owner[group][within], weights=areas[within])
         owners = [int(k) for k in np.argsort(-weights) if weights[k] > 0]
-        height = float(np.average(heights[within], weights=np.maximum(areas[within], 1e-9)))
+        size = np.maximum(areas[within], 1e-9)
+        height = float(heights[within] @ size / size.sum())
         yield Plate(height, part, tuple(owners))
 
 

@@ -1,5 +1,6 @@
 """Triangles of solids, and rays against them."""
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Self
@@ -102,9 +103,7 @@ def first_hits(starts: Array, direction: Array, solids: Triangles) -> Array:
     found = np.full(len(starts), np.inf)
     if len(solids.corners) == 0 or len(starts) == 0:
         return found
-    side = np.cross(direction, np.eye(3)[np.argmin(np.abs(direction))])
-    side /= np.linalg.norm(side)
-    frame = np.stack([side, np.cross(direction, side), direction])
+    frame = _frame(*direction.tolist())
     corners, points = solids.corners @ frame.T, starts @ frame.T
     low, high = points.min(axis=0), points.max(axis=0)
     near = (corners[:, :, :2].max(axis=1) >= low[:2] - 1e-9).all(axis=1)
@@ -133,6 +132,18 @@ def first_hits(starts: Array, direction: Array, solids: Triangles) -> Array:
     hit = (u >= -edge) & (v >= -edge) & (u + v <= 1 + edge) & (t > edge)
     np.minimum.at(found, ray[hit], t[hit])
     return found
+
+
+def _frame(x: float, y: float, z: float) -> Array:
+    """Two directions across a third one, and that one, as rows of a rotation."""
+    if abs(z) > 0.9:
+        length = math.hypot(z, x)
+        a = (z / length, 0.0, -x / length)
+    else:
+        length = math.hypot(x, y)
+        a = (-y / length, x / length, 0.0)
+    b = (y * a[2] - z * a[1], z * a[0] - x * a[2], x * a[1] - y * a[0])
+    return np.array([a, b, (x, y, z)])
 
 
 def _near_in_plane(points: Array, corners: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

@@ -207,6 +207,7 @@ def _front_edge(upper: Plate, reach: Any) -> Edge:
     off = np.abs((direction - direction[best] + math.pi / 2) % math.pi - math.pi / 2)
     same = off <= PARALLEL
     middles = (pieces[:, :2] + pieces[:, 2:]) / 2
-    middle = np.average(middles[same], axis=0, weights=length[same])
-    straight = length[same].sum() >= STRAIGHT * length.sum()
+    along_it = length[same]
+    middle = along_it @ middles[same] / along_it.sum()
+    straight = along_it.sum() >= STRAIGHT * length.sum()
     return Edge(float(direction[best]) if straight else math.nan, middle)
