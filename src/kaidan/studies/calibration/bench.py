@@ -50,12 +50,12 @@ class Count(NamedTuple):
 
     @property
     def lost(self) -> float:
-        """Share that fell of all that fell or held [1]; NaN of none.
+        """Share of all that did not hold on the slope, in whatever way [1]; NaN of none.
 
-        What slides is neither: beyond the angle of friction falls are not looked for.
+        Below the angle of friction, and beyond it nobody looks, what slides hops back down.
         """
-        whole = self.trials - self.slid + self.unplaced
-        return (self.falls + self.unplaced) / whole if whole else math.nan
+        whole = self.trials + self.unplaced
+        return (self.falls + self.slid + self.unplaced) / whole if whole else math.nan
 
 
 def with_ends(robot: Robot, radius: float) -> Robot:

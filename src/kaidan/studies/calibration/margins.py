@@ -47,7 +47,7 @@ def margin_of(
     angles : sequence of float
         Slopes, increasing [deg].
     counts : sequence of Count
-        At each; lost is who falls or cannot be placed, and who slides counts for nothing.
+        At each; lost is who falls, slides, or cannot be placed.
 
     Returns
     -------
