@@ -89,7 +89,7 @@ def test_arrays_pass_and_what_does_not_hold_is_nan():
     assert found.shape == (4,)
     # 2 eta < R: 4 mm times the cosine of 62, 55, 49 and 42 deg is 1.9, 2.3, 2.6, 3.0 mm
     assert np.isfinite(found).tolist() == [True, True, False, False]
-    assert math.isnan(theta_d_two_contacts(p=0.150, theta_s=0.3, w_n=0.004, **KENAF))
+    assert math.isnan(theta_d_two_contacts(p=0.150, theta_s=1.3, w_n=0.004, **KENAF))
 
 
 @pytest.mark.slow

@@ -88,6 +88,41 @@ def compliance(
                figure, as_json)  # fmt: skip
 
 
+@group.command("yielding")
+def yielding(
+    robot: RobotName = "kenaf",
+    points: Annotated[
+        int, typer.Option(min=60, max=100_000, help="Of the design, half of them with treads.")
+    ] = 256,
+    trials: Annotated[int, typer.Option(min=2, max=1000, help="A condition.")] = 2,
+    seed: Seed = 0,
+    store: StoreFolder = None,
+    workers: Workers = None,
+    figure: output.FigureFiles = None,
+    as_json: options.AsJson = False,
+) -> None:
+    """Fit the yielding track to theta_d and the fall zone; predict the rest blind, with intervals.
+
+    About 110 trials a point of 0.03 s each, then some minutes for emulator and sampler.
+
+    Exit code: 0 done, whatever is reproduced; 2 bad input.
+    """
+    from kaidan.robot import Robot
+    from kaidan.studies.calibration.yielding import calibrate_yielding
+
+    pictures = output.checked(figure)
+    sheet = Robot.named(robot)
+    with _bench(store, workers, seed, trials) as bench:
+        found = calibrate_yielding(bench, sheet, points=points)
+
+    def draw() -> "output.Figure":
+        from kaidan.figures.region_figure import region_figure
+
+        return region_figure(found)
+
+    output.put_out(found, output.drawn(pictures, draw), as_json=as_json)
+
+
 @group.command("grousers")
 def grousers(
     robot: RobotName = "kenaf",

@@ -29,6 +29,7 @@ KINDS = {
     "trial": "kaidan.physics.outcome:TrialResult",
     "experiment": "kaidan.studies.verification:Verification",
     "calibration": "kaidan.studies.calibration.answer:Calibration",
+    "yielding-calibration": "kaidan.studies.calibration.yielding:YieldingCalibration",
     "grouser-effects": "kaidan.studies.calibration.answer:GrouserEffects",
     "reproduction": "kaidan.studies.reproduction:Reproduction",
     "design": "kaidan.verbs.design.answer:Design",

@@ -1,11 +1,11 @@
-"""Tracks that yield: theta_d and the margin by mechanics, the paper's open question.
+r"""Tracks that yield: theta_d and the margin by mechanics, the paper's open question.
 
 ::
 
               C
-              |\\               W   weight            a = theta_s + theta_d, inclination
-        C_N-eta | \\             x   centroid ahead of t_0, along the flat
-      ________|__\\_____ flat     eta indentation at t_0: w_n cos(a)
+              |\                W   weight            a = theta_s + theta_d, inclination
+        C_N-eta | \              x   centroid ahead of t_0, along the flat
+      ________|__\______ flat     eta indentation at t_0: w_n cos(a)
         t_0 *--x--'             sag: how far the robot is carried back over t_0: w_t sin(a)
 
 At the limit t_0 alone carries, so gravity's line through C passes t_0. The compliances are lengths:
@@ -57,8 +57,8 @@ def theta_d_two_contacts(
     ``theta_d = (w_n cos(a) / p) (1 - 2 q)``, ``q = (L - p - C_L - (C_N - eta) tan(a)) / p``,
     ``eta = w_n cos(a) (1 - q)``, ``a = theta_s + theta_d``
 
-    q is the share that the upper nosing carries; first order in eta / p. What it measures is the paper's theta_d (Fig. 15), and
-    one measurement of it gives w_n.
+    q is the share that the upper nosing carries; first order in eta / p. It is what the paper
+    measures as theta_d (Fig. 15), and one measurement of it gives w_n.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def theta_d_two_contacts(
         q = (L - p - C_L - (C_N - eta) * np.tan(a)) / p
         eta = w_n * np.cos(a) * (1.0 - q)
         theta_d = w_n * np.cos(a) / p * (1.0 - 2.0 * q)
-    return np.where((q >= 0.0) & (q <= 1.0), theta_d, np.nan)[()]
+    return theta_d * np.where((q >= 0.0) & (q <= 1.0), 1.0, np.nan)
 
 
 def theta_s_sup_yielding(
@@ -155,7 +155,7 @@ def theta_s_sup_yielding(
         x = L + s - p * np.cos(theta_d) - C_L - drop * np.sin(a)
         a = 0.5 * (a + np.arctan2(x, C_N - eta))
     within = (R <= 0.0) | (2.0 * eta < R)
-    return np.where(within, a - theta_d, np.nan)[()]
+    return (a - theta_d) * np.where(within, 1.0, np.nan)
 
 
 def drop_at_most(*, w_t: Number, contacts: Number) -> Number:

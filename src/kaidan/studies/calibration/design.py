@@ -6,11 +6,11 @@ what they come to, a handful of figures in degrees, is what an emulator is built
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from importlib import import_module
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from kaidan.campaign import Condition, Setting
 from kaidan.physics import YieldingBelt
@@ -34,7 +34,7 @@ class Axis(NamedTuple):
     def value(self, share: float) -> float:
         """Value at a share of the range, 0 to 1."""
         if self.logarithmic:
-            return self.low * (self.high / self.low) ** share
+            return float(self.low * (self.high / self.low) ** share)
         return self.low + (self.high - self.low) * share
 
 
@@ -74,6 +74,7 @@ class Point(NamedTuple):
 
 def shares_of(count: int, seed: int) -> Array:
     """Points spread evenly over the unit cube (scrambled Sobol), shape (count, axes)."""
+    qmc: Any = import_module("scipy.stats").qmc
     sampler = qmc.Sobol(len(AXES), rng=np.random.default_rng(seed))
     drawn: Array = sampler.random(2 ** math.ceil(math.log2(max(2, count))))
     return drawn[:count]
