@@ -101,7 +101,7 @@ def test_likelihood_by_hand():
 
 
 def test_known_parameters_are_found_and_the_rest_is_left_open(monkeypatch):
-    # the zone goes with a share of 0.29 to 0.50, theta_d with one of 0.47 to 0.67; nothing else does
+    # the zone goes with a share of 0.29 to 0.50, theta_d with 0.47 to 0.67; nothing else does
     monkeypatch.setattr(yielding, "points_of", lambda *a: [made_up(list(s), g) for s, g in a[3]])
     bench = Bench(lambda specs: pytest.fail("no trial"), seed=0, trials=2)
     found = yielding.calibrate_yielding(bench, KENAF, points=80, steps=300)
