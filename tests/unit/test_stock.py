@@ -104,10 +104,27 @@ def test_stairs_of_the_catalogue():
         Stock.of_stairs([Stairs(rises=(0.1, 0.1), goings=(0.3,))])
 
 
+def test_flights_as_sheets_for_a_sweep_or_a_design(tmp_path):
+    row = "170,290,9,1.2\n"
+    path = written(tmp_path, f"rise_mm,going_mm,steps,width\n{row}150,300,,\n{row}")
+    low, steep = Stock.of_file(path).stairs()
+    assert (low.name, low.steps, low.width) == ("150 x 300 mm, 12", 12, None)
+    assert (steep.rise, steep.going, steep.steps, steep.width) == (0.17, 0.29, 9, 1.2)
+    from typer.testing import CliRunner
+
+    from kaidan.cli import app_for
+
+    words = ["design", "absolem", str(path), "--model", "closed-form", "--flippers", "flat",
+             "--tries", "30", "--friction", "1.2", "--json",
+             "--free", "com_height=100mm..300mm"]  # fmt: skip
+    done = CliRunner().invoke(app_for(["design"]), words)
+    assert done.exit_code == 0, done.output
+    assert '"150 x 300 mm, 12"' in done.stdout
+
+
 # Long flights
 
 
-@pytest.mark.usefixtures("compiled_kernel")
 @pytest.mark.parametrize("count", [25, pytest.param(400, marks=pytest.mark.slow)])
 def test_a_long_flight_says_what_a_short_one_says(count):
     """Same verdict, same mode; margins to 1e-4 deg, since poses lie at other places of a step."""
@@ -177,7 +194,7 @@ def test_shares_are_those_of_single_answers():
     assert [each.go for each in found.robots] == sorted((e.go for e in found.robots), reverse=True)
 
 
-def test_only_go_keeps_the_share_of_go(compiled_kernel):
+def test_only_go_keeps_the_share_of_go():
     stock = Stock.drawn({"rise": "140mm..200mm", "going": "230mm..370mm"}, 30, to=0.02)
     robots = ["ozbot-atr", "marmotte"]
     whole, part = (

@@ -57,6 +57,10 @@ def values_of(robot: str, stairs: str | None, **values: Any) -> dict[str, Any]:
     }
     found["robot"] = _one_or_many(robot)
     many = _one_or_many(stairs) if stairs is not None else None
+    if stairs is not None and stairs.lower().endswith(".csv"):
+        from kaidan.studies.stock.flights import Stock
+
+        many = Stock.of_file(Path(stairs)).stairs()
     if isinstance(many, list):
         found["stairs"] = many
     elif stairs is not None or points is not None or any(shape.values()):

@@ -32,7 +32,7 @@ def sweep(
         Terrains; needed unless the parameters give the whole shape of uniform stairs.
     model : {"contact", "closed-form", "support-polygon", "physics"}, optional
         Model that judges each cell, as `kaidan.assess` does: same findings, same verdict. Without
-        one the paper's formulas are evaluated over whole arrays, see `kaidan.sweeps.table`: some
+        one the paper's formulas are evaluated over whole arrays, see ``kaidan.sweeps.table``: some
         million times faster, and of the regular flight alone, so that GO may stand where `assess`
         has none.
     engine : {"auto", "numpy", "compiled"}

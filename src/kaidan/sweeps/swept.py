@@ -47,7 +47,7 @@ class Swept:
         return tuple(sorted(set(self.variables["governs"].ravel().tolist())))
 
     def count(self, verdict: str) -> int:
-        """Cells with a verdict, a word of `kaidan.sweeps.cells.VERDICTS`."""
+        """Cells with a verdict, a word of ``kaidan.sweeps.cells.VERDICTS``."""
         return int(np.count_nonzero(self.variables["verdict"] == VERDICTS.index(verdict)))
 
     def columns(self) -> dict[str, Any]:

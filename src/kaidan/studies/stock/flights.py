@@ -229,6 +229,17 @@ class Stock:
             raise InputError(f"{name}: steps must be whole numbers")
         return cls.of_rows(name, figures | {"steps": steps}, flights)
 
+    def stairs(self) -> list[Stairs]:
+        """Flights that differ, as sheets named by rise, going and steps."""
+        rows = zip(*(self.figures[name].tolist() for name in _FIGURES), strict=True)
+        found = []
+        for row in rows:
+            stated = {k: v for k, v in zip(_FIGURES, row, strict=True) if not math.isnan(v)}
+            stated["steps"] = round(stated["steps"])
+            name = f"{1e3 * stated['rise']:g} x {1e3 * stated['going']:g} mm, {stated['steps']}"
+            found.append(Stairs(name=name, **stated))
+        return found
+
     def shortened(self, reach: float) -> "Stock":
         """Same stock with long flights as short as says all of a robot so long [m].
 
