@@ -2,15 +2,15 @@
 Robots against stairs
 =====================
 
-All robots of the catalogue on all stairs of the catalogue, flippers flat where there are some. The
-friction of 1.2 is an assumption, made so that tipping decides and not slipping; dry concrete has
-0.6 to 1.0.
+All robots of the catalogue on all stairs of the catalogue, flippers flat where there are some.
+Without ``flippers="flat"`` a plan is found for each pair. The friction of 1.2 is an assumption, made
+so that tipping decides and not slipping; dry concrete has 0.6 to 1.0.
 """
 
 import kaidan
 from kaidan.figures.comparison_figure import comparison_figure
 
-table = kaidan.compare(friction=1.2)
+table = kaidan.compare(friction=1.2, flippers="flat")
 figure = comparison_figure(table)
 
 # %%

@@ -23,7 +23,7 @@ def run(*arguments, **options):
 
 
 def test_defaults_are_all_robots_on_all_stairs():
-    found = json.loads(run("--json", "--friction", "0.8").stdout)
+    found = json.loads(run("--json", "--friction", "0.8", "--flippers", "flat").stdout)
     assert tuple(found["robots"]) == catalog.names("robots")
     assert tuple(found["stairs"]) == catalog.names("stairs")
     assert len(found["cells"]) == len(found["robots"]) * len(found["stairs"])
@@ -42,7 +42,7 @@ def test_defaults_are_all_robots_on_all_stairs():
     ],
 )  # fmt: skip
 def test_every_cell_is_what_assess_says(arguments, options, model):
-    found = json.loads(run("--json", "--model", model, *arguments).stdout)
+    found = json.loads(run("--json", "--model", model, "--flippers", "flat", *arguments).stdout)
     assert found["model"] == model
     for cell in found["cells"]:
         robot = Robot.named(cell["robot"])
@@ -55,6 +55,26 @@ def test_every_cell_is_what_assess_says(arguments, options, model):
         assert cell["margin_deg"] == (
             None if answer.margin_deg is None else pytest.approx(answer.margin_deg, abs=1e-12)
         )
+
+
+@pytest.mark.parametrize("manner", [{}, {"facing": "tail-first"}])
+def test_without_a_posture_each_cell_is_the_best_plan_of_assess(manner):
+    found = compare(["absolem", "kenaf"], ["ibc", "ada"], friction=1.2, **manner)
+    assert found.planned
+    assert found.facing == manner.get("facing")
+    for cell in found.cells:
+        answer = assess(cell.robot, cell.stairs, friction=1.2, flippers="best", **manner)
+        has = bool(Robot.named(cell.robot).flippers())
+        assert cell.flippers == (answer.question.flippers if has else "")
+        assert (cell.facing, cell.verdict) == (answer.question.facing, answer.verdict)
+        assert cell.margin_deg == pytest.approx(answer.margin_deg, abs=1e-12)
+    assert "each with the best plan of its flippers" in str(found)
+
+
+def test_a_model_without_plans_has_the_flippers_flat():
+    found = compare(["absolem"], ["ibc"], friction=0.8, model="closed-form")
+    assert not found.planned
+    assert (found.facing, found.cells[0].flippers) == ("nose-first", "flat")
 
 
 def test_files_and_page(tmp_path):
@@ -125,7 +145,7 @@ def test_any_size_can_be_drawn_and_its_words_stay_apart():
         ([Robot.named(name) for name in names] * 2, stairs[:3]),
         ([odd, Robot.named("ozbot-atr")], stairs),
     ):
-        found = compare([*robots, *catalog.gross_robots()], flights, friction=0.8)
+        found = compare([*robots, *catalog.gross_robots()], flights, friction=0.8, flippers="flat")
         figure = comparison_figure(found)
         figure.draw_without_rendering()
         boxes = [text.get_window_extent() for text in figure.axes[0].texts if text.get_text()]

@@ -18,8 +18,11 @@ StairsNames = Annotated[
     typer.Option("--stairs", metavar="NAME", help="May be given again [all stairs]."),
 ]
 FlippersWhere = Annotated[
-    str,
-    typer.Option(help="As in assess; flat lays them in line with the track where there are some."),
+    str | None,
+    typer.Option(
+        help="As in assess; flat lays them in line with the track where there are some [best, a "
+        "plan for each pair; flat where the model is another]."
+    ),
 ]
 
 
@@ -36,7 +39,7 @@ def compare(
     acceleration: options.Acceleration = "0m/s2",
     direction: options.Direction = None,
     facing: options.Facing = None,
-    flippers: FlippersWhere = "flat",
+    flippers: FlippersWhere = None,
     theta_d: options.ThetaD = None,
     theta_m: options.ThetaM = None,
     risk: options.Risk = 0.01,

@@ -68,8 +68,9 @@ def comparison_figure(found: "Comparison") -> Figure:
             for c, cell in enumerate(row):
                 _draw_cell(axes, r, c, cell)
         for c, cell in enumerate(found.rows[0]):
+            lie = found.posture(c)
             name = "\n".join(textwrap.wrap(look.named(cell.robot, 22), 11))
-            posture = f"\n({cell.flippers})" if cell.flippers in ("flat", "stowed") else ""
+            posture = f"\n({lie})" if lie in ("flat", "stowed") else ""
             axes.text(c + 0.5, -0.12, name + posture, ha="center", va="bottom", linespacing=1.1)
         figure.text(
             0.1 / width,

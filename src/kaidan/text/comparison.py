@@ -43,6 +43,8 @@ def conditions(found: "Comparison") -> str:
     speed = "constant speed"
     if found.acceleration:
         speed = f"{found.acceleration:g} m/s2 up the stairs"
+    if found.planned:
+        speed += ", each with the best plan of its flippers"
     ground = found.surface or "friction not stated"
     model = "contact model, from landing to landing"
     if found.model == "closed-form":
@@ -80,7 +82,7 @@ def _table(found: "Comparison", shown: range) -> str:
         rows.append(line | {str(column): _verdict(row[column]) for column in shown})
     heads = {"stairs": "stairs", "angle_deg": "[deg]", "p_m": "p [mm]"}
     for column in shown:
-        flippers = found.cells[column].flippers
+        flippers = found.posture(column)
         heads[str(column)] = found.robots[column] + (f" ({flippers})" if flippers else "")
     return table(rows, heads)
 

@@ -9,11 +9,11 @@ from kaidan.answer import Answer, Part
 from kaidan.assessment import with_plan
 from kaidan.assessment.verdict import conclude
 from kaidan.errors import InputError
-from kaidan.modes import Direction, Facing, Verdict
+from kaidan.modes import CONTACT, Direction, Facing, Verdict
 from kaidan.progress import progress
 from kaidan.question import Question
 from kaidan.robot import Robot
-from kaidan.spelling import sheet_of
+from kaidan.spelling import BEST, sheet_of
 from kaidan.terrain.stairs import Stairs
 
 
@@ -61,7 +61,9 @@ class Comparison(Answer):
     direction: Direction | None
     """Which way all robots go; null where each goes as the stairs' sheet says."""
     facing: Facing | None
-    """Which end leads; null where each cell has its own."""
+    """Which end leads; null where each cell has its own, as it was found."""
+    planned: bool
+    """Whether a plan was found for each cell."""
     acceleration: float
     """Up the stairs [m/s^2]."""
     surface: str | None
@@ -81,6 +83,11 @@ class Comparison(Answer):
         wide = len(self.robots)
         return tuple(self.cells[at : at + wide] for at in range(0, len(self.cells), wide))
 
+    def posture(self, column: int) -> str:
+        """How the flippers of a robot lie on all stairs; empty: it has none, or they differ."""
+        each = {row[column].flippers for row in self.rows}
+        return each.pop() if len(each) == 1 else ""
+
     def columns(self) -> dict[str, list[Any]]:
         """Columns of a table with one line a cell."""
         return {name: [getattr(cell, name) for cell in self.cells] for name in Cell.model_fields}
@@ -90,7 +97,7 @@ def compare(
     robots: Sequence[Any] | None = None,
     stairs: Sequence[Any] | None = None,
     *,
-    flippers: Any = "flat",
+    flippers: Any = None,
     **manner: Any,
 ) -> Comparison:
     """Set many robots against many stairs: a verdict and a margin for each pair.
@@ -101,9 +108,10 @@ def compare(
         Robots; all of the catalogue without them.
     stairs : sequence of Stairs, str or path, optional
         Stairs; all of the catalogue without them.
-    flippers : Posture or {"flat", "stowed", "best"}
-        Posture of the flippers; flat lays them in line with the track where there are some; best
-        finds a plan for each pair.
+    flippers : Posture or {"best", "flat", "stowed"}, optional
+        Posture of the flippers. Without one the best: the contact model finds a plan for each pair,
+        which end leads too where *facing* is not stated; any other model has them flat, in line
+        with the track where there are some.
     **manner
         As in `kaidan.assess`.
 
@@ -132,6 +140,9 @@ def compare(
     flights = [
         sheet_of(each, Stairs) for each in (catalog.names("stairs") if stairs is None else stairs)
     ]
+    if flippers is None:
+        plans = manner.get("model", CONTACT.name) == CONTACT.name and not manner.get("yaw")
+        flippers = BEST if plans else "flat"
     questions = [
         Question.of(robot, flight, flippers=laid(robot, flippers), **manner)
         for flight in flights
@@ -144,6 +155,7 @@ def compare(
         model=first.model,
         direction=first.direction if len(directions) == 1 else None,
         facing=None if "facing" in first.best_of else first.facing,
+        planned=bool(first.best_of),
         acceleration=first.acceleration,
         surface=first.surface.name if first.surface else None,
         robots=[robot.name for robot in known],
