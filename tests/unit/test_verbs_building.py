@@ -12,7 +12,7 @@ pytest.importorskip("ifcopenshell", reason="skipped: ifcopenshell not installed"
 from typer.testing import CliRunner
 
 import kaidan
-from ifc_cases import House, half_turn_house
+from ifc_cases import House, half_turn_house, monolith
 from kaidan import InputError, Stairs
 from kaidan.cli import app
 from kaidan.text.building_page import page
@@ -193,3 +193,23 @@ def test_what_is_no_building_is_refused(tmp_path):
         building(path, ["absolem"])
     with pytest.raises(InputError, match="name at least one robot"):
         building(path, [])
+
+
+def test_a_quarter_turn_with_the_tail_over_the_flight(folder):
+    """1.25 m for a circle of 1.30 m; the turning centre keeps 0.1 m from the flight below."""
+    house = House()
+    stair = house.add("IfcStair", "Q")
+    steps = {"rises": [0.15] * 10, "goings": [0.3] * 9, "last": False}
+    house.add("IfcStairFlight", "Q1", [monolith(house, **steps, width=1.5)], parent=stair)
+    outline = [(0, -0.75), (1.25, -0.75), (1.25, 0.75), (0, 0.75)]
+    house.add("IfcSlab", "landing", [house.slab(outline, 0)], at=(2.7, 0, 1.5), parent=stair)
+    house.add("IfcStairFlight", "Q2", [monolith(house, **steps, width=1.25)],
+              at=(3.325, 0.75, 1.5), degrees=90, parent=stair)  # fmt: skip
+    found = building(house.write(folder / "quarter.ifc"), ["absolem-flat"], friction=1.2)
+    (turn,) = found.turns
+    assert (turn.way, round(turn.turn_deg)) == ("manoeuvre", 90)
+    assert turn.room_m == pytest.approx(1.25, abs=0.01)
+    assert min(x for x, _, _ in turn.path) >= 2.7 + 0.1
+    assert way(found, "absolem-flat", "First").postures == (
+        f"On the landing at 1.50 m turn by 90 deg: back and forth in {turn.moves} moves.",
+    )

@@ -22,8 +22,9 @@ from kaidan.verbs.building.answer import TurnShown, TurnWay
 
 STRAIGHT_ON = math.radians(15.0)
 """Angle between two flights up to which the robot goes straight on [rad]."""
-ARRIVED = 0.02
-"""Turning centre beyond the last nosing where a turn may begin [m]."""
+KEPT = 0.1
+"""Distance that the turning centre keeps from the flight below while it turns [m]: the centroid may
+lie behind it, and beyond the nosing the robot would tip back down."""
 LANE = 1.5
 """Length of the flight over which the robot's tail may still hang [m]."""
 
@@ -142,7 +143,11 @@ def _driven(
     """Manoeuvre from the head of one flight to the foot of the next."""
     ahead = _ahead(before.estimate.heading)
     start = before.lane[1:3].mean(axis=0)
-    start = start + (ARRIVED + float((before.estimate.middle[-1, :2] - start) @ ahead)) * ahead
+    edge = float(before.estimate.middle[-1, :2] @ ahead)
+    start = start + (KEPT + 0.01 + edge - float(start @ ahead)) * ahead
+    kept = _beyond(landing, ahead, edge + KEPT)
+    if len(kept) == 0:
+        return None
     foot = after.lane[[0, 3]].mean(axis=0)
     return manoeuvre(
         footprint,
@@ -150,6 +155,19 @@ def _driven(
         goal=Goal(
             float(foot[0]), float(foot[1]), after.estimate.heading, float(after.estimate.width)
         ),
-        landing=landing,
+        landing=kept,
         walls=walls,
     )
+
+
+def _beyond(outline: Array, ahead: Array, distance: float) -> Array:
+    """Part of an outline that lies ahead of a line across a direction."""
+    off = outline @ ahead - distance
+    found = []
+    for k, (a, b) in enumerate(zip(outline, np.roll(outline, -1, axis=0), strict=True)):
+        one, two = off[k], off[(k + 1) % len(off)]
+        if one >= 0:
+            found.append(a)
+        if (one >= 0) != (two >= 0):
+            found.append(a + one / (one - two) * (b - a))
+    return np.array(found) if len(found) > 2 else outline[:0]
