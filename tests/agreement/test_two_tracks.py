@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.optimize import brentq
+from scipy.optimize import brentq, linprog
 from scipy.spatial import ConvexHull
 
 from kaidan import Question, Robot, Stairs
@@ -91,6 +91,29 @@ def test_nosings_that_all_slope_alike(degrees):
     assert found.sideways == pytest.approx(half - roll, abs=1e-9)
 
 
+def test_askew_nosings_roll_a_robot_that_goes_straight_on():
+    """By hand: their plane is z = (x - y tan(k)) tan(theta), tan(roll) = tan(k) sin(theta)."""
+    k, asked = math.radians(6.0), question(skews=(math.radians(6.0),))
+    roll = math.atan(math.tan(k) * math.sin(asked.terrain.angle))
+    assert margins_on(asked, asked.terrain).roll == pytest.approx(roll, abs=1e-9)
+
+
+def test_points_under_the_tracks_as_turned_in_space():
+    """Places of the nosings in space at y = +-gauge/2, turned into the plane by a matrix."""
+    rng = np.random.default_rng(5)
+    cross, skew = rng.uniform(-0.1, 0.1, 30), rng.uniform(-0.2, 0.2, 30)
+    asked = question(cross_slopes=tuple(cross), skews=tuple(skew))
+    theta = asked.terrain.angle
+    s, z, half = 0.279 * np.arange(30), 0.178 * np.arange(1, 31), 0.397 / 2
+    turn = np.array([[math.cos(theta), math.sin(theta)], [-math.sin(theta), math.cos(theta)]])
+    left, right = (
+        np.column_stack([s + y * np.tan(skew), z + y * np.tan(cross)]) @ turn.T
+        for y in (half, -half)
+    )
+    expected = two_track_margins(left=left, right=right, **ROBOT, theta_s=theta)
+    assert margins_on(asked, asked.terrain) == pytest.approx(expected, abs=1e-6)
+
+
 def by_hull(left, right, theta_s, psi, front, L, C_L, C_N, gauge):
     """Margins over the edges downhill and uphill at one position, by qhull and dihedral angles."""
     sides = [
@@ -147,6 +170,48 @@ def test_twisted_nosings_as_a_convex_hull_in_space(low, high, psi):
     down, up = np.array([each for each in judged if each is not None]).min(axis=0)
     assert found.downhill == pytest.approx(down, abs=1e-6)
     assert found.uphill == pytest.approx(up, abs=1e-6)
+
+
+@settings(max_examples=15)
+@given(
+    st.lists(st.floats(-0.03, 0.03), min_size=9, max_size=9),
+    st.lists(st.floats(-0.03, 0.03), min_size=9, max_size=9),
+    st.floats(-0.3, 0.3),
+)
+def test_the_underside_settles_where_a_linear_programme_puts_it(low, high, psi):
+    """The plane on or above all points that is lowest under the centroid; then its roll."""
+    left, right = straight(psi, count=9)
+    left[:, 1], right[:, 1] = low, high
+    theta_s, L, half = 0.5, ROBOT["L"], ROBOT["gauge"] / 2
+    found = two_track_margins(left=left, right=right, **ROBOT, theta_s=theta_s, psi=psi)
+    up = np.array([math.sin(theta_s) * math.cos(psi), -math.sin(theta_s) * math.sin(psi),
+                   math.cos(theta_s)])  # fmt: skip
+    foot = ROBOT["C_N"] * up / up[2]
+    r = np.concatenate([left[:, 0], right[:, 0]])
+    first, last = max(left[0, 0], right[0, 0]) + L, min(left[-1, 0], right[-1, 0])
+    rolls = []
+    for front in np.concatenate([r - 1e-6, r + L + 1e-6]):
+        sides = [
+            np.insert(line[(line[:, 0] >= front - L) & (line[:, 0] <= front)], 1, y, axis=1)
+            for line, y in ((left, half), (right, -half))
+        ]
+        if not first <= front <= last or min(map(len, sides)) < 2:
+            continue
+        points = np.concatenate(sides)
+        under = np.array([1.0, front - ROBOT["C_L"] - foot[0], -foot[1]])
+        above = np.column_stack([np.ones(len(points)), points[:, :2]])
+        solved = linprog(under, A_ub=-above, b_ub=-points[:, 2], bounds=[(None, None)] * 3)
+        if not solved.success:  # the foot lies beyond the points: it tips, and has no roll
+            return
+        _, alpha, beta = solved.x
+        normal = np.array([-alpha, -beta, 1.0]) / math.sqrt(alpha**2 + beta**2 + 1.0)
+        aside = np.cross(normal, np.array([1.0, 0.0, alpha]) / math.hypot(1.0, alpha))
+        rolls.append(abs(math.atan2(up @ aside, up @ normal)))
+    if rolls:
+        assert found.roll == pytest.approx(max(rolls), abs=1e-6)
+        assert found.sideways == pytest.approx(
+            math.atan2(half, ROBOT["C_N"]) - max(rolls), abs=1e-6
+        )
 
 
 def test_left_and_right_exchanged_give_the_same_margins():
