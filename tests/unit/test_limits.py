@@ -28,7 +28,11 @@ def test_a_short_robot_is_told_its_length_and_its_centroid():
         "nosing_spacing", pytest.approx(p), 0.26,
     )  # fmt: skip
     assert spacing.needs_m == pytest.approx(2 * p)
-    assert (riser.figure, riser.has_m, riser.needs) == ("first_rise", 0.174, "com_from_uphill_end")
+    assert (riser.figure, riser.has_m, riser.needs) == (
+        "rise",
+        pytest.approx(0.174),
+        "com_from_uphill_end",
+    )
     answer = assess(SHORT, FLIGHT, friction=1.5)
     assert answer.limits == (spacing, riser)
     assert answer.verdict == "no-go"
@@ -38,7 +42,7 @@ def test_a_short_robot_is_told_its_length_and_its_centroid():
 
 def test_the_contact_model_enters_with_the_centroid_that_the_limit_asks_for():
     """5 mm on either side: the edge bears on the flat there, on the round end before."""
-    (needs,) = (each.needs_m for each in of(SHORT) if each.figure == "first_rise")
+    (needs,) = (each.needs_m for each in of(SHORT) if each.figure == "rise")
     for off, falls in ((-0.005, False), (0.005, True)):
         robot = SHORT.with_centroid(needs + off, SHORT.com_height)
         found = assess(robot, FLIGHT, friction=1.5)
@@ -56,6 +60,19 @@ def test_who_is_long_enough_has_none_and_tail_first_is_the_other_end():
 
 def test_no_centroid_is_far_enough_forward_for_a_riser_that_is_too_high():
     tall = Stairs(name="tall", rise=0.5, going=0.6, steps=4)
-    (riser,) = (each for each in limits(Question.of(SHORT, tall)) if each.figure == "first_rise")
+    (riser,) = (each for each in limits(Question.of(SHORT, tall)) if each.figure == "rise")
     assert riser.needs_m is None
     assert "would)" not in str(assess(SHORT, tall, friction=2.0)).split("riser")[1]
+
+
+def test_a_riser_too_high_and_a_rear_length_too_short_are_one():
+    """Two formulas of the same pose: the height of the single step, and A of the rear length."""
+    for rise in (0.10, 0.14, 0.18, 0.24):
+        flight = Stairs(rises=(0.10, rise, 0.10, 0.10), goings=(0.30, 0.30, 0.30))
+        answer = assess(SHORT, flight, friction=3.0)
+        short = answer.contact.rear_length_mm < 0
+        assert [each.has_m for each in answer.limits if each.figure == "rise"] == (
+            [pytest.approx(rise)] if short else []
+        )
+        assert str(answer).count("a riser up to") == short
+        assert "rear length" not in str(answer)

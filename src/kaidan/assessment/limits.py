@@ -1,7 +1,8 @@
 """What limits a robot on stairs, as numbers of its own: for who must change it, or choose another.
 
 Formulas of the regular flight and of a single step, for a robot without help of flippers: they
-explain a verdict and do not make it.
+explain a verdict and do not make it. That a riser is too high and that the rear length is too short
+for it is the same: the height of a single step is that at which the rear length has no margin.
 """
 
 import math
@@ -14,15 +15,15 @@ from kaidan.answer import Part
 from kaidan.mechanics.transitions import largest_step_height
 from kaidan.question import Question
 
-Figure = Literal["nosing_spacing", "first_rise"]
+Figure = Literal["nosing_spacing", "rise"]
 
 
 class Limit(Part):
     """A figure of the stairs that is more than the robot takes, and what the robot would need."""
 
     figure: Figure
-    """nosing_spacing: two nosings must carry the flat at all times, L >= 2 p. first_rise: the
-    robot pivots over the edge of the first riser before its centroid lies behind its tail."""
+    """nosing_spacing: two nosings must carry the flat at all times, L >= 2 p. rise: the robot
+    pivots over the edge of the highest riser before it is driven upright on its tail."""
     has_m: float
     """Figure of the stairs [m]."""
     takes_m: float
@@ -52,22 +53,21 @@ def limits(question: Question) -> tuple[Limit, ...]:
 
 
 def _limits(question: Question) -> Iterator[Limit]:
-    flight, stance = question.flight, question.stance
-    if flight is None:
-        return
+    flight, stance, profile = question.flight, question.stance, question.profile
     L = stance.flat_length
-    p = max(math.hypot(*step) for step in flight.regular_steps)
+    p = 0.0 if flight is None else max(math.hypot(*step) for step in flight.regular_steps)
     if p > L / 2:
         yield Limit(
             figure="nosing_spacing", has_m=p, takes_m=L / 2, needs="flat_length", needs_m=2 * p
         )
-    if stance.tips_below:  # a flipper lifts an end: no single step of a plain track
+    if stance.tips_below or len(profile.nosings) == 0:  # a flipper lifts an end: no plain track
         return
     track = question.robot.track
     nose = question.facing == "nose-first"
     R = track.rear_radius if nose else track.front_radius
     C_L = stance.com_from_front if nose else L - stance.com_from_front
-    rise, C_N = flight.step_rises[0], stance.com_height
+    rises = np.diff(profile.nosings[:, 1], prepend=profile.points[0, 1])
+    rise, C_N = float(rises.max()), stance.com_height
 
     def highest(along: float) -> float:
         return float(largest_step_height(l_c=L - along, C_N=C_N, R=R))
@@ -75,7 +75,7 @@ def _limits(question: Question) -> Iterator[Limit]:
     takes = highest(C_L)
     if takes < rise:  # NaN is no answer
         yield Limit(
-            figure="first_rise",
+            figure="rise",
             has_m=rise,
             takes_m=takes,
             needs="com_from_uphill_end",

@@ -40,13 +40,6 @@ def notes(question: "Question", found: "Traverse", *, driven_risers: int | None)
             "Somewhere fewer than two nosings are under the track (p > L/2): it rocks from nosing "
             "to nosing."
         )
-    if found.rear_length is not None and found.rear_length[0] < 0:
-        short, rise = (1e3 * abs(each) for each in found.rear_length)
-        each.append(
-            f"Its rear length is {short:.0f} mm short for a riser of {rise:.0f} mm: it is driven "
-            "upright on its tail. A centroid that much further ahead, or a tail that much longer, "
-            "helps."
-        )
     slides = max((extremes.slides_below or 0.0 for extremes in found.phases), default=0.0)
     low = question.friction[0]
     if slides > 0 and not slides <= low:

@@ -17,7 +17,7 @@ def _one(each: "Limit") -> str:
     if each.figure == "nosing_spacing":
         said = f"L carries a nosing spacing up to {takes:.0f} mm, not {has:.0f} mm"
         return said if each.needs_m is None else f"{said} (L {1e3 * each.needs_m:.0f} mm would)"
-    said = f"unaided it climbs a first riser up to {takes:.0f} mm, not {has:.0f} mm"
+    said = f"unaided it climbs a riser up to {takes:.0f} mm, not {has:.0f} mm"
     if each.needs_m is None:
         return said
     return f"{said} (its centroid {1e3 * each.needs_m:.0f} mm behind the leading tip would)"
