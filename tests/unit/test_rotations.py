@@ -209,9 +209,12 @@ def test_figures_of_a_chain():
 @pytest.mark.parametrize(
     ("avoidable", "obliged"), [(0.0, True), (ROCKING, True), (math.nextafter(ROCKING, 1), False)]
 )
-def test_rocking_counts_as_obliged(avoidable, obliged):
+def test_what_is_obliged_may_rock_besides(avoidable, obliged):
     assert rotation(avoidable=avoidable).obliged is obliged
     assert Chain((rotation(avoidable=avoidable),)).obliged is obliged
+    rocks = rotation(angle=avoidable, avoidable=avoidable)
+    assert not rocks.obliged  # all of it could be avoided
+    assert not Chain((rocks,)).obliged
     assert not rotation(avoidable=avoidable, arrested_by=None).obliged
 
 

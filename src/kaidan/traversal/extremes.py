@@ -92,7 +92,8 @@ def phase_extremes(
     places = seen.poses.front_point[:, 0]
     top = over_the_top(seen, profile, descending, room)
     closed, comes_back = _closed(path, phase), _comes_back(path)
-    of_criterion = _on_a_flight(seen, profile, room) & whole
+    # of a pose between two phases the other one judges
+    of_criterion = _on_a_flight(seen, profile, room) | (phase[samples.row] != Phase.TRAVERSE.value)
     extremes = []
     for name in Phase:
         rows = np.flatnonzero(closed[name][samples.row] & samples.lasts)
@@ -105,7 +106,7 @@ def phase_extremes(
         if of_rises:  # where nosings carry, the criterion's contacts count, not those of a moment
             posed[:] = name is not Phase.TRAVERSE
             posed &= ~np.isin(places[rows], profile.nosings[:, 0])
-        if descending and name is Phase.ENTER and len(profile.nosings):
+        if descending and name is Phase.ENTER and not profile.is_level:
             # the edge of the landing obliges it to rotate
             posed[:] = False
         energy, step = _least_rise(of_rises, downhill=True)
@@ -117,7 +118,7 @@ def phase_extremes(
         least, at = _least_energy(seen, rows[posed & below], -side)
         if least < uphill:
             uphill, uphill_step = least, step_at(profile, at, descending)
-        judged = rows[~of_criterion[rows]] if name is Phase.TRAVERSE else rows
+        judged = rows[~of_criterion[rows]] if whole and name is Phase.TRAVERSE else rows
         downhill_rows = rows[:0] if descending and name is Phase.ENTER else judged
         if not descending:
             downhill_rows = downhill_rows[~comes_back[samples.row[downhill_rows]]]

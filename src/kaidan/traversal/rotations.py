@@ -28,6 +28,8 @@ from kaidan.traversal.phases import Phase, step_at
 
 ROCKING = contact.ROCKING
 """Rotation beyond the next edge that nothing is made of [rad]."""
+_ROUNDING = 1e-8
+"""Rotation that is rounding [rad]: of one of 1e-17 rad a mirror would decide what it obliges to."""
 AT_ONCE = 0.01
 """Way of the centroid between two rotations of a chain, at most, over the flat's length [1]."""
 
@@ -78,8 +80,9 @@ class Rotation:
         The leading end comes down, and no edge ahead within the length of the flat would have held
         it higher: it comes down onto a landing, over the top edge, off a kerb, into a gap longer
         than the flat. The next nosing of a flight, or the far edge of a short gap, would have.
+        A rotation of which all could be avoided is rocking at most, and nothing obliges to it.
         """
-        return self.arrested and self.avoidable <= ROCKING
+        return self.arrested and _obliges(self.angle, self.avoidable)
 
 
 @dataclass(frozen=True)
@@ -137,7 +140,7 @@ class Chain:
     @property
     def obliged(self) -> bool:
         """Whether the path obliges to all of it, but for `ROCKING`."""
-        return self.arrested and self.avoidable <= ROCKING
+        return self.arrested and _obliges(self.angle, self.avoidable)
 
     @property
     def arrested(self) -> bool:
@@ -164,6 +167,11 @@ class Chain:
     def spare_after_impact(self) -> float:
         """Least of all [m]."""
         return min(each.spare_after_impact for each in self.rotations)
+
+
+def _obliges(angle: float, avoidable: float) -> bool:
+    """Whether the path obliges to a rotation, or to a chain of them, but for `ROCKING`."""
+    return avoidable <= ROCKING and angle - avoidable > _ROUNDING
 
 
 def rotations_of(
