@@ -24,8 +24,9 @@ from kaidan.readers.stairfit.patches import (
 from kaidan.readers.stairfit.steps import Steps, steps_of
 from kaidan.text import scans as text
 
-RANGE_ERROR = 0.005
-"""Doubt of distances where nobody states it, as a share of them [1]."""
+RANGE_ERROR, RANGE_ERROR_SURVEYED = 0.005, 0.001
+"""Doubt of distances where nobody states it, as a share of them [1]: of a depth camera or a robot's
+scanner, and of a surveyor's instrument."""
 STATED, LEVELLED = math.radians(1.5), math.radians(0.2)
 """Standard error of an up axis that a file states or a person, and of one that a surveyor's
 instrument levelled [rad]."""
@@ -158,7 +159,8 @@ def _with_up(
     cloud = xyz @ turn.T
     view = np.zeros(3) if eye is None else turn @ eye
     tolerance = min(max(3 * noise, 0.012), 0.04)
-    error = RANGE_ERROR if hints.range_error is None else hints.range_error
+    error = RANGE_ERROR_SURVEYED if provenance.form in SURVEYED else RANGE_ERROR
+    error = error if hints.range_error is None else hints.range_error
     flights: list[FlightEstimate] = []
     refusals: list[Refusal] = []
     score, left = 0.0, np.ones(len(thin), dtype=bool)

@@ -13,6 +13,8 @@ from kaidan.readers.stairfit.steps import Steps
 
 ANGLES = (math.radians(15.0), math.radians(60.0))
 """Slopes between which stairs lie [rad]."""
+LEAST_GOING = 0.12
+"""Shortest going of stairs [m]: the least for dwellings in Japan is 150 mm; stacks have less."""
 FEWEST_NOSINGS = 3
 RESIDUAL = 0.010
 """Median distance of points from the steps that is always allowed [m]; two sigma of the noise
@@ -45,7 +47,7 @@ def refused(
         return Refusal("too-few", {"steps": seen, "needed": FEWEST_NOSINGS}, provenance)
     if angle > ANGLES[1]:
         return Refusal("ladder", {"angle_deg": math.degrees(angle)}, provenance)
-    if angle < ANGLES[0] or not SPACINGS[0] <= spacing <= SPACINGS[1]:
+    if line.going < LEAST_GOING or angle < ANGLES[0] or not SPACINGS[0] <= spacing <= SPACINGS[1]:
         return Refusal("none", {}, provenance)
     if noise > HIDDEN * line.rise or steps.residual > max(RESIDUAL, 2 * noise):
         return Refusal("noisy", {"residual_mm": 1e3 * max(noise, steps.residual)}, provenance)

@@ -31,7 +31,7 @@ LANES = (0.05, 0.2)
 """Widths of the lanes in which ends are sought, the second where the first holds too few [m]."""
 FEWEST_LANES = 3
 """Lanes in which an end must be seen."""
-LOCAL = 0.2
+LOCAL = 0.5
 """Share of the doubt of the range that differs from one nosing to the next [1]."""
 SMALLEST = 5e-4
 """Standard uncertainty of a nosing at best [m]: edges are not sharper."""
@@ -281,6 +281,15 @@ def _densest(values: Array, width: float) -> tuple[float, float, int]:
     return float(core.mean()), spread / math.sqrt(len(core)), len(core)
 
 
+def _reach(ahead: Array) -> float:
+    """How far points lie one behind the other, from an edge on [m]."""
+    count = np.bincount(np.maximum(ahead / STRIP, 0.0).astype(np.int64))
+    few = np.flatnonzero(count < max(2.0, 0.02 * float(count.max())))
+    hidden = few[few > 0]  # what lies right behind the edge may be hidden by it
+    end = int(hidden[0]) if len(hidden) else len(count)
+    return min(end * STRIP, float(ahead.max()))
+
+
 def _floor(
     line: StairLine, first: Array, s: Array, t: Array, z: Array, noise: float, tight: float
 ) -> tuple[float, float, float]:
@@ -292,7 +301,7 @@ def _floor(
     if count < FLOOR_SEEN:
         return math.nan, 0.0, math.nan
     on = before & (np.abs(z - level) < tight)
-    reach = -float(np.percentile(ahead[on], 2))
+    reach = _reach(-ahead[on])
     if reach < SHORTEST_FLOOR:
         return math.nan, 0.0, math.nan
     return level, math.hypot(sigma, SMALLEST), reach
@@ -309,15 +318,15 @@ def _last_riser(
     last, r, g = found[-1], line.rise, line.going
     level = (np.abs(z - last[1]) < tight) & (s > last[0] + 0.03)
     ahead = s[level] - last[0]
-    if level.sum() >= FLOOR_SEEN and (ahead > g + 0.1).sum() >= 0.15 * level.sum():
-        return found, sigma, measured, float(np.percentile(ahead, 98))
+    if level.sum() >= FLOOR_SEEN and _reach(ahead) > g + 0.1:
+        return found, sigma, measured, _reach(ahead)
     above = (s > last[0] + g + 0.03) & (s < last[0] + g + 1.2)
     above &= (z > last[1] + 0.2 * r) & (z < last[1] + 1.7 * r)
     height, doubt, count = _densest(z[above], max(tight, 0.01))
     if count < FLOOR_SEEN:
         return found, sigma, measured, math.nan
     on = above & (np.abs(z - height) < tight)
-    reach = float(np.percentile(s[on], 98)) - last[0] - g
+    reach = _reach(s[on] - last[0] - g)
     if reach < 0.1 + 0.5 * g or count < 0.5 * above.sum():
         return found, sigma, measured, math.nan
     face = (np.abs(s - last[0] - g) < max(2 * tight, 0.04)) & (z > last[1] + 0.1 * r)
