@@ -12,7 +12,7 @@ from kaidan.readers.interpreters import points as interpreter
 from kaidan.readers.kinds import Known, Points, Provenance
 
 SENSORS = ("camera", "lidar", "phone")
-BIAS, RIPPLE, LEAN = 0.005, 0.0025, np.radians(0.3)
+BIAS, RIPPLE, LEAN = 0.005, 0.0015, np.radians(0.3)
 """Standard deviations of what the reader takes for granted where nobody states it: the scale of
 the range, what of it differs from nosing to nosing, and how far buildings are out of true [rad]."""
 

@@ -31,7 +31,7 @@ LANES = (0.05, 0.2)
 """Widths of the lanes in which ends are sought, the second where the first holds too few [m]."""
 FEWEST_LANES = 3
 """Lanes in which an end must be seen."""
-LOCAL = 0.5
+LOCAL = 0.3
 """Share of the doubt of the range that differs from one nosing to the next [1]."""
 SMALLEST = 5e-4
 """Standard uncertainty of a nosing at best [m]: edges are not sharper."""
