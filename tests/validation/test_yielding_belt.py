@@ -119,3 +119,23 @@ def test_it_is_forty_times_as_fast_as_the_robot():
     results = [run(trial) for _ in range(5)]
     # settling takes 1.1 s of the robot's time
     assert max((each.time_s + 1.1) / each.wall_time_s for each in results) > 40.0
+
+
+@pytest.mark.slow
+def test_the_same_seed_gives_the_same_table_on_one_and_on_two_workers(tmp_path):
+    pytest.importorskip("pyarrow")
+    from kaidan.studies.experiment import experiment
+
+    options = {
+        "spacings": "150mm",
+        "angles": "54deg..58deg/3",
+        "trials": 2,
+        "track": YieldingBelt(stiffness=4.8e4),
+        "seed": 7,
+    }
+    one, two = (
+        experiment("kenaf", store=tmp_path / str(workers), workers=workers, **options)
+        for workers in (1, 2)
+    )
+    assert one.columns() == two.columns()
+    assert one == two
