@@ -12,7 +12,7 @@ pytest.importorskip("ifcopenshell", reason="skipped: ifcopenshell not installed"
 from typer.testing import CliRunner
 
 import kaidan
-from ifc_cases import House, half_turn_house, monolith
+from ifc_cases import House, boards, half_turn_house, monolith, regular
 from kaidan import InputError, Stairs
 from kaidan.cli import app
 from kaidan.text.building_page import page
@@ -212,4 +212,15 @@ def test_a_quarter_turn_with_the_tail_over_the_flight(folder):
     assert min(x for x, _, _ in turn.path) >= 2.7 + 0.1
     assert way(found, "absolem-flat", "First").postures == (
         f"On the landing at 1.50 m turn by 90 deg: back and forth in {turn.moves} moves.",
+    )
+
+
+def test_an_end_that_may_hook_under_open_risers_is_named(folder):
+    """Absolem's flipper tips have 29 mm of radius, risers of 190 mm."""
+    house = House()
+    house.add("IfcStair", "boards", boards(house, *regular(8, 0.19, 0.25)))
+    (flight,) = building(house.write(folder / "boards.ifc"), ["absolem"]).flights
+    assert flight.notes[-1] == (
+        "its risers are open, up to 190 mm high: absolem, with an end of 29 mm radius, may hook "
+        "under a nosing"
     )

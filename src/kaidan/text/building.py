@@ -105,6 +105,14 @@ def disagreement(one: "Stated") -> str:
     )
 
 
+def hooking(robot: str, radius: float, clear: float) -> str:
+    """An end of a robot that may get under a nosing."""
+    return (
+        f"its risers are open, up to {clear * 1e3:.0f} mm high: {robot}, with an end of "
+        f"{radius * 1e3:.0f} mm radius, may hook under a nosing"
+    )
+
+
 def no_way(start: str) -> str:
     """No flights lead to a storey."""
     return f"no straight flights lead there from {start}."

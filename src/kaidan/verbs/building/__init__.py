@@ -1,7 +1,7 @@
 """A building model: its flights, what each robot can do on them, and the ways to its storeys."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from kaidan.errors import InputError, did_you_mean, shown
+from kaidan.mechanics.clearance import tip_hook_margin
+from kaidan.outline import Outline
 from kaidan.progress import progress, working
 from kaidan.question import Question
 from kaidan.readers.building import Building, Flight, building_of
@@ -18,7 +20,7 @@ from kaidan.readers.opening import Source
 from kaidan.readers.recognition import recognised
 from kaidan.robot import Robot
 from kaidan.terrain.stairs import Stairs
-from kaidan.text.building import disagreement
+from kaidan.text.building import disagreement, hooking
 from kaidan.verbs.building.answer import (
     BuildingAnswer,
     CellShown,
@@ -131,7 +133,7 @@ def _answered(
         start=first.name if first else "",
         robots=[each.name for each in robots],
         storeys=storeys,
-        flights=[_flight(each, stairs[each.identity]) for each in flights],
+        flights=[_flight(each, stairs[each.identity], robots) for each in flights],
         floors=[
             FloorShown(
                 key=each.key,
@@ -203,7 +205,19 @@ def _start(storeys: Sequence[StoreyShown], named: str | None) -> StoreyShown | N
     raise InputError(f"building: no storey is called {shown(named)}{hint}")
 
 
-def _flight(flight: Flight, sheet: Stairs) -> FlightShown:
+def _hooking(flight: Flight, robots: Sequence[Robot]) -> Iterator[str]:
+    """Robots whose ends may get under a nosing of open risers."""
+    clear = flight.estimate.regular.rise  # however thin the boards are
+    if not flight.estimate.open_risers:
+        return
+    for robot in robots:
+        radii = Outline.of(robot).parts.reshape(-1, 3)[:, 2]
+        smallest = float(radii[radii > 0].min(initial=np.inf))
+        if tip_hook_margin(R=smallest, clear=clear) < 0:
+            yield hooking(robot.name, smallest, clear)
+
+
+def _flight(flight: Flight, sheet: Stairs, robots: Sequence[Robot]) -> FlightShown:
     estimate = flight.estimate
     left, right = estimate.left[:, :2], estimate.right[:, :2]
     headroom = estimate.headroom
@@ -224,7 +238,11 @@ def _flight(flight: Flight, sheet: Stairs) -> FlightShown:
         open_risers=estimate.open_risers,
         lower=flight.lower,
         upper=flight.upper,
-        notes=[*estimate.notes, *(disagreement(one) for one in flight.stated if not one.agrees)],
+        notes=[
+            *estimate.notes,
+            *(disagreement(one) for one in flight.stated if not one.agrees),
+            *_hooking(flight, robots),
+        ],
         lane=_places(flight.lane),
         nosings=_places(np.hstack([left, right])),
     )

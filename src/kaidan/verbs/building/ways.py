@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
-from kaidan.mechanics.clearance import lane_width
+from kaidan.mechanics.clearance import door_clear_width, lane_width
 from kaidan.models.clearance import OFF_LINE, YAW
 from kaidan.modes import Verdict
 from kaidan.outline import Outline, footprint_of, height_of
@@ -66,7 +66,7 @@ def doors_of(building: Building) -> Iterator[DoorShown]:
                         identity=door.identity,
                         name=door.name,
                         floor=key,
-                        clear_width_m=door.width - FRAME,
+                        clear_width_m=door_clear_width(opening=door.width, leaf=FRAME),
                         height_m=door.height,
                         threshold_m=door.level - level,
                         x=door.x,
