@@ -14,7 +14,6 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 from typing import Annotated
 
 import numpy as np
@@ -113,24 +112,16 @@ def ground_table(terrain: ArrayLike) -> FloatArray:
     if (np.diff(points[:, X]) < 0).any():
         where = int(np.argmax(np.diff(points[:, X]) < 0))
         raise ValueError(f"terrain: x runs backwards after point {where}")
-    keep = [(float(points[0, X]), float(points[0, Z]))]
-    for x, z in points[1:].tolist():
-        if math.dist((x, z), keep[-1]) > COLLINEAR:
-            keep.append((x, z))
+    last, *others = points.tolist()
+    keep = [last]
+    for point in others:
+        if math.dist(point, last) > COLLINEAR:
+            keep.append(point)
+            last = point
     if len(keep) < 2:
         raise ValueError("terrain: at least two different points are needed")
     keep = [_beyond(keep[1], keep[0], -1.0), *keep, _beyond(keep[-2], keep[-1], 1.0)]
-    corners = [keep[0]]
-    for here, then in pairwise(keep[1:]):
-        before = (here[0] - corners[-1][0], here[1] - corners[-1][1])
-        after = (then[0] - here[0], then[1] - here[1])
-        across = before[0] * after[1] - before[1] * after[0]
-        along = before[0] * after[0] + before[1] * after[1]
-        short, long = sorted((math.hypot(*before), math.hypot(*after)))
-        if along <= 0 or abs(across) > min(COLLINEAR, 1e-7 * short) * long:
-            corners.append(here)
-    corners.append(keep[-1])
-    xy = np.array(corners)
+    xy = np.array(_corners(keep))
     table = np.zeros((len(xy), GROUND_COLUMNS))
     table[:, [X, Z]] = xy
     step = np.diff(xy, axis=0)
@@ -143,15 +134,34 @@ def ground_table(terrain: ArrayLike) -> FloatArray:
     return table
 
 
-def _beyond(
-    last: tuple[float, float], end: tuple[float, float], level: float
-) -> tuple[float, float]:
+def _corners(points: list[list[float]]) -> list[list[float]]:
+    """Points that do not lie straight between the last one kept and the next; and both ends."""
+    last, here = points[:2]
+    corners = [last]
+    b_x, b_z = here[0] - last[0], here[1] - last[1]
+    for then in points[2:]:
+        a_x, a_z = then[0] - here[0], then[1] - here[1]
+        across = abs(b_x * a_z - b_z * a_x)
+        before, after = math.hypot(b_x, b_z), math.hypot(a_x, a_z)
+        short, long = (before, after) if before < after else (after, before)
+        if across > min(COLLINEAR, 1e-7 * short) * long or b_x * a_x + b_z * a_z <= 0.0:
+            corners.append(here)
+            last = here
+            b_x, b_z = a_x, a_z
+        else:
+            b_x, b_z = then[0] - last[0], then[1] - last[1]
+        here = then
+    corners.append(here)
+    return corners
+
+
+def _beyond(last: list[float], end: list[float], level: float) -> list[float]:
     """Point to which the terrain is continued over an end: straight on, or level over a riser."""
     u_x, u_z = level, 0.0
     if last[0] != end[0]:
         away = math.dist(last, end)
         u_x, u_z = (end[0] - last[0]) / away, (end[1] - last[1]) / away
-    return end[0] + BEYOND * u_x, end[1] + BEYOND * u_z
+    return [end[0] + BEYOND * u_x, end[1] + BEYOND * u_z]
 
 
 def body_table(parts: ArrayLike, kinds: ArrayLike | None = None) -> FloatArray:
