@@ -25,14 +25,14 @@ class NativeKernel(BuildHookInterface[Any]):
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         if os.environ.get("KAIDAN_BUILD_NATIVE") == "0":
             return
-        from setuptools.errors import BaseError
+        from setuptools.errors import BaseError, CCompilerError
 
         # kept until the wheel is written
         self.work = tempfile.TemporaryDirectory(prefix="kaidan-native-")
         root, work = Path(self.root), Path(self.work.name)
         try:
             built = compiled(root, work)
-        except BaseError as error:
+        except (BaseError, CCompilerError) as error:
             self.app.display_warning(f"kaidan is built without its native kernel: {error}")
             return
         if version == "editable":
