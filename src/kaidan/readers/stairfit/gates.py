@@ -15,7 +15,9 @@ ANGLES = (math.radians(15.0), math.radians(60.0))
 """Slopes between which stairs lie [rad]."""
 LEAST_GOING = 0.12
 """Shortest going of stairs [m]: the least for dwellings in Japan is 150 mm; stacks have less."""
-FEWEST_NOSINGS = 3
+FEWEST_NOSINGS, STEEP = 3, math.radians(45.0)
+"""Nosings that a flight has at least; one more where it is steeper than this [rad], as stacks of
+things are."""
 RESIDUAL = 0.010
 """Median distance of points from the steps that is always allowed [m]; two sigma of the noise
 otherwise."""
@@ -49,6 +51,10 @@ def refused(
         return Refusal("ladder", {"angle_deg": math.degrees(angle)}, provenance)
     if line.going < LEAST_GOING or angle < ANGLES[0] or not SPACINGS[0] <= spacing <= SPACINGS[1]:
         return Refusal("none", {}, provenance)
+    if len(steps.at) == FEWEST_NOSINGS and angle > STEEP:
+        return Refusal(
+            "too-few", {"steps": FEWEST_NOSINGS, "needed": FEWEST_NOSINGS + 1}, provenance
+        )
     if noise > HIDDEN * line.rise or steps.residual > max(RESIDUAL, 2 * noise):
         return Refusal("noisy", {"residual_mm": 1e3 * max(noise, steps.residual)}, provenance)
     if steps.depth < DEPTHS[0]:
