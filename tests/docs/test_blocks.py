@@ -73,6 +73,7 @@ ELSEWHERE = {
     "pytest -m slow -s tests/validation/test_physics_acceptance.py": "by hand",
     "pip install 'kaidan[physics,calibration]'": ".ci/run, within '.[dev]'",
     "pip install 'kaidan[physics]'": ".ci/run, within '.[dev]'",
+    "pip install 'kaidan[physics,calibration]'": ".ci/run, within '.[dev]'",
     "sphinx-build -W -n -b html docs docs/_build/html": "test_site.py",
     "mutmut run --max-children 1   # about four minutes on one core": "by hand",
     "mutmut results": "by hand",
@@ -132,6 +133,10 @@ def same(shown: str, printed: str) -> bool:
     return all(math.isclose(float(x), float(y), rel_tol=1e-9) for x, y in pairs)
 
 
+PROGRESS = re.compile(r"kaidan: \d+ of \d+ .* left$")
+"""What long work says on standard error while it runs."""
+
+
 def matches(shown: list[str], printed: list[str]) -> bool:
     """Whether lines are as shown, ``...`` standing for any number of lines."""
     if "..." in shown:
@@ -171,7 +176,8 @@ def run_console(fence: Fence, folder: Path) -> None:
             encoding="utf-8",
         )
         code = done.returncode
-        printed = [line.rstrip() for line in done.stdout.splitlines()]
+        lines = (line.rstrip() for line in done.stdout.splitlines())
+        printed = [line for line in lines if not PROGRESS.match(line)]
         while shown and not shown[-1]:
             shown.pop()
         while printed and not printed[-1]:

@@ -39,7 +39,7 @@ def text(answer: "Assessment") -> str:
     slip = None if answer.traction is None else traction.slip(answer.traction)
     if slip is not None:
         lines.append(_row("grousers", slip))
-    if answer.question.uncertain and answer.to_measure:
+    if answer.question.uncertain and measuring.matters(answer.to_measure):
         lines.append(_row("measure", measuring.first(answer.to_measure)))
     unknown = _unknown(answer)
     if unknown:
@@ -130,7 +130,7 @@ def details(answer: "Assessment") -> str:
                 f"{answer.failure_probability:.3f} (accepted: {question.risk:g})",
             )
         )
-    if answer.to_measure:
+    if measuring.matters(answer.to_measure):
         lines.append(_row("measure", measuring.first(answer.to_measure)))
     lines.append(_row("allowances", _allowances(answer)))
     lines.append(_row("friction", _friction(answer)))

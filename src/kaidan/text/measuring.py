@@ -22,6 +22,8 @@ _WHAT = {
 }
 _LITTLE = 0.02
 """Share that is not worth a word."""
+_SEEN = 0.05
+"""Deviation of the margin that its tenth of a degree shows [deg]."""
 
 
 def measure(what: str) -> str:
@@ -32,6 +34,11 @@ def measure(what: str) -> str:
 def name(what: str) -> str:
     """What is measured, in a few words."""
     return _WHAT.get(what, what)
+
+
+def matters(each: "Sequence[Measurement]") -> bool:
+    """Whether the largest doubt is one that the margin shows."""
+    return bool(each) and each[0].deviation_deg >= _SEEN
 
 
 def first(each: "Sequence[Measurement]") -> str:
