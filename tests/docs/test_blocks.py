@@ -73,7 +73,6 @@ ELSEWHERE = {
     "pytest -m slow -s tests/validation/test_physics_acceptance.py": "by hand",
     "pip install 'kaidan[physics,calibration]'": ".ci/run, within '.[dev]'",
     "pip install 'kaidan[physics]'": ".ci/run, within '.[dev]'",
-    "pip install 'kaidan[physics,calibration]'": ".ci/run, within '.[dev]'",
     "sphinx-build -W -n -b html docs docs/_build/html": "test_site.py",
     "mutmut run --max-children 1   # about four minutes on one core": "by hand",
     "mutmut results": "by hand",
