@@ -43,12 +43,20 @@ ELSEWHERE = {
     "pip install .": ".ci/run, as part of the README's line",
     "python3 -m venv .venv && . .venv/bin/activate": ".ci/run, elsewhere",
     "pip install -e '.[dev]'": ".ci/run",
+    'CFLAGS="-fsanitize=address,undefined -fno-sanitize-recover=all -g" '
+    "pip install -e .": "by hand",
+    'LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libubsan.so)" '
+    "ASAN_OPTIONS=detect_leaks=0 \\": "by hand",
+    "    PYTHONMALLOC=malloc pytest tests/unit/contact "
+    'tests/agreement/test_native_and_plain_kernel.py -m "not slow"': "by hand",
+    "pip install -e .": ".ci/run, within '.[dev]'",
     "pip install '.[docs]'": ".ci/run, within '.[dev]'",
     "ruff format --check . && ruff check . && mypy && lint-imports": ".ci/run",
     'pytest -n auto -m "not slow"': ".ci/run",
     "pytest -m slow": ".ci/run",
     "python benchmarks/startup.py": "by hand",
     "python benchmarks/assess.py": "by hand",
+    "python benchmarks/clouds.py": "by hand",
     "python benchmarks/pairs.py": "by hand",
     "python benchmarks/stream.py": "by hand",
     "python benchmarks/physics.py": "by hand",

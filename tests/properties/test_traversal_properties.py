@@ -43,8 +43,8 @@ flights = st.builds(
 )
 
 
-def driven(profile, outline, **how):
-    return traverse(profile, outline, step=STEP, **how)
+def driven(profile, outline, step=STEP, **how):
+    return traverse(profile, outline, step=step, **how)
 
 
 def same(one, two, tolerance, sampled=None):
@@ -95,8 +95,10 @@ def test_scale(robot, flight, k):
             flat_length=outline.stance.flat_length * k, com_height=outline.stance.com_height * k
         ),
     )
-    # rad: contacts count within 1e-9 m and end radii start in other places of the grid of poses
-    same(driven(profile, outline), driven(larger, big), 1e-5, sampled=1e-4)
+    # rad: contacts count within 1e-9 m, and poses beside an event stand 2e-5 m off it, whatever the
+    # scale: the tilt changes there by one over the height of the centroid
+    beside = 2e-5 / (robot.com_height * min(1.0, k))
+    same(driven(profile, outline), driven(larger, big, step=k * STEP), 1e-5, sampled=1e-4 + beside)
 
 
 @SETTINGS

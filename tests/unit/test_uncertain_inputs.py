@@ -184,12 +184,13 @@ def test_where_the_criterion_says_nothing_there_is_no_spread_of_it():
     question = Question.of(robot, kerb, friction=1.0)
     found = spread(question, traverse_of(question))
     assert len(found.tip_downhill) == 2048
-    assert not any(np.any(each) for each in found)
+    assert not any(np.any(each) for each in found[:-1])
 
 
 def test_an_exact_question_has_one_sample():
     question = asked([0.0] * 6)
-    assert [each.tolist() for each in spread(question, traverse_of(question))] == [[0.0]] * 9
+    found = spread(question, traverse_of(question))
+    assert [each.tolist() for each in found[:-1]] == [[0.0]] * 9
     at = nominal(question, question.flight)
     assert all(each.shape == (1, 1) for each in at)
     assert list(draws(question, at)) == [at]

@@ -118,6 +118,8 @@ def margins_of(question: Question, found: Findings, draws: Mapping[str, Array]) 
     if not slopes:
         return None
     count = sample_count(question)
+    if any(len(one.worst) not in (1, count) for one in slopes):
+        return None  # a model with samples of its own
     moved = [_moved(question, one, draws, count) for one in slopes]
     margin = np.fmin.reduce(moved)
     return margin if np.isfinite(margin).all() else None
@@ -138,7 +140,7 @@ def _moved(question: Question, one: Finding, draws: Mapping[str, Array], count: 
     }
     by = [name for name in _DRIVEN_BY.get(one.mode.key, ()) if name in draws]
     whole = sum(widths[name] for name in by)
-    if not by or not np.isfinite(best - worst).all():
+    if not by or not np.isfinite([worst, best]).all():
         return np.array(worst)
     part = np.zeros(count)
     for name in by:

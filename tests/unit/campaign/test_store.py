@@ -15,6 +15,7 @@ from campaign_cases import FAKE
 from kaidan.campaign import Store, export, progress_of, read_table, resume, state_of, store
 from kaidan.campaign.id_set import Known
 from kaidan.campaign.store_files import about_store, write_about
+from kaidan.campaign.trials import TRIALS
 from kaidan.errors import InputError
 
 
@@ -300,7 +301,7 @@ def test_export_does_not_write_where_a_link_points_that_somebody_laid(tmp_path, 
 @pytest.mark.parametrize("plan", [5, {}, {"kind": "grid"}, {"kind": "walk"}, {"kind": []}])
 def test_plans_that_are_none(tmp_path, plan):
     filled(tmp_path, settled=True)
-    write_about(tmp_path, about_store(tmp_path) | {"plans": [plan]})
+    write_about(tmp_path, about_store(tmp_path) | {"work": TRIALS.name, "plans": [plan]})
     for asks in (progress_of, resume):
         with pytest.raises(InputError, match=r"^plan in the store: ") as caught:
             asks(tmp_path)
