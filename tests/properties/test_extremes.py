@@ -69,10 +69,12 @@ def test_the_step_does_not_matter(robot, flight, descending, facing):
     assert usual.status is fine.status
     # 0.1 %: hundred times the error of a parabola through three poses
     alike(figures(usual), figures(fine), 1e-3)
-    for name in ("downhill_margin", "uphill_margin"):
-        # 0.01 deg: 20 um beside an event, where a tilt changes by 1 deg in 3 mm
+    # a robot that falls is NO-GO whatever it kept on the way there, and no margin says how far
+    for name in ("downhill_margin", "uphill_margin") if usual.arrived else ():
+        # 0.05 deg: 20 um beside an event, where a tilt changes by 1 deg in 3 mm, and least tilts
+        # between poses of robots that no flat carries, which are not sought
         one, other = getattr(usual, name), getattr(fine, name)
-        assert one == pytest.approx(other, abs=math.radians(0.01), nan_ok=True)
+        assert one == pytest.approx(other, abs=math.radians(0.05), nan_ok=True)
 
 
 @SETTINGS
