@@ -114,7 +114,7 @@ def test_the_scale_does_not_matter(robot, flight, descending, facing, k):
     one = traverse(profile, outline, descending=descending, facing=facing)
     two = traverse(larger, big, descending=descending, facing=facing)
     assert one.status is two.status
-    alike(figures(one), figures(two), 1e-3)
+    alike(figures(one), figures(two), 1e-2)  # as the step's: other poses are driven
     for mine, theirs in zip(one.rotations, two.rotations, strict=True):
         assert theirs.angle == pytest.approx(mine.angle, abs=1e-6)
         assert theirs.avoidable == pytest.approx(mine.avoidable, abs=1e-6)
