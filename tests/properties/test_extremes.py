@@ -60,9 +60,8 @@ def alike(one, other, rel):
                 assert mine == pytest.approx(theirs, rel=rel, abs=1e-6)
 
 
-@pytest.mark.parametrize("seed", range(40))
-def test_the_step_does_not_matter(seed):
-    """Peaks between poses are looked for, and poses stand on both sides of every exchange."""
+def drawn(seed):
+    """A robot, a flight, whether it goes down and which end leads: the same in every run."""
     rng = np.random.default_rng(seed)
     L = rng.uniform(0.35, 1.2)
     robot = Robot(
@@ -72,15 +71,22 @@ def test_the_step_does_not_matter(seed):
         track=Track(flat_length=L, front_radius=rng.uniform(0.005, 0.15), rear_radius=0.06),
     )
     flight = Stairs(rise=rng.uniform(0.05, 0.22), going=rng.uniform(0.15, 0.4), steps=4)
+    return robot, flight, seed % 2 == 1, ("nose-first", "tail-first")[seed // 2 % 2]
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_the_step_does_not_matter(seed):
+    """Peaks between poses are looked for, and poses stand on both sides of every exchange."""
+    robot, flight, descending, facing = drawn(seed)
     profile, outline = Profile.of_stairs(flight), Outline.of(robot)
-    descending, facing = seed % 2 == 1, ("nose-first", "tail-first")[seed // 2 % 2]
     usual, fine = (
         traverse(profile, outline, descending=descending, facing=facing, step=step)
         for step in (STEP, FINE)
     )
     assert usual.status is fine.status
-    # 1 %: where a belt gives way at a nosing a peak is narrower than the usual step; 0.5 % was seen
-    alike(figures(usual), figures(fine), 1e-2)
+    # 0.1 %: hundred times the error of a parabola through three poses. Among thousands of robots
+    # 0.5 % was seen, where a belt gives way at a nosing and the peak is narrower than the step
+    alike(figures(usual), figures(fine), 1e-3)
     # a robot that falls is NO-GO whatever it kept on the way there, and no margin says how far
     for name in ("downhill_margin", "uphill_margin") if usual.arrived else ():
         # 0.05 deg: 20 um beside an event, where a tilt changes by 1 deg in 3 mm, and least tilts
@@ -90,10 +96,11 @@ def test_the_step_does_not_matter(seed):
         assert one == pytest.approx(other, abs=math.radians(0.05), nan_ok=True)
 
 
-@SETTINGS
-@given(robots, flights, st.booleans(), facings, st.sampled_from([0.5, 2.0, 3.0]))
-def test_the_scale_does_not_matter(robot, flight, descending, facing, k):
+@pytest.mark.parametrize("seed", range(40))
+def test_the_scale_does_not_matter(seed):
     """All lengths times k, the step as it is: no angle and no ratio changes."""
+    robot, flight, descending, facing = drawn(seed)
+    k = (0.5, 2.0, 3.0)[seed % 3]
     profile, outline = Profile.of_stairs(flight), Outline.of(robot)
     stance = outline.stance
     big = replace(
@@ -114,7 +121,7 @@ def test_the_scale_does_not_matter(robot, flight, descending, facing, k):
     one = traverse(profile, outline, descending=descending, facing=facing)
     two = traverse(larger, big, descending=descending, facing=facing)
     assert one.status is two.status
-    alike(figures(one), figures(two), 1e-2)  # as the step's: other poses are driven
+    alike(figures(one), figures(two), 1e-3)
     for mine, theirs in zip(one.rotations, two.rotations, strict=True):
         assert theirs.angle == pytest.approx(mine.angle, abs=1e-6)
         assert theirs.avoidable == pytest.approx(mine.avoidable, abs=1e-6)
