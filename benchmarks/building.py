@@ -37,7 +37,7 @@ while going:
 """
 OURS = """
 import resource, sys, time
-from kaidan.readers.building import building_of
+from kaidan.readers.assembly import building_of
 from kaidan.readers.formats.ifc import read
 from kaidan.readers.hints import Hints
 from kaidan.readers.opening import Source

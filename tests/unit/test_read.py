@@ -9,7 +9,8 @@ import pytest
 import kaidan
 from kaidan.cli import run
 from kaidan.errors import InputError, RefusedError
-from kaidan.readers.estimate import FlightEstimate, Found, LandingEstimate, Refusal, StairsEstimate
+from kaidan.readers.estimate import Found, LandingEstimate, Refusal, StairsEstimate
+from kaidan.readers.flight import FlightEstimate
 from kaidan.readers.kinds import Known, Points, Provenance
 from kaidan.verbs.read import FileAnswer, joint_angles
 from robot_files import TANK, tank_mjcf, tank_sdf, tank_urdf, urdf_shape

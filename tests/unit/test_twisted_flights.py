@@ -7,7 +7,7 @@ import pytest
 
 import kaidan
 from kaidan import InputError, Robot, Stairs
-from kaidan.readers.estimate import FlightEstimate
+from kaidan.readers.flight import FlightEstimate
 
 MANNER = {"friction": 2.0, "theta_d": 0.0, "theta_M": 0.0}
 BOX = Robot(

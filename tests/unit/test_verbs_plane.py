@@ -18,7 +18,8 @@ from kaidan.question import Question
 from kaidan.robot import Robot
 from kaidan.terrain.stairs import Stairs
 from kaidan.verbs.acceleration_plan import least_speed_limit
-from kaidan.verbs.d_a_plane import Plane, d_a_plane, limits_of
+from kaidan.verbs.d_a_plane import Plane, d_a_plane
+from kaidan.verbs.plane_areas import limits_of
 
 G = 9.80665
 BARE = {"theta_d": 0.0, "theta_M": 0.0}

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.mechanics.band import a_max, a_min, a_min_with_slip
 from kaidan.mechanics.loads import (
     deformation_inclination,
     deformation_stiffness,
@@ -40,9 +41,6 @@ from kaidan.mechanics.slipping import (
     traction_sum,
 )
 from kaidan.mechanics.tipping import (
-    a_max,
-    a_min,
-    a_min_with_slip,
     a_r0,
     a_rn,
     max_a_rn,

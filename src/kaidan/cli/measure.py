@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kaidan.cli import options, output
-from kaidan.cli.catalogs import say_next
+from kaidan.cli.new import say_next
 from kaidan.text import guide
 
 if TYPE_CHECKING:
@@ -187,7 +187,7 @@ def _sheet(file: Path, kind: "type[Sheet]", figures: Mapping[str, Any]) -> str:
     from kaidan.catalog import text_of
     from kaidan.catalog.completing import completed
     from kaidan.catalog.template import blank_toml
-    from kaidan.cli.catalogs import checked_sheet_file, title_of
+    from kaidan.cli.new import checked_sheet_file, title_of
     from kaidan.errors import short
 
     checked_sheet_file(file, force=True)

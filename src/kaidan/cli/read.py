@@ -82,7 +82,7 @@ def read(
 
     pictures = output.checked(figure, out)
     if out is not None:
-        from kaidan.cli.catalogs import checked_sheet_file
+        from kaidan.cli.new import checked_sheet_file
 
         checked_sheet_file(out, force=force)
     found = read_file(
@@ -107,7 +107,7 @@ def _drawn(found: "FileAnswer", pictures: tuple[Path, ...]) -> output.Contents:
 
 def _sheets(found: "FileAnswer", out: Path, *, force: bool) -> output.Contents:
     """Sheets as files; those of several flights are numbered."""
-    from kaidan.cli.catalogs import checked_sheet_file
+    from kaidan.cli.new import checked_sheet_file
 
     sheets = list(found.sheets().values())
     paths = [out]

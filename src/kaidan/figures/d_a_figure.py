@@ -12,7 +12,8 @@ from kaidan.figures import style as look
 from kaidan.text.words import heading
 
 if TYPE_CHECKING:
-    from kaidan.verbs.d_a_plane import Plane, Region
+    from kaidan.verbs.d_a_plane import Plane
+    from kaidan.verbs.plane_areas import Region
 
 _NAMES = {
     "A": ("A  slipping", "A"),

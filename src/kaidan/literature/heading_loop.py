@@ -19,7 +19,7 @@ from kaidan.literature.heading import (
     specific_force,
     speed_difference,
 )
-from kaidan.mechanics.oblique import sideways_limit
+from kaidan.mechanics.oblique_support import sideways_limit
 from kaidan.robot import Robot
 from kaidan.sheet import Sheet, quantity
 from kaidan.terrain.stairs import Stairs

@@ -9,10 +9,11 @@ from typing import NamedTuple
 import numpy as np
 
 from kaidan.mechanics import STANDARD_GRAVITY, Number
+from kaidan.mechanics.band import a_max, a_min_with_slip
 from kaidan.mechanics.margin import slope_limit, theta_s_inf, theta_s_sup
 from kaidan.mechanics.plane import two_contacts_remain
 from kaidan.mechanics.slipping import slip_acceleration_down, slip_acceleration_up
-from kaidan.mechanics.tipping import a_max, a_min_with_slip, max_a_rn, min_a_r0
+from kaidan.mechanics.tipping import max_a_rn, min_a_r0
 from kaidan.mechanics.validity import validity
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from kaidan.mechanics import STANDARD_GRAVITY, tipping
+from kaidan.mechanics import STANDARD_GRAVITY, band, tipping
 from kaidan.mechanics.acceleration import acceleration_plan, tip_band
 from kaidan.mechanics.drive import drive_acceleration
 from kaidan.mechanics.margin import semi_stable_limit
@@ -62,8 +62,8 @@ def _safe_bounds(question: Question, at: Draws) -> AccelerationBounds:
         slides_up,
         down,
         up,
-        tipping.a_max(a_S=slides_down, min_a_r0=down),
-        tipping.a_min_with_slip(a_slides_up=slides_up, max_a_rn=up),
+        band.a_max(a_S=slides_down, min_a_r0=down),
+        band.a_min_with_slip(a_slides_up=slides_up, max_a_rn=up),
     )
 
 

@@ -6,7 +6,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from kaidan.answer import Part
-from kaidan.mechanics import STANDARD_GRAVITY, drive, loads, measures, tipping
+from kaidan.mechanics import STANDARD_GRAVITY, band, drive, loads, measures
 from kaidan.mechanics.margin import theta_s_inf, theta_s_sup
 from kaidan.mechanics.margins import AccelerationBounds
 from kaidan.mechanics.plane import Area, area, contact_count
@@ -200,7 +200,7 @@ def figures_of(question: Question, flight: Stairs, basis: Basis) -> ClosedFormFi
             min_a_r0=bare.tip_downhill,
             max_a_rn=bare.tip_uphill,
             a_max=bare.a_max,
-            a_min=tipping.a_min(max_a_rn=bare.tip_uphill),
+            a_min=band.a_min(max_a_rn=bare.tip_uphill),
         ),
         contacts=contacts_at(pose, a, mass),
         measures=measures_at(pose, a, mass, question.speed),

@@ -22,12 +22,11 @@ import numpy as np
 from kaidan.answer import Part
 from kaidan.errors import InputError
 from kaidan.mechanics import STANDARD_GRAVITY
-from kaidan.mechanics.oblique import (
-    body_inclination,
+from kaidan.mechanics.oblique import body_inclination, oblique_friction
+from kaidan.mechanics.oblique_support import (
     edge_energy,
     edge_limit,
     edge_slack,
-    oblique_friction,
     other_offset,
     sideways_limit,
 )

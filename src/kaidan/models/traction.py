@@ -8,7 +8,8 @@ import numpy as np
 
 from kaidan import contact
 from kaidan.mechanics import STANDARD_GRAVITY
-from kaidan.mechanics.grousers import height_lost, rubber_modulus, standing_run
+from kaidan.mechanics.grousers import standing_run
+from kaidan.mechanics.rubber import height_lost, rubber_modulus
 from kaidan.models.traction_figures import USUAL, TractionFigures
 from kaidan.modes import Phase
 from kaidan.question import Question

@@ -4,7 +4,7 @@ import math
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from kaidan.errors import InputError
 
@@ -18,6 +18,39 @@ ROUGHNESS = 15e-3
 than the lowest riser of a uniform flight, 20 mm. They are driven over all the same."""
 MOST_PAIRS = 10_000_000
 """Pairs of segments that are checked for crossings: about a second's work."""
+LARGEST_EXTENT = 1e4
+"""Largest coordinate taken for metres [m]."""
+
+
+def measured_line(points: ArrayLike) -> Array:
+    """Points of a line that leads ahead, shape (n, 2) [m], without repeated ones.
+
+    Raises
+    ------
+    InputError
+        Not (n, 2) finite numbers of metres, or fewer than two different points.
+    """
+    try:
+        line = np.array(points, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError("profile: points must be numbers, shape (n, 2)") from None
+    if line.ndim != 2 or line.shape[1] != 2:
+        raise InputError(f"profile: points have shape {line.shape}, not (n, 2)")
+    if not np.isfinite(line).all():
+        row = int(np.flatnonzero(~np.isfinite(line).all(axis=1))[0])
+        raise InputError(
+            f"profile: point {row + 1} is {line[row].tolist()}, not two finite numbers"
+        )
+    if len(line) and np.abs(line).max() > LARGEST_EXTENT:
+        worst = float(line.flat[int(np.abs(line).argmax())])
+        raise InputError(
+            f"profile: {worst:g} m is not within -{LARGEST_EXTENT:g} to {LARGEST_EXTENT:g} m "
+            "(in millimetres?)"
+        )
+    line = line[np.r_[True, (np.diff(line, axis=0) != 0).any(axis=1)]] if len(line) else line
+    if len(line) < 2 or not line[-1, 0] > line[0, 0]:
+        raise InputError("profile: needs at least two different points that lead ahead in x")
+    return line
 
 
 def convex_corners(points: Array) -> tuple[NDArray[np.int64], NDArray[np.int64], float]:

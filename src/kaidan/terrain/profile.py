@@ -22,13 +22,10 @@ from kaidan.terrain.doubt import (
     doubt_of_a_step,
     factor,
 )
-from kaidan.terrain.polyline import ROUGHNESS, convex_corners, frozen, upper_envelope
+from kaidan.terrain.polyline import ROUGHNESS, convex_corners, frozen, measured_line, upper_envelope
 from kaidan.terrain.stairs import Stairs, StairsUncertainty
 
 Array = NDArray[np.float64]
-
-LARGEST_EXTENT = 1e4
-"""Largest coordinate taken for metres [m]."""
 
 
 class _Themselves(tuple[Stairs, ...]):
@@ -163,27 +160,7 @@ class Profile:
             Not (n, 2) finite numbers of metres, fewer than two different points, a line that
             crosses itself, or a doubt that no nosings have.
         """
-        try:
-            line = np.array(points, dtype=np.float64)
-        except (TypeError, ValueError, OverflowError):
-            raise InputError("profile: points must be numbers, shape (n, 2)") from None
-        if line.ndim != 2 or line.shape[1] != 2:
-            raise InputError(f"profile: points have shape {line.shape}, not (n, 2)")
-        if not np.isfinite(line).all():
-            row = int(np.flatnonzero(~np.isfinite(line).all(axis=1))[0])
-            raise InputError(
-                f"profile: point {row + 1} is {line[row].tolist()}, not two finite numbers"
-            )
-        if len(line) and np.abs(line).max() > LARGEST_EXTENT:
-            worst = float(line.flat[int(np.abs(line).argmax())])
-            raise InputError(
-                f"profile: {worst:g} m is not within -{LARGEST_EXTENT:g} to {LARGEST_EXTENT:g} m "
-                "(in millimetres?)"
-            )
-        line = line[np.r_[True, (np.diff(line, axis=0) != 0).any(axis=1)]] if len(line) else line
-        if len(line) < 2 or not line[-1, 0] > line[0, 0]:
-            raise InputError("profile: needs at least two different points that lead ahead in x")
-        envelope, overhangs = upper_envelope(line)
+        envelope, overhangs = upper_envelope(measured_line(points))
         nosings, falling, roughness = convex_corners(envelope)
         return cls(
             points=frozen(envelope),

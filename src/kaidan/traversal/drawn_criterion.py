@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.mechanics import STANDARD_GRAVITY
-from kaidan.mechanics.oblique import edge_energy
+from kaidan.mechanics.oblique_support import edge_energy
 from kaidan.traversal.static_criterion import ROUNDING, Array, Tread, flights_of
 
 Bools = NDArray[np.bool_]

@@ -24,17 +24,15 @@ from kaidan.contact import BELLY, FeatureKind, FeatureTable
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.cones import cone_margin
 from kaidan.mechanics.grousers import (
-    edge_tilt,
     phases_friction,
-    reach_over_edge,
     roll_off_length,
     roll_off_sine,
     slip_height,
     standing_friction,
     standing_run,
-    tip_overlap,
     tip_tilt,
 )
+from kaidan.mechanics.grousers_at_edges import edge_tilt, reach_over_edge, tip_overlap
 from kaidan.terrain.polyline import STEEP
 from kaidan.traversal.nosing_events import BLOCK, TOUCH, along_flat
 

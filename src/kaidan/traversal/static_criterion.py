@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.mechanics import STANDARD_GRAVITY
-from kaidan.mechanics.oblique import edge_energy
+from kaidan.mechanics.oblique_support import edge_energy
 
 Array = NDArray[np.float64]
 

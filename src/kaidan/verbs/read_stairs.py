@@ -8,7 +8,8 @@ import numpy as np
 
 from kaidan.answer import Part, plain
 from kaidan.errors import InputError
-from kaidan.readers.estimate import FlightEstimate, StairsEstimate
+from kaidan.readers.estimate import StairsEstimate
+from kaidan.readers.flight import FlightEstimate
 from kaidan.readers.kinds import METRES, Array, Mesh, Points, upright
 from kaidan.terrain.stairs import Stairs
 

@@ -18,7 +18,8 @@ from kaidan.literature.heading import (
     speed_difference,
 )
 from kaidan.literature.heading_loop import HeadingLoop, Outcome, heading_run, losing_start
-from kaidan.mechanics.oblique import body_inclination, roll, sideways_limit
+from kaidan.mechanics.oblique import body_inclination, roll
+from kaidan.mechanics.oblique_support import sideways_limit
 from kaidan.robot import Drive, Robot, Track
 from kaidan.terrain.stairs import Stairs
 

@@ -4,19 +4,16 @@ from scipy.optimize import brentq, linprog
 
 from kaidan.mechanics.cones import cone_margin
 from kaidan.mechanics.grousers import (
-    edge_tilt,
-    height_lost,
     phases_friction,
-    reach_over_edge,
     roll_off_length,
     roll_off_sine,
-    rubber_modulus,
     slip_height,
     standing_friction,
     standing_run,
-    tip_overlap,
     tip_tilt,
 )
+from kaidan.mechanics.grousers_at_edges import edge_tilt, reach_over_edge, tip_overlap
+from kaidan.mechanics.rubber import height_lost, rubber_modulus
 
 SLOPES = np.radians([25.0, 32.5, 45.0, 60.0])
 

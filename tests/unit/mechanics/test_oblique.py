@@ -4,17 +4,19 @@ import pytest
 from kaidan.mechanics.margin import theta_s_sup
 from kaidan.mechanics.oblique import (
     body_inclination,
-    edge_energy,
-    edge_limit,
-    edge_slack,
     equivalent_slope_across,
     equivalent_slope_along,
     oblique_friction,
     oblique_spacing,
-    other_offset,
     roll,
-    sideways_limit,
     track_lag,
+)
+from kaidan.mechanics.oblique_support import (
+    edge_energy,
+    edge_limit,
+    edge_slack,
+    other_offset,
+    sideways_limit,
 )
 
 CASES = [(0.5, 0.0), (0.6, 0.4), (0.9, -0.7), (-0.3, 1.2)]

@@ -6,13 +6,8 @@ import numpy as np
 import pytest
 
 from kaidan.errors import InputError
-from kaidan.readers.estimate import (
-    FlightEstimate,
-    LandingEstimate,
-    Refusal,
-    StairsEstimate,
-    chi2_tail,
-)
+from kaidan.readers.estimate import LandingEstimate, Refusal, StairsEstimate
+from kaidan.readers.flight import FlightEstimate, chi2_tail
 from kaidan.readers.kinds import Provenance
 from kaidan.text.refusals import REFUSALS
 

@@ -14,7 +14,7 @@ pytest.importorskip("ifcopenshell", reason="skipped: ifcopenshell not installed"
 from ifc_cases import House, boards, monolith, regular, wedges
 from kaidan.errors import InputError
 from kaidan.readers import found_in
-from kaidan.readers.building import building_of
+from kaidan.readers.assembly import building_of
 from kaidan.readers.formats.ifc import read
 from kaidan.readers.hints import Hints
 from kaidan.readers.opening import Source

@@ -8,7 +8,8 @@ from types import MappingProxyType
 import numpy as np
 
 from kaidan.errors import InputError, did_you_mean, shown
-from kaidan.readers.building import Building, Flight, Floor, building_of
+from kaidan.readers.assembly import building_of
+from kaidan.readers.building import Building, Flight, Floor
 from kaidan.readers.estimate import Found, LandingEstimate, Refusal, StairsEstimate
 from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import Array, Bodies

@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from kaidan.readers.estimate import FlightEstimate, Found, Refusal
+from kaidan.readers.estimate import Found, Refusal
+from kaidan.readers.flight import FlightEstimate
 from kaidan.readers.hints import Hints
 from kaidan.readers.interpreters import points
 from kaidan.readers.kinds import METRES, UNITS, Array, Known, Mesh, Points, upright

@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.readers.estimate import FlightEstimate, Found, Refusal
+from kaidan.readers.estimate import Found, Refusal
+from kaidan.readers.flight import FlightEstimate
 from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import METRES, Array, Known, Points, Provenance, upright
 from kaidan.readers.stairfit.chain import staircases

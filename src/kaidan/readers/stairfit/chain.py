@@ -5,7 +5,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from kaidan.readers.estimate import FlightEstimate, LandingEstimate, StairsEstimate
+from kaidan.readers.estimate import LandingEstimate, StairsEstimate
+from kaidan.readers.flight import FlightEstimate
 from kaidan.readers.kinds import Array, Provenance
 
 SAME_LEVEL = 0.08

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kaidan.readers.estimate import FlightEstimate
+from kaidan.readers.flight import FlightEstimate
 from kaidan.readers.kinds import Array, Indices
 from kaidan.readers.stairfit.corridor import rotated
 from kaidan.readers.stairfit.slices import STEP, driven_line, slice_of

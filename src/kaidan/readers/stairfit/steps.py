@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.readers.estimate import UNCHECKED
+from kaidan.readers.flight import UNCHECKED
 from kaidan.readers.kinds import Array, Indices
 from kaidan.readers.stairfit.staircase_line import (
     Assigned,

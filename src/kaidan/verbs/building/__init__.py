@@ -13,7 +13,8 @@ from kaidan.mechanics.clearance import tip_hook_margin
 from kaidan.outline import Outline
 from kaidan.progress import progress, working
 from kaidan.question import Question
-from kaidan.readers.building import Building, Flight, building_of
+from kaidan.readers.assembly import building_of
+from kaidan.readers.building import Building, Flight
 from kaidan.readers.formats.ifc import read
 from kaidan.readers.hints import Hints
 from kaidan.readers.opening import Source

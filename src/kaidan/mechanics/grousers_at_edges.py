@@ -1,0 +1,115 @@
+"""A grouser that comes round the end of a track passes over an edge and stands behind it."""
+
+import numpy as np
+
+from kaidan.mechanics import Number
+from kaidan.mechanics.validity import validity
+
+
+def reach_over_edge(*, R: Number, h: Number, s: Number) -> Number:
+    """Height above the axle at which a tip that comes round a track's end passes over an edge.
+
+    ``(R + h) sin(g)``, g = min(s / (2 R), arccos(R / (R + h)))
+
+    The end is pushed against a face, which the tip below touches, or the belt. Tips come round a
+    spacing apart, s / R as angles. One at the angle g above the level of the axle stands farther
+    ahead than the one below, and than the belt, up to that limit.
+
+    Assumptions: rigid grousers on a round end; the face is upright, its edge sharp.
+
+    Parameters
+    ----------
+    R : float or array
+        Radius of the end, belt included, grousers not [m].
+    h : float or array
+        Height of the grousers under load [m].
+    s : float or array
+        Spacing of the grousers along the belt [m].
+
+    Returns
+    -------
+    float or array
+        Height [m]; about s / 2.
+
+    Examples
+    --------
+    >>> print(round(reach_over_edge(R=0.1, h=0.012, s=0.040), 4))
+    0.0223
+
+    References
+    ----------
+    Derived: docs/theory/grousers.md.
+    """
+    angle = np.minimum(0.5 * s / R, np.arccos(R / (R + h)))
+    return (R + h) * np.sin(angle)
+
+
+def tip_overlap(*, R: Number, h: Number, s: Number, lift: Number) -> Number:
+    """How far behind an upright face a tip stands that passes its edge.
+
+    ``(R + h) cos(g) - max(R, (R + h) cos(g - s / R))``, sin(g) = lift / (R + h)
+
+    Assumptions: those of `reach_over_edge`.
+
+    Parameters
+    ----------
+    R : float or array
+        Radius of the end, belt included, grousers not [m].
+    h : float or array
+        Height of the grousers under load [m].
+    s : float or array
+        Spacing of the grousers along the belt [m].
+    lift : float or array
+        Height of the edge above the axle [m].
+
+    Returns
+    -------
+    float or array
+        Overlap [m], negative where the tip does not pass; NaN where the edge is above the tips.
+
+    Examples
+    --------
+    It vanishes at the reach over the edge.
+
+    >>> lift = reach_over_edge(R=0.1, h=0.012, s=0.040)
+    >>> print(round(tip_overlap(R=0.1, h=0.012, s=0.040, lift=lift), 12) + 0.0)
+    0.0
+
+    References
+    ----------
+    Derived: docs/theory/grousers.md.
+    """
+    sine = lift / (R + h)
+    angle = np.arcsin(np.minimum(np.maximum(sine, -1.0), 1.0))
+    face = np.maximum(R, (R + h) * np.cos(angle - s / R))
+    return validity(holds=np.abs(sine) <= 1.0) * ((R + h) * np.cos(angle) - face)
+
+
+def edge_tilt(*, overlap: Number, r: Number) -> Number:
+    """Tilt of the normal on which a tip stands that overlaps a rounded edge.
+
+    ``beta = arcsin(1 - overlap / r)``; zero from overlap = r on, where the tread begins.
+
+    Parameters
+    ----------
+    overlap : float or array
+        How far behind the face the tip stands [m], see `tip_overlap`.
+    r : float or array
+        Radius of the nosing [m].
+
+    Returns
+    -------
+    float or array
+        beta [rad]; pi/2 without an overlap.
+
+    Examples
+    --------
+    >>> print(round(np.degrees(edge_tilt(overlap=0.005, r=0.010)), 9))
+    30.0
+
+    References
+    ----------
+    Derived: the round stands r (1 - sin(beta)) behind the face where its normal is so tilted.
+    """
+    inside = np.minimum(np.maximum(overlap, 0.0), r)
+    return np.arctan2(r - inside, np.sqrt(inside * (2.0 * r - inside)))

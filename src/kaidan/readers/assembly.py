@@ -1,0 +1,367 @@
+"""A building put together from its solids: which are flights, and what they join."""
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from kaidan.readers.building import Building, Doorway, Flight, Floor, Storey
+from kaidan.readers.estimate import Refusal
+from kaidan.readers.flight import FlightEstimate
+from kaidan.readers.kinds import Array, Bodies, Body, Provenance
+from kaidan.readers.solids.levels import Plate, plates_of
+from kaidan.readers.solids.rays import Triangles
+from kaidan.readers.solids.room import (
+    FARTHEST,
+    clear_lane,
+    free_outline,
+    headroom_of,
+    walls_around,
+)
+from kaidan.readers.solids.runs import DEEPEST_TREAD, RISES, Run, runs_of
+from kaidan.readers.solids.section import Section, section_of
+from kaidan.readers.solids.stated import cross_checked
+
+FLUSH = 0.04
+"""Difference up to which a surface lies on the level of a storey [m]: floor finishes."""
+OF_STOREY = 0.3
+"""Difference up to which a floor is that of a storey [m]."""
+STAIRS = ("IfcStair", "IfcStairFlight")
+RAMPS = ("IfcRamp", "IfcRampFlight")
+LIKE_STAIRS = 0.05
+"""Spread of rises up to which solids that nobody called stairs are some [m]."""
+UNLIKE = 0.015
+"""Difference from the other depths by which the last tread is no tread [m]."""
+_FEWEST_UNNAMED = 3
+
+
+def building_of(model: Bodies) -> Building:
+    """Flights, floors and doors of a building model.
+
+    Parameters
+    ----------
+    model : Bodies
+        Elements with their triangles, in metres, z up.
+
+    Returns
+    -------
+    Building
+    """
+    return _Assembly(model).building()
+
+
+class _Assembly:
+    """What is worked out once of a model."""
+
+    def __init__(self, model: Bodies) -> None:
+        self.model = model
+        self.bodies = model.bodies
+        self.by_id = {each.identity: each for each in self.bodies}
+        storeys = [Storey(each["id"], each["name"], each["level"]) for each in self._storeys()]
+        self.storeys = tuple(sorted(storeys, key=lambda one: one.level))
+        meshes = [(each.vertices, each.faces) for each in self.bodies]
+        everything = Triangles.of(meshes)
+        self.origin = (
+            everything.corners.reshape(-1, 3).min(axis=0)
+            if len(everything.corners)
+            else np.zeros(3)
+        )
+        self.origin[2] = 0.0  # levels stay those of the model
+        self.all = Triangles(everything.corners - self.origin, everything.owner)
+        self.is_stair = [self._stair(each) for each in self.bodies]
+        standing = {
+            k
+            for k, each in enumerate(self.bodies)
+            if each.category not in ("IfcRailing", "IfcDoor", *RAMPS)
+            and not each.category.startswith(("IfcWall", "IfcColumn", "IfcBeam", "IfcRoof"))
+            and each.category not in ("IfcCovering", "IfcCurtainWall")
+        }
+        doors = {k for k, each in enumerate(self.bodies) if each.category == "IfcDoor"}
+        self.solids = self.all.of_owners(standing)
+        self.obstacles = self.all.of_owners(set(range(len(self.bodies))) - doors)
+        self.plates = plates_of(self.solids)
+        self.runs = runs_of(self.plates)
+        self.floors: dict[str, Floor] = {}
+        self._cleared: dict[int, tuple[Array, Array]] = {}
+
+    def _storeys(self) -> Sequence[Mapping[str, Any]]:
+        found: Sequence[Mapping[str, Any]] = self.model.facts.get("storeys", ())
+        return found
+
+    def _stair(self, body: Body) -> bool:
+        """Whether an element is a stair or part of one."""
+        seen = set()
+        at: Body | None = body
+        while at is not None and at.identity not in seen:
+            if at.category in STAIRS:
+                return True
+            seen.add(at.identity)
+            at = self.by_id.get(at.parent)
+        return False
+
+    def building(self) -> Building:
+        flights, refusals = [], []
+        for run in self.runs:
+            owner = self._owner(run)
+            if math.isnan(run.heading):
+                if self.is_stair[owner]:
+                    refusals.append(self._refusal(run, owner))
+                continue
+            flight = self._flight(run, owner)
+            if flight is not None:
+                flights.append(flight)
+        refusals += [
+            Refusal("ramp-element", {}, self._of(each))
+            for each in self.bodies
+            if each.category == "IfcRamp" or (each.category == "IfcRampFlight" and not each.parent)
+        ]
+        return Building(
+            storeys=self.storeys,
+            floors=self.floors,
+            flights=_named_apart(tuple(_told_apart(flights))),
+            doors=tuple(self._doors()),
+            refusals=tuple(
+                {(each.why, each.provenance.element): each for each in refusals}.values()
+            ),
+            provenance=self.model.provenance,
+        )
+
+    def _of(self, body: Body) -> Provenance:
+        return replace(self.model.provenance, element=body.identity)
+
+    def _owner(self, run: Run) -> int:
+        """Number of the element that most treads of a run belong to."""
+        treads = run.steps[:-1] if run.complete and len(run.steps) > 1 else run.steps
+        counts = Counter(self.plates[k].owners[0] for k in treads)
+        return counts.most_common(1)[0][0]
+
+    def _refusal(self, run: Run, owner: int) -> Refusal:
+        turn = math.degrees(run.turned)
+        why = "winders" if len(run.steps) <= 5 and turn < 100 else "curved"
+        return Refusal(why, {"turn_deg": turn}, self._of(self.bodies[owner]))
+
+    def _flight(self, run: Run, owner: int) -> Flight | None:
+        plates = [self.plates[k] for k in run.steps]
+        owners = {k for plate in plates for k in plate.owners}
+        stair = any(self.is_stair[k] for plate in plates for k in plate.owners)
+        if not stair and len(plates) < _FEWEST_UNNAMED:
+            return None
+        rises = np.diff([each.level for each in plates])
+        if not stair and float(np.ptp(rises)) > LIKE_STAIRS:
+            return None
+        complete, below = run.complete, run.below
+        if below is None and len(plates) > 2 and self._storey_at(plates[0].level, FLUSH):
+            below, plates = run.steps[0], plates[1:]  # a foot that is flush with the floor
+        section = section_of(plates, run.heading, self.solids.of_owners(owners), complete=complete)
+        if section is None or np.isnan(section.left).any() or np.isnan(section.right).any():
+            return None
+        lane = clear_lane(section, self.obstacles)
+        notes: list[str] = []
+        levels, left, right = section.levels, section.left, section.right
+        top: Plate | None = plates[-1] if complete else None
+        if not complete:
+            level = self._next_floor(section, plates, notes)
+            if level is not None:
+                levels = np.append(levels, level)
+                going = float(np.diff((left + right) / 2).mean())
+                left, right = np.append(left, left[-1] + going), np.append(right, right[-1] + going)
+        base = self._base(below, float(levels[0]), notes)
+        t_left, t_right = section.lane[1], section.lane[0]
+        frame = section.frame
+        estimate = FlightEstimate(
+            left=self._placed(frame, left, t_left, levels),
+            right=self._placed(frame, right, t_right, levels),
+            heading=run.heading,
+            covariance=np.zeros((len(levels), 2, 2)),
+            gravity=0.0,
+            scale=0.0,
+            floor=base,
+            width=max(lane[1] - lane[0], 0.0),
+            headroom=headroom_of(section, self.obstacles),
+            overhang=min(section.overhang, 0.1),
+            open_risers=section.open_risers,
+            notes=tuple(notes),
+        )
+        body = self.bodies[owner]
+        s0, s1 = float(np.minimum(left, right)[0]), float(np.maximum(left, right)[-1])
+        corners = [(s0, lane[0]), (s1, lane[0]), (s1, lane[1]), (s0, lane[1])]
+        line = estimate.line()
+        foot, head = frame.back(s0, sum(lane) / 2), frame.back(s1, sum(lane) / 2)
+        measured = {
+            "rise": estimate.regular.rise,
+            "going": estimate.regular.going,
+            "risers": float(len(line)),
+            "treads": float(len(line) - 1),
+        }
+        family = self._family(body)
+        stated = {name: v for each in family for name, v in each.facts.get("stated", {}).items()}
+        return Flight(
+            identity=body.identity,
+            name=body.name or body.category,
+            category=body.category,
+            parents=tuple(name for each in family[1:] for name in (each.identity, each.name)),
+            storey=self._storey_of(family, float(levels[0])),
+            estimate=estimate,
+            lane=np.array([frame.back(*each) for each in corners]) + self.origin[:2],
+            lower=self._floor(below, base, foot, float(levels[0])),
+            upper=self._floor(
+                None if top is None else run.steps[-1], float(levels[-1]), head, float(levels[-1])
+            ),
+            stated=cross_checked(stated, measured, self.model.facts.get("unit", 1.0)),
+        )
+
+    def _placed(self, frame: Any, s: Array, t: float, levels: Array) -> Array:
+        plan = np.array([frame.back(float(each), t) for each in s])
+        return np.column_stack([plan + self.origin[:2], levels])
+
+    def _family(self, body: Body) -> list[Body]:
+        """An element, what it is part of, and so on up."""
+        found = [body]
+        while (parent := self.by_id.get(found[-1].parent)) is not None and parent not in found:
+            found.append(parent)
+        return found
+
+    def _storey_of(self, family: Sequence[Body], level: float) -> str:
+        names = {each.identity: each.name for each in self.storeys}
+        for each in family:
+            if each.facts.get("storey") in names:
+                return names[each.facts["storey"]]
+        below = [each for each in self.storeys if each.level <= level]
+        return below[-1].name if below else ""
+
+    def _storey_at(self, level: float, within: float) -> Storey | None:
+        near = [each for each in self.storeys if abs(each.level - level) <= within]
+        return min(near, key=lambda one: abs(one.level - level), default=None)
+
+    def _next_floor(
+        self, section: Section, plates: Sequence[Plate], notes: list[str]
+    ) -> float | None:
+        """Level to which the last riser leads, where nothing is drawn; None: there is no more."""
+        last = float(section.levels[-1])
+        if self._storey_at(last, FLUSH) is not None:
+            return None
+        low, high = RISES
+        above = [each for each in self.storeys if low <= each.level - last <= high]
+        if above:
+            notes.append(f"its last riser leads to the level of the storey {above[0].name!r}")
+            return above[0].level
+        depths = [each.depth for each in plates]
+        if abs(depths[-1] - float(np.median(depths[:-1]))) > UNLIKE:
+            notes.append(
+                "no floor is drawn at its head: its last tread, of another depth than the "
+                "others, is taken for the edge of it"
+            )
+            return None
+        notes.append("no floor is drawn at its head: the last riser is taken as the others")
+        return last + float(np.diff(section.levels).mean())
+
+    def _base(self, below: int | None, first: float, notes: list[str]) -> float:
+        """Level of the floor before the first riser; NaN: nothing says."""
+        if below is not None:
+            return self.plates[below].level
+        low, high = RISES
+        floors = [each for each in self.storeys if low <= first - each.level <= high]
+        if floors:
+            notes.append(f"its first riser begins at the level of the storey {floors[-1].name!r}")
+            return floors[-1].level
+        notes.append("no floor is drawn at its foot: the first riser is taken as the others")
+        return math.nan
+
+    def _floor(self, number: int | None, level: float, at: Array, first: float) -> str:
+        """Key of the floor at an end of a flight; the floor is noted, and what is clear of it."""
+        level = first if math.isnan(level) else level
+        plate = None if number is None else self.plates[number]
+        if plate is not None and plate.depth < DEEPEST_TREAD:
+            plate = None
+        storey = self._storey_at(level, OF_STOREY)
+        if storey is not None and plate is not None and not self._is_floor(plate, storey):
+            storey = None
+        if storey is not None:
+            key, name = f"storey:{storey.identity}", storey.name
+        elif plate is not None:
+            key, name = f"landing:{number}", f"landing at {level:.2f} m"
+        else:
+            key = f"level:{level:.2f}:{at[0]:.1f}:{at[1]:.1f}"
+            name = f"floor at {level:.2f} m"
+        known = self.floors.get(key) or Floor(key, name, level, storey.identity if storey else "")
+        if plate is not None and number is not None:
+            outline, walls = self._clear(number, at)
+            known = replace(
+                known,
+                outlines=(*known.outlines, outline + self.origin[:2]),
+                walls=np.vstack([known.walls, walls + np.tile(self.origin[:2], 2)]),
+            )
+        self.floors[key] = known
+        return key
+
+    def _is_floor(self, plate: Plate, storey: Storey) -> bool:
+        """Whether a surface near the level of a storey is its floor, not a landing beside it."""
+        return abs(plate.level - storey.level) <= FLUSH or not self.is_stair[plate.owners[0]]
+
+    def _clear(self, number: int, at: Array) -> tuple[Array, Array]:
+        """What is clear of a surface about a place; of a landing all of it, worked out once."""
+        if number in self._cleared:
+            return self._cleared[number]
+        plate = self.plates[number]
+        if max(plate.box) < FARTHEST:
+            self._cleared[number] = found = self._clear_about(plate, plate.middle)
+            return found
+        return self._clear_about(plate, at)
+
+    def _clear_about(self, plate: Plate, at: Array) -> tuple[Array, Array]:
+        low, high = at - FARTHEST, at + FARTHEST
+        walls = walls_around(self.obstacles, plate.level, low, high)
+        shape = free_outline(plate.shape, walls, at[None])
+        return Plate(plate.level, shape, plate.owners).corners, walls
+
+    def _doors(self) -> Iterator[Doorway]:
+        unit = self.model.facts.get("unit", 1.0)
+        for body in self.bodies:
+            if body.category != "IfcDoor" or len(body.vertices) == 0:
+                continue
+            low, high = body.vertices.min(axis=0), body.vertices.max(axis=0)
+            width, height = body.facts.get("door") or (None, None)
+            yield Doorway(
+                identity=body.identity,
+                name=body.name or "door",
+                x=float(low[0] + high[0]) / 2,
+                y=float(low[1] + high[1]) / 2,
+                level=float(low[2]),
+                width=width * unit if width else float((high - low)[:2].max()),
+                height=height * unit if height else float(high[2] - low[2]),
+            )
+
+
+def _told_apart(flights: Sequence[Flight]) -> Iterator[Flight]:
+    """Flights with identities of their own."""
+    total = Counter(each.identity for each in flights)
+    seen: Counter[str] = Counter()
+    for each in sorted(flights, key=lambda one: float(one.estimate.middle[0, 2])):
+        seen[each.identity] += 1
+        if total[each.identity] == 1:
+            yield each
+            continue
+        number = seen[each.identity]
+        yield replace(
+            each,
+            identity=f"{each.identity}.{number}",
+            name=f"{each.name} {number}",
+            parents=(each.identity, each.name, *each.parents),
+        )
+
+
+def _named_apart(flights: Sequence[Flight]) -> tuple[Flight, ...]:
+    """Flights with names of their own; the model's one still means all of them."""
+    total = Counter(each.name for each in flights)
+    seen: Counter[str] = Counter()
+    found = []
+    for each in flights:
+        seen[each.name] += 1
+        more = total[each.name] > 1
+        name = f"{each.name} {seen[each.name]}" if more else each.name
+        parents = (each.name, *each.parents) if more else each.parents
+        found.append(replace(each, name=name, parents=parents))
+    return tuple(found)

@@ -1,0 +1,379 @@
+"""A flight as a reader found it: nosings with their doubt.
+
+::
+
+            left            The nosings of a flight are segments, seen on the way up. Along the
+       .-----o-----.        heading lies s, up lies z. Each nosing has a covariance of its own of
+       |    /     /|        (s, z). What all have in common, the doubt of gravity and of scale,
+    z  |   o     o |        stands apart, because it does not average out.
+    |  |  /     /  |
+    | s '-----o----'
+    |/      right
+"""
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from kaidan.readers.kinds import Array
+from kaidan.terrain.doubt import factor
+from kaidan.terrain.polyline import frozen
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import MOST_TWISTED, Stairs, StairsUncertainty
+
+UNCHECKED = 0.0095 / math.sqrt(12.0)
+"""Standard deviation of single steps below which a reader cannot see [m]: evenly within the 9.5 mm
+that IBC 1011.5.4 allows between the largest and the smallest of a flight."""
+MICROMETRE = 6
+"""Digits to which exact lengths are rounded [m]."""
+EXACT = 1e-4
+"""Standard uncertainty below which a nosing counts as exact [m]: files round to it."""
+ALIKE = 0.01
+"""Probability of a chi squared as large as this one, from which steps count as all alike [1]."""
+CERTAIN = 3.0
+"""Standard uncertainties from which something stands out of its doubt."""
+_LEVEL = math.tan(math.radians(0.2))
+"""Slope across or skew of a nosing below which it is none [1]."""
+UNSEEN_LANDING = 2.0
+"""Length of a landing that was not seen [m], as in a sheet that does not state it."""
+
+
+@dataclass(frozen=True)
+class RegularFlight:
+    """The uniform flight that fits the nosings best."""
+
+    rise: float
+    """[m]"""
+    going: float
+    """[m]"""
+    rise_sigma: float
+    """Standard uncertainty from the nosings alone [m]."""
+    going_sigma: float
+    """The same of the going [m]."""
+    correlation: float
+    """Of both [1]."""
+    chi2: float
+    """Sum of squared residuals over their variances."""
+    freedom: int
+    """Degrees of freedom."""
+
+    @property
+    def alike(self) -> float:
+        """Probability of so large a chi squared, were all steps alike [1]; NaN: too few steps."""
+        return chi2_tail(self.chi2, self.freedom)
+
+    @property
+    def spacing(self) -> float:
+        """Nosing spacing [m]."""
+        return math.hypot(self.rise, self.going)
+
+    @property
+    def angle(self) -> float:
+        """Slope of the line through the nosings [rad]."""
+        return math.atan2(self.rise, self.going)
+
+    def sigmas(self) -> tuple[float, float]:
+        """Standard uncertainty of angle [rad] and spacing [m] from the nosings alone."""
+        p, r, g = self.spacing, self.rise, self.going
+        both = self.correlation * self.rise_sigma * self.going_sigma
+        var_r, var_g = self.rise_sigma**2, self.going_sigma**2
+        angle = (g * g * var_r + r * r * var_g - 2 * r * g * both) / p**4
+        spacing = (r * r * var_r + g * g * var_g + 2 * r * g * both) / p**2
+        return math.sqrt(max(angle, 0.0)), math.sqrt(max(spacing, 0.0))
+
+
+@dataclass(frozen=True, eq=False)
+class FlightEstimate:
+    """A straight flight from its lower floor up, in metres, z up."""
+
+    left: Array
+    """Left ends of the nosings, seen on the way up, from bottom to top, shape (m, 3)."""
+    right: Array
+    """Right ends, shape (m, 3)."""
+    heading: float
+    """Direction of ascent in the plan, from x towards y [rad]."""
+    covariance: Array
+    """Of (s, z) of each nosing apart from the others, shape (m, 2, 2) [m^2]."""
+    gravity: float
+    """Standard uncertainty of the tilt of gravity along the heading, common to all [rad]."""
+    scale: float
+    """Standard uncertainty of the scale, common to all [1]."""
+    floor: float = math.nan
+    """Level of the floor before the first nosing [m]; NaN: it was not seen."""
+    floor_sigma: float = 0.0
+    """Standard uncertainty of that level [m]."""
+    ends: bool = True
+    """Whether the last nosing is the edge of a landing that was seen."""
+    step_spread: float = 0.0
+    """Standard deviation of single rises and goings that the reader could not see [m]: those of a
+    flight that was fitted as a regular one."""
+    roughness: float = 0.0
+    """Root mean square distance of what was measured from the steps [m]."""
+    width: float = math.nan
+    """Clear width [m]; NaN: not seen."""
+    headroom: float = math.nan
+    """Least height above the line of the nosings [m]; NaN: not seen."""
+    run_up: float = math.nan
+    """Length of the floor before the first nosing as far as it was seen [m]; NaN: not seen."""
+    run_out: float = math.nan
+    """Length of the landing behind the last nosing as far as it was seen [m]; NaN: not seen."""
+    overhang: float = 0.0
+    """Overhang of the nosings over the treads below [m]."""
+    open_risers: bool = False
+    notes: tuple[str, ...] = ()
+    """What the reader must know, as sentences."""
+
+    def __len__(self) -> int:
+        return len(self.left)
+
+    @cached_property
+    def middle(self) -> Array:
+        """Middles of the nosings, shape (m, 3) [m]."""
+        return np.asarray((self.left + self.right) / 2)
+
+    @property
+    def base(self) -> float:
+        """Level of the floor; where it was not seen, of one that a regular riser leads up from."""
+        if self.begins:
+            return self.floor
+        rises = np.diff(self.middle[:, 2])
+        return float(self.middle[0, 2] - (rises.mean() if len(rises) else 0.0))
+
+    @property
+    def begins(self) -> bool:
+        """Whether the lower floor was seen, so that the first riser is known."""
+        return math.isfinite(self.floor)
+
+    def line(self, lateral: float = 0.0) -> Array:
+        """(s, z) of the nosings at a distance to the left of the middle, shape (m, 2) [m].
+
+        s counts from the middle of the first nosing, z from `base`.
+        """
+        across = self.left - self.right
+        length = np.maximum(np.hypot(across[:, 0], across[:, 1]), 1e-9)[:, None]
+        at = self.middle + across / length * lateral
+        ahead = np.array([math.cos(self.heading), math.sin(self.heading)])
+        s = (at[:, :2] - self.middle[0, :2]) @ ahead
+        return np.column_stack([s, at[:, 2] - self.base])
+
+    @cached_property
+    def regular(self) -> RegularFlight:
+        """Uniform flight through all nosings (generalised least squares); NaN: fewer than two."""
+        m = len(self)
+        if m < 2:
+            return RegularFlight(*(math.nan,) * 6, 0)
+        number = np.arange(m, dtype=np.float64)
+        design = np.zeros((m, 2, 4))
+        design[:, 0, 0] = design[:, 1, 1] = 1.0
+        design[:, 0, 2] = design[:, 1, 3] = number
+        weights = np.linalg.inv(
+            self.covariance + (1e-14 if self.covariance.any() else EXACT**2) * np.eye(2)
+        )
+        normal = np.einsum("mik,mij,mjl->kl", design, weights, design)
+        found = np.linalg.inv(normal)
+        line = self.line()
+        fit = found @ np.einsum("mik,mij,mj->k", design, weights, line)
+        off = line - design @ fit
+        chi2 = float(np.einsum("mi,mij,mj->", off, weights, off))
+        going, rise = float(fit[2]), float(fit[3])
+        s_going, s_rise = float(np.sqrt(found[2, 2])), float(np.sqrt(found[3, 3]))
+        corr = float(found[2, 3]) / (s_going * s_rise)
+        return RegularFlight(rise, going, s_rise, s_going, corr, chi2, 2 * m - 4)
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether it is drawn and not measured, so that nothing of it is in doubt."""
+        return not (self.covariance.any() or self.gravity or self.scale or self.step_spread)
+
+    @property
+    def angle_sigma(self) -> float:
+        """Standard uncertainty of the slope, gravity included [rad]."""
+        return math.hypot(self.regular.sigmas()[0], self.gravity)
+
+    @property
+    def spacing_sigma(self) -> float:
+        """Standard uncertainty of the nosing spacing, scale included [m]."""
+        return math.hypot(self.regular.sigmas()[1], self.scale * self.regular.spacing)
+
+    def full_covariance(self) -> Array:
+        """Covariance of s and z of all nosings, what they have in common included.
+
+        Returns
+        -------
+        array, shape (2m, 2m)
+            In the order s, z of the first nosing, of the second and so on, with the foot of the
+            first nosing on the floor as the origin [m^2].
+        """
+        m, line = len(self), self.line()
+        found = np.zeros((2 * m, 2 * m))
+        for k, each in enumerate(self.covariance):
+            found[2 * k : 2 * k + 2, 2 * k : 2 * k + 2] = each
+        tilted = np.column_stack([-line[:, 1], line[:, 0]]).ravel() * self.gravity
+        scaled = line.ravel() * self.scale
+        lifted = np.tile([0.0, 1.0], m) * (self.floor_sigma if self.begins else 0.0)
+        for common in (tilted, scaled, lifted):
+            found += np.outer(common, common)
+        own = np.tril(np.ones((m, m))) * self.step_spread
+        steps = own @ own.T
+        found[0::2, 0::2] += steps - self.step_spread**2  # the first nosing is the origin of s
+        found[1::2, 1::2] += steps
+        return found
+
+    def doubt_of_a_step(self) -> tuple[float, float]:
+        """Standard uncertainty of a single going and of a single rise, root mean square [m]."""
+        if len(self) < 2:
+            return self.step_spread, self.step_spread
+        pair = (self.covariance[1:] + self.covariance[:-1]).mean(axis=0)
+        going, rise = np.sqrt(np.diag(pair) + self.step_spread**2).tolist()
+        return going, rise
+
+    def stairs(
+        self, name: str = "stairs", *, lower: float = math.nan, upper: float = math.nan
+    ) -> Stairs:
+        """Data sheet: uniform where the steps are all alike as far as can be seen, else their list.
+
+        Parameters
+        ----------
+        name : str
+            What people call it.
+        lower, upper : float
+            Lengths of the landings [m]; NaN: not seen.
+
+        Returns
+        -------
+        Stairs
+
+        Raises
+        ------
+        InputError
+            Steps that no sheet takes.
+        """
+        line, regular = self.line(), self.regular
+        step_going, step_rise = self.doubt_of_a_step()
+        if self.is_exact:  # without the rounding of arithmetic
+            line = line.round(MICROMETRE)
+            regular = replace(
+                regular,
+                rise=round(regular.rise, MICROMETRE),
+                going=round(regular.going, MICROMETRE),
+            )
+        known = {
+            "lower_landing": lower,
+            "upper_landing": upper,
+            "width": self.width,
+            "headroom": self.headroom,
+        }
+        sheet: dict[str, Any] = {
+            key: round(v, MICROMETRE) for key, v in known.items() if math.isfinite(v)
+        }
+        if not regular.alike < ALIKE:
+            angle, spacing = self.angle_sigma, self.spacing_sigma
+            sheet |= {"rise": regular.rise, "going": regular.going, "steps": len(self)}
+            sheet |= {"first_rise": float(line[0, 1])} if self.begins else {}
+            step_rise = max(self.step_spread, min(step_rise, UNCHECKED))
+            step_going = max(self.step_spread, min(step_going, UNCHECKED))
+        else:
+            angle, spacing = self.gravity, self.scale * regular.spacing
+            sheet["rises"] = tuple(np.diff(line[:, 1], prepend=0.0).tolist())
+            sheet["goings"] = tuple(np.diff(line[:, 0]).tolist())
+        if not self.is_exact:
+            sheet["uncertainty"] = StairsUncertainty(
+                angle=angle, nosing_spacing=spacing, rise=step_rise, going=step_going
+            )
+        sheet |= self._across()
+        return Stairs(
+            name=name, nosing_overhang=self.overhang, open_risers=self.open_risers, **sheet
+        )
+
+    def _across(self) -> dict[str, tuple[float, ...]]:
+        """Slopes across and skews of the nosings, where they stand out of the doubt of their ends.
+
+        The ends are taken to be known as the nosing is, twice its standard uncertainty for half of
+        its length; less than 0.2 degrees is none.
+        """
+        if not 2 <= len(self) <= MOST_TWISTED:
+            return {}
+        way = self.left - self.right
+        along = np.array([math.cos(self.heading), math.sin(self.heading)])
+        aside = way[:, :2] @ np.array([-along[1], along[0]])
+        if (aside < 0.2).any():
+            return {}
+        found = {"cross_slopes": way[:, 2] / aside, "skews": way[:, :2] @ along / aside}
+        sigmas = np.sqrt(np.diagonal(self.covariance, axis1=1, axis2=2))  # of s, of z
+        doubts = {"cross_slopes": 2 * sigmas[:, 1] / aside, "skews": 2 * sigmas[:, 0] / aside}
+        return {
+            name: tuple(np.arctan(each).tolist())
+            for name, each in found.items()
+            if (np.abs(each) > np.maximum(_LEVEL, CERTAIN * doubts[name])).any()
+        }
+
+    def profile(
+        self,
+        name: str = "profile",
+        *,
+        lateral: float = 0.0,
+        lower: float = UNSEEN_LANDING,
+        upper: float = UNSEEN_LANDING,
+    ) -> Profile:
+        """Terrain under a line along the heading, with all of its doubt.
+
+        Parameters
+        ----------
+        name : str
+            What people call it.
+        lateral : float
+            How far to the left of the middle of the nosings, seen on the way up [m].
+        lower, upper : float
+            Lengths of the landings [m].
+
+        Returns
+        -------
+        Profile
+            Treads are level from nosing to nosing, risers are vertical.
+        """
+        nosings = self.line(lateral)
+        foot = np.column_stack([nosings[:, 0], np.r_[0.0, nosings[:-1, 1]]])
+        steps = np.stack([foot, nosings], axis=1).reshape(-1, 2)
+        first, last = nosings[0, 0] - lower, nosings[-1, 0] + upper
+        points = np.vstack([[first, 0.0], steps, [last, nosings[-1, 1]]])
+        covariance = self.full_covariance()
+        return Profile(
+            points=frozen(points),
+            nosings=frozen(nosings),
+            edges=frozen(nosings),
+            overhangs=self.overhang > 0,
+            open_risers=self.open_risers,
+            roughness=self.roughness,
+            name=name,
+            covariance=frozen(covariance) if covariance.any() else None,
+        )
+
+    def draws(self, count: int, seed: int = 0) -> Array:
+        """Nosings as they may be, shape (count, m, 2): (s, z) from the foot of the first [m]."""
+        line, covariance = self.line(), self.full_covariance()
+        if not covariance.any():
+            return np.tile(line, (count, 1, 1))
+        unit = np.random.default_rng(seed).standard_normal((covariance.shape[0], count))
+        return line + (factor(covariance) @ unit).T.reshape(count, *line.shape)
+
+
+def chi2_tail(chi2: float, freedom: int) -> float:
+    """Probability that a chi squared of an even number of degrees of freedom is larger.
+
+    exp(-x/2) times the sum of (x/2)^j / j! for j < freedom / 2 (Abramowitz & Stegun 26.4.21).
+
+    Examples
+    --------
+    >>> round(chi2_tail(5.991, 2), 4), round(chi2_tail(9.488, 4), 4)
+    (0.05, 0.05)
+    """
+    if freedom < 2:
+        return math.nan
+    half, term, total = chi2 / 2, 1.0, 0.0
+    for j in range(freedom // 2):
+        total += term
+        term *= half / (j + 1)
+    return math.exp(-half) * total if half < 700 else 0.0
