@@ -68,6 +68,8 @@ ELSEWHERE = {
     "python benchmarks/building.py": "by hand",
     "pip install 'kaidan[design]'   # scipy, which searches": ".ci/run, within '.[dev]'",
     "pip install 'kaidan[sensitivity]'   # SALib": ".ci/run, within '.[dev]'",
+    "pip install 'kaidan[web]'   # FastAPI and uvicorn": ".ci/run, within '.[dev]'",
+    "kaidan serve": "tests/unit/web",
     "dask scheduler --port 8786": "test_cluster.py",
     "dask worker tcp://10.0.0.1:8786 --nworkers auto --nthreads 1": "test_cluster.py",
     "kaidan experiment kenaf --store belt --scheduler tcp://10.0.0.1:8786": "test_cluster.py",

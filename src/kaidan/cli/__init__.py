@@ -41,6 +41,7 @@ _COMMANDS = {
     "reproduce": ("reproduce",),
     "schema": ("schema",),
     "sensitivity": ("sensitivity",),
+    "serve": ("serve",),
     "study": ("study",),
     "sweep": ("sweep",),
     "traverse": ("traverse",),

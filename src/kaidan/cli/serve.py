@@ -1,0 +1,53 @@
+"""``kaidan serve``: the page and the API."""
+
+import sys
+from typing import Annotated
+
+import typer
+
+Host = Annotated[
+    str,
+    typer.Option(help="Address to listen at; other than this machine's own it demands a token."),
+]
+Port = Annotated[int, typer.Option(min=0, max=65535, help="Port to listen at.")]
+Token = Annotated[
+    str | None,
+    typer.Option(envvar="KAIDAN_TOKEN", help="What clients must know [made where one is needed]."),
+]
+Processes = Annotated[
+    int | None, typer.Option(min=1, max=256, help="Processes that answer [one a processor].")
+]
+
+
+def register(app: typer.Typer) -> None:
+    """Add ``serve`` to the command line."""
+    app.command("serve")(serve)
+
+
+def serve(
+    host: Host = "127.0.0.1", port: Port = 8750, token: Token = None, workers: Processes = None
+) -> None:
+    """Serve the page and the API to browsers and robots, without a network.
+
+    Everything comes from this machine. Ctrl-C ends it.
+    """
+    from kaidan.campaign.local import processors
+    from kaidan.errors import needed
+
+    for module in ("fastapi", "uvicorn", "python_multipart"):
+        needed(module, "kaidan serve", "web")
+    from kaidan.web.server import is_local, listening, new_token, server_of
+
+    if not is_local(host):
+        token = token or new_token()
+        typer.echo(
+            f"kaidan: whoever reaches {host} and knows the token can ask; nothing is encrypted",
+            err=True,
+        )
+    with listening(host, port) as opened:
+        shown = f"[{host}]" if ":" in host else host
+        secret = f"?token={token}" if token else ""
+        typer.echo(f"http://{shown}:{opened.getsockname()[1]}/{secret}")
+        sys.stdout.flush()
+        server = server_of(host=host, token=token or "", workers=workers or processors())
+        server.run(sockets=[opened])

@@ -1,0 +1,292 @@
+"""What a client writes, as questions of the verbs: names of the catalogue and sheets, no path."""
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
+from importlib import import_module
+from inspect import Parameter, signature
+from typing import Any, TypeVar
+
+from kaidan import catalog
+from kaidan.answer import Answer
+from kaidan.errors import InputError, UnknownNameError, did_you_mean, shown
+from kaidan.question import Question
+from kaidan.robot import Payload, Posture, PostureChange, Robot
+from kaidan.spelling import JOINT
+from kaidan.surface import Surface
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import Stairs
+from kaidan.units import range_of
+
+MOST_CELLS = 2_000
+"""Largest sweep that is answered at once; a larger one is a job."""
+_Sheet = TypeVar("_Sheet", Robot, Stairs, Surface)
+_CATALOGUES: dict[type[Any], tuple[catalog.Folder, ...]] = {
+    Robot: ("robots", "unweighed"),
+    Stairs: ("stairs",),
+    Surface: ("surfaces",),
+}
+
+
+@dataclass(frozen=True)
+class Verb:
+    """A verb as the service offers it."""
+
+    function: str
+    """Module and function, with a colon between."""
+    answer: str
+    """Module and class of what it answers."""
+    required: tuple[str, ...] = ("robot", "stairs")
+    """What a body must have, but for one with a whole question."""
+    several: frozenset[str] = frozenset()
+    """Keywords of which it takes a list."""
+    open: bool = False
+    """Whether its function looks after the names of keywords itself."""
+
+    def load(self) -> Callable[..., Answer]:
+        """Its function."""
+        found: Callable[..., Answer] = _loaded(self.function)
+        return found
+
+    def answers(self) -> type[Answer]:
+        """Class of what it answers."""
+        found: type[Answer] = _loaded(self.answer)
+        return found
+
+    def parameters(self) -> dict[str, Parameter]:
+        """Keywords that a body may have: those of its function, then those of a question."""
+        own = signature(self.load()).parameters
+        found = {name: each for name, each in own.items() if each.kind is not Parameter.VAR_KEYWORD}
+        if len(found) < len(own):
+            left_out = {"robot"} if "robots" in own else set()
+            of = signature(Question.of).parameters
+            found |= {name: each for name, each in of.items() if name not in {*found, *left_out}}
+        return found
+
+    @property
+    def takes_question(self) -> bool:
+        """Whether a whole question may stand in the place of robot and stairs."""
+        return self.required == ("robot", "stairs")
+
+
+def _loaded(place: str) -> Any:
+    module, _, name = place.partition(":")
+    return getattr(import_module(module), name)
+
+
+def sweep_summary(*, go_only: bool = False, **values: Any) -> Answer:
+    """Summary of a sweep over whatever is a list.
+
+    Parameters
+    ----------
+    go_only : bool
+        Spare the contact model cells of which the closed form alone says that they are no GO.
+    **values
+        As in `kaidan.sweep`: a value, or a list of values of it.
+    """
+    from kaidan.sweeps.plan import Plan
+    from kaidan.sweeps.running import carried_out
+    from kaidan.sweeps.summary import summary_of
+
+    plan = Plan.of(values, screen=go_only)
+    if len(plan) > MOST_CELLS:
+        raise InputError(f"sweep: {len(plan):,} cells are more than {MOST_CELLS:,}: make it a job")
+    return summary_of(carried_out(plan, workers=1))
+
+
+VERBS: Mapping[str, Verb] = {
+    "assess": Verb("kaidan.assessment:assess", "kaidan.assessment.answer:Assessment"),
+    "traverse": Verb(
+        "kaidan.verbs.traverse:traverse", "kaidan.verbs.traverse_report:TraverseReport"
+    ),
+    "posture": Verb("kaidan.verbs.posture:posture", "kaidan.verbs.posture:PostureAnswer"),
+    "margin": Verb(
+        "kaidan.verbs.margin_curve:margin",
+        "kaidan.verbs.margin_curve:MarginCurve",
+        required=("robot",),
+        several=frozenset({"stairs"}),
+    ),
+    "plane": Verb("kaidan.verbs.d_a_plane:plane", "kaidan.verbs.d_a_plane:Plane"),
+    "compare": Verb(
+        "kaidan.verbs.comparison:compare",
+        "kaidan.verbs.comparison:Comparison",
+        required=(),
+        several=frozenset({"robots", "stairs"}),
+    ),
+    "sweep": Verb(
+        "kaidan.web.asking:sweep_summary",
+        "kaidan.sweeps.summary:SweepSummary",
+        required=("robot",),
+        several=frozenset({"robot", "stairs", "surface", "flippers"}),
+        open=True,
+    ),
+}
+"""Verbs by name."""
+
+
+def answered(verb: str, body: Mapping[str, Any]) -> Answer:
+    """Answer of a verb to what a client wrote.
+
+    Parameters
+    ----------
+    verb : str
+        Name in `VERBS`.
+    body : mapping
+        Keywords of its function, as JSON has them; or "question", as answers have it, with what
+        is changed of it.
+
+    Raises
+    ------
+    InputError
+        An unknown or a missing keyword, or an input without physical meaning.
+
+    Examples
+    --------
+    >>> answered("margin", {"robot": "kenaf", "points": 3}).robot
+    'kenaf'
+    """
+    asked = VERBS[verb]
+    values = {name: value for name, value in body.items() if value is not None}
+    whole = values.pop("question", None) if asked.takes_question else None
+    if not asked.open:
+        _refuse_unknown(verb, values, asked.parameters())
+        one = {name for name in values if name in asked.several}
+        values |= {name: [values[name]] for name in one if not isinstance(values[name], list)}
+    for name in asked.required if whole is None else ():
+        if name not in values:
+            raise InputError(f"{verb}: no {name}: give a name of the catalogue or a sheet")
+    made = _made(values, asked.several)
+    if whole is not None:
+        if not isinstance(whole, Mapping):
+            raise InputError(f"question = {shown(whole)} is not a table")
+        made["robot"] = Question.model_validate(whole)
+    return asked.load()(**made)
+
+
+def read_of(file: str, body: Mapping[str, Any]) -> Answer:
+    """What a file holds, see `kaidan.read`; the body has its hints."""
+    from kaidan.verbs.read import read
+
+    _refuse_unknown("read", body, signature(read).parameters.keys() - {"file"})
+    return read(file, **body)
+
+
+def building_of(file: str, body: Mapping[str, Any]) -> Answer:
+    """What robots can do in a building, see `kaidan.building`; the body has everything else.
+
+    Robots are names with commas between them, or several fields, each a name or a sheet in JSON.
+    """
+    from kaidan.verbs.building import building
+
+    values = dict(body)
+    known = signature(building).parameters.keys() | signature(Question.of).parameters.keys()
+    _refuse_unknown("building", values, known - {"file", "manner", "robot", "stairs"})
+    given = values.pop("robots", ())
+    texts = [given] if isinstance(given, str) else given
+    robots = [_robot_of_text(each) for text in texts for each in _parts(text)]
+    return building(file, robots, **_made(values))
+
+
+def _parts(text: str) -> list[str]:
+    return [text] if text.lstrip().startswith("{") else text.split(",")
+
+
+def _robot_of_text(text: str) -> Robot:
+    return Robot.from_json(text) if text.lstrip().startswith("{") else _sheet(text, Robot)
+
+
+def _refuse_unknown(verb: str, values: Mapping[str, Any], known: Collection[str]) -> None:
+    for name in values:
+        if name not in known:
+            hint = did_you_mean(name, known) or f"; known: {', '.join(sorted(known))}"
+            raise InputError(f"{verb}: {shown(name)} is not known{hint}")
+
+
+def _made(values: Mapping[str, Any], several: Collection[str] = ()) -> dict[str, Any]:
+    """Keywords with sheets for what is more than a number or a text."""
+    return {
+        name: _READ[name](value, name in several) if name in _READ else value
+        for name, value in values.items()
+    }
+
+
+def _robot(given: Any, many: bool = False) -> Any:
+    """Robot of a name or a table; several where many are allowed."""
+    if many and isinstance(given, list):
+        return [_robot(each) for each in given]
+    return _sheet(given, Robot)
+
+
+def _stairs(given: Any, many: bool = False) -> Any:
+    """Flight, flights from bottom to top or profile, of names, tables or points.
+
+    Where many are allowed a list is that many.
+    """
+    if isinstance(given, str) and JOINT in given:
+        return tuple(_sheet(each, Stairs) for each in given.split(JOINT))
+    if isinstance(given, list):
+        if not many and given and all(isinstance(each, list) for each in given):
+            return Profile.of_points(given)
+        found = [_stairs(each) if many else _sheet(each, Stairs) for each in given]
+        return found if many else tuple(found)
+    if isinstance(given, Mapping) and "points" in given:
+        return Profile.from_dict(given)
+    if isinstance(given, Mapping) and given.keys() >= {"angle", "nosing_spacing"}:
+        _refuse_unknown("stairs", given, ("angle", "nosing_spacing", "steps"))
+        return Stairs.inclined(**given)
+    return _sheet(given, Stairs)
+
+
+def _surface(given: Any, many: bool = False) -> Any:
+    """Surface of a name or a table; several where many are allowed."""
+    if many and isinstance(given, list):
+        return [_surface(each) for each in given]
+    return _sheet(given, Surface)
+
+
+def _sheet(given: Any, kind: type[_Sheet]) -> _Sheet:
+    if isinstance(given, Mapping):
+        return kind.model_validate(given)
+    if not isinstance(given, str):
+        raise InputError(
+            f"{kind.label} = {shown(given)} is not a name of the catalogue or a {kind.label} sheet"
+        )
+    stem = given.strip().lower()
+    known = [name for folder in _CATALOGUES[kind] for name in catalog.names(folder)]
+    if stem not in known and not (kind is Robot and stem in catalog.gross_robots()):
+        raise UnknownNameError(kind.label, given, known)
+    return kind.named(stem)
+
+
+def _flippers(given: Any, many: bool) -> Any:
+    if many and isinstance(given, list):
+        return given
+    if isinstance(given, Mapping):
+        return Posture.model_validate(given)
+    if isinstance(given, list) and given:
+        changes = (PostureChange.model_validate(each) for each in given[1:])
+        return (Posture.model_validate(given[0]), *changes)
+    return given
+
+
+def _limits(given: Any, many: bool) -> Any:
+    return range_of(given, "angle", option="limits")
+
+
+def _payload(given: Any, many: bool) -> Any:
+    if isinstance(given, Mapping):
+        return Payload.model_validate(given)
+    if isinstance(given, list):
+        return [_payload(each, many) for each in given]
+    return given
+
+
+_READ: Mapping[str, Callable[[Any, bool], Any]] = {
+    "robot": _robot,
+    "robots": _robot,
+    "stairs": _stairs,
+    "surface": _surface,
+    "flippers": _flippers,
+    "payload": _payload,
+    "limits": _limits,
+}
+"""What becomes of those that are more than a number or a text."""

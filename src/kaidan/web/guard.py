@@ -1,0 +1,117 @@
+"""What every request passes: host, origin, token, and the headers of every response."""
+
+import hmac
+import ipaddress
+from collections.abc import Collection
+from http.cookies import SimpleCookie
+from urllib.parse import parse_qs, urlsplit
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.responses import JSONResponse, RedirectResponse, Response
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+HEADERS = {
+    "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; "
+    "img-src 'self' data: blob:; font-src 'self'; media-src 'self' blob:; connect-src 'self'; "
+    "worker-src 'self'; manifest-src 'self'; form-action 'self'; base-uri 'none'; "
+    "frame-ancestors 'none'",
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Permissions-Policy": "camera=(), microphone=(), geolocation=(), payment=()",
+}
+"""Headers of every response: the page loads nothing from elsewhere and runs no script but its
+own."""
+TOKEN_COOKIE = "kaidan_token"
+_SAFE = ("GET", "HEAD", "OPTIONS")
+_LOCAL = ("localhost", "127.0.0.1", "[::1]")
+
+
+class Guard:
+    """Middleware that lets nobody in who should not be.
+
+    Parameters
+    ----------
+    app : ASGI application
+    token : str
+        What a client must know; empty where the server listens to this machine alone.
+    hosts : collection of str
+        Names by which the server may be called besides localhost and, with a token, any address in
+        numbers. A page of elsewhere whose name was made to lead here is refused by its name.
+    """
+
+    def __init__(self, app: ASGIApp, *, token: str = "", hosts: Collection[str] = ()) -> None:
+        self.app, self.token = app, token
+        self.hosts = {*_LOCAL, *(each.lower() for each in hosts)}
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Refuse a request, or pass it on."""
+        if scope["type"] not in ("http", "websocket"):
+            await self.app(scope, receive, send)
+            return
+
+        async def with_headers(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                headers = MutableHeaders(scope=message)
+                for name, value in HEADERS.items():
+                    headers.setdefault(name, value)
+                if scope["path"].startswith("/api/"):
+                    headers.setdefault("Cache-Control", "no-store")
+            await send(message)
+
+        answer = self._answer(scope)
+        if answer is None:
+            await self.app(scope, receive, with_headers)
+        elif scope["type"] == "websocket":
+            await send({"type": "websocket.close", "code": 1008})
+        else:
+            await answer(scope, receive, with_headers)
+
+    def _answer(self, scope: Scope) -> Response | None:
+        """What is answered at once; None: the request may pass."""
+        headers = Headers(scope=scope)
+        host = headers.get("host", "")
+        if not self._is_ours(host):
+            return _refused(421, "host", "the server is not known by this name")
+        origin = headers.get("origin")
+        unsafe = scope["type"] == "websocket" or scope["method"] not in _SAFE
+        if unsafe and origin is not None and urlsplit(origin).netloc.lower() != host.lower():
+            return _refused(403, "origin", "a page of elsewhere may not ask here")
+        return self._without_token(scope, headers) if self.token else None
+
+    def _is_ours(self, host: str) -> bool:
+        name = (
+            host.lower() if host.endswith("]") else host.lower().rpartition(":")[0] or host.lower()
+        )
+        if name in self.hosts:
+            return True
+        try:
+            ipaddress.ip_address(name.strip("[]"))
+        except ValueError:
+            return False
+        return bool(self.token)
+
+    def _without_token(self, scope: Scope, headers: Headers) -> Response | None:
+        """Refusal of who does not know the token; who brings it in the address gets a cookie."""
+        scheme, _, bearer = headers.get("authorization", "").partition(" ")
+        cookies = SimpleCookie(headers.get("cookie", ""))
+        cookie = cookies[TOKEN_COOKIE].value if TOKEN_COOKIE in cookies else ""
+        if self._known(bearer if scheme.lower() == "bearer" else "") or self._known(cookie):
+            return None
+        asked = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])[0]
+        if self._known(asked) and scope["type"] == "http" and scope["method"] == "GET":
+            answer = RedirectResponse(scope["path"], status_code=303)
+            answer.set_cookie(TOKEN_COOKIE, self.token, httponly=True, samesite="strict")
+            return answer
+        refusal = _refused(401, "token", "this server asks for its token")
+        refusal.headers["WWW-Authenticate"] = "Bearer"
+        return refusal
+
+    def _known(self, given: str) -> bool:
+        return hmac.compare_digest(given.encode(), self.token.encode())
+
+
+def _refused(status: int, kind: str, text: str) -> JSONResponse:
+    return JSONResponse({"error": text, "kind": kind}, status)

@@ -1,0 +1,96 @@
+"""The description of the service, OpenAPI 3.1, from the sheets and answers that there are."""
+
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
+from pydantic import BaseModel
+
+from kaidan.web.asking import VERBS
+
+_PLACE = "#/components/schemas/{model}"
+
+
+class Said(BaseModel):
+    """An answer in words."""
+
+    text: str
+    """As the command prints it."""
+    short: str
+    """In one line."""
+
+
+class Refusal(BaseModel):
+    """Why there is no answer."""
+
+    error: str
+    """As the command says it."""
+    kind: str
+    """In one word."""
+
+
+_ERRORS = {"422": "the question has no meaning, or takes too long", "503": "ask again"}
+
+
+def asked(verb: str, answer: type[BaseModel]) -> dict[str, Any]:
+    """What a route of a verb takes and gives."""
+    return {
+        "requestBody": {
+            "required": True,
+            "content": {"application/json": {"schema": _body(verb)}},
+        },
+        "responses": _responses(answer),
+    }
+
+
+def uploaded(verb: str) -> dict[str, Any]:
+    """What a route takes that reads a file."""
+    properties = {"file": {"type": "string", "contentMediaType": "application/octet-stream"}}
+    schema = {"type": "object", "required": ["file"], "properties": properties}
+    return {
+        "requestBody": {"required": True, "content": {"multipart/form-data": {"schema": schema}}},
+        "responses": {"200": {"description": "the answer"}},
+    }
+
+
+def _responses(answer: type[BaseModel]) -> dict[str, Any]:
+    def of(model: type[BaseModel], description: str) -> dict[str, Any]:
+        place = {"$ref": _PLACE.format(model=model.__name__)}
+        return {"description": description, "content": {"application/json": {"schema": place}}}
+
+    return {"200": of(answer, "the answer")} | {
+        status: of(Refusal, why) for status, why in _ERRORS.items()
+    }
+
+
+@cache
+def _body(verb: str) -> dict[str, Any]:
+    each = VERBS[verb]
+    return {
+        "type": "object",
+        "required": [],
+        "properties": {name: {} for name in each.parameters()},
+        "additionalProperties": each.open,
+    }
+
+
+def described(app: FastAPI) -> dict[str, Any]:
+    """Description of an application, made once."""
+    if app.openapi_schema is None:
+        whole = get_openapi(
+            title=app.title, version=app.version, description=app.description, routes=app.routes
+        )
+        schemas = whole.setdefault("components", {}).setdefault("schemas", {})
+        models: list[type[BaseModel]] = [Said, Refusal]
+        models += [each.answers() for each in VERBS.values()]
+        for model in models:
+            schemas |= _schemas(model)
+        app.openapi_schema = whole
+    return app.openapi_schema
+
+
+def _schemas(model: type[BaseModel]) -> Mapping[str, Any]:
+    made = model.model_json_schema(ref_template=_PLACE, mode="serialization")
+    return {**made.pop("$defs", {}), model.__name__: made}

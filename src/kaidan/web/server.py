@@ -1,0 +1,69 @@
+"""The server: where it listens, and what it says about that."""
+
+import ipaddress
+import secrets
+import socket
+
+import uvicorn
+
+from kaidan.errors import InputError, short
+from kaidan.web.app import app_of
+
+
+def is_local(host: str) -> bool:
+    """Whether only this machine can reach an address.
+
+    Examples
+    --------
+    >>> is_local("127.0.0.1"), is_local("0.0.0.0")
+    (True, False)
+    """
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return host == "localhost"
+
+
+def listening(host: str, port: int) -> socket.socket:
+    """Socket that listens; port 0 is one that is free.
+
+    Raises
+    ------
+    InputError
+        Nobody can listen there.
+    """
+    try:
+        family = socket.AF_INET6 if ":" in host else socket.AF_INET
+        return socket.create_server((host, port), family=family, backlog=2048)
+    except (OSError, UnicodeError) as error:
+        why = getattr(error, "strerror", None) or str(error)
+        raise InputError(f"cannot listen at {short(host)}, port {port}: {why}") from None
+
+
+def server_of(*, host: str, token: str, workers: int) -> uvicorn.Server:
+    """Server that has yet to run on a socket that listens.
+
+    Parameters
+    ----------
+    host : str
+        Address at which it listens.
+    token : str
+        What clients must know; empty: none, which only this machine may be allowed.
+    workers : int
+        Processes that answer.
+    """
+    hosts = () if is_local(host) else (host, socket.gethostname(), socket.getfqdn())
+    config = uvicorn.Config(
+        app_of(workers=workers, token=token, hosts=hosts),
+        log_level="warning",
+        access_log=False,
+        server_header=False,
+        proxy_headers=False,
+        timeout_graceful_shutdown=5,
+    )
+    return uvicorn.Server(config)
+
+
+def new_token() -> str:
+    """Token that nobody guesses."""
+    return secrets.token_urlsafe(24)

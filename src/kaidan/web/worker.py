@@ -1,0 +1,63 @@
+"""A worker process: tasks in, answers out, within a bound of memory, for as long as it is wanted.
+
+Tasks and answers are frames: eight bytes of length, then so many bytes. A task is one frame of
+JSON; its answer is a frame of JSON that says how it ended, then one of what is to be sent.
+"""
+
+import json
+import os
+import struct
+import sys
+import threading
+import time
+from typing import BinaryIO
+
+LENGTH = struct.Struct("!Q")
+
+
+def main() -> None:
+    """Answer tasks from standard input until it ends; the argument is the most memory [bytes]."""
+    tasks = sys.stdin.buffer
+    answers = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # what a library prints is no answer
+    _bound_memory(int(sys.argv[1]))
+    threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
+    from kaidan.web import tasks as known
+
+    while (frame := _read(tasks)) is not None:
+        head, content = known.done(json.loads(frame))
+        _write(answers, json.dumps(head).encode(), content)
+
+
+def _bound_memory(most: int) -> None:
+    """Refuse memory beyond so many bytes, and leave no core file."""
+    if sys.platform == "win32":
+        return
+    import resource
+
+    resource.setrlimit(resource.RLIMIT_AS, (most, most))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def _end_with(parent: int) -> None:
+    """Do not outlive the server, even where it was killed."""
+    while os.getppid() == parent:
+        time.sleep(1.0)
+    os._exit(1)
+
+
+def _read(stream: BinaryIO) -> bytes | None:
+    head = stream.read(LENGTH.size)
+    if len(head) < LENGTH.size:
+        return None
+    return stream.read(LENGTH.unpack(head)[0])
+
+
+def _write(stream: BinaryIO, *frames: bytes) -> None:
+    for frame in frames:
+        stream.write(LENGTH.pack(len(frame)) + frame)
+    stream.flush()
+
+
+if __name__ == "__main__":
+    main()
