@@ -1,4 +1,4 @@
-"""A worker process: tasks in, answers out, within a bound of memory, for as long as it is wanted.
+"""A worker process: tasks in, answers out, within a bound of memory, until its input ends.
 
 Tasks and answers are frames: eight bytes of length, then so many bytes. A task is one frame of
 JSON; its answer is a frame of JSON that says how it ended, then one of what is to be sent.
