@@ -57,6 +57,10 @@ ROCKING_SPEED = 0.1
 speed, at which the rig rocked visibly with 0.07 mm of energy margin against 0.51 mm of v^2/2g."""
 FACINGS = ("nose-first", "tail-first")
 """Ends that may lead."""
+TRACKS = ("smooth-belt", "yielding-belt", "driven-grousers")
+"""Tracks of the physics that a question may name."""
+MOST_TRIALS = 100_000
+"""Most trials of a question to the physics."""
 LARGEST_YAW = 1.3962634015954636
 """Largest yaw judged, 80 degrees [rad]: beyond it the robot drives along the steps."""
 
@@ -128,6 +132,18 @@ class Question(Sheet):
     risk: float = quantity("1", 1e-4, 0.5, "probability of failure that is accepted", default=0.01)
     accept: Acceptance = Field(default=Acceptance.NO_ROTATION, description="what counts as holding")
     model: str = Field(default=CONTACT.name, description="which model answers")
+    trials: int = Field(
+        default=1,
+        ge=1,
+        le=MOST_TRIALS,
+        description="of the physics, each with inputs of its own where they are uncertain",
+        json_schema_extra={"unit": "trials"},
+    )
+    track: Literal["smooth-belt", "yielding-belt", "driven-grousers"] | None = Field(
+        default=None,
+        description="track of the physics; none: yielding-belt where the sheet says how it "
+        "yields, else smooth-belt",
+    )
 
     @field_validator("terrain")
     @classmethod
@@ -151,6 +167,9 @@ class Question(Sheet):
                 f"speed = {self.speed:g} is not within 0 to {fastest:g} m/s, the most "
                 f"{self.robot.name} can do"
             )
+        if self.model != PHYSICS.name and (self.trials != 1 or self.track is not None):
+            name = "trials" if self.trials != 1 else "track"
+            raise InputError(f"{name} goes with the physics alone; give model = {PHYSICS.name}")
         self._possible_plan()
         if self.yaw:
             if not isinstance(self.terrain, Stairs):
@@ -211,6 +230,8 @@ class Question(Sheet):
         risk: Any = 0.01,
         accept: str = "no-rotation",
         model: str = "contact",
+        trials: Any = 1,
+        track: str | None = None,
         override: Any = (),
         uncertainty: Any = (),
     ) -> Self:
@@ -254,6 +275,11 @@ class Question(Sheet):
             What counts as holding.
         model : {"contact", "closed-form", "support-polygon", "physics"}
             Which model answers.
+        trials : int
+            Of the physics: so many, each with inputs drawn of their doubt.
+        track : {"smooth-belt", "yielding-belt", "driven-grousers"}, optional
+            Of the physics; without it yielding-belt where the sheet says how it yields, else
+            smooth-belt.
         override : mapping or str
             The user's own figures for the robot: {"com_height": 0.2} or "com_height=200mm".
         uncertainty : mapping or str
@@ -298,6 +324,8 @@ class Question(Sheet):
             risk=quantity_of("risk", risk, "number"),
             accept=Acceptance(word_of("accept", accept, tuple(Acceptance))),
             model=word_of("model", model, tuple(MODELS)),
+            trials=trials,
+            track=None if track is None else word_of("track", track, TRACKS),
         )
 
     @classmethod

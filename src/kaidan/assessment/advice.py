@@ -85,7 +85,7 @@ def what_would_help(
     -------
     tuple of Change
     """
-    if conclusion.verdict in (Verdict.GO,):
+    if conclusion.verdict is Verdict.GO or question.trials > 1:  # each change as many trials
         return ()
     better = []
     known = found if question.robot.com_range is None else None

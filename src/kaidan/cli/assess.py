@@ -10,6 +10,19 @@ from kaidan.cli.question import question
 if TYPE_CHECKING:
     from kaidan.question import Question
 
+Trials = Annotated[
+    int | None,
+    typer.Option(
+        min=1,
+        help="Of --model physics: so many, each with inputs drawn of their uncertainty [1].",
+    ),
+]
+Track = Annotated[
+    str | None,
+    typer.Option(
+        help="Of --model physics: smooth-belt, yielding-belt or driven-grousers [the sheet's]."
+    ),
+]
 Details = Annotated[bool, typer.Option("--details", help="Print everything that was found.")]
 Short = Annotated[bool, typer.Option("--short", help="Print one line.")]
 Strict = Annotated[bool, typer.Option("--strict", help="Exit with 1 on caution too.")]
@@ -23,6 +36,8 @@ def register(app: typer.Typer) -> None:
 @question()
 def assess(
     requested: "Question",
+    trials: Trials = None,
+    track: Track = None,
     details: Details = False,
     short: Short = False,
     strict: Strict = False,
@@ -34,9 +49,12 @@ def assess(
     Exit code: 0 go or caution (--strict: caution is 1), 1 no-go, 2 bad input, 3 outside the model.
     """
     from kaidan.assessment import answer_to
+    from kaidan.question import Question
 
     pictures = output.checked(figure)
-    answer = answer_to(requested)
+    own = {"trials": trials, "track": track}
+    stated = {name: each for name, each in own.items() if each is not None}
+    answer = answer_to(Question.ask(requested, **stated))
 
     def draw() -> "output.Figure":
         from kaidan.figures.findings_figure import findings_figure

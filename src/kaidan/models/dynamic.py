@@ -1,16 +1,21 @@
-"""The dynamic model: trials in MuJoCo with a smooth rigid belt, from landing to landing.
+"""The dynamic model: trials in MuJoCo, or of a yielding belt in the plane, from landing to landing.
 
-A trial says whether the robot arrives, not by how much: its margins are not known, so it can refute
-but never give a GO.
+A trial says whether the robot arrives, not by how much, and its track is a model that no rig has
+confirmed: its margins are not known, so it can refute but never give a GO. Many trials, with inputs
+drawn of their doubt, say besides how often.
 """
 
 import math
+from collections import Counter
+from collections.abc import Sequence
 
 import numpy as np
 
 from kaidan.errors import InputError
+from kaidan.models.drawn_trials import drawn_specs
 from kaidan.models.dynamic_figures import PhysicsFigures, TrialFigures
 from kaidan.models.findings import Finding, Findings
+from kaidan.models.proportion import interval
 from kaidan.modes import (
     PHYSICS,
     SLIDES_DOWN,
@@ -19,18 +24,23 @@ from kaidan.modes import (
     TIP_DOWNHILL,
     TIP_UPHILL,
     FailureMode,
+    Phase,
 )
-from kaidan.physics import Outcome, TrialResult, TrialSpec, run
+from kaidan.physics import Outcome, TrialResult, run
 from kaidan.question import Question
-from kaidan.surface import Surface
 from kaidan.text import dynamic as text
 
 FAILS = -math.inf
 """Margin of what a trial failed by: by how much is not known."""
+HOLDS = math.inf
+"""Margin of what a trial among many did not fail by, likewise."""
+
+Draw = tuple[TrialResult, ...]
+"""Trials that differ by their friction alone, the smallest first."""
 
 
 def judge(question: Question, *, known: Findings | None = None) -> Findings:
-    """Findings of a trial with the smallest friction, and of one with the largest if it differs.
+    """Findings of a question's trials; of each draw one at either end of the friction.
 
     Parameters
     ----------
@@ -49,65 +59,87 @@ def judge(question: Question, *, known: Findings | None = None) -> Findings:
         MuJoCo is not installed.
     """
     try:
-        return findings_of([run(spec) for spec in specs_of(question)])
+        draws = [tuple(run(spec) for spec in specs) for specs in drawn_specs(question)]
     except InputError as error:
         return Findings(model=PHYSICS.name, outside=str(error).removeprefix("trial: "))
+    return findings_of(draws, risk=question.risk)
 
 
-def specs_of(question: Question) -> list[TrialSpec]:
-    """Trials of a question from the landing, that with the smallest friction first.
+def findings_of(draws: Sequence[Draw], *, risk: float = 0.01) -> Findings:
+    """Findings of draws.
 
-    Raises
-    ------
-    InputError
-        A question that trials cannot be made of.
+    A draw fails in the worst case where one of its trials does, and in the best case where all do.
+    Many draws fail for certain where the interval of their share lies above the risk.
+
+    Parameters
+    ----------
+    draws : sequence of tuple of TrialResult
+    risk : float
+        Probability of failure that is accepted [1].
     """
-    surfaces: list[Surface | None] = [None]
-    if question.surface is not None:
-        surfaces = [Surface.of_friction(mu) for mu in sorted(set(question.friction))]
-    dimensions = 3 if question.yaw else 2
-    return [
-        TrialSpec(
-            question=question.changed(surface=surface), begin="landing", dimensions=dimensions
-        )
-        for surface in surfaces
-    ]
-
-
-def findings_of(trials: list[TrialResult]) -> Findings:
-    """Findings of trials that differ by their friction, the smallest first.
-
-    A range of friction is a failure for certain where the trials at both of its ends fail.
-    """
-    figures = PhysicsFigures(
-        speed_m_s=trials[0].speed_m_s, trials=tuple(_figures(trial) for trial in trials)
-    )
-    for trial in trials:
+    figures = figures_of(draws)
+    for trial in (trial for draw in draws for trial in draw):
         if trial.outcome in (Outcome.UNSTABLE, Outcome.START_FALL):
             return Findings(model=PHYSICS.name, outside=text.no_evidence(trial), figures=(figures,))
-    failed = [(mode, trial) for trial in trials if (mode := failure_of(trial)) is not None]
-    certain = len(failed) == len(trials)
-    each: dict[FailureMode, Finding] = {}
-    for mode, trial in reversed(failed):  # of the largest friction first: the best case
-        best = FAILS if certain and not each else math.nan
-        each.setdefault(
-            mode,
-            Finding(
-                mode=mode,
-                worst=np.array([FAILS]),
-                best=np.array([best]),
-                phase=trial.phase,
-                step=trial.step,
-                model=PHYSICS.name,
-            ),
-        )
+    alone = len(draws) == 1
+    certain = alone or interval(figures.failed_best, len(draws))[0] > risk
+    told = alone or figures.failed > int(risk * len(draws))
     return Findings(
         model=PHYSICS.name,
-        each=tuple(each.values()),
+        each=tuple(_each(draws, certain=certain)) if told else (),
         figures=(figures,),
-        notes=text.notes(trials),
-        basis=trials,
+        notes=text.notes([trial for draw in draws for trial in draw], figures),
+        basis=draws,
     )
+
+
+def figures_of(draws: Sequence[Draw]) -> PhysicsFigures:
+    """Figures of draws."""
+    fails = [[failure_of(trial) is not None for trial in draw] for draw in draws]
+    failed = sum(map(any, fails))
+    first = draws[0][0]
+    return PhysicsFigures(
+        track=first.spec.track.kind,
+        speed_m_s=first.speed_m_s,
+        draws=len(draws),
+        failed=failed,
+        failed_best=sum(map(all, fails)),
+        failure_interval=interval(failed, len(draws)),
+        trials=tuple(_figures(k, trial) for k, draw in enumerate(draws) for trial in draw),
+    )
+
+
+def _each(draws: Sequence[Draw], *, certain: bool) -> list[Finding]:
+    """Finding of each mode by which a trial failed, those that fail in the best case first."""
+    holds = math.nan if len(draws) == 1 else HOLDS
+    worst: dict[FailureMode, np.typing.NDArray[np.float64]] = {}
+    best: dict[FailureMode, np.typing.NDArray[np.float64]] = {}
+    where: dict[FailureMode, Counter[tuple[Phase | None, int | None]]] = {}
+    for k, draw in enumerate(draws):
+        failed = [(mode, trial) for trial in draw if (mode := failure_of(trial)) is not None]
+        for at, (mode, trial) in enumerate(reversed(failed)):  # of the largest friction first
+            if mode not in worst:
+                worst[mode] = np.full(len(draws), holds)
+                best[mode] = np.full(len(draws), holds)
+                where[mode] = Counter()
+            worst[mode][k] = FAILS
+            where[mode][trial.phase, trial.step] += 1
+            if at == 0:
+                best[mode][k] = FAILS if certain and len(failed) == len(draw) else math.nan
+    found = []
+    for mode, margins in worst.items():
+        (phase, step), _ = where[mode].most_common(1)[0]
+        found.append(
+            Finding(
+                mode=mode,
+                worst=margins,
+                best=best[mode],
+                phase=phase,
+                step=step,
+                model=PHYSICS.name,
+            )
+        )
+    return found
 
 
 def failure_of(trial: TrialResult) -> FailureMode | None:
@@ -124,8 +156,9 @@ def failure_of(trial: TrialResult) -> FailureMode | None:
     return TIP_DOWNHILL if over_its_tail == question.nose_up else TIP_UPHILL
 
 
-def _figures(trial: TrialResult) -> TrialFigures:
+def _figures(draw: int, trial: TrialResult) -> TrialFigures:
     return TrialFigures(
+        draw=draw,
         friction=trial.friction,
         outcome=trial.outcome.value,
         phase=trial.phase,

@@ -1,4 +1,4 @@
-"""What a trial in MuJoCo knows; apart, so that an answer can be read without physics."""
+"""What trials in MuJoCo know; apart, so that an answer can be read without physics."""
 
 from typing import Literal
 
@@ -13,6 +13,8 @@ OutcomeName = Literal[
 class TrialFigures(Part):
     """One trial."""
 
+    draw: int
+    """Number of its inputs; trials of one draw differ by their friction."""
     friction: float
     """Static friction that was simulated [1]."""
     outcome: OutcomeName
@@ -30,9 +32,19 @@ class TrialFigures(Part):
 
 
 class PhysicsFigures(Part):
-    """Trials in MuJoCo with a smooth rigid belt, from landing to landing."""
+    """Trials in MuJoCo, or of a yielding belt in the plane, from landing to landing."""
 
+    track: Literal["smooth-belt", "yielding-belt", "driven-grousers"]
+    """Model of the track."""
     speed_m_s: float
     """Speed of the belt, the lowest if it changes [m/s]."""
+    draws: int
+    """Times the inputs were drawn."""
+    failed: int
+    """Draws that fail in the worst case: with the smallest or the largest friction."""
+    failed_best: int
+    """Draws that fail in the best case: with both."""
+    failure_interval: tuple[float, float]
+    """95 % interval (Clopper-Pearson) of the probability of failing in the worst case [1]."""
     trials: tuple[TrialFigures, ...]
-    """One with the smallest friction, and one with the largest where it differs."""
+    """Of each draw one with the smallest friction, and one with the largest where it differs."""

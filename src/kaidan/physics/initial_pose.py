@@ -93,7 +93,7 @@ def course_of(spec: TrialSpec) -> Course:
     goal, goal_x = math.inf, _past(profile, spec.downhill)
     if spec.begin == "landing":
         first = float(profile.nosings[0, 0])
-        x, phi = first - BEFORE - ahead, 0.0
+        x, phi = first - BEFORE - (spec.start_offset or 0.0) * spacing - ahead, 0.0
         end = goal_x
     else:
         phi = slope

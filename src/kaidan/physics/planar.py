@@ -74,6 +74,7 @@ class RubberBody(MovingBody):
         track = spec.track
         assert isinstance(track, YieldingBelt)
         assert spec.stiffness is not None
+        assert spec.shear_stiffness is not None
         self.spec, self.course = spec, course_of(spec)
         self.belt = Belt(spec, self.course, at_once=True)
         self.advance = kernel().advance
@@ -83,7 +84,7 @@ class RubberBody(MovingBody):
         self._robot()
         mass = spec.mass()[0]
         inertia = mass * course.outline.gyration**2
-        k, kt = spec.stiffness, track.shear_ratio * spec.stiffness
+        k, kt = spec.stiffness, spec.shear_stiffness
         self.constants = np.array(
             [
                 mass,

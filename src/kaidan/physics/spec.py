@@ -10,6 +10,7 @@ from typing import ClassVar, Literal, Self
 import numpy as np
 from pydantic import Field, field_validator
 
+from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.modes import PHYSICS
 from kaidan.outline import Outline
 from kaidan.physics.tracks import SmoothBelt, SprungNoses, TrackModel, YieldingBelt
@@ -41,7 +42,7 @@ _STEPS = {
     "driven-grousers": 1e-3,
     "shoe-chain": 2.5e-4,
 }
-_NO_PART = ("theta_d", "theta_M", "risk", "accept")
+_NO_PART = ("theta_d", "theta_M", "risk", "accept", "trials", "track")
 """Fields of a question that play no part in a trial."""
 
 
@@ -78,7 +79,7 @@ class TrialSpec(Sheet):
         0.0,
         1.0,
         "share of a spacing by which the downhill end of the flat hangs over its nosing at the "
-        "start; random without",
+        "start, random without; from a landing that much farther off, none without",
         default=None,
     )
     grouser_phase: float | None = quantity(
@@ -166,8 +167,26 @@ class TrialSpec(Sheet):
     def stiffness(self) -> float | None:
         """Stiffness of a nosing under both tracks [N/m]; None where it is rigid or unknown."""
         if isinstance(self.track, SprungNoses | YieldingBelt):
-            return self.track.stiffness or self.question.robot.track.stiffness
+            sheet = self.question.robot.track
+            return self.track.stiffness or sheet.stiffness or self._of_length(sheet.indentation)
         return None
+
+    @property
+    def shear_stiffness(self) -> float | None:
+        """Stiffness along the track likewise [N/m]; None where it does not shear."""
+        if not isinstance(self.track, YieldingBelt) or self.stiffness is None:
+            return None
+        sheet = self.question.robot.track
+        if self.track.shear_ratio is None and self.track.stiffness is None:
+            own = sheet.shear_stiffness or self._of_length(sheet.sag)
+            if own is not None:
+                return own
+        return (self.track.shear_ratio or 1.0) * self.stiffness
+
+    def _of_length(self, length: float | None) -> float | None:
+        """Stiffness that yields so far under the robot's whole weight [N/m]."""
+        own = self.question.robot.mass or UNPUBLISHED_MASS
+        return None if length is None else own * STANDARD_GRAVITY / length
 
     @property
     def step(self) -> float:

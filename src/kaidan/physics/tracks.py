@@ -45,8 +45,12 @@ class YieldingBelt(Sheet):
         "force per length by which a nosing presses into both tracks; the robot sheet's without",
         default=None,
     )
-    shear_ratio: float = quantity(
-        "1", 0.01, 100.0, "stiffness along the track to that across it", default=1.0
+    shear_ratio: float | None = quantity(
+        "1",
+        0.01,
+        100.0,
+        "stiffness along the track to that across it; the robot sheet's, else 1",
+        default=None,
     )
     damping_ratio: float = quantity(
         "1", 0.0, 5.0, "of the robot's mass on the rubber at one nosing", default=0.08

@@ -83,6 +83,28 @@ class Track(Sheet):
         "force per length by which a nosing presses into both tracks",
         default=None,
     )
+    shear_stiffness: float | None = quantity(
+        "N/m",
+        1e2,
+        1e8,
+        "force per length by which a loaded nosing drags both tracks along themselves",
+        default=None,
+    )
+    indentation: float | None = quantity(
+        "m",
+        1e-5,
+        0.1,
+        "how far one nosing presses in under the whole weight, instead of stiffness",
+        default=None,
+    )
+    sag: float | None = quantity(
+        "m",
+        1e-5,
+        0.1,
+        "how far the whole weight along the track drags it over one nosing, instead of "
+        "shear_stiffness",
+        default=None,
+    )
 
     @model_validator(mode="after")
     def _one_kind_of_belt(self) -> Self:
@@ -108,6 +130,13 @@ class Track(Sheet):
                     f"wheels: from_front = {wheel.from_front:g} m lies over the flat, which "
                     f"reaches from 0 to {self.flat_length:g} m"
                 )
+        return self
+
+    @model_validator(mode="after")
+    def _one_way_to_yield(self) -> Self:
+        for length, stiffness in (("indentation", "stiffness"), ("sag", "shear_stiffness")):
+            if getattr(self, length) is not None and getattr(self, stiffness) is not None:
+                raise self.refuse(f"give either {length} or {stiffness}, not both")
         return self
 
     @property

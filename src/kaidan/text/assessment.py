@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from kaidan.modes import FAILURE_MODES, Verdict
-from kaidan.text import limits, measuring, traction
+from kaidan.text import dynamic, limits, measuring, traction
 from kaidan.text.unweighed import rows, thresholds
 
 if TYPE_CHECKING:
@@ -148,9 +148,7 @@ def details(answer: "Assessment") -> str:
         limit = answer.support_polygon.yaw_limit_deg
         lines.append(_row("yaw", f"tips on the flight from {limit:.1f} deg off straight on"))
     if answer.physics is not None:
-        for trial in answer.physics.trials:
-            outcome = trial.outcome.replace("_", " ")
-            lines.append(_row("trial", f"friction {trial.friction:.2f}: {outcome}"))
+        lines += [_row("trial", each) for each in dynamic.trials(answer.physics)]
     if answer.centroid is not None:
         lines += [_row("centroid", each) for each in rows(answer.centroid)]
     if answer.limits:

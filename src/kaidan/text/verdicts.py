@@ -18,6 +18,11 @@ def reason(question: "Question", found: "Findings", conclusion: "Conclusion") ->
     """The verdict in one sentence: what decides, with its number, and where."""
     if conclusion.verdict is Verdict.OUTSIDE_MODEL:
         return f"The {MODELS[found.model].label} has no answer: {found.outside}."
+    many = _part(found, "failure_interval")
+    if many is not None and many.draws > 1 and conclusion.governs != Undecided.FRICTION_UNKNOWN:
+        mode = FAILURE_MODES.get(conclusion.governs)
+        happens = None if mode is None else f"{mode.label}{place(conclusion)}"
+        return dynamic.of_many(many, happens)
     if conclusion.governs == Undecided.FRICTION_UNKNOWN:
         return _friction(question, found, conclusion, "none is stated")
     if conclusion.governs == Undecided.MARGIN_UNKNOWN:

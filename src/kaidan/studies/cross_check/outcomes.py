@@ -90,7 +90,7 @@ def from_the_landing(question: Question) -> str:
 
 def by_trial(question: Question, result: TrialResult) -> str:
     """Of a trial."""
-    return outcome(question, dynamic.findings_of([result]))
+    return outcome(question, dynamic.findings_of([(result,)]))
 
 
 def _found(*each: Finding) -> Findings:
