@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from kaidan.verbs.monitor import monitor
     from kaidan.verbs.posture import posture
     from kaidan.verbs.read import read
+    from kaidan.verbs.report import report
     from kaidan.verbs.traverse import traverse
 
 __version__ = "0.1.0"
@@ -56,6 +57,7 @@ _HOME = {
     "plane": "kaidan.verbs.d_a_plane",
     "posture": "kaidan.verbs.posture",
     "read": "kaidan.verbs.read",
+    "report": "kaidan.verbs.report",
     "reproduce": "kaidan.studies.reproduction",
     "sensitivity": "kaidan.studies.sensitivity",
     "stream": "kaidan.sweeps",
@@ -73,6 +75,7 @@ __all__ = [  # noqa: RUF022 - what a user meets first
     "compare",
     "building",
     "design",
+    "report",
     "doctor",
     "reproduce",
     "agree",

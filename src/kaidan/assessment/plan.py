@@ -75,14 +75,22 @@ def plan_of(question: Question, found: Findings, search: "Found | None") -> Plan
     return PlanShown(
         facing=question.facing,
         flippers=question.flippers,
-        steps=tuple(_steps(question, moves)),
+        steps=tuple(steps_of(question, moves)),
         found=search is not None,
         holds_within_deg=_degrees(holds),
         tried=None if search is None else search.tried,
     )
 
 
-def _steps(question: Question, moves: "tuple[Move, ...]") -> list[PlanStep]:
+def steps_of(question: Question, moves: "tuple[Move, ...]" = ()) -> list[PlanStep]:
+    """Postures of a question in their order; what each change takes, where moves tell it.
+
+    Parameters
+    ----------
+    question : Question
+    moves : tuple of Move
+        Changes of posture of its traverse.
+    """
     from kaidan.traversal.moves import angles_of
 
     by_phase = {each.before: each for each in moves}

@@ -38,6 +38,7 @@ _COMMANDS = {
     "plane": ("plane",),
     "posture": ("posture",),
     "read": ("read",),
+    "report": ("report",),
     "reproduce": ("reproduce",),
     "schema": ("schema",),
     "sensitivity": ("sensitivity",),

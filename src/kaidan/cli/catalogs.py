@@ -1,7 +1,7 @@
 """``kaidan robots|stairs|surfaces``: the catalogues, and one sheet of them whole."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from collections.abc import Set as AbstractSet
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -270,13 +270,15 @@ def _show(
     sheet: "Sheet", derived: dict[str, Any], as_json: bool, hidden: AbstractSet[str] = frozenset()
 ) -> None:
     """Print one sheet whole."""
+    from kaidan.verbs.sheet_rows import field_rows
+
     content = sheet.model_dump(mode="json", exclude=set(hidden))
     if as_json:
         echo_json({"kind": sheet.label, "sheet": content, "derived": derived})
         return
     echo(f"{content['name']}: {content['title']}" if content["title"] else content["name"])
     echo_table(
-        [row for row in _field_rows(sheet, content["sources"]) if row["field"] not in hidden],
+        [row._asdict() for row in field_rows(sheet) if row.field not in hidden],
         {"field": "field", "symbol": "symbol", "value": "value", "source": "source"},
     )
     rows = [_derived_row(key, value) for key, value in derived.items()]
@@ -305,26 +307,6 @@ def _derived_row(key: str, value: Any) -> dict[str, str]:
     if words.startswith("flippers flat "):
         words = words.removeprefix("flippers flat ") + ", flippers flat"
     return {"derived": words, "symbol": _SYMBOLS.get(words, ""), "value": human(value, key)}
-
-
-def _field_rows(
-    sheet: "Sheet", sources: dict[str, str], path: str = ""
-) -> Iterator[dict[str, Any]]:
-    from kaidan.sheet import Sheet
-
-    for name, field in type(sheet).model_fields.items():
-        value = getattr(sheet, name)
-        if isinstance(value, Sheet):
-            yield from _field_rows(value, sources, f"{path}{name}.")
-        elif value is not None and name not in ("name", "title", "notes", "sources"):
-            extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
-            default = "" if name in sheet.model_fields_set else "default"
-            yield {
-                "field": path + name,
-                "symbol": extra.get("symbol", ""),
-                "value": human(value, unit=str(extra.get("unit", ""))),
-                "source": sources.get(path + name, default),
-            }
 
 
 def _show_gross(name: str, entry: dict[str, str], as_json: bool) -> None:

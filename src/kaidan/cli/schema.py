@@ -37,6 +37,7 @@ KINDS = {
     "stock": "kaidan.studies.stock.answer:StockStudy",
     "sweep": "kaidan.sweeps.summary:SweepSummary",
     "doctor": "kaidan.verbs.doctor:Diagnosis",
+    "report": "kaidan.verbs.report.answer:Report",
     "outcomes": "kaidan.studies.known_outcomes:KnownOutcomes",
 }
 """What has a schema: name on the command line, module and class."""

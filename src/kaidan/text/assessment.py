@@ -26,22 +26,22 @@ def text(answer: "Assessment") -> str:
         lines.append(_row("weighed", thresholds(answer.centroid)))
     if answer.what_would_help:
         first, *others = answer.what_would_help
-        lines.append(_row("do", _change(first, answer)))
+        lines.append(_row("do", change_line(first, answer)))
         if others and others[0].verdict == first.verdict and answer.centroid is None:
-            lines.append(_row("or", _change(others[0], answer)))
+            lines.append(_row("or", change_line(others[0], answer)))
     elif answer.limits:
         lines.append(_row("limit", limits.text(answer.limits)))
     elif answer.verdict in ("caution", "no-go"):
         lines.append(_row("help", "none of the changes that were tried"))
     if answer.verdict != "outside-model":
-        lines.append(_row("margin", f"{_margin(answer)}, on {_stairs(answer)}"))
-    lines.append(_row("friction", _friction(answer)))
+        lines.append(_row("margin", f"{margin_line(answer)}, on {stairs_line(answer)}"))
+    lines.append(_row("friction", friction_line(answer)))
     slip = None if answer.traction is None else traction.slip(answer.traction)
     if slip is not None:
         lines.append(_row("grousers", slip))
     if answer.question.uncertain and measuring.matters(answer.to_measure):
         lines.append(_row("measure", measuring.first(answer.to_measure)))
-    unknown = _unknown(answer)
+    unknown = unknown_line(answer)
     if unknown:
         lines.append(_row("not known", unknown))
     return "\n".join(lines[:LINES])
@@ -61,7 +61,7 @@ def advice(answer: "Assessment") -> str:
     """What to do first, in one line; empty where nothing helps, or need not."""
     if not answer.what_would_help:
         return ""
-    return f"Do: {_change(answer.what_would_help[0], answer)}"
+    return f"Do: {change_line(answer.what_would_help[0], answer)}"
 
 
 def short(answer: "Assessment") -> str:
@@ -95,7 +95,7 @@ def _hardest(answer: "Assessment") -> str:
     return f" ({hardest.phase}, step {hardest.required_friction_step})"
 
 
-def _unknown(answer: "Assessment") -> str:
+def unknown_line(answer: "Assessment") -> str:
     """What was assumed because nobody stated it."""
     names = [name for name, each in answer.allowances.items() if each.source == "default"]
     if answer.friction is None:
@@ -114,12 +114,12 @@ def details(answer: "Assessment") -> str:
         lines += ["", "  What to do", *(f"    {line}" for line in plan_lines(answer.plan))]
     if answer.what_would_help:
         lines += ["", "  What would help"]
-        lines += [f"    {_change(change, answer)}" for change in answer.what_would_help]
+        lines += [f"    {change_line(change, answer)}" for change in answer.what_would_help]
     lines += [
         "",
-        _row("stairs", _stairs(answer)),
-        _row("robot", _robot(answer)),
-        _row("margin", _margin(answer)),
+        _row("stairs", stairs_line(answer)),
+        _row("robot", robot_line(answer)),
+        _row("margin", margin_line(answer)),
     ]
     if answer.margin_interval_deg is not None:
         low, high = answer.margin_interval_deg
@@ -133,7 +133,7 @@ def details(answer: "Assessment") -> str:
     if measuring.matters(answer.to_measure):
         lines.append(_row("measure", measuring.first(answer.to_measure)))
     lines.append(_row("allowances", _allowances(answer)))
-    lines.append(_row("friction", _friction(answer)))
+    lines.append(_row("friction", friction_line(answer)))
     slip = None if answer.traction is None else traction.slip(answer.traction)
     if slip is not None:
         lines.append(_row("grousers", slip))
@@ -177,13 +177,15 @@ def _row(name: str, value: str) -> str:
     return f"  {name:<16}{value}"
 
 
-def _change(change: "Change", answer: "Assessment") -> str:
+def change_line(change: "Change", answer: "Assessment") -> str:
+    """A change that would help, and what the verdict would then be."""
     margin = "" if change.margin_deg is None else f" ({change.margin_deg:+.1f} deg)"
     still = "still " if change.verdict == answer.verdict else ""
     return f"{change.change}: {still}{Verdict(change.verdict).label}{margin}"
 
 
-def _stairs(answer: "Assessment") -> str:
+def stairs_line(answer: "Assessment") -> str:
+    """Slope and nosing spacing of the terrain."""
     if answer.angle_deg is None or answer.nosing_spacing_m is None:
         return "no flight of steps"
     return (
@@ -191,7 +193,8 @@ def _stairs(answer: "Assessment") -> str:
     )
 
 
-def _robot(answer: "Assessment") -> str:
+def robot_line(answer: "Assessment") -> str:
+    """Lengths and mass of the robot."""
     mass = "mass not known" if answer.mass_kg is None else f"{answer.mass_kg:g} kg"
     return (
         f"L {1e3 * answer.flat_length_m:.0f} mm, C_L {1e3 * answer.com_from_front_m:.0f} mm, "
@@ -199,7 +202,8 @@ def _robot(answer: "Assessment") -> str:
     )
 
 
-def _margin(answer: "Assessment") -> str:
+def margin_line(answer: "Assessment") -> str:
+    """Margin in the worst and in the best case."""
     if answer.margin_deg is None:
         return "not known"
     best = answer.margin_best_deg
@@ -228,7 +232,8 @@ def _allowances(answer: "Assessment") -> str:
     )
 
 
-def _friction(answer: "Assessment") -> str:
+def friction_line(answer: "Assessment") -> str:
+    """Friction that is required, and what is stated."""
     needed = answer.required_friction
     required = "not known" if needed is None else f"{needed:.2f} required"
     if answer.traction is not None and needed is not None:

@@ -1,0 +1,83 @@
+"""Bytes of a report's file: HTML or PDF, the same bytes for the same report."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from kaidan.errors import InputError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from kaidan.verbs.report.answer import Report
+
+FORMATS = ("html", "pdf")
+"""Formats of documents, by the suffix of the file."""
+
+
+def document_format(path: Path) -> str:
+    """Format that the suffix of a document's file asks for.
+
+    Raises
+    ------
+    InputError
+        Another suffix, or none.
+    """
+    suffix = path.suffix.lower().removeprefix(".")
+    if suffix not in FORMATS:
+        known = ", ".join(f".{name}" for name in FORMATS)
+        what = f"unknown suffix {path.suffix!r}" if path.suffix else "no suffix"
+        raise InputError(f"report {str(path)!r}: {what}; known: {known}")
+    return suffix
+
+
+def report_bytes(found: "Report", form: str) -> bytes:
+    """Document of a report.
+
+    Parameters
+    ----------
+    found : Report
+        What `kaidan.report` answers.
+    form : {"html", "pdf"}
+
+    Returns
+    -------
+    bytes
+        HTML: one page, complete in itself, that prints as it is read: no script, nothing fetched.
+        PDF: A4. The same report gives the same bytes.
+
+    Raises
+    ------
+    InputError
+        Another form.
+    MissingExtraError
+        ``kaidan[report]`` is not installed.
+    """
+    from kaidan.figures.saving import figure_bytes
+    from kaidan.text.report import document
+
+    if form == "html":
+        from kaidan.documents.html_page import page
+
+        pictures = {key: figure_bytes(each, "svg") for key, each in _figures(found)}
+        return page(document(found), pictures).encode()
+    if form == "pdf":
+        from kaidan.documents.pdf_pages import pages
+
+        return pages(
+            document(found), {key: figure_bytes(each, "png") for key, each in _figures(found)}
+        )
+    raise InputError(f"report: format {form!r} is not known; known: {', '.join(FORMATS)}")
+
+
+def _figures(found: "Report") -> "Iterator[tuple[str, Figure]]":
+    """Figures by the keys under which the document has their places."""
+    from kaidan.figures.findings_figure import findings_figure
+    from kaidan.figures.mission_sketch import mission_sketch
+    from kaidan.figures.traverse_figure import traverse_figure
+
+    for number, mission in enumerate(found.missions):
+        yield f"sketch-{number}", mission_sketch(mission)
+        yield f"margins-{number}", findings_figure(mission.assessment)
+        if mission.traverse is not None:
+            yield f"traverse-{number}", traverse_figure(mission.traverse, None)
