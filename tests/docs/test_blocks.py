@@ -64,6 +64,7 @@ ELSEWHERE = {
     "pip install 'kaidan[sweeps]'   # tables in Parquet and Zarr, stores, labelled Datasets": (
         ".ci/run, within '.[dev]'"
     ),
+    "pip install 'kaidan[report]'   # matplotlib, ReportLab, segno": ".ci/run, within '.[dev]'",
     "pip install 'kaidan[ifc]'   # ifcopenshell and shapely": ".ci/run, within '.[dev]'",
     "python benchmarks/building.py": "by hand",
     "pip install 'kaidan[design]'   # scipy, which searches": ".ci/run, within '.[dev]'",

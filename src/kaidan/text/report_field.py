@@ -148,10 +148,10 @@ def stop(mission: "Mission") -> list[str]:
             f"{card.steepest_deg:.0f} deg on these stairs."
         )
     if card.largest_rotation_deg is not None:
-        most = max(card.largest_rotation_deg, SEEN)
-        said.append(
-            f"It rotates by more than {most:.0f} deg at once, or an end lifts and stays up."
-        )
+        rotates = "at all"
+        if card.largest_rotation_deg >= SEEN:
+            rotates = f"by more than {card.largest_rotation_deg:.0f} deg at once"
+        said.append(f"It rotates {rotates}, or an end lifts and stays up.")
     needed = answer.required_friction
     slides = "The tracks run and it does not go on, or it slides back"
     said.append(

@@ -21,7 +21,7 @@ class InputRow(Part):
     value: str
     """With its unit, as people write it."""
     source: str
-    """Where it comes from, with its status letter; "stated" by who asked; "default"; empty: not
+    """Where it comes from, with its status letter; "default" where nobody stated it; empty: not
     said."""
     doubt: str
     """Standard uncertainty or range; empty where none is stated."""
@@ -79,7 +79,7 @@ class Mission(Part):
     assessment: Assessment
     """What `kaidan assess` answers."""
     traverse: TraverseReport | None
-    """What `kaidan traverse` answers; null where another model was asked, at a yaw, or outside the
+    """What `kaidan traverse` answers; null where another model answered, at a yaw, or outside the
     model."""
     way_back: Assessment | None
     """What `kaidan assess` answers on the way back, the same end uphill: null outside the model."""
