@@ -42,8 +42,8 @@ def code_of(question: Question) -> str:
 
     Examples
     --------
-    >>> asked = Question.of("kenaf", "ibc", friction=0.8, flippers="20deg,-5deg")
-    >>> question_of(code_of(asked)) == asked
+    >>> question = Question.of("kenaf", "ibc", friction=0.8, flippers="20deg,-5deg")
+    >>> question_of(code_of(question)) == question
     True
     """
     plain = _without(question.model_dump(mode="json", exclude_defaults=True))
