@@ -4,7 +4,14 @@ import numpy as np
 import pytest
 
 from contact_cases import random_robot, random_terrain
-from kaidan.contact import Job, traverse, traverse_many, using_kernel, without_native
+from kaidan.contact import (
+    Job,
+    stand_in_turn,
+    traverse,
+    traverse_many,
+    using_kernel,
+    without_native,
+)
 
 pytestmark = pytest.mark.skipif(bool(without_native()), reason="built pure")
 
@@ -70,4 +77,18 @@ def test_a_batch():
                     kinds=[kinds for _, kinds in robots], with_margins=True,
                 ).table
             )  # fmt: skip
+    np.testing.assert_array_equal(*tables)
+
+
+def test_a_robot_that_stands_in_one_posture_after_the_other():
+    flat = np.array([[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06], [0.196, 0, 0.06, 0.4, 0.1, 0.03]])
+    up, down = flat.copy(), flat.copy()
+    up[1, 4], down[1, 4] = 0.2, -0.15
+    stairs = [[-2, 0], [0, 0], [0, 0.17], [0.28, 0.17], [0.28, 0.34], [3, 0.34]]
+    tables = []
+    for kernel in ("plain", "native"):
+        with using_kernel(kernel):
+            path = stand_in_turn(stairs, [flat, up, down], [0, 1], [[-0.04, 0]] * 3, -0.05, 0.1)
+            tables.append(np.hstack([path.poses.table, path.margins.table]))
+    assert len(tables[0]) == 3
     np.testing.assert_array_equal(*tables)

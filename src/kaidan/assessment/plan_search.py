@@ -247,17 +247,39 @@ def _sturdiest(search: "_Search") -> _Off:
     """Best plan of a search: the most promising off their angles, judged in one go."""
     hopes = _different(search.plans())
     first = max(hopes, key=lambda hope: hope.merit)
-    hopes.sort(key=lambda hope: (search.off(hope.plan), hope.merit), reverse=True)
-    chosen = dict.fromkeys([*(hope.plan for hope in hopes[: FINALISTS - 1]), first.plan])
+    chosen = dict.fromkeys([*_best_off(search, hopes, FINALISTS - 1), first.plan])
     finalists = [_judged(plan.question(search.question)) for plan in chosen]
     finalists.sort(key=lambda each: each.merit, reverse=True)
-    found: list[_Off] = []
+    best: _Off | None = None
     for each in finalists:
-        ranks = [_judged(off).merit[0] for off in off_angles(each.question)]
-        found.append(_Off(each, (min([each.merit[0], *ranks]), *each.merit[1:])))
-        if found[-1].sturdy:
+        worst = _worst_off(each, None if best is None else best.worst)
+        if best is None or worst > best.worst:
+            best = _Off(each, worst)
+        if best.sturdy:
             break
-    return max(found, key=lambda each: each.worst)
+    assert best is not None
+    return best
+
+
+def _best_off(search: "_Search", hopes: Sequence["Hope"], count: int) -> list[Plan]:
+    """Plans of the largest merit off their angles, which is never larger than at them."""
+    best: list[tuple[tuple[bool, int, float], tuple[bool, int, float], Plan]] = []
+    for hope in sorted(hopes, key=lambda hope: hope.merit, reverse=True):
+        if len(best) == count and hope.merit < best[-1][0]:
+            break
+        best.append((search.off(hope.plan), hope.merit, hope.plan))
+        best = sorted(best, key=lambda each: each[:2], reverse=True)[:count]
+    return [plan for *_, plan in best]
+
+
+def _worst_off(plan: Judged, beaten: tuple[int, int, float] | None) -> tuple[int, int, float]:
+    """Merit with the worst verdict off its angles; no more than what is beaten is looked for."""
+    worst = plan.merit
+    for off in off_angles(plan.question):
+        if beaten is not None and worst <= beaten:
+            break
+        worst = (min(worst[0], _judged(off).merit[0]), *plan.merit[1:])
+    return worst
 
 
 def _different(hopes: Iterable["Hope"]) -> list["Hope"]:
@@ -300,8 +322,8 @@ def judged_of(question: Question, found: Findings) -> Judged:
 def judge_coarsely(question: Question) -> Findings:
     """Findings of the contact model from poses farther apart."""
     if question.changes:
-        return planned.findings(question, planned.drive(question, step=FINE), whole=False)
-    return findings_of(question, Basis(question, traverse_of(question, step=FINE)), whole=False)
+        return planned.findings(question, planned.drive(question, step=FINE))
+    return findings_of(question, Basis(question, traverse_of(question, step=FINE)))
 
 
 def _drop(found: Traverse) -> float:

@@ -28,6 +28,7 @@ from kaidan.contact.records import (
     Rotations,
 )
 from kaidan.contact.rest import Settled, resting_height, settle
+from kaidan.contact.standing import stand_in_turn
 from kaidan.contact.steepest import steepest_flight
 from kaidan.contact.switch import (
     kernel_in_use,
@@ -78,6 +79,7 @@ __all__ = [
     "resting_height",
     "settle",
     "spring_loads",
+    "stand_in_turn",
     "steepest_flight",
     "touching_heights",
     "traverse",

@@ -26,6 +26,7 @@ KERNEL_MODULES = (
     "driver",
     "forces",
     "margins",
+    "standing",
     "batch",
 )
 KERNEL_PACKAGE = "kaidan.contact.kernel"

@@ -327,17 +327,10 @@ class Path:
 
 
 def joined(paths: Sequence[Path]) -> Path:
-    """Poses, margins and robots of several paths over one ground as one, the first in all else."""
+    """Poses and margins of several paths over one ground as one, the first in all else."""
     margins = [each.margins.table for each in paths if each.margins is not None]
-    bodies = None
-    if any(each.body is not paths[0].body for each in paths):
-        bodies = np.concatenate(
-            [np.broadcast_to(each.body.table, (len(each.poses), *each.body.table.shape))
-             for each in paths]
-        )  # fmt: skip
     return replace(
         paths[0],
         poses=Poses(np.vstack([each.poses.table for each in paths])),
         margins=Margins(np.vstack(margins)) if len(margins) == len(paths) else None,
-        bodies=bodies,
     )

@@ -30,6 +30,8 @@ from kaidan.errors import InputError, shown
 Choice = Literal["auto", "plain", "native"]
 
 VARIABLE = "KAIDAN_KERNEL"
+CUT_UP = ("standing", "batch")
+"""Modules of the kernel whose entries cut up their tables."""
 
 log = logging.getLogger("kaidan.contact")
 
@@ -133,7 +135,7 @@ def _plain() -> SimpleNamespace:
     for name in KERNEL_MODULES:
         for key, value in vars(importlib.import_module(f"{KERNEL_PACKAGE}.{name}")).items():
             if hasattr(value, "_kaidan_entry"):
-                entries[key] = value if name == "batch" else _through_views(value)
+                entries[key] = value if name in CUT_UP else _through_views(value)
     return SimpleNamespace(**entries)
 
 
@@ -141,8 +143,8 @@ def _through_views(function: Callable[..., Any]) -> Callable[..., Any]:
     """Entry that reads its tables through views.
 
     An element of a view is a float, one of an array is an object of numpy's, on which arithmetic
-    takes four times as long: the plain kernel runs nearly twice as fast. Views cannot be cut up, as
-    the batch does with its tables.
+    takes four times as long: the plain kernel runs nearly twice as fast. Those that
+    are cut up (`CUT_UP`) cannot be views.
     """
 
     @wraps(function)

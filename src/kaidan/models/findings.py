@@ -1,9 +1,10 @@
 """What a model finds: a margin for every failure mode it knows, with its samples and its place."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property
+from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,29 @@ from kaidan.answer import Part
 from kaidan.modes import FailureMode, Phase, Verdict
 
 Array = NDArray[np.float64]
+T = TypeVar("T")
+
+
+class Later(Sequence[T], Generic[T]):
+    """What is worked out when it is first read: a verdict needs neither figures nor notes."""
+
+    def __init__(self, made: Callable[[], Sequence[T]]) -> None:
+        self._made = made
+
+    @cached_property
+    def _each(self) -> Sequence[T]:
+        return self._made()
+
+    @overload
+    def __getitem__(self, at: int) -> T: ...
+    @overload
+    def __getitem__(self, at: slice) -> Sequence[T]: ...
+    def __getitem__(self, at: int | slice) -> T | Sequence[T]:
+        """Some of it."""
+        return self._each[at]
+
+    def __len__(self) -> int:
+        return len(self._each)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,9 +83,9 @@ class Findings:
     """Why the model does not apply; empty if it does."""
     required_friction: float = math.nan
     """Static friction below which the robot slips somewhere [1]; infinite: none is enough."""
-    figures: tuple[Part, ...] = ()
+    figures: Sequence[Part] = ()
     """The models' own figures."""
-    notes: tuple[str, ...] = ()
+    notes: Sequence[str] = ()
     """What the reader must know of this answer."""
     basis: Any = None
     """What it was found on, for a changed question that shares it."""

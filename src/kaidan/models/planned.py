@@ -16,7 +16,7 @@ from kaidan import contact
 from kaidan.answer import Part as Figures
 from kaidan.models import traction
 from kaidan.models.contact_figures import ContactFigures, Grades, PhaseFigures, TiltFigures
-from kaidan.models.findings import Finding, Findings, smallest
+from kaidan.models.findings import Finding, Findings, Later, smallest
 from kaidan.models.quasi_static import Basis, findings_of, profile_of
 from kaidan.models.traction_figures import TractionFigures
 from kaidan.modes import (
@@ -139,7 +139,7 @@ def stop(question: Question, profile: Profile, phase: Phase) -> float:
     return float(nosing[0]) - STAND_OFF
 
 
-def findings(question: Question, planned: Planned, *, whole: bool = True) -> Findings:
+def findings(question: Question, planned: Planned) -> Findings:
     """Findings of the traverse of a plan: the smallest margins of its parts and changes.
 
     Parameters
@@ -147,8 +147,6 @@ def findings(question: Question, planned: Planned, *, whole: bool = True) -> Fin
     question : Question
         As it was put; what plays no part in the traverse may differ from what was driven.
     planned : Planned
-    whole : bool
-        With figures and notes; a verdict needs none.
 
     Returns
     -------
@@ -159,7 +157,7 @@ def findings(question: Question, planned: Planned, *, whole: bool = True) -> Fin
         alone = part.question
         if question is not planned.question:
             alone = question.changed(posture=alone.posture, changes=())
-        of_parts.append(findings_of(alone, Basis(part.question, part.traverse), whole=whole))
+        of_parts.append(findings_of(alone, Basis(part.question, part.traverse)))
     basis = Basis(question, planned)
     outside = next((each.outside for each in of_parts if each.outside), "")
     if outside:
@@ -169,13 +167,16 @@ def findings(question: Question, planned: Planned, *, whole: bool = True) -> Fin
     modes = dict.fromkeys(one.mode for one in each)
     needed = [found.required_friction for found in of_parts]
     needed += [one.required_friction for one in planned.moves]
-    figures = [each for found in of_parts for each in found.figures]
     return Findings(
         model=CONTACT.name,
         each=tuple(_smallest(mode, each) for mode in modes),
         required_friction=float(np.fmax.reduce(needed)),
-        figures=tuple(_together(figures)),
-        notes=tuple(dict.fromkeys(note for found in of_parts for note in found.notes)),
+        figures=Later(
+            lambda: tuple(_together([each for found in of_parts for each in found.figures]))
+        ),
+        notes=Later(
+            lambda: tuple(dict.fromkeys(note for found in of_parts for note in found.notes))
+        ),
         basis=basis,
     )
 
@@ -200,8 +201,8 @@ def _of_move(question: Question, each: Move) -> list[Finding]:
     failing = Verdict.CAUTION if each.stands else Verdict.NO_GO
     certain = partial(Finding.certain, phase=each.before, model=CONTACT.name)
     found = [certain(POSTURE_CHANGE, margin, failing=failing)]
-    if each.poses:
-        margins = traction.standing_margins(question, each.poses)
+    if len(each.path.poses):
+        margins = traction.standing_margins(question, each)
         worst, best = (np.array([margin]) for margin in margins)
         slides = certain(SLIDES_DOWN, 0.0)
         energy = certain(ENERGY, each.energy - question.energy_threshold, failing=Verdict.CAUTION)

@@ -4,6 +4,7 @@ Friction, drive, balance (`kaidan.models.balance`), belly and landings are judge
 """
 
 import math
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,7 +18,7 @@ from kaidan.models import support_polygon, traction
 from kaidan.models.balance import balance
 from kaidan.models.contact_figures import figures_of
 from kaidan.models.drive_limits import traction_limit
-from kaidan.models.findings import Finding, Findings
+from kaidan.models.findings import Finding, Findings, Later
 from kaidan.models.spread import Spread, spread
 from kaidan.models.support_polygon import along_heading
 from kaidan.models.traction import Supplies
@@ -143,9 +144,7 @@ def _drives_alike(question: Question, other: Question) -> bool:
     )
 
 
-def findings_of(
-    question: Question, basis: Basis, *, phase: Phase | None = None, whole: bool = True
-) -> Findings:
+def findings_of(question: Question, basis: Basis, *, phase: Phase | None = None) -> Findings:
     """Findings of a traverse, of the whole of it or of one phase alone.
 
     Parameters
@@ -156,8 +155,6 @@ def findings_of(
         Its traverse.
     phase : Phase, optional
         Part of the traverse to judge alone.
-    whole : bool
-        With figures and notes; a verdict needs none.
 
     Returns
     -------
@@ -180,26 +177,37 @@ def findings_of(
         *_obstacles(driven, found, phase, phases),
         *balance(question, driven, found, over, phase, held),
     ]
-    required = friction if held is None else held.worst.required
-    if not whole:
-        return Findings(model=_NAME, each=tuple(each), required_friction=required, basis=basis)
-    gripping = traction.figures_of(driven, found, friction, held, phase)
-    looked_for = {FALL_DOWNHILL: "falls_downhill", FALL_UPHILL: "falls_uphill"}
+    gripping = Later(lambda: [traction.figures_of(driven, found, friction, held, phase)])
     modes = [one.mode for one in each]
-    falls = tuple(getattr(found, name) for mode, name in looked_for.items() if mode in modes)
-    figures: list[Part] = [figures_of(question, driven, found, phases, falls=falls), gripping]
-    if phase is None and question.robot.track.gauge is not None and isinstance(flight, Stairs):
-        at = np.array([question.yaw])
-        energy = float(support_polygon.energy_of(question, flight, at)[0])
-        figures.append(support_polygon.figures_of(question, flight, energy))
     return Findings(
         model=_NAME,
         each=tuple(each),
-        required_friction=required,
-        figures=tuple(figures),
-        notes=() if phase else _notes(question, driven, found) + grips.notes(question, gripping),
+        required_friction=friction if held is None else held.worst.required,
+        figures=Later(lambda: (*_figures(question, driven, found, phase, modes), *gripping)),
+        notes=()
+        if phase
+        else Later(lambda: _notes(question, driven, found) + grips.notes(question, gripping[0])),
         basis=basis,
     )
+
+
+def _figures(
+    question: Question,
+    driven: Question,
+    found: Traverse,
+    phase: Phase | None,
+    modes: Sequence[FailureMode],
+) -> Iterator[Part]:
+    """Figures of a traverse, those of friction and belts apart."""
+    looked_for = {FALL_DOWNHILL: "falls_downhill", FALL_UPHILL: "falls_uphill"}
+    falls = tuple(getattr(found, name) for mode, name in looked_for.items() if mode in modes)
+    phases = tuple(each for each in found.phases if phase in (None, each.phase))
+    yield figures_of(question, driven, found, phases, falls=falls)
+    flight = question.terrain
+    if phase is None and question.robot.track.gauge is not None and isinstance(flight, Stairs):
+        at = np.array([question.yaw])
+        energy = float(support_polygon.energy_of(question, flight, at)[0])
+        yield support_polygon.figures_of(question, flight, energy)
 
 
 def _notes(question: Question, driven: Question, found: Traverse) -> tuple[str, ...]:

@@ -6,7 +6,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kaidan import contact
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.grousers import standing_run
 from kaidan.mechanics.rubber import height_lost, rubber_modulus
@@ -17,7 +16,7 @@ from kaidan.robot import Robot, Track
 from kaidan.terrain.stairs import NOSING_RADII, Stairs
 from kaidan.traversal import Traverse
 from kaidan.traversal.grip import Grip, Grousers
-from kaidan.traversal.moves import MovePose
+from kaidan.traversal.moves import Move
 from kaidan.traversal.phases import step_at
 from kaidan.traversal.samples import lasting
 
@@ -54,7 +53,7 @@ class Supply(NamedTuple):
     """Kinetic-energy height of that slip in each phase with one [m]."""
 
 
-def standing_margins(question: Question, poses: Sequence[MovePose]) -> tuple[float, float]:
+def standing_margins(question: Question, move: Move) -> tuple[float, float]:
     """Angle by which friction may be less while the robot stands and its posture changes [rad].
 
     With grousers it stands on those that hold it already, so it does not slip back first.
@@ -63,18 +62,22 @@ def standing_margins(question: Question, poses: Sequence[MovePose]) -> tuple[flo
     ----------
     question : Question
         Friction that nobody stated is not known: NaN.
-    poses : sequence of MovePose
-        One after the other.
+    move : Move
+        In which it stands at least once.
 
     Returns
     -------
     worst, best
         With every range at its unfavourable, and at its favourable end.
     """
-    if question.surface is None:
+    surface = question.surface
+    if surface is None:
         return math.nan, math.nan
-    standing = contact.joined([each.path for each in poses])
-    grip = Grip(standing, descending=question.direction == "down", acceleration=0.0)
+    if not (surface.differs or question.robot.track.has_grousers):
+        needed = math.atan(move.required_friction)
+        worst, best = (math.atan(surface.of_parts(best=each)[0]) - needed for each in (False, True))
+        return worst, best
+    grip = Grip(move.path, descending=question.direction == "down", acceleration=0.0)
     return _standing(question, grip, best=False), _standing(question, grip, best=True)
 
 

@@ -83,6 +83,8 @@ class Traverse:
     """Where a part of the traverse begins; None: before the flight."""
     until: float | None
     """Where the centroid ends [m]; None: beyond the flight."""
+    step: float
+    """Arclength between poses [m]."""
 
     @cached_property
     def events(self) -> tuple[TraverseEvent, ...]:
@@ -143,7 +145,8 @@ class Traverse:
             nonlocal fallen
             path = self.path if tilt == 0.0 else _drive(
                 self.profile, self.outline, self.start, self.until,
-                acceleration=self.acceleration, tilt=back * tilt, with_margins=False,
+                acceleration=self.acceleration, tilt=back * tilt, step=self.step,
+                with_margins=False,
             )  # fmt: skip
             if path.status is not contact.Status.OK and self.arrived:
                 fallen = path
@@ -185,7 +188,7 @@ class Traverse:
         nosings = self.profile.nosings
         if self.descending or len(nosings) == 0:
             return None
-        rises = np.diff(nosings[:, 1], prepend=self.profile.points[0, 1])
+        rises = np.unique(np.diff(nosings[:, 1], prepend=self.profile.points[0, 1]).round(12))
         each = rear_length_margin(
             b=self.tread.L - self.tread.C_L,
             h=rises,
@@ -357,6 +360,7 @@ def traverse(
         phases=phases,
         start=start,
         until=until,
+        step=step,
     )
 
 

@@ -13,8 +13,10 @@ no such pose rotates although nobody drives it.
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kaidan import contact
 from kaidan.contact import FLIPPER, TRACK, Feature, Placement
@@ -23,13 +25,13 @@ from kaidan.modes import Facing, Phase
 from kaidan.outline import Outline
 from kaidan.robot import FlipperPair, Payload, Posture, Robot
 
+Array = NDArray[np.float64]
+
 TURN = math.radians(5.0)
 """Largest turn of a flipper from one pose to the next [rad]."""
 SNAP = 2.0
 """Rotation of the robot from one pose to the next above which it rocks, over that turn [1]: a
 flipper as long as the robot turns it as far as itself."""
-_AHEAD = 1e-4
-"""Way driven to have a pose with its margins [m]."""
 
 
 @dataclass(frozen=True)
@@ -49,39 +51,55 @@ class MovePose:
     """Torque about the pivot of each pair, front and rear [N m]; none of an unknown mass."""
     outline: Outline
     """As it stands, x towards the leading end."""
-    path: contact.Path
-    """Has the pose alone."""
 
 
 @dataclass(frozen=True)
 class Move:
     """A change of posture while the robot stands."""
 
+    robot: Robot
+    facing: Facing
+    """Which end leads."""
     before: Phase
     """Phase that it prepares."""
     turn: float
     """Largest angle by which a flipper turns [rad]."""
     seconds: float | None
     """Time by the flippers' largest speed [s]; None where it is not known."""
-    poses: tuple[MovePose, ...]
-    """The first as before, the last as after, or where it ends."""
+    postures: tuple[Posture, ...]
+    """On the way: the first as before, the last as after."""
+    outlines: tuple[Outline, ...]
+    """In each posture, x towards the leading end."""
+    path: contact.Path
+    """A pose for each posture, up to the last in which it stands."""
     rocks: float
     """Largest rotation of the robot from one pose to the next, beyond what follows from the turn of
     the flippers [rad]."""
-    stands: bool
-    """Whether the robot stands in every pose."""
-    spare_torque: float
-    """Least torque that the sheet's largest leaves [N m]; NaN: one of the two is not known."""
+
+    @property
+    def stands(self) -> bool:
+        """Whether the robot stands in every pose."""
+        return len(self.path.poses) == len(self.postures)
+
+    @cached_property
+    def poses(self) -> tuple[MovePose, ...]:
+        """The first as before, the last as after, or where it ends."""
+        return tuple(self._pose(row) for row in range(len(self.path.poses)))
 
     @property
     def required_friction(self) -> float:
-        """Largest of any pose [1]."""
-        return max((each.required_friction for each in self.poses), default=math.nan)
+        """Largest of any pose [1]; NaN: it stands in none."""
+        if not len(self.path.poses):
+            return math.nan
+        assert self.path.margins is not None
+        required = self.path.margins.required_friction
+        return float(np.where(np.isfinite(required), required, np.inf).max())
 
     @property
     def energy(self) -> float:
         """Smallest of any pose [m]."""
-        return min((each.energy for each in self.poses), default=math.inf)
+        assert self.path.margins is not None
+        return float(self.path.margins.energy.min(initial=math.inf))
 
     @property
     def torque(self) -> float:
@@ -90,9 +108,41 @@ class Move:
         return max(each, default=math.nan)
 
     @property
+    def spare_torque(self) -> float:
+        """Least torque that the sheet's largest leaves [N m]; NaN: one of the two is not known."""
+        largest = {
+            end: pair.max_torque
+            for end, pair in self.robot.flippers().items()
+            if pair.max_torque is not None
+        }
+        if not largest:
+            return math.nan
+        spare = [
+            most - pose.torque[end]
+            for pose in self.poses
+            for end, most in largest.items()
+            if end in pose.torque
+        ]
+        return min(spare, default=math.nan)
+
+    @property
     def end(self) -> Placement:
         """Where it ends."""
-        return self.poses[-1].place
+        return self.path.poses.placement(-1)
+
+    def _pose(self, row: int) -> MovePose:
+        assert self.path.margins is not None
+        angles = angles_of(self.robot, self.postures[row])
+        friction = float(self.path.margins.required_friction[row])
+        return MovePose(
+            front=angles.get("front"),
+            rear=angles.get("rear"),
+            place=self.path.poses.placement(row),
+            required_friction=friction if math.isfinite(friction) else math.inf,
+            energy=float(self.path.margins.energy[row]),
+            torque=_torques(self.robot, angles, self.outlines[row], self.path, row, self.facing),
+            outline=self.outlines[row],
+        )
 
 
 def move(
@@ -127,34 +177,33 @@ def move(
     Move
         A robot that does not stand on the way is an answer, not an error.
     """
-    old = _outline(robot, one, payload, facing)
-    place, stands, rocks, poses = start, True, 0.0, []
-    turn = max((abs(new - was) for was, new, _ in _turns(robot, one, two)), default=0.0)
-    allowed = SNAP * TURN
-    for posture in (one, *_between(robot, one, two, math.ceil(turn / TURN)), two):
-        new = _outline(robot, posture, payload, facing)
-        found = _settled(ground, old, new, place)
-        if found is None:
-            stands = False
-            break
-        pose, old = _pose(robot, posture, new, found, facing), new
-        rocks = max(rocks, abs(pose.place.inclination - place.inclination) - allowed)
-        place = pose.place
-        poses.append(pose)
+    turns = list(_turns(robot, one, two))
+    turn = max((abs(new - was) for was, new, _ in turns), default=0.0)
+    postures = (one, *_between(robot, one, two, math.ceil(turn / TURN)), two)
+    outlines = [_outline(robot, each, payload, facing) for each in postures]
+    path = contact.stand_in_turn(
+        ground,
+        [each.parts for each in outlines],
+        outlines[0].kinds,
+        [_middle(each) for each in outlines],
+        start.x,
+        start.inclination,
+    )
+    inclinations = np.concatenate([[start.inclination], path.inclination])
+    rocks = float(np.abs(np.diff(inclinations)).max(initial=0.0)) - SNAP * TURN
     times = [
-        abs(new - was) / pair.max_speed
-        for was, new, pair in _turns(robot, one, two)
-        if pair.max_speed is not None
+        abs(new - was) / pair.max_speed for was, new, pair in turns if pair.max_speed is not None
     ]
-    timed = len(times) == len(list(_turns(robot, one, two)))
     return Move(
+        robot=robot,
+        facing=facing,
         before=before,
         turn=turn,
-        seconds=max(times, default=0.0) if timed else None,
-        poses=tuple(poses),
+        seconds=max(times, default=0.0) if len(times) == len(turns) else None,
+        postures=postures,
+        outlines=tuple(outlines),
+        path=path,
         rocks=max(rocks, 0.0),
-        stands=stands,
-        spare_torque=_spare_torque(robot, poses),
     )
 
 
@@ -195,59 +244,22 @@ def _outline(
     return outline if facing == "nose-first" else outline.turned_round()
 
 
-def _settled(
-    ground: np.ndarray, old: Outline, new: Outline, place: Placement
-) -> contact.Path | None:
-    """Pose, with its margins, in which the tracks are where they were along; None: none is found.
-
-    The middle of the tracks keeps its place along the ground, to first order in how far the robot
-    turns.
-    """
-    phi = place.inclination
-    track = place.x + _along(old, phi)
-    for _ in range(2):
-        x = track - _along(new, phi)
-        settled = contact.settle(ground, new.parts, x, phi, kinds=new.kinds)
-        if not settled.found:
-            return None
-        phi = settled.inclination
-    path = contact.traverse(
-        ground, new.parts, x, x + _AHEAD,
-        kinds=new.kinds, inclination=phi, gyration=new.gyration, with_energy=False,
-    )  # fmt: skip
-    return path.first() if len(path.poses) else None
-
-
-def _along(outline: Outline, phi: float) -> float:
-    """Middle of the tracks ahead of the centroid along the ground [m]."""
+def _middle(outline: Outline) -> Array:
+    """Middle of the tracks in the body frame [m]."""
     discs = outline.parts[outline.kinds == TRACK].reshape(-1, 3)[:, :2]
-    x, z = discs.mean(axis=0)
-    return float(math.cos(phi) * x - math.sin(phi) * z)
-
-
-def _pose(
-    robot: Robot, posture: Posture, outline: Outline, path: contact.Path, facing: Facing
-) -> MovePose:
-    assert path.margins is not None
-    friction = float(path.margins.required_friction[0])
-    angles = angles_of(robot, posture)
-    return MovePose(
-        front=angles.get("front"),
-        rear=angles.get("rear"),
-        place=path.poses.placement(0),
-        required_friction=friction if math.isfinite(friction) else math.inf,
-        energy=float(path.energy([0])[0][0]),
-        torque=_torques(robot, angles, outline, path, facing),
-        outline=outline,
-        path=path,
-    )
+    return np.asarray(discs.mean(axis=0))
 
 
 def _torques(
-    robot: Robot, angles: dict[str, float], outline: Outline, path: contact.Path, facing: Facing
+    robot: Robot,
+    angles: dict[str, float],
+    outline: Outline,
+    path: contact.Path,
+    at: int,
+    facing: Facing,
 ) -> dict[str, float]:
     """Torque that holds each pair: of the contact that it carries, and of its own weight."""
-    mass, place = outline.stance.mass, path.poses.placement(0)
+    mass, place = outline.stance.mass, path.poses.placement(at)
     if mass is None:
         return {}
     c, s = math.cos(place.inclination), math.sin(place.inclination)
@@ -259,7 +271,7 @@ def _torques(
         for end, pair in robot.flippers().items()
     }
     torque = {end: abs(own[end] * math.cos(angles[end])) for end in pairs}
-    carrying = path.carrying(0)
+    carrying = path.carrying(at)
     _, n_1, t_1, n_2, t_2 = contact.pair_forces(
         *carrying, (place.x, place.z), (0.0, STANDARD_GRAVITY)
     )
@@ -277,13 +289,3 @@ def _torques(
         force_x, force_z = load * n_x + traction * n_z, load * n_z - traction * n_x
         torque[end] += abs(mass * (arm_x * force_z - arm_z * force_x))
     return torque
-
-
-def _spare_torque(robot: Robot, poses: list[MovePose]) -> float:
-    spare = [
-        pair.max_torque - pose.torque[end]
-        for pose in poses
-        for end, pair in robot.flippers().items()
-        if pair.max_torque is not None and end in pose.torque
-    ]
-    return min(spare, default=math.nan)
