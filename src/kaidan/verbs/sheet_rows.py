@@ -21,7 +21,7 @@ class FieldRow(NamedTuple):
     value: str
     """With its unit, as people write it."""
     source: str
-    """Where it comes from; "default" where nobody stated it; empty: not said."""
+    """Where it comes from; "default" where it is that of the sheet; empty: not said."""
     doubt: str
     """Standard uncertainty; empty where none is stated."""
 
@@ -62,8 +62,6 @@ def _rows(
                 field=path + name,
                 symbol=str(extra.get("symbol", "")),
                 value=human(value, unit=unit),
-                source=sources.get(
-                    path + name, "" if name in sheet.model_fields_set else "default"
-                ),
+                source=sources.get(path + name, "default" if value == field.default else ""),
                 doubt=human(doubt, unit=unit) if doubt else "",
             )

@@ -16,7 +16,7 @@ from starlette.exceptions import HTTPException
 
 import kaidan
 from kaidan import catalog
-from kaidan.errors import InputError, KaidanError
+from kaidan.errors import InputError, KaidanError, shown
 from kaidan.robot import Robot
 from kaidan.sheet import Sheet
 from kaidan.surface import Surface
@@ -33,6 +33,9 @@ LARGEST_UPLOAD = 256 << 20
 """Largest upload [bytes]."""
 _UPLOAD_SECONDS = 120.0
 """Time to read a file [s]."""
+_DOCUMENTS = {"html": "text/html; charset=utf-8", "pdf": "application/pdf"}
+_OF_A_DOCUMENT = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'"
+"""A document has its style and its pictures inside, and nothing that runs."""
 _FOLDERS: Mapping[str, tuple[catalog.Folder, ...]] = {
     "robots": ("robots", "unweighed"),
     "stairs": ("stairs",),
@@ -83,6 +86,7 @@ def app_of(
     _add_catalogue(app)
     _add_verbs(app, hands)
     _add_files(app, hands)
+    _add_report(app, hands)
     app.openapi = lambda: openapi.described(app)  # type: ignore[method-assign]
     app.mount("/", StaticFiles(directory=STATIC, html=True), name="page")
     return app
@@ -159,6 +163,28 @@ def _add_files(app: FastAPI, hands: Workers) -> None:
 
     add("read", "As kaidan read FILE --json")
     add("building", "As kaidan building FILE --json")
+
+
+def _add_report(app: FastAPI, hands: Workers) -> None:
+    @app.post(
+        "/api/report", openapi_extra=openapi.written(tuple(_DOCUMENTS)), max_body_size=LARGEST_BODY
+    )
+    async def report(request: Request) -> Response:
+        """As kaidan report -o FILE."""
+        body = await _json_of(request)
+        form = body.pop("format", "html")
+        if form not in (*_DOCUMENTS, "json"):
+            known = ", ".join((*_DOCUMENTS, "json"))
+            raise InputError(f"report: format {shown(form)} is not known; known: {known}")
+        task = {"kind": "report", "format": form, "body": body}
+        reply = await hands.ask(task, seconds=_UPLOAD_SECONDS)
+        if form == "json" or reply.status != 200:
+            return _sent(reply)
+        headers = {
+            "Content-Disposition": f'inline; filename="kaidan-report.{form}"',
+            "Content-Security-Policy": _OF_A_DOCUMENT,
+        }
+        return Response(reply.content, 200, headers, _DOCUMENTS[form])
 
 
 async def _uploaded(request: Request, verb: str, hands: Workers) -> Response:

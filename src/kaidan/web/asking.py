@@ -4,7 +4,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from inspect import Parameter, signature
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from kaidan import catalog
 from kaidan.answer import Answer
@@ -16,6 +16,9 @@ from kaidan.surface import Surface
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.units import range_of
+
+if TYPE_CHECKING:
+    from kaidan.verbs.report import Report
 
 MOST_CELLS = 2_000
 """Largest sweep that is answered at once; a larger one is a job."""
@@ -160,6 +163,37 @@ def answered(verb: str, body: Mapping[str, Any]) -> Answer:
             raise InputError(f"question = {shown(whole)} is not a table")
         made["robot"] = Question.model_validate(whole)
     return asked.load()(**made)
+
+
+def report_of(body: Mapping[str, Any]) -> "Report":
+    """Report, see `kaidan.report`.
+
+    Parameters
+    ----------
+    body : mapping
+        robot or robots, stairs (a list is of several missions), and everything else of a question;
+        or "question", one or a list of those that answers have, with what is changed of them.
+    """
+    from kaidan.verbs.report import report
+
+    values = {name: value for name, value in body.items() if value is not None}
+    whole = values.pop("question", None)
+    _refuse_unknown("report", values, {"robots", *signature(Question.of).parameters})
+    if "robots" in values and "robot" in values:
+        raise InputError("report: give robot or robots, not both")
+    robots = values.pop("robots", values.pop("robot", None))
+    made = _made(values, {"stairs"})
+    if whole is not None:
+        questions = whole if isinstance(whole, list) else [whole]
+        for each in questions:
+            if not isinstance(each, Mapping):
+                raise InputError(f"question = {shown(each)} is not a table")
+        return report([Question.model_validate(each) for each in questions], **made)
+    for name, given in (("robot", robots), ("stairs", values.get("stairs"))):
+        if given is None:
+            raise InputError(f"report: no {name}: give a name of the catalogue or a sheet")
+    each_robot = robots if isinstance(robots, list) else [robots]
+    return report([_robot(each) for each in each_robot], made.pop("stairs"), **made)
 
 
 def read_of(file: str, body: Mapping[str, Any]) -> Answer:

@@ -2,12 +2,15 @@
 
 from collections.abc import Mapping
 from functools import cache
+from inspect import signature
 from typing import Any
 
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
 
+from kaidan.question import Question
+from kaidan.verbs.report.answer import Report
 from kaidan.web.asking import VERBS
 
 _PLACE = "#/components/schemas/{model}"
@@ -42,6 +45,27 @@ def asked(verb: str, answer: type[BaseModel]) -> dict[str, Any]:
             "content": {"application/json": {"schema": _body(verb)}},
         },
         "responses": _responses(answer),
+    }
+
+
+def written(formats: tuple[str, ...]) -> dict[str, Any]:
+    """What the route of reports takes and gives."""
+    properties: dict[str, Any] = {name: {} for name in signature(Question.of).parameters}
+    properties |= {"robots": {}, "question": {}, "format": {"enum": [*formats, "json"]}}
+    schema = {"type": "object", "properties": properties, "additionalProperties": False}
+    return {
+        "requestBody": {"required": True, "content": {"application/json": {"schema": schema}}},
+        "responses": _responses(Report)
+        | {
+            "200": {
+                "description": "the document",
+                "content": {
+                    "application/json": {"schema": {"$ref": _PLACE.format(model="Report")}},
+                    "application/pdf": {},
+                    "text/html": {},
+                },
+            }
+        },
     }
 
 
@@ -83,7 +107,7 @@ def described(app: FastAPI) -> dict[str, Any]:
             title=app.title, version=app.version, description=app.description, routes=app.routes
         )
         schemas = whole.setdefault("components", {}).setdefault("schemas", {})
-        models: list[type[BaseModel]] = [Said, Refusal]
+        models: list[type[BaseModel]] = [Said, Refusal, Report]
         models += [each.answers() for each in VERBS.values()]
         for model in models:
             schemas |= _schemas(model)

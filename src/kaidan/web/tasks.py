@@ -7,7 +7,7 @@ from typing import Any
 
 from kaidan.answer import Answer
 from kaidan.errors import KaidanError, MissingExtraError, RefusedError
-from kaidan.web.asking import answered, building_of, read_of
+from kaidan.web.asking import answered, building_of, read_of, report_of
 
 Done = tuple[dict[str, Any], bytes]
 """How a task ended, and what is to be sent."""
@@ -71,6 +71,15 @@ def _building(task: Mapping[str, Any]) -> bytes:
     return _as_json(building_of(_uploaded(task), task["body"]))
 
 
+def _report(task: Mapping[str, Any]) -> bytes:
+    form = task["format"]
+    if form == "json":
+        return _as_json(report_of(task["body"]))
+    from kaidan.documents import report_bytes
+
+    return report_bytes(report_of(task["body"]), form)
+
+
 def _uploaded(task: Mapping[str, Any]) -> str:
     """Name of the one file in the folder of a task, which becomes the process's own."""
     os.chdir(task["folder"])
@@ -83,4 +92,5 @@ _DO: Mapping[str, Callable[[Mapping[str, Any]], bytes]] = {
     "text": _text,
     "read": _read,
     "building": _building,
+    "report": _report,
 }

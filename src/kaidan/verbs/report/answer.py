@@ -21,8 +21,8 @@ class InputRow(Part):
     value: str
     """With its unit, as people write it."""
     source: str
-    """Where it comes from, with its status letter; "default" where nobody stated it; empty: not
-    said."""
+    """Where it comes from, with its status letter; "default" where it is that of the sheet;
+    empty: not said."""
     doubt: str
     """Standard uncertainty or range; empty where none is stated."""
 

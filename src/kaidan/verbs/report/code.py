@@ -42,7 +42,7 @@ def code_of(question: Question) -> str:
 
     Examples
     --------
-    >>> question = Question.of("kenaf", "ibc", friction=0.8, flippers="20deg,-5deg")
+    >>> question = Question.of("kenaf", "ibc", friction=0.8)
     >>> question_of(code_of(question)) == question
     True
     """
