@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from amounts import fast_and_slow
 from kaidan import Robot, Stairs, assess, sweep, verdicts
 from kaidan.mechanics.verdict import Judged
 from kaidan.models.closed_form import MODES
@@ -173,10 +174,11 @@ def assert_same(found, asked):
         assert found["a_min"] == pytest.approx(one.a_min, rel=1e-9, abs=1e3 * ROUNDING)
 
 
-def test_assess_and_sweep_agree_on_certain_cases():
+@pytest.mark.parametrize("sweeps", fast_and_slow(25, 110))
+def test_assess_and_sweep_agree_on_certain_cases(sweeps):
     draw = np.random.default_rng(3)
     seen, governing, count = dict.fromkeys(WORDS.values(), 0), set(), 20
-    for _ in range(110):
+    for _ in range(sweeps):
         robot, question = random_robot(draw), random_question(draw)
         flights = random_flights(draw, robot.track.flat_length, count)
         if draw.random() < 0.2:
@@ -194,6 +196,6 @@ def test_assess_and_sweep_agree_on_certain_cases():
             seen[asked.verdict] += 1
             if asked.verdict != "outside-model":
                 governing.add(asked.governs)
-    assert sum(seen.values()) >= 2_000
-    assert min(seen.values()) > 100, seen
+    assert sum(seen.values()) == count * sweeps
+    assert min(seen.values()) > sweeps, seen
     assert governing == {*(mode.key for mode in MODES), Undecided.FRICTION_UNKNOWN}

@@ -5,13 +5,12 @@ import math
 import numpy as np
 import pytest
 
+from amounts import fast_and_slow
 from kaidan.assessment import answer_to
 from kaidan.modes import Verdict
 from kaidan.question import Question
 from kaidan.robot import Robot, Track
 from kaidan.terrain.stairs import Stairs
-
-pytest.importorskip("numba")  # a hundred whole flights take minutes without the compiled kernel
 
 TOLERANCE = 6e-5  # deg: the 1e-6 rad
 
@@ -46,11 +45,10 @@ def questions(number, seed):
         )
 
 
-def test_grade_one_is_the_closed_form_and_verdicts_are_never_more_lenient():
-    import numba  # noqa: F401 - whatever is loaded is used
-
+@pytest.mark.parametrize("count", fast_and_slow(50, 200))
+def test_grade_one_is_the_closed_form_and_verdicts_are_never_more_lenient(count):
     seen = dict.fromkeys(Verdict, 0)
-    for question in questions(200, seed=1):
+    for question in questions(count, seed=1):
         contact, closed = (
             answer_to(question.changed(model=model)) for model in ("contact", "closed-form")
         )

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from amounts import fast_and_slow
 from contact_cases import random_robot, random_terrain
 from kaidan.contact import (
     Job,
@@ -53,8 +54,9 @@ def compare(seeds, way):
         same(*both(terrain, parts, kinds, acceleration, way))
 
 
-def test_random_traverses():
-    compare(range(15), way=0.6)
+@pytest.mark.parametrize("count", fast_and_slow(6, 15))
+def test_random_traverses(count):
+    compare(range(count), way=0.6)
 
 
 @pytest.mark.slow

@@ -10,6 +10,7 @@ pytest.importorskip("mujoco")
 pytest.importorskip("sklearn")
 pytest.importorskip("emcee")
 
+from amounts import fast_and_slow
 from kaidan.errors import InputError
 from kaidan.figures.region_figure import region_figure
 from kaidan.robot import Robot
@@ -100,11 +101,12 @@ def test_likelihood_by_hand():
     assert likelihood(55.5, value + 0.5) < likelihood(55.5)
 
 
-def test_known_parameters_are_found_and_the_rest_is_left_open(monkeypatch):
+@pytest.mark.parametrize(("points", "steps"), fast_and_slow((60, 150), (80, 300)))
+def test_known_parameters_are_found_and_the_rest_is_left_open(points, steps, monkeypatch):
     # the zone goes with a share of 0.29 to 0.50, theta_d with 0.47 to 0.67; nothing else does
     monkeypatch.setattr(yielding, "points_of", lambda *a: [made_up(list(s), g) for s, g in a[3]])
     bench = Bench(lambda specs: pytest.fail("no trial"), seed=0, trials=2)
-    found = yielding.calibrate_yielding(bench, KENAF, points=80, steps=300)
+    found = yielding.calibrate_yielding(bench, KENAF, points=points, steps=steps)
     first, *others = found.parameters
     low, high = (first.interval.low, first.interval.high)
     axis = design.AXES[0]

@@ -1,0 +1,14 @@
+"""Proofs in two sizes: a few cases in every run, all of them among the slow tests."""
+
+import pytest
+
+
+def few_of(count, fast):
+    """Numbers from 0, the first of them in every run, all others slow."""
+    return [k if k < fast else pytest.param(k, marks=pytest.mark.slow) for k in range(count)]
+
+
+def fast_and_slow(few, many):
+    """An amount for every run, and the whole one by name."""
+    whole = many if isinstance(many, tuple) else (many,)
+    return [few, pytest.param(*whole, marks=pytest.mark.slow)]
