@@ -132,6 +132,8 @@ POSTURE_TOLERANCE = failure_mode("posture_tolerance", "", "flippers some degrees
 """Of a plan that was found: off its angles its verdict is worse."""
 LANDING_ROOM = failure_mode("landing_room", "m", "a landing shorter than the robot")
 NARROW = failure_mode("narrow", "m", "a flight narrower than the robot needs")
+FOOT_UNSEEN = failure_mode("foot_unseen", "", "a first riser that nobody saw")
+"""Of a scan: the flight may begin lower, or with a higher riser."""
 LOW = failure_mode("low", "m", "a ceiling lower than the robot needs")
 TWIST = failure_mode("twist", "rad", "tipping on nosings that differ from left to right")
 UNWEIGHED = failure_mode("unweighed", "", "a centroid that nobody measured")

@@ -30,7 +30,7 @@ class Refusal:
 
 @dataclass(frozen=True)
 class LandingEstimate:
-    """A level place before, between or behind flights; NaN: not seen."""
+    """A level place before, between or behind flights; NaN: its end was not seen."""
 
     depth: float = math.nan
     """Along the heading of the flight below, of the first one along that of the flight above [m]"""

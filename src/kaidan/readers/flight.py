@@ -120,6 +120,11 @@ class FlightEstimate:
     """Length of the floor before the first nosing as far as it was seen [m]; NaN: not seen."""
     run_out: float = math.nan
     """Length of the landing behind the last nosing as far as it was seen [m]; NaN: not seen."""
+    room_before: float = math.nan
+    """Distance from the first nosing to what stands across the way before it [m]; NaN: nothing was
+    seen there."""
+    room_behind: float = math.nan
+    """The same behind the last nosing [m]."""
     overhang: float = 0.0
     """Overhang of the nosings over the treads below [m]."""
     open_risers: bool = False
@@ -283,6 +288,8 @@ class FlightEstimate:
             sheet["uncertainty"] = StairsUncertainty(
                 angle=angle, nosing_spacing=spacing, rise=step_rise, going=step_going
             )
+        seen = {"foot_seen": self.begins, "head_seen": self.ends}
+        sheet |= {key: False for key, was in seen.items() if not was}
         sheet |= self._across()
         return Stairs(
             name=name, nosing_overhang=self.overhang, open_risers=self.open_risers, **sheet

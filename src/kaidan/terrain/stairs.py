@@ -139,6 +139,12 @@ class Stairs(Sheet):
     )
     lower_landing: float = quantity("m", 0.0, 100.0, "length of the lower landing", default=2.0)
     upper_landing: float = quantity("m", 0.0, 100.0, "length of the upper landing", default=2.0)
+    foot_seen: bool = Field(
+        default=True, description="whether the level before the first riser is known, so its height"
+    )
+    head_seen: bool = Field(
+        default=True, description="whether a landing behind the last nosing is known to follow"
+    )
     direction: Literal["up", "down"] = Field(default="up", description="which way the robot goes")
     uncertainty: StairsUncertainty = Field(
         default=StairsUncertainty(), description="standard uncertainties"

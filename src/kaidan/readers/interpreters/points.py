@@ -14,6 +14,7 @@ from kaidan.readers.stairfit.chain import staircases
 from kaidan.readers.stairfit.corridor import NARROWEST, Lane, lanes, rotated
 from kaidan.readers.stairfit.gates import refused, surface_refusal
 from kaidan.readers.stairfit.gravity import frame, refined
+from kaidan.readers.stairfit.landing_end import landing_end
 from kaidan.readers.stairfit.patches import (
     SIDE,
     Patches,
@@ -230,6 +231,7 @@ def _flight(steps: Steps, lane: Lane, gravity: float, error: float, cloud: Array
         return np.column_stack([along * c - t * s, along * s + t * c, steps.at[:, 1]])
 
     low, high = steps.width
+    before, behind = _room(steps, lane, cloud)
     return FlightEstimate(
         left=placed(high),
         right=placed(low),
@@ -245,6 +247,8 @@ def _flight(steps: Steps, lane: Lane, gravity: float, error: float, cloud: Array
         headroom=_headroom(steps, lane, cloud),
         run_up=steps.run_up,
         run_out=steps.landing,
+        room_before=before,
+        room_behind=behind,
         notes=tuple(_notes(steps)),
     )
 
@@ -273,6 +277,17 @@ def _headroom(steps: Steps, lane: Lane, cloud: Array) -> float:
     over = z[inside] - first[1] - slope * (s[inside] - first[0])
     over = over[over > LOWEST_CEILING]
     return float(np.percentile(over, 1)) if len(over) > 30 else math.nan
+
+
+def _room(steps: Steps, lane: Lane, cloud: Array) -> tuple[float, float]:
+    """How far from the first and the last nosing something stands across the way [m]; NaN: free."""
+    s, t, z = rotated(cloud, lane.heading)
+    first, last = steps.at[0], steps.at[-1]
+    base = steps.floor if math.isfinite(steps.floor) else first[1] - steps.line.rise
+    return (
+        landing_end(first[0] - s, t, z - base, width=steps.width),
+        landing_end(s - last[0], t, z - last[1], width=steps.width),
+    )
 
 
 def _beside(one: FlightEstimate, other: FlightEstimate) -> bool:

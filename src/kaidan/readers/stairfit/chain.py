@@ -48,19 +48,19 @@ def _follows(below: FlightEstimate, above: FlightEstimate) -> bool:
 def _staircase(
     chain: list[FlightEstimate], provenance: Provenance, number: int, frame: Array | None
 ) -> StairsEstimate:
-    landings = [LandingEstimate(chain[0].run_up, chain[0].width, chain[0].base)]
+    landings = [LandingEstimate(chain[0].room_before, chain[0].width, chain[0].base)]
     for below, above in pairwise(chain):
         turn = above.heading - below.heading
         turn = math.atan2(math.sin(turn), math.cos(turn))
         landings.append(_landing(below, above, turn))
     last = chain[-1]
-    landings.append(LandingEstimate(last.run_out, last.width, float(last.middle[-1, 2])))
+    landings.append(LandingEstimate(last.room_behind, last.width, float(last.middle[-1, 2])))
     name = "stairs" if not number else f"stairs-{number + 1}"
     return StairsEstimate(tuple(chain), tuple(landings), provenance, name, frame=frame)
 
 
 def _landing(below: FlightEstimate, above: FlightEstimate, turn: float) -> LandingEstimate:
-    """Landing between two flights: as long as was seen of it, as wide as both need."""
+    """Landing between two flights: as deep as to what stands across it, as wide as both need."""
     level = float(below.middle[-1, 2])
     if abs(turn) < math.radians(20):
         ahead = np.array([math.cos(below.heading), math.sin(below.heading)])
@@ -68,4 +68,4 @@ def _landing(below: FlightEstimate, above: FlightEstimate, turn: float) -> Landi
         return LandingEstimate(depth, below.width, level, turn)
     side = np.array([-math.sin(below.heading), math.cos(below.heading)])
     ends = np.vstack([below.left, below.right, above.left, above.right])[:, :2] @ side
-    return LandingEstimate(below.run_out, float(np.ptp(ends)), level, turn)
+    return LandingEstimate(below.room_behind, float(np.ptp(ends)), level, turn)

@@ -236,6 +236,7 @@ def _flight(
 
     m = nosings.shape[1]
     going = float((last[0] - first[0]) / (m - 1))
+    run_up = float(first[0] - foot[0, 0]) if len(foot) and not alone else math.nan
     run_out = float(landing[-1, 0] - last[0]) if len(landing) else math.nan
     overhang, open_risers = _faces(segments, value + slope * at.mean())
     return FlightEstimate(
@@ -243,7 +244,7 @@ def _flight(
         covariance=np.tile(np.eye(2) * AS_DRAWN**2, (m, 1, 1)), gravity=0.0, scale=0.0,
         floor=math.nan if alone or not len(before) else float(before[-1, 1]),
         floor_sigma=AS_DRAWN, ends=run_out > SHORT * going,
-        run_up=float(first[0] - foot[0, 0]) if len(foot) and not alone else math.nan,
-        run_out=run_out, width=sides[1] - sides[0], overhang=overhang, open_risers=open_risers,
+        run_up=run_up, run_out=run_out, room_before=run_up, room_behind=run_out,
+        width=sides[1] - sides[0], overhang=overhang, open_risers=open_risers,
         notes=(text.FLOOR_UNSEEN,) if alone or not len(before) else (),
     )  # fmt: skip

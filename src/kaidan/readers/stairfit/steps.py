@@ -31,8 +31,9 @@ LANES = (0.05, 0.2)
 """Widths of the lanes in which ends are sought, the second where the first holds too few [m]."""
 FEWEST_LANES = 3
 """Lanes in which an end must be seen."""
-LOCAL = 0.3
-"""Share of the doubt of the range that differs from one nosing to the next [1]."""
+LOCAL = 0.15
+"""Share of the doubt of the range that differs from one nosing to the next [1]: half of that which
+differs from one direction to the next, because a nosing is a mean over its width."""
 SMALLEST = 5e-4
 """Standard uncertainty of a nosing at best [m]: edges are not sharper."""
 STRIP = 0.1
@@ -43,6 +44,9 @@ EDGE_OFF = 0.03
 """Distance of the end of an element from its regular place up to which it is its end [m]."""
 OUT_OF_LEVEL = math.tan(math.radians(3.0))
 """Slope across at which a tread is none; along it, where edges blur it, twice that."""
+ODD_UNSEEN = 0.3
+"""Largest difference of the last riser from the others, as a share of them, where its face was not
+seen [1]: what lies higher is something that stands on the landing."""
 FLOOR_SEEN = 15
 """Points from which a floor counts as seen."""
 
@@ -138,9 +142,10 @@ def steps_of(
     covariance = np.einsum("mi,mj->mij", along, along)
     covariance[:, [0, 1], [0, 1]] += sigma**2 + SMALLEST**2
     rms = float(np.sqrt(np.mean(np.minimum(np.abs(off), tight) ** 2)))
+    floor_sigma = math.hypot(floor_sigma, 2 * LOCAL * range_error * float(ranges[0]))
     return Steps(
         line=line, at=found, covariance=covariance, measured=measured,
-        floor=floor, floor_sigma=math.hypot(floor_sigma, LOCAL * range_error * float(ranges[0])),
+        floor=floor, floor_sigma=floor_sigma,
         ends=math.isfinite(landing), landing=landing, run_up=run_up,
         roughness=rms, residual=float(np.median(np.abs(off))),
         explained=explained_share(line, s, t, z, tight), depth=_depth(line, s, t, z),
@@ -333,8 +338,10 @@ def _last_riser(
     face &= z < height - 0.1 * r
     if face.sum() >= FEWEST_POINTS:
         front, doubt_s = float(np.median(s[face])), noise / math.sqrt(face.sum())
-    else:
+    elif abs(height - last[1] - r) < ODD_UNSEEN * r:
         front, doubt_s = last[0] + g, UNCHECKED
+    else:
+        return found, sigma, measured, math.nan
     return (
         np.vstack([found, [front, height]]),
         np.vstack([sigma, [doubt_s, doubt]]),
