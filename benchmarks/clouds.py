@@ -34,6 +34,22 @@ def stairs(count: int, first: int, noise: float) -> None:
             print(f"  {name:<12}{row}")
 
 
+def verdicts(count: int, first: int, noise: float) -> None:
+    each = [row for k in range(first, first + count) for row in campaign.verdicts(k, noise)]
+    pairs = sorted({row[:2] for row in each})
+    print(f"{len(each)} answers about clouds beside those about the truth")
+    for pair in pairs:
+        print(f"  truth {pair[0]:<8} cloud {pair[1]:<8} {sum(row[:2] == pair for row in each):>5}")
+    print("  P(fail) of the cloud beside the share that fails in truth")
+    for low, high in ((0.0, 0.01), (0.01, 0.1), (0.1, 0.5), (0.5, 0.9), (0.9, 1.01)):
+        some = [row for row in each if row[2] is not None and low <= row[2] < high]
+        if some:
+            mean = np.mean([row[2] for row in some])
+            share = np.mean([row[0] == "no-go" for row in some])
+            share_of = f"mean {mean:.3f}  truth {share:.3f}"
+            print(f"  {low:4.2f} to {min(high, 1):4.2f} {len(some):>5} {share_of}")
+
+
 def without(count: int, first: int) -> None:
     found = []
     for number in range(first, first + count):
@@ -68,11 +84,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--stairs", type=int, default=100)
     parser.add_argument("--without", type=int, default=100)
+    parser.add_argument(
+        "--verdicts", type=int, default=30, help="scenes of which robots are judged"
+    )
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--noise", type=float, default=0.01, help="largest noise [m]")
     options = parser.parse_args()
     if options.stairs:
         stairs(options.stairs, options.first, options.noise)
+    if options.verdicts:
+        verdicts(options.verdicts, options.first, options.noise)
     if options.without:
         without(options.without, options.first)
     speed()

@@ -5,8 +5,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+import kaidan
 import lookalikes
 import scenes
+from kaidan import Stairs
 from kaidan.readers.hints import Hints
 from kaidan.readers.interpreters import points as interpreter
 from kaidan.readers.kinds import Known, Points, Provenance
@@ -147,6 +149,34 @@ def judge(number, tally, most_noise=0.01):
     tally.add("spacing", error @ along / (n - 2), np.sqrt(along @ spread @ along) / (n - 2))
     angle = np.degrees(np.sqrt(across @ spread @ across) / length)
     tally.add("angle_deg", np.degrees(error @ across / length), angle)
+
+
+ROBOTS = (("ozbot-atr", "stowed"), ("absolem", "flat"), ("superdroid-hd2", "stowed"))
+FRICTIONS = (0.5, 0.65, 0.8, 1.0, 1.2)
+
+
+def verdicts(number, most_noise=0.01):
+    """Of each robot: verdict of the truth, that of the cloud, and P(fail) of the cloud.
+
+    Robots, allowances and friction are exact, so that only the cloud is in doubt. Nothing where
+    the cloud does not show all of the nosings.
+    """
+    made = case(number, most_noise)
+    found = interpreter.found(cloud(made.seen), Hints())
+    true = made.nosings
+    if not found.staircases or len(found.staircases[0].flights[0]) != len(true):
+        return []
+    steps = np.diff(true, axis=0, prepend=0.0)
+    truth = Stairs(name="truth", rises=tuple(steps[:, 1]), goings=tuple(steps[1:, 0]))
+    (read,) = found.staircases[0].stairs()
+    rng = np.random.default_rng(number)
+    each = []
+    for name, flippers in ROBOTS:
+        how = {"flippers": flippers, "friction": float(rng.choice(FRICTIONS))}
+        how |= {"theta_d": "1.3deg", "theta_M": "1.3deg"}
+        answers = [kaidan.assess(name, stairs, **how) for stairs in (truth, read)]
+        each.append((*(answer.verdict for answer in answers), answers[1].failure_probability))
+    return each
 
 
 def lookalike(number):

@@ -412,13 +412,16 @@ class Question(Sheet):
         return self.profile.as_stairs(self.terrain_name)
 
     @property
+    def flights(self) -> tuple[Stairs, ...]:
+        """Sheets of its flights from bottom to top; none of a profile."""
+        flights = self.terrain if isinstance(self.terrain, tuple) else (self.terrain,)
+        return tuple(each for each in flights if isinstance(each, Stairs))
+
+    @property
     def room(self) -> tuple[float | None, float | None] | None:
         """Least clear width and headroom of its flights [m]; None: neither is stated."""
-        if isinstance(self.terrain, Profile):
-            return None
-        flights = (self.terrain,) if isinstance(self.terrain, Stairs) else self.terrain
-        widths = [each.width for each in flights if each.width is not None]
-        heights = [each.headroom for each in flights if each.headroom is not None]
+        widths = [each.width for each in self.flights if each.width is not None]
+        heights = [each.headroom for each in self.flights if each.headroom is not None]
         if not widths and not heights:
             return None
         return min(widths, default=None), min(heights, default=None)
@@ -426,10 +429,8 @@ class Question(Sheet):
     @property
     def uneven_across(self) -> bool:
         """Whether the two tracks meet other steps, so that the flight is judged under both."""
-        flights = self.terrain if isinstance(self.terrain, tuple) else (self.terrain,)
-        measured = [each for each in flights if isinstance(each, Stairs)]
         return any(
-            each.twisted or (self.yaw != 0.0 and each.rises is not None) for each in measured
+            each.twisted or (self.yaw != 0.0 and each.rises is not None) for each in self.flights
         )
 
     @property

@@ -1,4 +1,4 @@
-"""Width and headroom of stairs entered by hand: further findings beside any model's own."""
+"""Width and headroom of hand-entered stairs, and what a scan did not see: findings of any model."""
 
 import math
 
@@ -97,3 +97,19 @@ def test_the_wider_of_tracks_and_body_counts():
     assert BOX.overall_width == 0.5
     assert BOX.model_copy(update={"width": 0.6}).overall_width == 0.6
     assert BOX.model_copy(update={"width": 0.3}).overall_width == 0.5
+
+
+def test_a_scan_without_the_floor_is_no_go_yet():
+    answer = asked(foot_seen=False)
+    assert (answer.verdict, answer.governs) == ("caution", "foot_unseen")
+    assert answer.reason == (
+        "The floor before the first riser was not seen, so that riser may be higher than the "
+        "others: scan it again with the floor in view."
+    )
+
+
+def test_a_scan_without_the_landing_says_what_nobody_knows():
+    """From the foot nobody sees the landing's surface: that alone takes no GO."""
+    answer = asked(head_seen=False)
+    assert answer.verdict == asked().verdict == "go"
+    assert "whether more steps follow the last one: no landing was seen" in str(answer)

@@ -4,11 +4,12 @@ A model is a module with a function ``judge(question, *, known=None) -> Findings
 `kaidan.modes.MODELS`.
 """
 
+import math
 from dataclasses import replace
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from kaidan.modes import MODELS
+from kaidan.modes import FOOT_UNSEEN, MODELS, Verdict
 
 if TYPE_CHECKING:
     from kaidan.models.findings import Findings
@@ -39,6 +40,11 @@ def judge(question: "Question", *, known: "Findings | None" = None) -> "Findings
         from kaidan.models.clearance import findings_of
 
         found = replace(found, each=(*found.each, *findings_of(question, room, found.model)))
+    if not all(flight.foot_seen for flight in question.flights):
+        from kaidan.models.findings import Finding
+
+        unseen = Finding.certain(FOOT_UNSEEN, -math.inf, failing=Verdict.CAUTION, model=found.model)
+        found = replace(found, each=(*found.each, unseen))
     if question.uneven_across:
         from kaidan.models.two_tracks import beside
 

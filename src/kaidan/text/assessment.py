@@ -103,7 +103,11 @@ def unknown_line(answer: "Assessment") -> str:
     drive = answer.findings.get("drive")
     if drive is not None and drive.holds is None:
         names.append("the drive's traction")
-    return f"{', '.join(names)}: measure them" if names else ""
+    each = [f"{', '.join(names)}: measure them"] if names else []
+    flights = answer.question.flights
+    if flights and not flights[-1].head_seen:
+        each.append("whether more steps follow the last one: no landing was seen")
+    return "; ".join(each)
 
 
 def details(answer: "Assessment") -> str:

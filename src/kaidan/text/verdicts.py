@@ -228,6 +228,15 @@ def _room(
     return f"A landing is {short:.0f} mm shorter than the robot."
 
 
+def _unseen(
+    question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
+) -> str:
+    return (
+        "The floor before the first riser was not seen, so that riser may be higher than the "
+        "others: scan it again with the floor in view."
+    )
+
+
 def _drive(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
@@ -315,6 +324,7 @@ _SAYINGS: dict[str, _Saying] = {
     "energy": _energy,
     "high_centring": _belly,
     "landing_room": _room,
+    "foot_unseen": _unseen,
     "posture_change": _changes,
     "flipper_torque": _torque,
     "posture_tolerance": _tolerance,

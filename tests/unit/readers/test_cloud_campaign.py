@@ -1,5 +1,6 @@
 """Samples of the campaigns that ``benchmarks/clouds.py`` runs in full."""
 
+import numpy as np
 import pytest
 
 import cloud_campaign as campaign
@@ -26,8 +27,8 @@ def test_a_lookalike_is_no_staircase(number):
 @pytest.mark.slow
 def test_doubts_are_neither_too_small_nor_too_large():
     """Of nosing spacing and angle, whose errors the scenes draw from what the reader takes for
-    granted; no first riser off by more than 3 sigma, but for chance in 150. A last riser may be:
-    in 1 of 35 scenes its end was hidden."""
+    granted; no first riser off by more than 3 sigma, but for chance in 150. Last risers are few:
+    from the foot landings are hidden."""
     tally = campaign.Tally()
     for number in range(150):
         campaign.judge(number, tally)
@@ -37,6 +38,18 @@ def test_doubts_are_neither_too_small_nor_too_large():
         assert 0.6 < rms < 1.4
         assert within >= 0.85
     assert tally.row("first rise")[3] < 3.5
+
+
+@pytest.mark.slow
+def test_verdicts_of_clouds_agree_with_the_truth():
+    """Issue: P(GO) of a cloud agrees with the truth's verdict at the stated risk."""
+    each = [row for number in range(40) for row in campaign.verdicts(number)]
+    assert len(each) > 50
+    assert not [row for row in each if row[:2] == ("no-go", "go")]
+    sure = [row[0] != "no-go" for row in each if row[2] is not None and row[2] <= 0.01]
+    assert np.mean(sure) >= 0.97
+    doomed = [row[0] == "no-go" for row in each if row[2] is not None and row[2] >= 0.99]
+    assert np.mean(doomed) >= 0.97
 
 
 @pytest.mark.slow

@@ -54,6 +54,17 @@ def test_known_stairs_are_found_by_every_sensor(sensor, pose):
     assert ahead @ heading > math.cos(math.radians(3.5))  # the tilt of the frame, and 1.5 deg
 
 
+def test_what_of_the_floor_was_seen_is_not_how_long_it_is():
+    """A camera at the foot sees half a metre of it and stands on the rest."""
+    truth = scenes.regular(7, 0.17, 0.28)
+    seen = scenes.seen(scenes.with_stairs(truth), np.random.default_rng(3), away=1.5)
+    found = interpreter.found(cloud(seen), Hints())
+    assert the_flight(found).run_up < 1.2
+    (sheet,) = found.staircases[0].stairs()
+    assert (sheet.lower_landing, sheet.upper_landing) == (2.0, 2.0)  # as where nobody states them
+    assert (sheet.foot_seen, sheet.head_seen) == (True, False)
+
+
 def test_first_and_last_riser_are_measured_apart():
     truth = scenes.regular(6, 0.17, 0.28, first=0.14, last=0.185)
     seen = scenes.seen(

@@ -16,7 +16,7 @@ NEAREST, FARTHEST = 0.25, 4.0
 HEIGHTS = (0.25, 1.6)
 """Heights above the level between which a robot meets it [m]."""
 SLICE, STRIP = 0.1, 0.1
-"""Length along the way and width across it of the cells that are looked at [m]."""
+"""Depth and width of the cells in which points are counted [m]."""
 ACROSS = 0.7
 """Least share of the strips in which a wall is seen [1]: a person or a post covers fewer."""
 TALL = 0.4
@@ -32,7 +32,7 @@ def landing_end(ahead: Array, t: Array, over: Array, *, width: tuple[float, floa
         Points: distance from the nosing, away from the flight; place across; height over the level
         [m].
     width : tuple of float
-        Least and greatest t of the way [m].
+        Least and greatest t of the flight [m].
     """
     low, high = width
     near = (ahead > NEAREST) & (ahead < FARTHEST) & (t > low) & (t < high)
