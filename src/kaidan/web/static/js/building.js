@@ -1,0 +1,122 @@
+// A building model: its flights with a verdict for each robot, ways to the storeys, the plan.
+
+import { Refused, upload } from "./api.js";
+import { button, picker } from "./controls.js";
+import { h, line, replace, s } from "./dom.js";
+import { english, t } from "./i18n.js";
+import { symbol } from "./light.js";
+import { catalogue } from "./question.js";
+import { change, clear, packed, state } from "./state.js";
+import { figure, shown } from "./units.js";
+
+export function buildingView() {
+  let answer = null, file = null, surface = "";
+  const chosen = new Set(state.robot && !state.robot.startsWith("~") ? [state.robot] : []);
+  const boxes = h("fieldset", { class: "robots" });
+  const outcome = h("div", { "aria-live": "polite" });
+  const input = h("input", { type: "file", id: "model", accept: ".ifc,.ifczip", onchange: () => { file = input.files[0] ?? null; } });
+  const ground = picker({
+    label: t("ground.surface"), empty: t("ground.none"), get: () => surface, set: (value) => { surface = value; },
+    groups: () => [["", catalogue.surfaces.map((each) => [each.name, each.title])]],
+  });
+  const node = h("section", { class: "panel building" }, h("h2", {}, t("building.heading")), h("p", {}, t("building.lead")),
+    h("div", { class: "picker" }, h("label", { for: "model" }, t("building.file")), input), boxes, ground.node,
+    button(t("building.ask"), judge, { class: "main" }), outcome);
+
+  function fillBoxes() {
+    replace(boxes, h("legend", {}, t("building.robots")), catalogue.robots.map((robot) => {
+      const box = h("input", { type: "checkbox", value: robot.name, onchange: () => (box.checked ? chosen.add(robot.name) : chosen.delete(robot.name)) });
+      box.checked = chosen.has(robot.name);
+      return h("label", { class: "check" }, box, h("span", {}, robot.title));
+    }));
+  }
+
+  async function judge() {
+    if (!file || chosen.size === 0) return replace(outcome, h("p", { role: "alert", class: "refused" }, t("building.pick")));
+    replace(outcome, h("p", {}, t("building.reading")));
+    const fields = [...chosen].map((name) => ["robots", name]);
+    if (surface) fields.push(["surface", surface]);
+    try {
+      answer = await upload("building", file, fields);
+      replace(outcome, page(answer));
+    } catch (error) {
+      replace(outcome, h("p", { role: "alert", class: "refused" }, error instanceof Refused ? english(error.message) : t("state.offline")));
+    }
+  }
+
+  // The flight as a question of its own, with the robot of the cell and its manner.
+  function open(flight, cell) {
+    const sheet = {
+      name: flight.name || flight.identity, rise: flight.rise_m, going: flight.going_m, steps: flight.steps,
+      width: flight.width_m, headroom: flight.headroom_m, nosing_overhang: flight.overhang_m, open_risers: flight.open_risers,
+    };
+    clear("stairsFigures");
+    clear("robotFigures");
+    change({
+      view: "check", robot: cell.robot, stairs: packed(sheet), direction: cell.direction, facing: cell.facing, surface,
+      flippers: ["flat", "stowed", "best"].includes(cell.flippers) ? cell.flippers : "best",
+    });
+  }
+
+  function page(found) {
+    const wide = found.robots.length;
+    return [
+      storeys(found),
+      h("h3", {}, t("building.flights")),
+      found.flights.length === 0 ? null : h("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": t("building.flights") }, h("table", {},
+        h("thead", {}, h("tr", {}, h("th", { scope: "col" }, t("building.flight")), found.robots.map((name) => h("th", { scope: "col" }, name)))),
+        h("tbody", {}, found.flights.map((flight, row) => h("tr", {},
+          h("th", { scope: "row" }, flight.name || flight.identity, h("div", { class: "quiet" },
+            `${flight.storey} · ${flight.steps} × `, figure(flight.rise_m, "length"), " / ", figure(flight.going_m, "length"), ", ", figure(flight.angle_deg, "degrees"))),
+          found.cells.slice(row * wide, (row + 1) * wide).map((cell) => h("td", {}, verdictOf(cell), h("div", {}, english(cell.reason)),
+            button(t("building.open"), () => open(flight, cell), { "aria-label": `${t("building.open")}: ${flight.name}, ${cell.robot}` })))))))),
+      plan(found),
+      found.ways.length === 0 ? null : [h("h3", {}, t("building.ways", { start: found.start })), ways(found)],
+      list(t("building.refusals"), found.refusals), list(t("building.notes"), found.notes),
+    ];
+  }
+
+  return { node, update() { fillBoxes(); ground.update(); } };
+}
+
+function verdictOf(cell) {
+  return h("div", { class: `tag is-${cell.verdict}` }, symbol(cell.verdict, 22), h("b", {}, t(`verdict.${cell.verdict}`)), " ",
+    cell.binds ? t("building.binds", { what: t(`binds.${cell.binds}`) }) : "", " ",
+    cell.margin_deg === undefined || cell.margin_deg === null ? null : figure(cell.margin_deg, "degrees", { plus: true, of: "cell.margin_deg" }));
+}
+
+function storeys(found) {
+  return [h("h3", {}, t("building.storeys")), h("ul", { class: "storeys" }, [...found.storeys].reverse().map((storey) =>
+    h("li", {}, h("b", {}, storey.name), " ", t("building.level", { level: shown(storey.level_m, "length") }))))];
+}
+
+function ways(found) {
+  return h("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": t("building.ways", { start: found.start }) }, h("table", {},
+    h("thead", {}, h("tr", {}, h("th", { scope: "col" }, t("building.storey")), found.robots.map((name) => h("th", { scope: "col" }, name)))),
+    h("tbody", {}, [...new Set(found.ways.map((way) => way.storey))].map((storey) => h("tr", {}, h("th", { scope: "row" }, storey),
+      found.robots.map((name) => {
+        const way = found.ways.find((each) => each.storey === storey && each.robot === name);
+        return h("td", {}, way?.verdict ? [verdictOf(way), way.where ? h("div", {}, `${way.where}: `, english(way.reason)) : null] : t("building.no_way"));
+      }))))));
+}
+
+// Flights in the plan, with their numbers: the nosings and the lane, as the answer has them.
+function plan(found) {
+  const points = found.flights.flatMap((flight) => flight.lane);
+  if (points.length === 0) return null;
+  const [xs, ys] = [points.map((each) => each[0]), points.map((each) => each[1])];
+  const [left, low] = [Math.min(...xs) - 1, Math.min(...ys) - 1];
+  const [wide, tall] = [Math.max(...xs) + 1 - left, Math.max(...ys) + 1 - low];
+  const k = 1000;
+  const at = ([x, y]) => [(x - left) * k, (low + tall - y) * k];
+  const outlines = found.floors.flatMap((floor) => floor.outlines).map((each) => s("path", { class: "floor", d: `${line(each.map(at))}Z` }));
+  return [h("h3", {}, t("building.plan")), s("svg", { class: "plan", viewBox: `0 0 ${(wide * k).toFixed(0)} ${(tall * k).toFixed(0)}`, role: "img", "aria-label": `${t("building.plan")}: ${found.flights.map((each) => each.name).join(", ")}` },
+    outlines, found.flights.map((flight) => s("g", {},
+      s("path", { class: "lane", d: `${line(flight.lane.map(at))}Z` }),
+      flight.nosings.map(([x1, y1, x2, y2]) => s("path", { class: "nosing", d: line([at([x1, y1]), at([x2, y2])]) })),
+      s("text", { x: at(flight.lane[0])[0], y: at(flight.lane[0])[1] + 420 }, flight.name))))];
+}
+
+function list(heading, entries) {
+  return entries.length === 0 ? null : [h("h3", {}, heading), h("ul", {}, entries.map((each) => english(each, "li")))];
+}

@@ -1,0 +1,42 @@
+// Elements of HTML and SVG. Attributes starting with "on" are listeners: no handler is ever inline.
+
+const SVG = "http://www.w3.org/2000/svg";
+
+function fill(element, attributes, children) {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else element.setAttribute(name, value === true ? "" : value);
+  }
+  element.append(...children.flat().filter((child) => child !== null && child !== undefined && child !== false));
+  return element;
+}
+
+export function h(tag, attributes = {}, ...children) {
+  return fill(document.createElement(tag), attributes, children);
+}
+
+export function s(tag, attributes = {}, ...children) {
+  return fill(document.createElementNS(SVG, tag), attributes, children);
+}
+
+export function replace(element, ...children) {
+  element.replaceChildren(...children.flat().filter((child) => child !== null && child !== undefined && child !== false));
+}
+
+let count = 0;
+export function fresh(prefix) {
+  count += 1;
+  return `${prefix}-${count}`;
+}
+
+// A polyline as the "d" of a path; null breaks it.
+export function line(points) {
+  let path = "", pen = "M";
+  for (const point of points) {
+    if (point === null || !Number.isFinite(point[0]) || !Number.isFinite(point[1])) { pen = "M"; continue; }
+    path += `${pen}${point[0].toFixed(2)} ${point[1].toFixed(2)}`;
+    pen = "L";
+  }
+  return path;
+}

@@ -1,0 +1,114 @@
+// The page: what belongs to no view, and which view is open.
+
+import { onReach } from "./api.js";
+import { buildingView } from "./building.js";
+import { checkView } from "./check.js";
+import { h, replace } from "./dom.js";
+import { language, loadTexts, setLanguage, t } from "./i18n.js";
+import { symbol } from "./light.js";
+import { loadCatalogue } from "./question.js";
+import { fillSheet } from "./sheet.js";
+import { savedView } from "./saved.js";
+import { change, followAddress, readAddress, state, subscribe } from "./state.js";
+import { prefer, preference } from "./storage.js";
+import { lengths, setLengths } from "./units.js";
+
+const VIEWS = { check: checkView, building: buildingView, saved: savedView };
+let views = {}, chip = null, status = null, banner = null, sliding = false;
+
+const shell = {
+  say: (text) => { status.textContent = text; },
+  sliding: () => sliding,
+  share,
+  print: printed,
+  chip(kind, word) {
+    replace(chip, symbol(kind, 24), h("span", {}, word));
+    chip.className = `chip is-${kind}`;
+  },
+};
+
+function select(label, name, options, value) {
+  return h("label", { class: "setting" }, h("span", {}, label),
+    h("select", { onchange: (event) => { prefer(name, event.target.value); apply(); build(); } },
+      options.map(([key, text]) => h("option", { value: key, selected: key === value }, text))));
+}
+
+function apply() {
+  setLanguage(preference("language", navigator.language.startsWith("ja") ? "ja" : "en"));
+  setLengths(preference("lengths", "mm"));
+  document.documentElement.dataset.theme = preference("theme", "auto");
+}
+
+// All of the page in one language and one unit.
+function build() {
+  views.check?.stop();
+  document.title = t("app.title");
+  chip = h("a", { class: "chip", href: "#answer", onclick: (event) => { event.preventDefault(); const answer = document.getElementById("answer"); answer?.scrollIntoView(); answer?.focus(); } });
+  status = h("p", { role: "status", class: "toast" });
+  banner = h("p", { role: "status", class: "banner", hidden: true });
+  views = Object.fromEntries(Object.entries(VIEWS).map(([name, make]) => [name, make(shell)]));
+  const links = Object.keys(VIEWS).map((name) => h("a", { href: `#/${name}`, "data-view": name, onclick: (event) => {
+    event.preventDefault();
+    openView(name);
+  } }, t(`app.${name}`)));
+  replace(document.getElementById("page"),
+    h("a", { class: "skip", href: "#answer", onclick: (event) => { event.preventDefault(); document.getElementById("answer")?.focus(); } }, t("app.skip")),
+    h("header", {},
+      h("p", { class: "brand" }, h("b", {}, "kaidan"), h("span", { lang: "ja", "aria-hidden": "true" }, " 階段")),
+      h("nav", { "aria-label": "kaidan" }, links), chip,
+      h("details", { class: "settings" }, h("summary", {}, t("app.settings")), h("div", {},
+        select(t("app.language"), "language", [["en", "English"], ["ja", "日本語"]], language),
+        select(t("app.units"), "lengths", [["mm", "mm"], ["in", "inch"]], lengths),
+        select(t("app.theme"), "theme", ["auto", "light", "dark", "contrast"].map((each) => [each, t(`app.theme_${each}`)]), preference("theme", "auto"))))),
+    banner,
+    h("main", { id: "main" }, h("h1", { class: "visually-hidden" }, t("app.title")), Object.values(views).map((view) => view.node)),
+    h("div", { id: "sheet" }), status);
+  document.body.classList.add("ready");
+  update();
+}
+
+function openView(name) {
+  change({ view: name });
+  document.getElementById("main").scrollIntoView();
+}
+
+function update() {
+  const open = state.view in views ? state.view : "check";
+  for (const [name, view] of Object.entries(views)) view.node.hidden = name !== open;
+  for (const link of document.querySelectorAll("nav a")) {
+    if (link.dataset.view === open) link.setAttribute("aria-current", "page");
+    else link.removeAttribute("aria-current");
+  }
+  chip.hidden = open !== "check";
+  views[open].update();
+}
+
+async function share() {
+  await navigator.clipboard?.writeText(location.href);
+  shell.say(t("app.shared"));
+}
+
+function printed() {
+  fillSheet(document.getElementById("sheet"), views.check.current.answer);
+  window.print();
+}
+
+async function begin() {
+  apply();
+  readAddress();
+  for (const name of ["pointerdown", "keydown"]) addEventListener(name, (event) => { sliding = event.target?.type === "range"; }, true);
+  onReach((there) => {
+    if (!banner) return;
+    banner.hidden = there;
+    banner.textContent = there ? "" : t("state.offline");
+  });
+  await loadTexts();
+  await loadCatalogue().catch(() => {});
+  subscribe(update);
+  followAddress();
+  addEventListener("beforeprint", () => fillSheet(document.getElementById("sheet"), views.check.current.answer));
+  build();
+  if ("serviceWorker" in navigator && window.isSecureContext) navigator.serviceWorker.register("sw.js").catch(() => {});
+}
+
+begin();

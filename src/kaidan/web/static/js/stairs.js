@@ -1,0 +1,124 @@
+// Panel of the stairs: codes, sliders on a drawing, tape measure, a file.
+
+import { button, choice, fileButton, picker, slider } from "./controls.js";
+import { h, replace, s } from "./dom.js";
+import { t } from "./i18n.js";
+import { catalogue, terrainOf, valueOf, withFigures } from "./question.js";
+import { change, clear, packed, state, unpacked } from "./state.js";
+import { nameOf, save, sheetsOf } from "./storage.js";
+import { shown } from "./units.js";
+import { readFile } from "./upload.js";
+
+const OWN = { name: "measured", rise: 0.18, going: 0.28, steps: 12 };
+const FIGURES = [
+  ["rise", "length", 0.02, 0.35, 0.001],
+  ["going", "length", 0.1, 0.6, 0.001],
+  ["steps", "count", 2, 40, 1],
+  ["first_rise", "length", 0.02, 0.35, 0.001],
+  ["width", "length", 0.3, 3, 0.01],
+];
+
+export function stairsPanel(current) {
+  const figures = h("div", { class: "figures" });
+  const drawing = h("div", { class: "drawing" });
+  const found = h("div", {});
+  const slope = h("p", { class: "quiet" });
+  const details = h("details", {}, h("summary", {}, t("stairs.figures")), drawing, slope, figures);
+  const pick = picker({
+    label: t("stairs.heading"), empty: t("stairs.choose"), get: () => state.stairs,
+    groups: () => {
+      const own = packed(OWN);
+      const kept = Object.entries(sheetsOf("stairs")).map(([name, sheet]) => [packed(sheet), name]);
+      const given = state.stairs.startsWith("~") && state.stairs !== own && !nameOf("stairs", state.stairs)
+        ? [[state.stairs, nameIn(unpacked(state.stairs))]] : [];
+      return [
+        [t("stairs.given"), given], ["", [[own, t("stairs.own")]]], [t("stairs.saved"), kept],
+        [t("stairs.catalogue"), catalogue.stairs.map((each) => [each.name, each.title])],
+      ];
+    },
+    set: (stairs) => { clear("stairsFigures"); change({ stairs }); if (stairs === packed(OWN)) details.open = true; },
+  });
+  const direction = choice({
+    label: t("stairs.direction"), options: [["up", t("stairs.up")], ["down", t("stairs.down")]],
+    get: () => state.direction, set: (value) => change({ direction: value }),
+  });
+  let sliders = [], of = null;
+
+  function build(sheet) {
+    const regular = !Array.isArray(sheet) && Number.isFinite(sheet.rise);
+    const own = regular ? FIGURES : [];
+    sliders = own.map(([name, kind, low, high, step]) => slider({
+      label: t(`figure.${name}`), kind, low, high, step,
+      get: () => state.stairsFigures[name] ?? valueOf(sheet, name) ?? (name === "first_rise" ? state.stairsFigures.rise ?? sheet.rise : null),
+      set: (value, done) => change({ stairsFigures: { [name]: kind === "count" ? Math.round(value) : value } }, { push: done }),
+    }));
+    replace(figures, sliders.map((each) => each.node), h("div", { class: "buttons" },
+      regular ? button(t("robot.reset"), () => clear("stairsFigures")) : null,
+      button(t("robot.save"), () => {
+        const made = Array.isArray(sheet) ? sheet : withFigures(sheet, state.stairsFigures);
+        const name = `${nameIn(made)}${Object.keys(state.stairsFigures).length ? "*" : ""}`;
+        save("stairs", name, made);
+        clear("stairsFigures");
+        change({ stairs: packed(made) });
+        current.say(t("saved.done", { name }));
+      })));
+  }
+
+  return {
+    node: h("section", { class: "panel", "aria-label": t("stairs.heading") },
+      pick.node, direction.node, details,
+      h("details", {}, h("summary", {}, t("stairs.guide")),
+        h("ol", {}, [1, 2, 3, 4].map((each) => h("li", {}, t(`guide.stairs_${each}`))))),
+      fileButton(t("stairs.upload"), "", (file) => readFile(file, "stairs", found, (sheet) => {
+        clear("stairsFigures");
+        change({ stairs: packed(sheet) });
+        details.open = true;
+      })), found),
+    update() {
+      pick.update();
+      direction.update();
+      const sheet = current.stairs;
+      details.hidden = !sheet;
+      if (!sheet) return;
+      if (of !== state.stairs) build(sheet);
+      of = state.stairs;
+      for (const each of sliders) each.update();
+      const made = terrainOf(sheet);
+      const flight = typeof made === "string" ? sheet : made;
+      const rise = flight.rise, going = flight.going;
+      const regular = Number.isFinite(rise) && Number.isFinite(going);
+      slope.textContent = regular ? t("stairs.slope", {
+        angle: shown(Math.atan2(rise, going), "angle"), spacing: shown(Math.hypot(rise, going), "length"),
+      }) : "";
+      replace(drawing, regular ? stairsDrawing(flight) : "");
+    },
+  };
+}
+
+function nameIn(sheet) {
+  return Array.isArray(sheet) ? sheet.map((each) => each.name ?? "?").join(" + ") : sheet?.title || sheet?.name || "?";
+}
+
+// Three steps with rise, going and slope.
+function stairsDrawing({ rise, going, first_rise: first }) {
+  const label = t("stairs.drawing", { rise: shown(rise, "length"), going: shown(going, "length"), angle: shown(Math.atan2(rise, going), "angle") });
+  const start = first ?? rise;
+  const k = Math.min(75 / going, 140 / (start + 2 * rise));
+  const z = (value) => 160 - value * k;
+  let path = `M0 160 H60`, x = 60, height = start;
+  path += ` V${z(height)}`;
+  for (let step = 0; step < 2; step += 1) {
+    x += going * k;
+    height += rise;
+    path += ` H${x} V${z(height)}`;
+  }
+  const second = 60 + going * k, level = z(start);
+  return s("svg", { viewBox: "0 0 360 180", role: "img", "aria-label": label, class: "sketch" },
+    s("path", { class: "ground", d: `${path} H360 V180 H0 Z` }),
+    s("path", { class: "dimension", d: `M60 ${level + 14} H${second} M60 ${level + 9} v10 M${second} ${level + 9} v10` }),
+    s("text", { x: (60 + second) / 2, y: level + 30, "text-anchor": "middle" }, shown(going, "length")),
+    s("path", { class: "dimension", d: `M${second + 12} ${level} V${z(start + rise)} M${second + 7} ${level} h10 M${second + 7} ${z(start + rise)} h10` }),
+    s("text", { x: second + 20, y: (level + z(start + rise)) / 2 + 4 }, shown(rise, "length")),
+    s("path", { class: "thin", d: `M60 ${level} L${x} ${z(height)}` }),
+    s("text", { x: 52, y: (160 + level) / 2 + 4, "text-anchor": "end" }, shown(start, "length")));
+}
