@@ -21,6 +21,7 @@ from kaidan.robot import Robot
 from kaidan.sheet import Sheet
 from kaidan.surface import Surface
 from kaidan.terrain.stairs import Stairs
+from kaidan.text.page import page_texts
 from kaidan.web import openapi
 from kaidan.web.asking import VERBS
 from kaidan.web.guard import Guard
@@ -125,6 +126,11 @@ def _add_catalogue(app: FastAPI) -> None:
             for kind, folders in _FOLDERS.items()
         }
 
+    @app.get("/api/texts")
+    async def texts() -> dict[str, Any]:
+        """Texts of the page, in every language that it speaks."""
+        return page_texts()
+
     @app.get("/api/catalogue/{kind}/{name}")
     async def sheet(kind: Literal["robots", "stairs", "surfaces"], name: str) -> Response:
         """A data sheet, whole."""
@@ -163,6 +169,7 @@ def _add_files(app: FastAPI, hands: Workers) -> None:
 
     add("read", "As kaidan read FILE --json")
     add("building", "As kaidan building FILE --json")
+    add("sheets", "Robots and stairs of a file, as sheets")
 
 
 def _add_report(app: FastAPI, hands: Workers) -> None:

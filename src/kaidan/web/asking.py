@@ -96,6 +96,23 @@ def sweep_summary(*, go_only: bool = False, **values: Any) -> Answer:
     return summary_of(carried_out(plan, workers=1))
 
 
+def pose_map_of(robot: Any, stairs: Any = None, **manner: Any) -> Answer:
+    """Pose map along the traverse of a question, coarse enough for a page.
+
+    Parameters
+    ----------
+    robot, stairs, **manner
+        As in `kaidan.traverse`, in one posture.
+    """
+    from kaidan.verbs.pose_map import pose_map
+    from kaidan.verbs.traverse import driven
+
+    question = Question.ask(robot, stairs, **manner)
+    if question.best_of:
+        raise InputError("pose map: it is of one posture; state angles, flat or stowed")
+    return pose_map(question, driven(question), columns=211, rows=91)
+
+
 VERBS: Mapping[str, Verb] = {
     "assess": Verb("kaidan.assessment:assess", "kaidan.assessment.answer:Assessment"),
     "traverse": Verb(
@@ -109,6 +126,7 @@ VERBS: Mapping[str, Verb] = {
         several=frozenset({"stairs"}),
     ),
     "plane": Verb("kaidan.verbs.d_a_plane:plane", "kaidan.verbs.d_a_plane:Plane"),
+    "pose-map": Verb("kaidan.web.asking:pose_map_of", "kaidan.verbs.pose_map:PoseMap"),
     "compare": Verb(
         "kaidan.verbs.comparison:compare",
         "kaidan.verbs.comparison:Comparison",

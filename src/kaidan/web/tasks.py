@@ -80,6 +80,12 @@ def _report(task: Mapping[str, Any]) -> bytes:
     return report_bytes(report_of(task["body"]), form)
 
 
+def _sheets(task: Mapping[str, Any]) -> bytes:
+    from kaidan.web.sheets import sheets_of
+
+    return json.dumps(sheets_of(_uploaded(task))).encode()
+
+
 def _uploaded(task: Mapping[str, Any]) -> str:
     """Name of the one file in the folder of a task, which becomes the process's own."""
     os.chdir(task["folder"])
@@ -93,4 +99,5 @@ _DO: Mapping[str, Callable[[Mapping[str, Any]], bytes]] = {
     "read": _read,
     "building": _building,
     "report": _report,
+    "sheets": _sheets,
 }

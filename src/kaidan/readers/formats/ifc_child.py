@@ -58,6 +58,9 @@ def _bound_memory() -> None:
         except ImportError:  # Windows
             return
         bytes_ = int(os.environ[MEMORY])
+        outer = resource.getrlimit(resource.RLIMIT_AS)[1]
+        if outer != resource.RLIM_INFINITY:  # of a process that is bound already
+            bytes_ = min(bytes_, outer)
         resource.setrlimit(resource.RLIMIT_AS, (bytes_, bytes_))
 
 

@@ -41,7 +41,13 @@ export class Chart {
     return Math.max(this.limits.low, Math.min(this.limits.high, value));
   }
 
+  holds([x, y]) {
+    const { left, right, low, high } = this.limits;
+    return x >= left && x <= right && y >= low && y <= high;
+  }
+
   band(points, kind) {  // [x, low, high]
+    if (points.length === 0) return;
     const up = points.map(([x, , high]) => [this.x(x), this.y(this.clamp(high))]);
     const down = points.map(([x, low]) => [this.x(x), this.y(this.clamp(low))]).reverse();
     this.inside.append(s("path", { class: `band ${kind}`, d: `${line([...up, ...down])}Z` }));
@@ -49,7 +55,7 @@ export class Chart {
 
   curve(points, kind) {
     this.inside.append(s("path", { class: `curve ${kind}`, d: line(points.map((each) =>
-      each === null || each[1] === null || each[1] > this.limits.high || each[1] < this.limits.low ? null : [this.x(each[0]), this.y(each[1])])) }));
+      each === null || each[1] === null || !this.holds(each) ? null : [this.x(each[0]), this.y(each[1])])) }));
   }
 
   text(x, y, text, kind = "") {

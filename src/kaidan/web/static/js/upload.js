@@ -5,31 +5,27 @@ import { button } from "./controls.js";
 import { h, replace } from "./dom.js";
 import { english, t } from "./i18n.js";
 
+const MOST = 6; // notes that are shown
+
 // Read a file into `place`; `use(sheet)` takes what was chosen of it.
 export async function readFile(file, kind, place, use) {
   replace(place, h("p", { role: "status" }, t("upload.reading")));
   let answer;
   try {
-    answer = await upload("read", file);
+    answer = await upload("sheets", file);
   } catch (error) {
     const text = error instanceof Refused ? english(error.message) : t("state.offline");
     replace(place, h("p", { role: "alert", class: "refused" }, text));
     return;
   }
-  const sheets = sheetsIn(answer, kind);
+  const sheets = answer[kind];
   if (sheets.length === 1) use(sheets[0]);
-  const doubts = [...(answer.notes ?? []), ...(answer.refusals ?? [])].slice(0, 6);
+  const doubts = answer.notes.slice(0, MOST);
   replace(place,
     h("p", { role: "status" }, sheets.length ? t("upload.doubt") : t("upload.nothing")),
     sheets.length > 1 ? h("p", {}, t("upload.choose")) : null,
     sheets.length > 1 ? h("div", { class: "buttons" }, sheets.map((sheet) => button(nameOf(sheet), () => use(sheet)))) : null,
     doubts.length ? h("ul", {}, doubts.map((each) => english(String(each), "li"))) : null);
-}
-
-// Sheets of one kind in an answer of the service: as `sheets`, robots or stairs.
-function sheetsIn(answer, kind) {
-  const sheets = answer.sheets?.[kind] ?? [];
-  return sheets.filter((each) => each && typeof each === "object");
 }
 
 function nameOf(sheet) {

@@ -60,7 +60,8 @@ export function verdictPanel(current) {
       const { robot, terrain } = answer.question;
       const on = Array.isArray(terrain) ? terrain.map((each) => each.name).join(" + ") : terrain.name;
       lit(answer.verdict, t(`verdict.${answer.verdict}`),
-        h("p", { class: "subject" }, `${robot.title || robot.name} · ${on} · ${t(`stairs.${answer.question.direction}`)}, ${t(`answer.${answer.question.facing}`)}`));
+        h("p", { class: "subject" }, `${robot.title || robot.name} · ${on} · ${t(`stairs.${answer.question.direction}`)}, ${t(`answer.${answer.question.facing}`)}`),
+        h("p", { class: "quiet" }, t("state.final")));
       replace(body, reason(answer), toDo(answer), numbers(answer), first(answer), notes(answer),
         h("div", { class: "buttons" }, button(t("app.print"), current.print, { class: "main print" }), button(t("app.share"), current.share)));
     },
