@@ -31,7 +31,7 @@ def test_flights_of_a_building_model_become_stairs(client, pytestconfig):
     pytest.importorskip("ifcopenshell")
     found = sent(client, (pytestconfig.rootpath / HOUSE).read_bytes()).json()
     flights = found["stairs"][0]
-    assert [(each["rise"], each["going"], each["steps"]) for each in flights][0] == (0.15, 0.3, 10)
+    assert (flights[0]["rise"], flights[0]["going"], flights[0]["steps"]) == (0.15, 0.3, 10)
     body = {"robot": "kenaf", "stairs": flights, "friction": 1.0}
     assert client.post("/api/assess", json=body).json()["verdict"] in ("go", "caution", "no-go")
 
