@@ -10,7 +10,7 @@ import pytest
 
 from kaidan.readers.formats import mjcf
 from kaidan.readers.formats import urdf as urdf_reader
-from kaidan.readers.robots.xml_tree import parse_xml
+from kaidan.readers.xml_tree import parse_xml
 from robot_files import ACROSS, arm_of_four, urdf, urdf_joint, urdf_link, urdf_shape
 
 BAND = 1e-6

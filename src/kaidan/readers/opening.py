@@ -15,8 +15,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import IO, Any
-from xml.etree.ElementTree import Element, ParseError, fromstring
-from xml.parsers import expat
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,13 +29,11 @@ LARGEST = 2_000_000_000
 LARGEST_STREAM = 200_000_000_000
 """Largest file that is read piece by piece [bytes]."""
 LARGEST_TEXT = 200_000_000
-"""Largest text that is parsed as a whole, such as XML [bytes]."""
+"""Largest text that is parsed as a whole [bytes]."""
 MOST_MEMBERS = 10_000
 """Most files in an archive."""
 LARGEST_RATIO = 1100
 """Largest compression that is believed: deflate cannot exceed 1032."""
-DEEPEST = 200
-"""Most elements of XML inside each other."""
 
 
 @dataclass(frozen=True)
@@ -218,48 +214,6 @@ class Source:
         if len(found) != info.file_size:
             raise self.refuse("its size is not the one stated", named)
         return found
-
-    def xml(self, largest: int = LARGEST_TEXT) -> Element:
-        """Root element of XML without a document type: no entities, nothing fetched.
-
-        Raises
-        ------
-        InputError
-            No well-formed XML, a document type, or too deep.
-        """
-        return xml_of(self, self.content(largest))
-
-
-def xml_of(source: Source, content: bytes) -> Element:
-    """Root element of bytes of XML from a source, see `Source.xml`."""
-    depth = 0
-
-    def refused(*_: Any) -> None:
-        raise source.refuse("a document type or an entity is declared: not read, for safety")
-
-    def began(name: str, _: Any) -> None:
-        nonlocal depth
-        depth += 1
-        if depth > DEEPEST:
-            raise source.refuse(
-                f"more than {DEEPEST} elements inside each other",
-                f"line {parser.CurrentLineNumber}",
-            )
-
-    def ended(_: str) -> None:
-        nonlocal depth
-        depth -= 1
-
-    parser = expat.ParserCreate()
-    parser.StartDoctypeDeclHandler = refused
-    parser.EntityDeclHandler = refused
-    parser.StartElementHandler = began
-    parser.EndElementHandler = ended
-    try:
-        parser.Parse(content, True)
-        return fromstring(content)
-    except (expat.ExpatError, ParseError, ValueError, LookupError) as error:
-        raise source.refuse(f"no well-formed XML: {error}") from None
 
 
 def split_element(name: str) -> tuple[str, str]:

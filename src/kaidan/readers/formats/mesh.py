@@ -6,16 +6,17 @@ from typing import Any
 
 import numpy as np
 
+from kaidan.errors import short
 from kaidan.readers.formats.columns import provenance_of
 from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import Known, Mesh
-from kaidan.readers.opening import Source, xml_of
+from kaidan.readers.opening import Source
+from kaidan.readers.xml_tree import parse_xml
 
 LARGEST_MESH = 500_000_000
 """Largest file of a mesh [bytes]."""
 MOST_FACES = 20_000_000
 """Most triangles."""
-_COLLADA = "{http://www.collada.org/2005/11/COLLADASchema}"
 _UPS = {"X_UP": "+x", "Y_UP": "+y", "Z_UP": "+z"}
 
 
@@ -104,19 +105,18 @@ def _inside(source: Source, content: bytes) -> None:
 def read_dae(source: Source, hints: Hints) -> Mesh:
     """Mesh of a COLLADA file; its images are not opened."""
     content = source.content(LARGEST_MESH)
-    root = xml_of(source, content)
-    asset = root.find(f"{_COLLADA}asset")
-    unit = None if asset is None else asset.find(f"{_COLLADA}unit")
-    up = "Y_UP" if asset is None else asset.findtext(f"{_COLLADA}up_axis", "Y_UP").strip()
+    asset = parse_xml(content, origin=short(source.path)).find("asset")
+    unit = None if asset is None else asset.find("unit")
+    up = "" if asset is None else asset.word("up_axis")
     try:
-        metres = 1.0 if unit is None else float(unit.get("meter", "1"))
+        metres = 1.0 if unit is None else float(unit.attributes.get("meter", "1"))
     except ValueError:
         raise source.refuse("its unit is no number", "asset") from None
     if not 1e-6 <= metres <= 1e6:
         raise source.refuse(f"its unit of {metres:g} m is none", "asset")
     known: dict[str, Any] = {"unit": Known("m", "file" if unit is not None else "format")}
-    if up in _UPS:
-        known["up"] = Known(_UPS[up], "file")
+    if (up or "Y_UP") in _UPS:
+        known["up"] = Known(_UPS[up or "Y_UP"], "file")
     return _loaded(source, hints, "dae", "dae", content, factor=metres, **known)
 
 

@@ -17,9 +17,10 @@ from kaidan.readers.formats.mjcf_settings import Settings
 from kaidan.readers.formats.mjcf_shapes import geom, inertia_of, shape
 from kaidan.readers.hints import Hints
 from kaidan.readers.opening import Source
+from kaidan.readers.robots.description import provenance_of, robot_xml
 from kaidan.readers.robots.mechanism import Array, Fault, Joint, Link, Mechanism, checked_tree
 from kaidan.readers.robots.plugins import declared_tracks
-from kaidan.readers.robots.xml_tree import Element, provenance_of, robot_xml
+from kaidan.readers.xml_tree import Element
 
 _OTHER_FILES = ("include", "attach", "model")
 _MADE_UP = ("replicate", "composite", "flexcomp")

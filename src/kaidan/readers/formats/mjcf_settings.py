@@ -7,7 +7,7 @@ import numpy as np
 
 from kaidan.errors import shown
 from kaidan.readers.robots.mechanism import Array, frame, rotation_about, rotation_quaternion
-from kaidan.readers.robots.xml_tree import Element
+from kaidan.readers.xml_tree import Element
 
 MAIN = "main"
 _AXES = dict(zip("xyz", np.eye(3), strict=True))

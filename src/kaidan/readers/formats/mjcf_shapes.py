@@ -10,7 +10,7 @@ import numpy as np
 from kaidan.errors import shown
 from kaidan.readers.formats.mjcf_settings import Settings, turn_to
 from kaidan.readers.robots.mechanism import Array, Shape, ShapeKind, frame
-from kaidan.readers.robots.xml_tree import Element
+from kaidan.readers.xml_tree import Element
 
 _DENSITY = 1000.0
 _NO_SHAPES = ("plane", "hfield", "sdf")

@@ -16,6 +16,7 @@ from kaidan.errors import InputError, shown
 from kaidan.readers.formats.sdf_frames import Frames, pose_of
 from kaidan.readers.hints import Hints
 from kaidan.readers.opening import Source
+from kaidan.readers.robots.description import provenance_of, robot_xml
 from kaidan.readers.robots.mechanism import (
     Array,
     Fault,
@@ -27,7 +28,7 @@ from kaidan.readers.robots.mechanism import (
     symmetric,
 )
 from kaidan.readers.robots.plugins import declared_tracks
-from kaidan.readers.robots.xml_tree import Element, provenance_of, robot_xml
+from kaidan.readers.xml_tree import Element
 
 _HINGES = ("revolute", "continuous")
 _ENDLESS = 1e15

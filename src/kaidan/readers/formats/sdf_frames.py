@@ -8,7 +8,7 @@ import numpy as np
 
 from kaidan.errors import InputError, short, shown
 from kaidan.readers.robots.mechanism import Array, frame, rotation_quaternion, rotation_rpy
-from kaidan.readers.robots.xml_tree import Element
+from kaidan.readers.xml_tree import Element
 
 MODEL = "__model__"
 WORLD = "world"

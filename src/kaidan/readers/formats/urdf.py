@@ -9,6 +9,7 @@ import numpy as np
 
 from kaidan.readers.hints import Hints
 from kaidan.readers.opening import Source
+from kaidan.readers.robots.description import provenance_of, robot_xml
 from kaidan.readers.robots.mechanism import (
     Array,
     Fault,
@@ -22,7 +23,7 @@ from kaidan.readers.robots.mechanism import (
     symmetric,
 )
 from kaidan.readers.robots.plugins import declared_tracks
-from kaidan.readers.robots.xml_tree import Element, provenance_of, robot_xml
+from kaidan.readers.xml_tree import Element
 
 _KINDS: dict[str, Literal["fixed", "hinge", "slide"]] = {
     "revolute": "hinge",

@@ -2,7 +2,7 @@
 
 import re
 
-from kaidan.readers.robots.xml_tree import Element
+from kaidan.readers.xml_tree import Element
 
 _OF_TRACKS = re.compile(r"track", re.IGNORECASE)
 _LINK = re.compile(r"^(?:left|right)?_?(?:track|link)$")

@@ -2,7 +2,7 @@
 
 A file from somebody else may name other files, define entities that grow without end or nest
 without end. The parser is the one of Python's own library; a document type, and with it every
-entity, is refused, and so is what no robot description needs.
+entity, is refused, and so is what no description of a robot or a mesh needs.
 """
 
 import math
@@ -12,12 +12,7 @@ from typing import Any, NoReturn
 from xml.parsers import expat
 
 from kaidan.errors import InputError, short, shown
-from kaidan.readers.hints import Hints
-from kaidan.readers.kinds import Known, Provenance
-from kaidan.readers.opening import Source
 
-LARGEST_ROBOT = 50_000_000
-"""Largest description of a robot [bytes]."""
 DEEPEST = 200
 """Elements within elements."""
 MOST_ELEMENTS = 300_000
@@ -101,24 +96,6 @@ class Element:
         raise InputError(f"{self.origin}, line {self.line}: {what}: {why}")
 
 
-def robot_xml(source: Source) -> Element:
-    """Tree of a robot's file; what stands below its declaration is read and nothing else."""
-    return parse_xml(source.content(LARGEST_ROBOT), origin=short(source.path))
-
-
-def provenance_of(source: Source, form: str, hints: Hints) -> Provenance:
-    """Where a robot was read, and how its axes are known."""
-    up = Known("+z", "format") if hints.up is None else Known(hints.up, "person")
-    return Provenance(
-        path=str(source.path),
-        digest=source.digest,
-        form=form,
-        element=hints.element,
-        unit=Known("m", "format"),
-        up=up,
-    )
-
-
 def parse_xml(content: bytes, *, origin: str) -> Element:
     """Tree of an XML text.
 
@@ -142,7 +119,7 @@ def parse_xml(content: bytes, *, origin: str) -> Element:
     parser = expat.ParserCreate()
     parser.buffer_text = True
     outer = Element("", {}, 0, origin)
-    path, count = [outer], 0
+    path, texts, count = [outer], [[""]], 0
 
     def start(tag: str, attributes: dict[str, str]) -> None:
         nonlocal count
@@ -155,12 +132,13 @@ def parse_xml(content: bytes, *, origin: str) -> Element:
         element = Element(tag, attributes, line, origin)
         path[-1].children.append(element)
         path.append(element)
+        texts.append([])
 
     def end(tag: str) -> None:
-        path.pop()
+        path.pop().text = "".join(texts.pop())
 
     def text(data: str) -> None:
-        path[-1].text += data
+        texts[-1].append(data)
 
     def refuse_type(*_: Any) -> None:
         raise InputError(
