@@ -1,10 +1,12 @@
 """The scripts of the example gallery run, without a warning."""
 
 import os
+import runpy
 import subprocess
 import sys
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import pytest
 
 SCRIPTS = sorted((Path(__file__).parents[2] / "docs" / "examples").glob("plot_*.py"))
@@ -15,7 +17,16 @@ def test_there_are_examples():
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
-def test_an_example_runs(script, tmp_path):
+def test_an_example_runs(script, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    plt.switch_backend("Agg")
+    runpy.run_path(str(script), run_name="__main__")
+    plt.close("all")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
+def test_an_example_runs_as_a_process(script, tmp_path):
     done = subprocess.run(
         [sys.executable, "-W", "error", str(script)],
         cwd=tmp_path,

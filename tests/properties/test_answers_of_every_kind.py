@@ -11,6 +11,7 @@ import math
 
 import pytest
 
+from amounts import fast_and_slow
 from kaidan import Assessment
 from kaidan.assessment import answer_to
 from kaidan.modes import FAILURE_MODES, FORMULAS, MODELS, TIPS, Undecided
@@ -116,8 +117,9 @@ def test_pairs_of_the_catalogue_by_the_closed_form():
     assert_consistent(itertools.islice(of_catalogue(model="closed-form"), 0, None, 7))
 
 
-def test_random_questions():
-    seen = assert_consistent(random_questions(200, seed=1))
+@pytest.mark.parametrize("count", fast_and_slow(80, 200))
+def test_random_questions(count):
+    seen = assert_consistent(random_questions(count, seed=1))
     assert {model for model, _ in seen} == set(SHARES)
     assert {verdict for model, verdict in seen if model == "contact"} >= {"go", "caution", "no-go"}
 

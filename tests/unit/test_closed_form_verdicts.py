@@ -4,6 +4,7 @@ from math import atan, cos, degrees, radians, tan
 
 import pytest
 
+from amounts import fast_and_slow
 from closed_form_cases import ANGLE, BARE, GRIP, G, assess, flight, kenaf, robot
 from kaidan import Surface
 
@@ -56,11 +57,12 @@ def test_unknown_friction_is_at_best_caution():
     assert answer.what_would_help[0].verdict == "go"
 
 
+@pytest.mark.parametrize("every", fast_and_slow(5, 1))
 @pytest.mark.parametrize("p", [0.150, 0.200, 0.220])
 @pytest.mark.parametrize("direction", ["up", "down"])
 @pytest.mark.parametrize("facing", ["nose-first", "tail-first"])
-def test_the_margin_never_disagrees_with_the_verdict(p, direction, facing):
-    for angle in range(8, 70):
+def test_the_margin_never_disagrees_with_the_verdict(p, direction, facing, every):
+    for angle in range(8, 70, every):
         for question in ({}, BARE, {"friction": 0.7}, {"acceleration": -1.0}):
             answer = kenaf(angle, p, direction=direction, facing=facing, **question)
             if answer.verdict == "go":

@@ -9,6 +9,7 @@ import pytest
 
 pytest.importorskip("scipy")
 
+from amounts import fast_and_slow
 from kaidan import InputError, Robot, Stairs, assess, design
 from kaidan.mechanics.margin import theta_s_inf, theta_s_sup
 from kaidan.modes import Verdict
@@ -30,7 +31,7 @@ def brute(problem, goal, count):
     return min(loss_of(apart.at(point), goal) for point in itertools.product(*lines))
 
 
-@pytest.mark.parametrize("goal", ["margin", "go"])
+@pytest.mark.parametrize("goal", fast_and_slow("go", "margin"))
 @pytest.mark.parametrize(
     "free",
     [

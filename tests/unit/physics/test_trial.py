@@ -11,6 +11,7 @@ import pytest
 
 pytest.importorskip("mujoco", reason="skipped: mujoco not installed")
 
+from amounts import fast_and_slow
 from kaidan.errors import InputError
 from kaidan.modes import Phase
 from kaidan.physics import (
@@ -144,7 +145,9 @@ def test_a_simulation_that_diverges_is_an_outcome(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "track", [None, SprungNoses(stiffness=3e4), DrivenGrousers(), ShoeChain()], ids=str
+    "track",
+    [None, SprungNoses(stiffness=3e4), *fast_and_slow(DrivenGrousers(), ShoeChain())],
+    ids=str,
 )
 def test_the_same_seed_gives_the_same_result(track):
     fields = {"start_offset": None, "nosings": 1} | ({"track": track} if track else {})
