@@ -1,6 +1,11 @@
 """Proofs in two sizes: a few cases in every run, all of them among the slow tests."""
 
+import os
+
 import pytest
+
+SHARE = 4
+"""Part of the examples of a property that every run looks at."""
 
 
 def few_of(count, fast):
@@ -12,3 +17,9 @@ def fast_and_slow(few, many):
     """An amount for every run, and the whole one by name."""
     whole = many if isinstance(many, tuple) else (many,)
     return [few, pytest.param(*whole, marks=pytest.mark.slow)]
+
+
+def examples(whole):
+    """Examples of a property: a part of them, but for a profile that looks at all of them."""
+    every_run = os.environ.get("HYPOTHESIS_PROFILE", "same") == "same"
+    return -(-whole // SHARE) if every_run else whole

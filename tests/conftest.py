@@ -8,7 +8,8 @@ sys.path.insert(0, str(Path(__file__).parent))
 os.environ.pop("COLUMNS", None)  # tables as wide as they like, whatever screen runs the tests
 
 # the same examples in every run, so that a check of main says something of main;
-# HYPOTHESIS_PROFILE=random looks farther
+# HYPOTHESIS_PROFILE=whole takes all of them (tests/properties/test_all_examples.py), random others
 settings.register_profile("same", derandomize=True, deadline=None)
+settings.register_profile("whole", derandomize=True, deadline=None)
 settings.register_profile("random", deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))

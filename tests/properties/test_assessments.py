@@ -11,6 +11,7 @@ import pytest
 from hypothesis import assume, given, reject, settings
 
 import kaidan
+from amounts import examples
 from kaidan import Assessment, Payload, Robot, Stairs, Surface
 from kaidan.modes import Verdict
 from kaidan.robot import Track, Uncertainty
@@ -29,9 +30,11 @@ WAYS = st.fixed_dictionaries(
 )
 
 
-def always(examples, *strategies):
+def always(whole, *strategies):
     """The same examples in every run."""
-    return lambda test: settings(max_examples=examples, deadline=None)(given(*strategies)(test))
+    return lambda test: settings(max_examples=examples(whole), deadline=None)(
+        given(*strategies)(test)
+    )
 
 
 @st.composite

@@ -19,6 +19,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from typer.testing import CliRunner
 
+from amounts import examples
 from kaidan import Assessment, InputError, Payload, Posture, Robot, Stairs, assess, sweep, verdicts
 from kaidan.allowance import Allowance
 from kaidan.cli import app, main
@@ -28,10 +29,10 @@ SCHEMA = jsonschema.Draft202012Validator(Assessment.json_schema())
 WORDS = {verdict.label.split()[0]: verdict.exit_code for verdict in Verdict}
 
 
-def fuzz(examples, **strategies):
+def fuzz(whole, /, **strategies):
     """Warnings are errors here too."""
     return lambda test: settings(
-        max_examples=examples,
+        max_examples=examples(whole),
         deadline=None,
         suppress_health_check=list(HealthCheck),
     )(given(**strategies)(test))

@@ -12,6 +12,7 @@ import pytest
 from hypothesis import Phase as HypothesisPhase
 from hypothesis import example, given, settings
 
+from amounts import examples
 from kaidan import Profile, Question, Robot, Stairs, Surface
 from kaidan.allowance import Allowance
 from kaidan.assessment import answer_to
@@ -24,10 +25,10 @@ ROUNDING = 1e-9
 """Margins of the same traverse [deg]."""
 
 
-def always(examples, *strategies):
+def always(whole, *strategies):
     """A seed has nothing to shrink to."""
     return lambda test: settings(
-        max_examples=examples,
+        max_examples=examples(whole),
         deadline=None,
         phases=[HypothesisPhase.explicit, HypothesisPhase.generate],
     )(given(*strategies)(test))

@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from amounts import fast_and_slow
 from kaidan.assessment import answer_to, assess, judged
 from kaidan.errors import InputError
 from kaidan.models.quasi_static import LONG_FLIGHT, Basis, findings_of, traverse_of
@@ -265,10 +266,11 @@ def test_a_tall_narrow_robot_tips_sideways():
     assert math.degrees(yaw_limit(question, flight)) < 30.0
 
 
-def test_a_small_risk_takes_more_samples_at_a_yaw_too():
+@pytest.mark.parametrize("risk", fast_and_slow(5e-3, 1e-3))
+def test_a_small_risk_takes_more_samples_at_a_yaw_too(risk):
     doubts = Uncertainty(com_height=0.004)
     robot = Robot.named("absolem").model_copy(update={"uncertainty": doubts})
-    answer = assess(robot, "ibc", flippers="flat", friction=1.5, yaw=0.1, risk=1e-3)
+    answer = assess(robot, "ibc", flippers="flat", friction=1.5, yaw=0.1, risk=risk)
     assert answer.margin_interval_deg[0] < answer.margin_interval_deg[1]
 
 
