@@ -17,6 +17,7 @@ from kaidan.contact.contacts import Contact, PairForces, pair_forces, spring_loa
 from kaidan.contact.heights import TouchingHeights, touching_heights
 from kaidan.contact.margin_records import Job, Margins, Summaries, Tilts
 from kaidan.contact.path import Path, joined
+from kaidan.contact.rating import Ratings, rate_many
 from kaidan.contact.records import (
     Body,
     EventRecord,
@@ -61,6 +62,7 @@ __all__ = [
     "Path",
     "Placement",
     "Poses",
+    "Ratings",
     "RotationOutcome",
     "RotationRecord",
     "Rotations",
@@ -76,6 +78,7 @@ __all__ = [
     "mirror",
     "pair_forces",
     "plain_seconds",
+    "rate_many",
     "resting_height",
     "settle",
     "spring_loads",

@@ -84,6 +84,18 @@ JOB_COLUMNS = 8
 ) = range(14)  # fmt: skip
 SUMMARY_COLUMNS = 14
 
+# Ratings of a batch: status, friction, belly; of rotations angle, what could be avoided [rad],
+# speed of an impact [m/s], rise to spare [m].
+(
+    RATED_STATUS, RATED_FRICTION, RATED_BELLY, RATED_ANGLE, RATED_AVOIDABLE, RATED_IMPACT,
+    RATED_SPARE,
+) = range(7)  # fmt: skip
+RATING_COLUMNS = 7
+
+# Points, and zones of a place: smallest and largest x, smallest and largest z [m].
+POINT_COLUMNS = 2
+ZONE_COLUMNS = 4
+
 # Poses settled one by one: found, height [m], inclination [rad], the two features.
 SETTLED_FOUND, SETTLED_Z, SETTLED_PHI, SETTLED_REAR, SETTLED_FRONT = range(5)
 SETTLED_COLUMNS = 5

@@ -27,6 +27,7 @@ KERNEL_MODULES = (
     "forces",
     "margins",
     "standing",
+    "rating",
     "batch",
 )
 KERNEL_PACKAGE = "kaidan.contact.kernel"

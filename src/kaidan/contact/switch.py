@@ -30,7 +30,7 @@ from kaidan.errors import InputError, shown
 Choice = Literal["auto", "plain", "native"]
 
 VARIABLE = "KAIDAN_KERNEL"
-CUT_UP = ("standing", "batch")
+CUT_UP = ("standing", "rating", "batch")
 """Modules of the kernel whose entries cut up their tables."""
 
 log = logging.getLogger("kaidan.contact")

@@ -30,9 +30,11 @@ from kaidan.contact.columns import (
     JOB_COLUMNS,
     LENGTH,
     MARGIN_COLUMNS,
+    POINT_COLUMNS,
     POSE_COLUMNS,
     R1,
     R2,
+    RATING_COLUMNS,
     ROTATION_COLUMNS,
     SETTLED_COLUMNS,
     SUMMARY_COLUMNS,
@@ -43,6 +45,7 @@ from kaidan.contact.columns import (
     X2,
     Z1,
     Z2,
+    ZONE_COLUMNS,
     X,
     Z,
 )
@@ -62,6 +65,9 @@ ContactTable = Annotated[FloatArray, CONTACT_COLUMNS]
 TiltTable = Annotated[FloatArray, TILT_COLUMNS]
 JobTable = Annotated[FloatArray, JOB_COLUMNS]
 SummaryTable = Annotated[FloatArray, SUMMARY_COLUMNS]
+RatingTable = Annotated[FloatArray, RATING_COLUMNS]
+PointTable = Annotated[FloatArray, POINT_COLUMNS]
+ZoneTable = Annotated[FloatArray, ZONE_COLUMNS]
 SettledTable = Annotated[FloatArray, SETTLED_COLUMNS]
 #: Numbers that belong together, in the kernel: four, or x, z, cosine, sine and a point.
 Four = tuple[float, float, float, float]

@@ -14,6 +14,7 @@ from kaidan.contact.margin_records import Job, Margins, Summaries
 from kaidan.contact.path import TOUCH, Path
 from kaidan.contact.records import Body, Events, Ground, Poses, Rotations
 from kaidan.contact.remembered import body_of, ground_of
+from kaidan.contact.scratch import most_poses, path_scratch
 from kaidan.contact.switch import kernel
 from kaidan.contact.tables import body_table, ground_table, margin_tables, path_tables
 from kaidan.mechanics import STANDARD_GRAVITY
@@ -107,8 +108,7 @@ def traverse(
     ground = ground_of(terrain)
     body = body_of(parts, kinds)
     entries = kernel()
-    size = int(min(4.0 * (x_end - x_start) / step + 64 * len(ground) + 4000, 400_000))
-    poses, events, rotations = path_tables(size)
+    poses, events, rotations = path_scratch(most_poses(x_end - x_start, step, len(ground)))
     status, n_pose, n_event, n_rotation = entries.drive(
         ground, body, x_start, x_end, inclination, step, acceleration, gravity * math.cos(tilt),
         math.tan(tilt), gyration, poses, events, rotations,

@@ -319,6 +319,11 @@ class Profile:
         """Whether it is a floor without a step: all points within `ROUGHNESS`."""
         return float(np.ptp(self.points[:, 1])) <= ROUGHNESS
 
+    @property
+    def falls(self) -> bool:
+        """Whether its nosings lead down towards +x."""
+        return len(self.nosings) > 0 and bool(self.nosings[-1, 1] < self.nosings[0, 1])
+
     def upward(self, *, descending: bool) -> Self:
         """Same terrain from its lower to its upper end, for a robot that goes up or down it.
 

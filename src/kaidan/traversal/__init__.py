@@ -7,16 +7,17 @@ drives towards +x; going down, the profile is reflected so that the path still l
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kaidan import contact
-from kaidan.errors import InputError
 from kaidan.mechanics.rearing import rear_length_margin
 from kaidan.outline import Outline
 from kaidan.terrain.profile import Profile
+from kaidan.traversal.driving import criterion_of as criterion_of
+from kaidan.traversal.driving import drive, refuse_too_long, span, whole_of
 from kaidan.traversal.events import TraverseEvent as TraverseEvent
 from kaidan.traversal.events import traverse_events
 from kaidan.traversal.extremes import PhaseExtremes as PhaseExtremes
@@ -24,24 +25,17 @@ from kaidan.traversal.extremes import phase_extremes, rises_about_stays
 from kaidan.traversal.grip import Grip
 from kaidan.traversal.nosing_events import nosing_events
 from kaidan.traversal.phases import Phase as Phase
-from kaidan.traversal.phases import phases_of, step_at, uneven_span
+from kaidan.traversal.phases import phases_of, step_at
 from kaidan.traversal.rotations import Chain as Chain
 from kaidan.traversal.rotations import Rotation as Rotation
 from kaidan.traversal.rotations import chains_of, rotations_of, together
 from kaidan.traversal.samples import trailing_end_leaves
-from kaidan.traversal.static_criterion import Criterion, Tread, flights_of, static_criterion
+from kaidan.traversal.static_criterion import Criterion, Tread, flights_of
 from kaidan.traversal.tilting import Fall as Fall
 from kaidan.traversal.tilting import largest_survived
 
-LONG = 60.0
-"""Time beyond which the plain kernel is not waited for [s]."""
-LONGEST = 400_000
-"""Points and poses above which a traverse is refused: half a minute compiled."""
 _ALIKE = 1e-6
 """Tilt that is rounding [rad]."""
-_CLEARANCE = 0.05
-_IN_LINE = 1e-6
-"""Height up to which a disc counts as in line with the flat [m]."""
 
 
 class FirstRock(NamedTuple):
@@ -143,7 +137,7 @@ class Traverse:
 
         def survives(tilt: float) -> bool:
             nonlocal fallen
-            path = self.path if tilt == 0.0 else _drive(
+            path = self.path if tilt == 0.0 else drive(
                 self.profile, self.outline, self.start, self.until,
                 acceleration=self.acceleration, tilt=back * tilt, step=self.step,
                 with_margins=False,
@@ -227,12 +221,7 @@ class Traverse:
         """Part of the flight that it is over, by the place of the centroid, uphill positive [m]."""
         first = -math.inf if self.start is None else self.start.x
         last = math.inf if self.until is None else self.until
-        return (-last, -first) if self._falls else (first, last)
-
-    @property
-    def _falls(self) -> bool:
-        nosings = self.profile.nosings
-        return len(nosings) > 0 and bool(nosings[-1, 1] < nosings[0, 1])
+        return (-last, -first) if self.profile.falls else (first, last)
 
     def first_rock(
         self, *, downhill: bool, phases: tuple[PhaseExtremes, ...] | None = None
@@ -328,14 +317,12 @@ def traverse(
     body = outline if facing == "nose-first" else outline.turned_round()
     along = -acceleration if descending else acceleration
     tread, criterion = criterion_of(driven, body, along)
-    whole = criterion.holds is not None and tread.whole and not body.stance.tips_below
-    x_start, x_end = _span(driven, body, start, until)
+    whole = whole_of(tread, criterion, body)
+    x_start, x_end = span(driven, body, start, until)
     if start is not None or until is not None:
-        falls = len(driven.nosings) > 0 and driven.nosings[-1, 1] < driven.nosings[0, 1]
-        criterion = criterion.within(*((-x_end, -x_start) if falls else (x_start, x_end)))
-    work = contact.plain_seconds(driven.points, body.parts, x_start, x_end, step)
-    _refuse_too_long(driven, x_end - x_start, step, work)
-    path = _drive(
+        criterion = criterion.within(*((-x_end, -x_start) if driven.falls else (x_start, x_end)))
+    refuse_too_long(driven, body, (x_start, x_end), step)
+    path = drive(
         driven, body, start, until,
         acceleration=along, step=step, with_margins=with_margins,
         with_energy=with_energy,
@@ -362,87 +349,3 @@ def traverse(
         until=until,
         step=step,
     )
-
-
-def _span(
-    driven: Profile, body: Outline, start: contact.Placement | None, until: float | None
-) -> tuple[float, float]:
-    """Where the centroid starts and ends [m]."""
-    first, last = uneven_span(driven)
-    return (
-        first - body.reach[1] - _CLEARANCE if start is None else start.x,
-        last + body.trail + _CLEARANCE if until is None else until,
-    )
-
-
-def _drive(
-    driven: Profile,
-    body: Outline,
-    start: contact.Placement | None,
-    until: float | None,
-    **manner: Any,
-) -> contact.Path:
-    """Path over a profile whose landings are as long as it takes, or over a part of it."""
-    clear = math.ceil(sum(body.reach) + 1.0)  # whole metres: one ground for most bodies
-    ends = driven.points[[0, -1]] + np.array([[-clear, 0.0], [clear, 0.0]])
-    ground = np.vstack([ends[0], driven.points, ends[1]])
-    return contact.traverse(
-        ground,
-        body.parts,
-        *_span(driven, body, start, until),
-        kinds=body.kinds,
-        inclination=0.0 if start is None else start.inclination,
-        gyration=body.gyration,
-        **manner,
-    )
-
-
-def criterion_of(driven: Profile, body: Outline, along: float) -> tuple[Tread, Criterion]:
-    """Underside on the flight and what the criterion says, uphill being where nosings rise.
-
-    Parameters
-    ----------
-    driven : Profile
-        Terrain as driven, towards +x.
-    body : Outline
-        Robot, x towards the end that leads.
-    along : float
-        Acceleration along the path [m/s^2].
-    """
-    tread, nosings = tread_of(body), driven.nosings
-    if len(nosings) and nosings[-1, 1] < nosings[0, 1]:
-        tread, nosings, along = tread.mirrored(), driven.reflected().nosings, -along
-    return tread, static_criterion(nosings, tread, acceleration=along)
-
-
-def tread_of(body: Outline) -> Tread:
-    """Underside of a robot on a flight that rises towards +x."""
-    stance, bottom = body.stance, -body.stance.com_height
-    ends = np.vstack([body.parts[:, :3], body.parts[:, 3:]])
-    level = np.abs(body.parts[:, [1, 4]] - body.parts[:, [2, 5]] - bottom) < _IN_LINE
-    on = ends[np.concatenate(level.T)]
-    last, first = on[np.argmin(on[:, 0])], on[np.argmax(on[:, 0])]
-    return Tread(
-        L=stance.flat_length,
-        C_L=float(first[0]),
-        C_N=stance.com_height,
-        R=float(first[2]),
-        R_downhill=float(last[2]),
-        gyration=body.gyration,
-        whole=int(np.sum(level[:, 0] & level[:, 1] & (body.kinds == contact.TRACK))) == 1,
-    )
-
-
-def _refuse_too_long(profile: Profile, way: float, step: float, work: float) -> None:
-    """Refuse a profile that the kernel in use cannot be waited for."""
-    points, span = len(profile.points), float(np.ptp(profile.points[:, 0]))
-    if points + (way + float(np.abs(np.diff(profile.points[:, 1])).sum())) / step > LONGEST:
-        raise InputError(
-            f"profile: {points} points over {span:.0f} m are more than one traverse takes: "
-            "cut or thin it (in millimetres?)"
-        )
-    if work > LONG and contact.kernel_in_use() == "plain":
-        raise InputError(
-            f"profile: {points} points over {span:.0f} m are too many without the native "
-            "kernel (`kaidan doctor` says why it is not there): cut or thin the profile"
-        )

@@ -1,5 +1,7 @@
 """Parts of a traverse: entering, traversing, landing, and the numbers of its steps."""
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -50,27 +52,44 @@ def phases_of(
     from the next: there the robot lands from the one and enters the other.
     """
     on = max(_ON, profile.roughness)
-    start_level, end_level = profile.points[0, 1], profile.points[-1, 1]
-    first, last = flights_span(profile, descending)
+    start_level = profile.points[0, 1]
+    first, _ = flights_span(profile, descending)
     rear, front = path.poses.rear_point, path.poses.front_point
     # before the edge whatever the height (measured landings are not level), on it by the height
     entering = (rear[:, 0] < first - on) | (
         (np.abs(rear[:, 1] - start_level) < on) & (rear[:, 0] <= first + on)
     )
-    landing = (front[:, 0] > last + on) | (
-        (np.abs(front[:, 1] - end_level) < on) & (front[:, 0] >= last - on)
-    )
+    landing = np.zeros(len(front), dtype=np.bool_)
+    for x_0, x_1, z_0, z_1 in landing_zones(profile, descending, room):
+        landing |= (
+            (front[:, 0] >= x_0)
+            & (front[:, 0] <= x_1)
+            & (front[:, 1] >= z_0)
+            & (front[:, 1] <= z_1)
+        )
     entering = _without_gaps(entering)
     for ends in _between(profile, room):
         leaves = _on_landing(rear, ends, descending)
         if not descending:  # the edge behind it belongs to the flight that it leaves
             leaves &= rear[:, 0] > ends[0, 0] + on
         entering |= _without_gaps(leaves)
-        landing |= _on_landing(front, ends, descending) & ~_at_its_end(front, ends)
     phase = np.full(len(path.poses), Phase.TRAVERSE.value, dtype="<U8")
     phase[entering] = Phase.ENTER.value
     phase[landing] = Phase.LAND.value
     return phase
+
+
+def landing_zones(
+    profile: Profile, descending: bool, room: float
+) -> list[tuple[float, float, float, float]]:
+    """Where the front contact stands of a robot that lands: smallest and largest x and z [m]."""
+    on, end = max(_ON, profile.roughness), float(profile.points[-1, 1])
+    _, last = flights_span(profile, descending)
+    zones = [(last + on, math.inf, -math.inf, math.inf), (last - on, math.inf, end - on, end + on)]
+    for (x_0, z_0), (x_1, z_1) in _between(profile, room):
+        # its end is where the next flight begins: on its first riser, or going down its edge
+        zones.append((x_0 - _ON, x_1 - _ON, -math.inf, (z_0 if descending else z_1) - _ON))
+    return zones
 
 
 def _without_gaps(some: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -1,0 +1,207 @@
+"""Scores of postures in each phase of a traverse, driven from a start of its own.
+
+So a posture that is good for landing is found although it would never have come so far.
+"""
+
+import math
+from collections.abc import Iterable
+from functools import cached_property
+from typing import NamedTuple
+
+from kaidan import contact
+from kaidan.assessment.plans import GENTLE, cost_of_drop, off
+from kaidan.errors import InputError
+from kaidan.models import planned
+from kaidan.models.quasi_static import profile_of
+from kaidan.modes import Facing, Phase
+from kaidan.outline import Outline
+from kaidan.question import Question
+from kaidan.robot import Posture
+from kaidan.terrain.profile import Profile
+from kaidan.traversal.rating import Part, Rated, rate
+from kaidan.traversal.rotations import ROCKING
+
+COARSE = 0.04
+"""Arclength between poses while searching [m]; events are located anyway."""
+ENOUGH = 15.0
+"""Margin beyond which more is not better [deg]."""
+UNKNOWN = 1.0
+"""Friction by which postures are compared where nobody states one [1]."""
+ROUNDING = 0.05
+"""Difference of margins that is none [deg]."""
+
+
+class Score(NamedTuple):
+    """What a drive of one phase lets one hope for; larger is better."""
+
+    passes: bool
+    """Whether the robot gets through, with the friction stated."""
+    failing: int
+    """Ways in which it fails in the worst case, with its sign turned."""
+    margin: float
+    """Smallest margin of slope in the worst case, `ENOUGH` at most [deg]."""
+    drop: float
+    """Largest rotation, with its sign turned [deg]."""
+
+    @property
+    def value(self) -> float:
+        """Margin less what the drop costs [deg]."""
+        return self.margin - float(cost_of_drop(-self.drop))
+
+    def does(self, margin: float) -> bool:
+        """Whether no other posture has to be tried for such a margin [deg]."""
+        return self.passes and not self.failing and self.margin >= margin and -self.drop <= GENTLE
+
+    @property
+    def merit(self) -> tuple[bool, int, float]:
+        """Order of postures in one phase; larger is better."""
+        return self.passes, self.failing, round(self.value, 2)
+
+
+FAILED = Score(passes=False, failing=-9, margin=-90.0, drop=-90.0)
+
+
+class Scores:
+    """Scores of postures in each phase, one end leading.
+
+    Parameters
+    ----------
+    question : Question
+    facing : {"nose-first", "tail-first"}
+        Which end leads.
+    """
+
+    def __init__(self, question: Question, facing: Facing) -> None:
+        self.question, self.facing = question, facing
+        self.known: dict[tuple[Phase, Posture], Score] = {}
+        self._outlines: dict[Posture, Outline | None] = {}
+        self._down = question.direction == "down"
+
+    def of(self, phase: Phase, posture: Posture) -> Score:
+        """Score of a posture in a phase."""
+        if (phase, posture) not in self.known:
+            self.work_out([(phase, posture)])
+        return self.known[phase, posture]
+
+    def off(self, phase: Phase, posture: Posture) -> Score:
+        """Worst score of a posture and those a tolerance off its angles."""
+        each = self.about(posture)
+        self.work_out((phase, one) for one in each)
+        return min((self.of(phase, one) for one in each), key=lambda score: score.merit)
+
+    def about(self, posture: Posture) -> tuple[Posture, Posture, Posture]:
+        """A posture and those with all its angles up, or down; a plan is judged at the others."""
+        both = off(self.question.robot, posture)
+        return posture, both[0], both[-1]
+
+    def work_out(self, wanted: Iterable[tuple[Phase, Posture]]) -> None:
+        """Work out some scores together."""
+        drives: list[tuple[tuple[Phase, Posture], Part]] = []
+        for key in dict.fromkeys(wanted):
+            if key in self.known:
+                continue
+            outline = self._outline(key[1])
+            if outline is None:
+                self.known[key] = FAILED
+            else:
+                drives.append((key, Part(outline, self._starts[key[0]], self._ends[key[0]])))
+        if not drives:
+            return
+        rated = rate(
+            self.profile,
+            [part for _, part in drives],
+            descending=self._down,
+            acceleration=self.question.acceleration,
+            step=COARSE,
+        )
+        for (key, _), each in zip(drives, rated, strict=True):
+            self.known[key] = FAILED if each is None else self._score(each)
+
+    def bound(self, phase: Phase) -> float:
+        """Margin that no posture exceeds by friction alone, as long as the flat carries [deg]."""
+        slope = self._driven.angle
+        if phase is not Phase.TRAVERSE or math.isnan(slope):
+            return ENOUGH
+        return math.degrees(math.atan(self._friction[0]) - abs(slope)) - ROUNDING
+
+    def _outline(self, posture: Posture) -> Outline | None:
+        """Underside in a posture, the leading end ahead; None: its centroid is outside."""
+        if posture not in self._outlines:
+            question = self.question
+            try:
+                outline = Outline.of(question.robot, posture, question.payload)
+            except InputError:
+                self._outlines[posture] = None
+            else:
+                ahead = self.facing == "nose-first"
+                self._outlines[posture] = outline if ahead else outline.turned_round()
+        return self._outlines[posture]
+
+    @cached_property
+    def profile(self) -> Profile:
+        """Terrain."""
+        return profile_of(self.question)
+
+    @cached_property
+    def _driven(self) -> Profile:
+        return self.profile.reflected() if self._down else self.profile
+
+    @cached_property
+    def phases(self) -> tuple[Phase, ...]:
+        """Phases that may have a posture of their own."""
+        return tuple(self._starts)
+
+    @cached_property
+    def _starts(self) -> dict[Phase, contact.Placement | None]:
+        """Where each phase begins, roughly: the robot settles there in the posture at hand."""
+        starts: dict[Phase, contact.Placement | None] = {Phase.ENTER: None}
+        nosings = self._driven.nosings
+        if len(nosings) == 0:
+            return starts
+        stops = {
+            phase: planned.stop(self.question, self.profile, phase)
+            for phase in (Phase.TRAVERSE, Phase.LAND)
+        }
+        if stops[Phase.LAND] - stops[Phase.TRAVERSE] >= planned.STAND_OFF:
+            starts[Phase.TRAVERSE] = contact.Placement(stops[Phase.TRAVERSE], 0.0, 0.0)
+        slope = 0.0
+        if len(nosings) > 1:
+            slope = math.atan2(*(nosings[-1] - nosings[-2])[::-1].tolist())
+        starts[Phase.LAND] = contact.Placement(stops[Phase.LAND], 0.0, slope)
+        return starts
+
+    @cached_property
+    def _ends(self) -> dict[Phase, float | None]:
+        """Where the centroid ends in each phase [m]; None: beyond the flight."""
+        starts = [None if each is None else each.x for each in self._starts.values()]
+        return dict(zip(self._starts, [*starts[1:], None], strict=True))
+
+    @cached_property
+    def _friction(self) -> tuple[float, float]:
+        return (UNKNOWN, math.inf) if self.question.surface is None else self.question.friction
+
+    @cached_property
+    def _allowances(self) -> tuple[float, float]:
+        d, M = self.question.allowance_d.high, self.question.allowance_M.high
+        return d + M, d
+
+    def _score(self, rated: Rated) -> Score:
+        """Score of a phase that is driven to its end."""
+        low, high = self._friction
+        downhill, uphill = self._allowances
+        slides = math.atan(low) - math.atan(rated.required_friction)
+        tips = rated.downhill - downhill, rated.uphill - uphill
+        failing = (
+            slides <= 0,
+            min(tips) <= 0,
+            rated.avoidable > ROCKING,
+            rated.impact_speed >= self.question.robot.tolerated_impact,
+            rated.spare <= 0,
+            rated.belly_touches,
+        )
+        return Score(
+            passes=math.isinf(high) or rated.required_friction < high,
+            failing=-sum(failing),
+            margin=min(math.degrees(min(slides, *tips)), ENOUGH),
+            drop=-math.degrees(rated.rotation),
+        )

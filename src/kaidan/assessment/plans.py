@@ -1,0 +1,109 @@
+"""Plans of postures, and what a change of posture and a drop have to gain."""
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import pairwise, product
+from typing import NamedTuple
+
+import numpy as np
+
+from kaidan.mechanics import Number
+from kaidan.modes import Facing, Phase
+from kaidan.question import Question
+from kaidan.robot import Posture, PostureChange, Robot
+from kaidan.traversal.moves import angles_of
+
+TOLERANCE = math.radians(2.0)
+"""How far off its angles a plan has to hold [rad]."""
+A_CHANGE = 1.5
+"""Margin that a change of posture has to gain [deg]."""
+A_DROP = 0.1
+"""Margin that a degree less of the largest drop outweighs [1]."""
+A_TURN = 0.005
+"""Margin that a degree less of the flippers' turns outweighs [1]."""
+GENTLE = 5.0
+"""Rotation that nothing has to spare the robot [deg]."""
+
+
+class Plan(NamedTuple):
+    """Which end leads, and the posture of each phase that has one of its own."""
+
+    facing: Facing
+    postures: tuple[tuple[Phase, Posture], ...]
+
+    def question(self, question: Question) -> Question:
+        """A question with this plan."""
+        (_, first), *others = self.postures
+        changes = tuple(
+            PostureChange(before=phase.value, posture=posture)
+            for (phase, posture), (_, last) in zip(others, self.postures, strict=False)
+            if posture != last
+        )
+        return question.changed(facing=self.facing, posture=first, changes=changes, best_of=())
+
+
+def cost_of_drop(drop: Number) -> Number:
+    """Margin that the largest drop of a plan outweighs [deg]."""
+    return A_DROP * np.maximum(drop - GENTLE, 0.0)
+
+
+def cost_of(robot: Robot, postures: Sequence[Posture]) -> float:
+    """Margin that the changes of a plan have to gain [deg]."""
+    return sum(cost_of_change(robot, one, two) for one, two in pairwise(postures) if one != two)
+
+
+def cost_of_change(robot: Robot, one: Posture, two: Posture) -> float:
+    """Margin that a change has to gain: by itself, and by how far flippers turn [deg]."""
+    was = angles_of(robot, one)
+    turns = (abs(angle - was[end]) for end, angle in angles_of(robot, two).items())
+    return A_CHANGE + A_TURN * math.degrees(sum(turns))
+
+
+def words(robot: Robot) -> Iterator[Posture]:
+    """Postures that have a name: stowed and flat, in every state."""
+    pairs = list(robot.flippers())
+    for state in (None, *robot.states):
+        for laid in product((None, "flat"), repeat=len(pairs)):
+            yield Posture(**dict(zip(pairs, laid, strict=True)), state=state)
+
+
+def pressed(robot: Robot, posture: Posture) -> Posture:
+    """Flat flippers in whole degrees so far below the flat that off their angle they still are.
+
+    Above it they hang in the air until the robot rotates onto them.
+    """
+    angles = {
+        end: math.radians(math.floor(math.degrees(pair.flat_angle - TOLERANCE)))
+        for end, pair in robot.flippers().items()
+        if getattr(posture, end) == "flat"
+    }
+    return posture.model_copy(update=angles)
+
+
+def off(robot: Robot, posture: Posture) -> list[Posture]:
+    """Postures with every angle a tolerance off, both ways; stowed flippers lie at their stop."""
+    angles = angles_of(robot, posture)
+    return [
+        posture.model_copy(
+            update={
+                end: angles[end] + sign * TOLERANCE
+                for end, sign in zip(angles, signs, strict=True)
+                if getattr(posture, end) is not None
+            }
+        )
+        for signs in product((1.0, -1.0), repeat=len(angles))
+    ]
+
+
+def off_angles(question: Question) -> Iterator[Question]:
+    """The same with every angle a tolerance off, pairs both ways."""
+    robot = question.robot
+    postures = [question.posture, *(each.posture for each in question.changes)]
+    for each in dict.fromkeys(zip(*(off(robot, one) for one in postures), strict=True)):
+        if each == tuple(postures):
+            continue
+        changes = tuple(
+            one.model_copy(update={"posture": posture})
+            for one, posture in zip(question.changes, each[1:], strict=True)
+        )
+        yield question.changed(posture=each[0], changes=changes)

@@ -1,0 +1,282 @@
+r"""Traverses rated: the largest figures of each, worked out where its poses are.
+
+::
+
+    drive -> poses, rotations      of a traverse that arrives: friction, belly
+                  |                of its rotations, those that follow at once together:
+                  `-> a row        angle, what is avoidable, speed of impact, rise to spare
+"""
+
+from __future__ import annotations
+
+import math
+
+from kaidan.contact.codes import RotationOutcome, Status
+from kaidan.contact.columns import (
+    BARRIER,
+    BELLY_TOUCHES,
+    CONTACT_X,
+    CONTACT_Z,
+    END_PHI,
+    END_X,
+    END_Z,
+    FRICTION,
+    FRONT_X,
+    FRONT_Z,
+    JOB_ACCELERATION,
+    JOB_END,
+    JOB_GYRATION,
+    JOB_PHI,
+    JOB_ROBOT,
+    JOB_START,
+    OUTCOME,
+    PIVOT_X,
+    PIVOT_Z,
+    POSE_LEG,
+    POSE_PHI,
+    POSE_PSI,
+    POSE_S,
+    RATE_BEFORE,
+    RATED_ANGLE,
+    RATED_AVOIDABLE,
+    RATED_BELLY,
+    RATED_FRICTION,
+    RATED_IMPACT,
+    RATED_SPARE,
+    RATED_STATUS,
+    REAR_LEAN,
+    ROTATION_ANGLE,
+    ROTATION_S,
+    ROTATION_SENSE,
+    START_PHI,
+    START_X,
+    START_Z,
+    X,
+    Z,
+)
+from kaidan.contact.entries import entry
+from kaidan.contact.kernel.driver import drive
+from kaidan.contact.kernel.forces import contacts_at
+from kaidan.contact.kernel.margins import pose_margins
+from kaidan.contact.tables import (
+    BodyTable,
+    ContactTable,
+    EventTable,
+    FloatRow,
+    GroundTable,
+    IntArray,
+    JobTable,
+    MarginTable,
+    PointTable,
+    PoseTable,
+    RatingTable,
+    RotationTable,
+    ZoneTable,
+)
+
+#: Gap up to which a feature holds a rotation that ends [m].
+ENDS = 1e-7
+#: Difference of two directions that is rounding [rad].
+ALIKE = 1e-9
+#: Way of the centroid between two rotations that follow at once, over the flat's length [1].
+AT_ONCE = 0.01
+
+
+def comes_off(poses: PoseTable, row: int, zones: ZoneTable) -> bool:
+    """Whether the trailing end leaves an edge on the way down, the front on a landing."""
+    flat = max(-poses[row, POSE_PHI], 0.0)
+    if not (poses[row, REAR_LEAN] > flat + ALIKE and math.sin(poses[row, POSE_PSI]) < 0.0):
+        return False
+    x = poses[row, FRONT_X]
+    z = poses[row, FRONT_Z]
+    for k in range(zones.shape[0]):
+        if zones[k, 0] <= x and x <= zones[k, 1] and zones[k, 2] <= z and z <= zones[k, 3]:
+            return True
+    return False
+
+
+def row_before(poses: PoseTable, count: int, s: float) -> int:
+    """Row of the last pose of the line of poses that ends at an arclength."""
+    best = -1
+    last = 0
+    for row in range(count):
+        if poses[row, POSE_S] > s + 1e-9:
+            break
+        last = row
+        if poses[row, POSE_S] >= s - 1e-9 and (
+            best < 0 or poses[row, POSE_LEG] <= poses[best, POSE_LEG]
+        ):
+            best = row
+    return best if best >= 0 else last
+
+
+def beyond_the_edge(
+    rotations: RotationTable, row: int, edges: PointTable, flat: float, rough: float
+) -> float:
+    """How far a rotation goes below the line from its pivot to the next edge [rad]."""
+    line = -math.inf
+    for k in range(edges.shape[0]):
+        x = edges[k, X] - rotations[row, PIVOT_X]
+        z = edges[k, Z] - rotations[row, PIVOT_Z]
+        if x > rough and math.sqrt(x * x + z * z) <= flat:
+            line = max(line, math.atan2(z, x))
+    if line == -math.inf:
+        return 0.0
+    below: float = min(line, rotations[row, START_PHI]) - rotations[row, END_PHI]
+    return max(below, 0.0)
+
+
+def impact_speed(
+    ground: GroundTable, body: BodyTable, rotations: RotationTable, row: int, found: ContactTable
+) -> float:
+    """Speed at which an end comes down: rate times the distance of the outermost contacts."""
+    many, _ = contacts_at(
+        ground, body, rotations[row, END_X], rotations[row, END_Z], rotations[row, END_PHI], ENDS,
+        found, 0,
+    )  # fmt: skip
+    if many == 0:
+        return 0.0
+    first = 0
+    last = 0
+    for k in range(many):
+        if found[k, CONTACT_X] < found[first, CONTACT_X]:
+            first = k
+        if found[k, CONTACT_X] > found[last, CONTACT_X]:
+            last = k
+    d_x = found[last, CONTACT_X] - found[first, CONTACT_X]
+    d_z = found[last, CONTACT_Z] - found[first, CONTACT_Z]
+    rate: float = rotations[row, RATE_BEFORE]
+    return rate * math.sqrt(d_x * d_x + d_z * d_z)
+
+
+def rate_rotations(
+    ground: GroundTable,
+    body: BodyTable,
+    poses: PoseTable,
+    n_pose: int,
+    rotations: RotationTable,
+    count: int,
+    a: float,
+    g: float,
+    flat: float,
+    rough: float,
+    edges: PointTable,
+    found: ContactTable,
+    ratings: RatingTable,
+    job: int,
+) -> None:
+    """Write the extremes over the chains of rotations that follow one another at once."""
+    most = 0.0
+    avoidable = 0.0
+    speed = 0.0
+    spare = math.inf
+    angle = 0.0
+    avoids = 0.0
+    fallen = 0.0
+    for row in range(count):
+        if row > 0:
+            w_x = rotations[row, START_X] - rotations[row - 1, END_X]
+            w_z = rotations[row, START_Z] - rotations[row - 1, END_Z]
+            if math.sqrt(w_x * w_x + w_z * w_z) > AT_ONCE * flat:
+                angle = 0.0
+                avoids = 0.0
+                fallen = 0.0
+        psi = poses[row_before(poses, n_pose, rotations[row, ROTATION_S]), POSE_PSI]
+        ahead = a * math.cos(psi)
+        up = g + a * math.sin(psi)
+        size = math.sqrt(ahead * ahead + up * up)
+        d_x = rotations[row, START_X] - rotations[row, END_X]
+        d_z = rotations[row, START_Z] - rotations[row, END_Z]
+        fallen += (up * d_z + ahead * d_x) / size
+        angle += rotations[row, ROTATION_ANGLE]
+        if rotations[row, ROTATION_SENSE] < 0.0:
+            avoids += beyond_the_edge(rotations, row, edges, flat, rough)
+        else:
+            avoids += rotations[row, ROTATION_ANGLE]
+        if rotations[row, OUTCOME] == RotationOutcome.ARRESTED:
+            speed = max(speed, impact_speed(ground, body, rotations, row, found))
+        spare = min(spare, rotations[row, BARRIER] / size - fallen)
+        most = max(most, angle)
+        avoidable = max(avoidable, avoids)
+    ratings[job, RATED_ANGLE] = most
+    ratings[job, RATED_AVOIDABLE] = avoidable
+    ratings[job, RATED_IMPACT] = speed
+    ratings[job, RATED_SPARE] = spare
+
+
+@entry
+def rate_many(
+    ground: GroundTable,
+    bodies: BodyTable,
+    ends: IntArray,
+    flats: FloatRow,
+    jobs: JobTable,
+    step: float,
+    g: float,
+    touch: float,
+    rough: float,
+    zones: ZoneTable,
+    edges: PointTable,
+    poses: PoseTable,
+    events: EventTable,
+    rotations: RotationTable,
+    margins: MarginTable,
+    found: ContactTable,
+    ratings: RatingTable,
+) -> None:
+    """Drive a list of jobs over one terrain and rate each.
+
+    Parameters
+    ----------
+    ground
+        Terrain.
+    bodies, ends, flats
+        Body tables one below the other, the row after the end of each, length of its flat [m].
+    jobs
+        As in :func:`kaidan.contact.kernel.batch.traverse_many`; the terrain and the reference
+        inclination play no part.
+    step, g, touch, rough
+        Arclength between poses [m], gravity [m/s^2], gap of a contact, distance within which an
+        edge is not ahead of another [m].
+    zones
+        Landings (k, 4): places of the front contact at which the robot lands, first and last x,
+        lowest and highest z [m].
+    edges
+        Edges of the terrain that may hold an end as it comes down (k, 2) [m].
+    poses, events, rotations, margins, found
+        Scratch, see :func:`kaidan.contact.kernel.driver.drive`.
+    ratings
+        To be filled, a row a job: status; of one that arrives the largest required friction but
+        where the trailing end leaves an edge as it lands, whether the belly touches (0, 1), and of
+        rotations that follow at once the largest angle, the largest that no edge obliges to [rad],
+        the largest speed of an impact [m/s], the least rise to spare [m].
+    """
+    for job in range(jobs.shape[0]):
+        robot = int(jobs[job, JOB_ROBOT])
+        first = 0
+        if robot > 0:
+            first = ends[robot - 1]
+        body = bodies[first : ends[robot]]
+        a = jobs[job, JOB_ACCELERATION]
+        status, n_pose, _, n_rotation = drive(
+            ground, body, jobs[job, JOB_START], jobs[job, JOB_END], jobs[job, JOB_PHI], step, a, g,
+            0.0, jobs[job, JOB_GYRATION], poses, events, rotations,
+        )  # fmt: skip
+        ratings[job, RATED_STATUS] = status
+        if status != Status.OK:
+            continue
+        pose_margins(ground, body, poses, n_pose, a, g, touch, margins, found)
+        mu = 0.0
+        belly = 0.0
+        for row in range(n_pose):
+            belly = max(belly, margins[row, BELLY_TOUCHES])
+            if margins[row, FRICTION] > mu or math.isnan(margins[row, FRICTION]):
+                if comes_off(poses, row, zones):
+                    continue
+                mu = math.inf if math.isnan(margins[row, FRICTION]) else margins[row, FRICTION]
+        ratings[job, RATED_FRICTION] = mu
+        ratings[job, RATED_BELLY] = belly
+        rate_rotations(
+            ground, body, poses, n_pose, rotations, n_rotation, a, g, flats[robot], rough,
+            edges, found, ratings, job,
+        )  # fmt: skip

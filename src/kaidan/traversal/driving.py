@@ -1,0 +1,125 @@
+"""What a robot drives over from where to where, and its underside on a flight."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kaidan import contact
+from kaidan.errors import InputError
+from kaidan.outline import Outline
+from kaidan.terrain.profile import Profile
+from kaidan.traversal.phases import uneven_span
+from kaidan.traversal.static_criterion import Criterion, Tread, static_criterion
+
+Array = NDArray[np.float64]
+
+LONG = 60.0
+"""Time beyond which the plain kernel is not waited for [s]."""
+LONGEST = 400_000
+"""Points and poses above which a traverse is refused: half a minute compiled."""
+CLEARANCE = 0.05
+"""Way on level ground before the first and behind the last contact with the flight [m]."""
+IN_LINE = 1e-6
+"""Height up to which a disc counts as in line with the flat [m]."""
+
+
+def span(
+    driven: Profile, body: Outline, start: contact.Placement | None, until: float | None
+) -> tuple[float, float]:
+    """Where the centroid starts and ends [m]."""
+    first, last = uneven_span(driven)
+    return (
+        first - body.reach[1] - CLEARANCE if start is None else start.x,
+        last + body.trail + CLEARANCE if until is None else until,
+    )
+
+
+def ground_for(driven: Profile, bodies: Sequence[Outline]) -> Array:
+    """Points of a profile whose landings are as long as these bodies take [m]."""
+    # whole metres: one ground for most bodies
+    clear = max(math.ceil(sum(body.reach) + 1.0) for body in bodies)
+    ends = driven.points[[0, -1]] + np.array([[-clear, 0.0], [clear, 0.0]])
+    return np.vstack([ends[0], driven.points, ends[1]])
+
+
+def drive(
+    driven: Profile,
+    body: Outline,
+    start: contact.Placement | None,
+    until: float | None,
+    **manner: Any,
+) -> contact.Path:
+    """Path over a profile whose landings are as long as it takes, or over a part of it."""
+    return contact.traverse(
+        ground_for(driven, [body]),
+        body.parts,
+        *span(driven, body, start, until),
+        kinds=body.kinds,
+        inclination=0.0 if start is None else start.inclination,
+        gyration=body.gyration,
+        **manner,
+    )
+
+
+def criterion_of(driven: Profile, body: Outline, along: float) -> tuple[Tread, Criterion]:
+    """Underside on the flight and what the criterion says, uphill being where nosings rise.
+
+    Parameters
+    ----------
+    driven : Profile
+        Terrain as driven, towards +x.
+    body : Outline
+        Robot, x towards the end that leads.
+    along : float
+        Acceleration along the path [m/s^2].
+    """
+    tread, nosings = tread_of(body), driven.nosings
+    if driven.falls:
+        tread, nosings, along = tread.mirrored(), driven.reflected().nosings, -along
+    return tread, static_criterion(nosings, tread, acceleration=along)
+
+
+def tread_of(body: Outline) -> Tread:
+    """Underside of a robot on a flight that rises towards +x."""
+    stance, bottom = body.stance, -body.stance.com_height
+    ends = np.vstack([body.parts[:, :3], body.parts[:, 3:]])
+    level = np.abs(body.parts[:, [1, 4]] - body.parts[:, [2, 5]] - bottom) < IN_LINE
+    on = ends[np.concatenate(level.T)]
+    last, first = on[np.argmin(on[:, 0])], on[np.argmax(on[:, 0])]
+    return Tread(
+        L=stance.flat_length,
+        C_L=float(first[0]),
+        C_N=stance.com_height,
+        R=float(first[2]),
+        R_downhill=float(last[2]),
+        gyration=body.gyration,
+        whole=int(np.sum(level[:, 0] & level[:, 1] & (body.kinds == contact.TRACK))) == 1,
+    )
+
+
+def whole_of(tread: Tread, criterion: Criterion, body: Outline) -> bool:
+    """Whether one flat carries all along on the flight, so that the criterion judges there."""
+    return criterion.holds is not None and tread.whole and not body.stance.tips_below
+
+
+def refuse_too_long(
+    profile: Profile, body: Outline, span: tuple[float, float], step: float
+) -> None:
+    """Refuse a profile that the kernel in use cannot be waited for."""
+    points, wide = len(profile.points), float(np.ptp(profile.points[:, 0]))
+    climbed = float(np.abs(np.diff(profile.points[:, 1])).sum())
+    if points + (span[1] - span[0] + climbed) / step > LONGEST:
+        raise InputError(
+            f"profile: {points} points over {wide:.0f} m are more than one traverse takes: "
+            "cut or thin it (in millimetres?)"
+        )
+    if contact.kernel_in_use() == "native":
+        return
+    if contact.plain_seconds(profile.points, body.parts, *span, step) > LONG:
+        raise InputError(
+            f"profile: {points} points over {wide:.0f} m are too many without the native "
+            "kernel (`kaidan doctor` says why it is not there): cut or thin the profile"
+        )

@@ -1,0 +1,125 @@
+"""Many postures over parts of one profile, rated in one call: their largest figures, no poses."""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from kaidan import contact
+from kaidan.contact import Job, Placement, Status
+from kaidan.outline import Outline
+from kaidan.terrain.polyline import ROUGHNESS
+from kaidan.terrain.profile import Profile
+from kaidan.traversal.driving import criterion_of, ground_for, refuse_too_long, span, whole_of
+from kaidan.traversal.phases import landing_zones
+
+
+class Part(NamedTuple):
+    """A robot over a part of a profile; see `kaidan.traversal.traverse`."""
+
+    outline: Outline
+    """x towards the leading end."""
+    start: Placement | None = None
+    until: float | None = None
+
+
+class Rated(NamedTuple):
+    """Largest figures of a part of a traverse that arrives."""
+
+    required_friction: float
+    """But where the trailing end leaves the last edges as the robot lands [1]."""
+    belly_touches: bool
+    rotation: float
+    """Largest of those that follow one another at once [rad]."""
+    avoidable: float
+    """Largest part of one to which the path does not oblige [rad]."""
+    impact_speed: float
+    """Largest [m/s]."""
+    spare: float
+    """Least rise still to climb before rotations topple [m]; infinite: nothing rotates."""
+    downhill: float
+    """Least margin of the criterion of no rotation [rad]; infinite: no flat carries all along."""
+    uphill: float
+    """The same towards the uphill end [rad]."""
+
+
+def rate(
+    profile: Profile,
+    parts: Sequence[Part],
+    *,
+    descending: bool = False,
+    acceleration: float = 0.0,
+    step: float = contact.STEP,
+) -> list[Rated | None]:
+    """Rate robots, or one in many postures, on their way over parts of a profile.
+
+    Parameters
+    ----------
+    profile : Profile
+        Terrain from the lower to the upper landing.
+    parts : sequence of Part
+        Of robots with as many parts of their underside, of the same kinds.
+    descending : bool
+        From the upper landing to the lower one.
+    acceleration : float
+        Acceleration UP the stairs [m/s^2].
+    step : float
+        Arclength between poses [m].
+
+    Returns
+    -------
+    list of Rated or None
+        None for one that does not arrive.
+
+    Raises
+    ------
+    InputError
+        A profile too long for the kernel at hand.
+    """
+    driven = profile.reflected() if descending else profile
+    along = -acceleration if descending else acceleration
+    spans = [span(driven, each.outline, each.start, each.until) for each in parts]
+    longest = max(range(len(parts)), key=lambda k: spans[k][1] - spans[k][0])
+    refuse_too_long(driven, parts[longest].outline, spans[longest], step)
+    outlines = [each.outline for each in parts]
+    ratings = contact.rate_many(
+        ground_for(driven, outlines),
+        [each.parts for each in outlines],
+        outlines[0].kinds,
+        [each.stance.flat_length for each in outlines],
+        [
+            Job(0, k, *ends, _inclination(part), along, part.outline.gyration)
+            for k, (part, ends) in enumerate(zip(parts, spans, strict=True))
+        ],
+        step=step,
+        zones=landing_zones(driven, descending, min(each.stance.flat_length for each in outlines)),
+        edges=driven.edges,
+        rough=ROUGHNESS,
+    )
+    arrives = (ratings.status == Status.OK).tolist()
+    figures = zip(
+        ratings.required_friction.tolist(), ratings.belly_touches.tolist(),
+        ratings.largest_rotation.tolist(), ratings.avoidable.tolist(),
+        ratings.impact_speed.tolist(), ratings.spare.tolist(), strict=True,
+    )  # fmt: skip
+    return [
+        Rated._make((*each, *_tips(driven, part, ends, along))) if arrived else None
+        for arrived, each, part, ends in zip(arrives, figures, parts, spans, strict=True)
+    ]
+
+
+def _inclination(part: Part) -> float:
+    return 0.0 if part.start is None else part.start.inclination
+
+
+def _tips(
+    driven: Profile, part: Part, ends: tuple[float, float], along: float
+) -> tuple[float, float]:
+    """Least margins of the criterion downhill and uphill [rad]."""
+    tread, criterion = criterion_of(driven, part.outline, along)
+    if not whole_of(tread, criterion, part.outline):
+        return math.inf, math.inf
+    if part.start is not None or part.until is not None:
+        criterion = criterion.within(*((-ends[1], -ends[0]) if driven.falls else ends))
+    worst = [criterion.smallest(downhill=side) for side in (True, False)]
+    down, up = (math.inf if each is None else each.margin for each in worst)
+    return down, up
