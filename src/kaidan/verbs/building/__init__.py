@@ -246,6 +246,7 @@ def _flight(flight: Flight, sheet: Stairs, robots: Sequence[Robot]) -> FlightSho
         ],
         lane=_places(flight.lane),
         nosings=_places(np.hstack([left, right])),
+        sheet=sheet,
     )
 
 

@@ -4,6 +4,7 @@ from typing import Any, ClassVar, Literal
 
 from kaidan.answer import Answer, Part
 from kaidan.modes import Direction, Facing, Verdict
+from kaidan.terrain.stairs import Stairs
 
 Binding = Literal["stability", "friction", "width", "headroom", "turning", "landing", "doors", ""]
 """What decides, in a word."""
@@ -62,6 +63,8 @@ class FlightShown(Part):
     """Corners of the clear lane in the plan, the foot's right one first [m]."""
     nosings: tuple[tuple[float, float, float, float], ...]
     """Ends of each nosing in the plan: x, y of the left one, x, y of the right one [m]."""
+    sheet: Stairs
+    """Data sheet with which it is judged."""
 
 
 class FloorShown(Part):

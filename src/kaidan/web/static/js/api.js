@@ -42,6 +42,15 @@ export function ask(path, body, signal) {
   });
 }
 
+// A file that the server makes of a question.
+export async function fetchedFile(path, body) {
+  const response = await fetch(`api/${path}`, {
+    method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body),
+  }).catch(() => { throw new Unreachable(); });
+  if (!response.ok) return answered(response);
+  return response.blob();
+}
+
 export function upload(path, file, fields = [], signal) {
   const form = new FormData();
   form.append("file", file);

@@ -46,15 +46,11 @@ export function buildingView() {
 
   // The flight as a question of its own, with the robot of the cell and its manner.
   function open(flight, cell) {
-    const sheet = {
-      name: flight.name || flight.identity, rise: flight.rise_m, going: flight.going_m, steps: flight.steps,
-      width: flight.width_m, headroom: flight.headroom_m, nosing_overhang: flight.overhang_m, open_risers: flight.open_risers,
-    };
     clear("stairsFigures");
     clear("robotFigures");
     change({
-      view: "check", robot: cell.robot, stairs: packed(sheet), direction: cell.direction, facing: cell.facing, surface,
-      flippers: ["flat", "stowed", "best"].includes(cell.flippers) ? cell.flippers : "best",
+      view: "check", robot: cell.robot, stairs: packed(flight.sheet), direction: cell.direction, facing: cell.facing, surface,
+      flippers: cell.flippers || "best",
     });
   }
 
@@ -110,7 +106,7 @@ function plan(found) {
   const k = 1000;
   const at = ([x, y]) => [(x - left) * k, (low + tall - y) * k];
   const outlines = found.floors.flatMap((floor) => floor.outlines).map((each) => s("path", { class: "floor", d: `${line(each.map(at))}Z` }));
-  return [h("h3", {}, t("building.plan")), s("svg", { class: "plan", viewBox: `0 0 ${(wide * k).toFixed(0)} ${(tall * k).toFixed(0)}`, role: "img", "aria-label": `${t("building.plan")}: ${found.flights.map((each) => each.name).join(", ")}` },
+  return [h("h3", {}, t("building.plan")), s("svg", { class: "floor-plan", viewBox: `0 0 ${(wide * k).toFixed(0)} ${(tall * k).toFixed(0)}`, role: "img", "aria-label": `${t("building.plan")}: ${found.flights.map((each) => each.name).join(", ")}` },
     outlines, found.flights.map((flight) => s("g", {},
       s("path", { class: "lane", d: `${line(flight.lane.map(at))}Z` }),
       flight.nosings.map(([x1, y1, x2, y2]) => s("path", { class: "nosing", d: line([at([x1, y1]), at([x2, y2])]) })),

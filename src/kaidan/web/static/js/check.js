@@ -1,7 +1,7 @@
 // The view of one robot on one staircase: panels at the side, the answer, its pictures in tabs.
 
-import { Latest, ask } from "./api.js";
-import { h, replace } from "./dom.js";
+import { Latest, fetchedFile } from "./api.js";
+import { download, h, replace } from "./dom.js";
 import { english, t } from "./i18n.js";
 import { groundPanel } from "./ground.js";
 import { drawMargin } from "./margin.js";
@@ -25,6 +25,15 @@ export function checkView(shell) {
   };
   const current = {
     robot: null, stairs: null, answer: null, body: null,
+    async report(format) {
+      current.say(t("app.report_making"));
+      try {
+        download(await fetchedFile("report", { ...current.body, format }), `kaidan.${format}`);
+        current.say(t("app.report_made"));
+      } catch (error) {
+        current.say(error.message || t("state.offline"));
+      }
+    },
     say: shell.say, chip: shell.chip, share: shell.share, print: shell.print, ask: () => put(true),
   };
   const panels = [robotPanel(current), stairsPanel(current), groundPanel(current)];

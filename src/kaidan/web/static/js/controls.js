@@ -12,7 +12,7 @@ export function slider({ label, kind, low, high, step, get, set }) {
   const finest = step ? step * factor : 10 ** -digits;
   const common = { min: (low * factor).toFixed(digits), max: (high * factor).toFixed(digits), step: finest };
   const range = h("input", { type: "range", id, ...common, "aria-describedby": `${id}-unit` });
-  const number = h("input", { type: "number", ...common, step: "any", "aria-label": label, inputmode: "decimal" });
+  const number = h("input", { type: "number", ...common, step: "any", "aria-label": label, inputmode: "decimal", placeholder: "–" });
   const take = (input, done) => {
     const value = Number(input.value);
     if (input.value === "" || !Number.isFinite(value)) return;

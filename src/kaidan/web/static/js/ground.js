@@ -39,6 +39,7 @@ export function groundPanel(current) {
     label: t("ground.flippers"), get: () => state.flippers, set: (value) => change({ flippers: value }),
     options: ["best", "flat", "stowed", "angles"].map((each) => [each, t(`ground.${each}`)]),
   });
+  const other = h("p", { class: "quiet" });
   const front = number("front", "angle", -Math.PI / 2, Math.PI / 2, Math.PI / 180, 0);
   const rear = number("rear", "angle", -Math.PI / 2, Math.PI / 2, Math.PI / 180, 0);
   const angles = h("div", { class: "figures" }, front.node, rear.node);
@@ -51,7 +52,7 @@ export function groundPanel(current) {
 
   return {
     node: h("section", { class: "panel", "aria-label": t("ground.heading") },
-      surface.node, own, flippers.node, angles,
+      surface.node, own, flippers.node, other, angles,
       h("details", {}, h("summary", {}, t("ground.more")),
         facing.node, h("div", { class: "figures" }, more.map((each) => each.node)),
         h("label", { class: "check" }, accept, h("span", {}, t("ground.accept"))))),
@@ -60,6 +61,7 @@ export function groundPanel(current) {
       own.hidden = state.surface !== "own";
       flippers.node.hidden = Boolean(robot) && !robot.front_flippers && !robot.rear_flippers;
       angles.hidden = flippers.node.hidden || state.flippers !== "angles";
+      other.textContent = ["best", "flat", "stowed", "angles"].includes(state.flippers) ? "" : state.flippers;
       accept.checked = state.accept === "arrested";
       for (const each of [surface, low, high, flippers, front, rear, facing, ...more]) each.update();
     },

@@ -1,7 +1,7 @@
 // Robots and stairs on this device: use, delete, export, import.
 
 import { button, fileButton } from "./controls.js";
-import { h, replace } from "./dom.js";
+import { download, h, replace } from "./dom.js";
 import { t } from "./i18n.js";
 import { change, clear, packed } from "./state.js";
 import { exported, imported, remove, sheetsOf } from "./storage.js";
@@ -17,9 +17,7 @@ export function savedView(shell) {
       })));
 
   function send() {
-    const link = h("a", { href: URL.createObjectURL(exported()), download: "kaidan-sheets.json" });
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    download(exported(), "kaidan-sheets.json");
   }
 
   function use(kind, sheet) {

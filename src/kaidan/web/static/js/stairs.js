@@ -104,21 +104,21 @@ function stairsDrawing({ rise, going, first_rise: first }) {
   const label = t("stairs.drawing", { rise: shown(rise, "length"), going: shown(going, "length"), angle: shown(Math.atan2(rise, going), "angle") });
   const start = first ?? rise;
   const k = Math.min(75 / going, 140 / (start + 2 * rise));
-  const z = (value) => 160 - value * k;
-  let path = `M0 160 H60`, x = 60, height = start;
+  const foot = 80, z = (value) => 160 - value * k;
+  let path = `M0 160 H${foot}`, x = foot, height = start;
   path += ` V${z(height)}`;
   for (let step = 0; step < 2; step += 1) {
     x += going * k;
     height += rise;
     path += ` H${x} V${z(height)}`;
   }
-  const second = 60 + going * k, level = z(start);
+  const second = foot + going * k, level = z(start);
   return s("svg", { viewBox: "0 0 360 180", role: "img", "aria-label": label, class: "sketch" },
     s("path", { class: "ground", d: `${path} H360 V180 H0 Z` }),
-    s("path", { class: "dimension", d: `M60 ${level + 14} H${second} M60 ${level + 9} v10 M${second} ${level + 9} v10` }),
-    s("text", { x: (60 + second) / 2, y: level + 30, "text-anchor": "middle" }, shown(going, "length")),
+    s("path", { class: "dimension", d: `M${foot} ${level + 14} H${second} M${foot} ${level + 9} v10 M${second} ${level + 9} v10` }),
+    s("text", { x: (foot + second) / 2, y: level + 30, "text-anchor": "middle" }, shown(going, "length")),
     s("path", { class: "dimension", d: `M${second + 12} ${level} V${z(start + rise)} M${second + 7} ${level} h10 M${second + 7} ${z(start + rise)} h10` }),
     s("text", { x: second + 20, y: (level + z(start + rise)) / 2 + 4 }, shown(rise, "length")),
-    s("path", { class: "thin", d: `M60 ${level} L${x} ${z(height)}` }),
-    s("text", { x: 52, y: (160 + level) / 2 + 4, "text-anchor": "end" }, shown(start, "length")));
+    s("path", { class: "thin", d: `M${foot} ${level} L${x} ${z(height)}` }),
+    s("text", { x: foot - 8, y: (160 + level) / 2 + 4, "text-anchor": "end" }, shown(start, "length")));
 }

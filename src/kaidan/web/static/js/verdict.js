@@ -63,7 +63,8 @@ export function verdictPanel(current) {
         h("p", { class: "subject" }, `${robot.title || robot.name} · ${on} · ${t(`stairs.${answer.question.direction}`)}, ${t(`answer.${answer.question.facing}`)}`),
         h("p", { class: "quiet" }, t("state.final")));
       replace(body, reason(answer), toDo(answer), numbers(answer), first(answer), notes(answer),
-        h("div", { class: "buttons" }, button(t("app.print"), current.print, { class: "main print" }), button(t("app.share"), current.share)));
+        h("div", { class: "buttons" }, button(t("app.print"), current.print, { class: "main" }), button(t("app.report_pdf"), () => current.report("pdf")),
+          button(t("app.report_html"), () => current.report("html")), button(t("app.share"), current.share)));
     },
   };
 }
