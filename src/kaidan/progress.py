@@ -1,10 +1,29 @@
-"""A progress bar for what takes seconds, on a terminal's standard error and nowhere else."""
+"""A progress bar for what takes seconds: on a terminal's standard error, and to who follows it."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TypeVar
 
 T = TypeVar("T")
+Follower = Callable[[str, int, int], None]
+"""Called with what is counted, how many are done, and how many there are."""
+_followers: list[Follower] = []
+
+
+@contextmanager
+def followed(by: Follower) -> Iterator[None]:
+    """Let somebody follow how everything goes that this process does."""
+    _followers.append(by)
+    try:
+        yield
+    finally:
+        _followers.remove(by)
+
+
+def tell(what: str, done: int, of: int) -> None:
+    """Say to those who follow how far something is."""
+    for each in _followers:
+        each(what, done, of)
 
 
 def progress(items: Sequence[T], what: str) -> Iterator[T]:
@@ -13,14 +32,23 @@ def progress(items: Sequence[T], what: str) -> Iterator[T]:
     from rich.progress import track
 
     console = Console(stderr=True)
-    yield from track(
-        items, description=what, console=console, transient=True, disable=not console.is_terminal
-    )
+    for done, item in enumerate(
+        track(
+            items,
+            description=what,
+            console=console,
+            transient=True,
+            disable=not console.is_terminal,
+        )
+    ):
+        tell(what, done, len(items))
+        yield item
 
 
 @contextmanager
 def working(what: str) -> Iterator[None]:
     """What is being done, for as long as it takes."""
+    tell(what, 0, 0)
     from rich.console import Console
 
     console = Console(stderr=True)

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from kaidan.web.server import listening, server_of
+from kaidan.web.state import State
 
 PLACES = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome", "chrome")
 VIEWPORTS = {"phone": {"width": 390, "height": 844}, "desktop": {"width": 1280, "height": 900}}
@@ -41,17 +42,18 @@ def chromium():
 class Running:
     """A server in a thread, that can be stopped and started again at the same address."""
 
-    def __init__(self):
-        self.port = 0
+    def __init__(self, folder):
+        self.port, self.folder = 0, folder
         self.start()
 
     def start(self):
         self.opened = listening("127.0.0.1", self.port)
         self.port = self.opened.getsockname()[1]
-        self.server = server_of(host="127.0.0.1", token="", workers=1)
+        self.server = server_of(State(self.folder), host="127.0.0.1", token="", workers=1)
         self.thread = threading.Thread(target=self.server.run, kwargs={"sockets": [self.opened]})
         self.thread.start()
         while not self.server.started:
+            assert self.thread.is_alive()
             time.sleep(0.01)
 
     def stop(self):
@@ -65,8 +67,8 @@ class Running:
 
 
 @pytest.fixture(scope="session")
-def server():
-    running = Running()
+def server(tmp_path_factory):
+    running = Running(tmp_path_factory.mktemp("state"))
     yield running
     running.stop()
 

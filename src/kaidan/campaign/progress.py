@@ -5,6 +5,8 @@ import time
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
+from kaidan.progress import tell
+
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar
     from rich.progress import TaskID
@@ -73,6 +75,8 @@ class Progress:
         """So many trials were done, or skipped as done before, since the last time."""
         self._total -= skipped
         self._done += done
+        if done or skipped:
+            tell(self._what, self._done, self._total)
         if self._lines:
             self._say()
         if self._bar is None or self._task is None or not (done or skipped):

@@ -1,6 +1,7 @@
 """``kaidan serve``: the page and the API."""
 
 import sys
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -18,6 +19,11 @@ Processes = Annotated[
     int | None, typer.Option(min=1, max=256, help="Processes that answer [one a processor].")
 ]
 
+StateFolder = Annotated[
+    Path | None,
+    typer.Option("--state", metavar="DIR", help="Where jobs are kept [the user's state folder]."),
+]
+
 
 def register(app: typer.Typer) -> None:
     """Add ``serve`` to the command line."""
@@ -25,7 +31,11 @@ def register(app: typer.Typer) -> None:
 
 
 def serve(
-    host: Host = "127.0.0.1", port: Port = 8750, token: Token = None, workers: Processes = None
+    host: Host = "127.0.0.1",
+    port: Port = 8750,
+    token: Token = None,
+    workers: Processes = None,
+    state: StateFolder = None,
 ) -> None:
     """Serve the page and the API to browsers and robots, without a network.
 
@@ -37,6 +47,7 @@ def serve(
     for module in ("fastapi", "uvicorn", "python_multipart"):
         needed(module, "kaidan serve", "web")
     from kaidan.web.server import is_local, listening, new_token, server_of
+    from kaidan.web.state import State, usual_folder
 
     if not is_local(host):
         token = token or new_token()
@@ -44,10 +55,12 @@ def serve(
             f"kaidan: whoever reaches {host} and knows the token can ask; nothing is encrypted",
             err=True,
         )
+    kept = State(state or usual_folder())
     with listening(host, port) as opened:
         shown = f"[{host}]" if ":" in host else host
         secret = f"?token={token}" if token else ""
         typer.echo(f"http://{shown}:{opened.getsockname()[1]}/{secret}")
         sys.stdout.flush()
-        server = server_of(host=host, token=token or "", workers=workers or processors())
+        count = workers or processors()
+        server = server_of(kept, host=host, token=token or "", workers=count)
         server.run(sockets=[opened])

@@ -1,8 +1,5 @@
 """The service: routes that hand questions to worker processes, and the page's files."""
 
-import json
-import shutil
-import tempfile
 from collections.abc import AsyncIterator, Mapping
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -16,27 +13,23 @@ from starlette.exceptions import HTTPException
 
 import kaidan
 from kaidan import catalog
-from kaidan.errors import InputError, KaidanError, shown
+from kaidan.errors import KaidanError
 from kaidan.robot import Robot
 from kaidan.sheet import Sheet
 from kaidan.surface import Surface
 from kaidan.terrain.stairs import Stairs
 from kaidan.text.page import page_texts
-from kaidan.web import openapi
+from kaidan.web import file_routes, job_routes, openapi, report_routes
 from kaidan.web.asking import VERBS
+from kaidan.web.bodies import LARGEST_BODY, LARGEST_UPLOAD, json_of, sent
 from kaidan.web.guard import Guard
-from kaidan.web.workers import Limits, Reply, Workers
+from kaidan.web.job_table import JobTable
+from kaidan.web.jobs import Jobs
+from kaidan.web.sessions import Sessions
+from kaidan.web.state import State
+from kaidan.web.workers import Limits, Workers
 
 STATIC = Path(__file__).parent / "static"
-LARGEST_BODY = 2 << 20
-"""Largest body of a question [bytes]."""
-LARGEST_UPLOAD = 256 << 20
-"""Largest upload [bytes]."""
-_UPLOAD_SECONDS = 120.0
-"""Time to read a file [s]."""
-_DOCUMENTS = {"html": "text/html; charset=utf-8", "pdf": "application/pdf"}
-_OF_A_DOCUMENT = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'"
-"""A document has its style and its pictures inside, and nothing that runs."""
 _FOLDERS: Mapping[str, tuple[catalog.Folder, ...]] = {
     "robots": ("robots", "unweighed"),
     "stairs": ("stairs",),
@@ -50,12 +43,19 @@ _SHEETS: Mapping[str, type[Robot | Stairs | Surface]] = {
 
 
 def app_of(
-    *, workers: int, limits: Limits | None = None, token: str = "", hosts: tuple[str, ...] = ()
+    state: State,
+    *,
+    workers: int,
+    limits: Limits | None = None,
+    token: str = "",
+    hosts: tuple[str, ...] = (),
 ) -> FastAPI:
     """Application.
 
     Parameters
     ----------
+    state : State
+        Folder that it keeps; it gives it back when it ends.
     workers : int
         Processes that answer.
     limits : Limits, optional
@@ -63,12 +63,14 @@ def app_of(
     token, hosts
         As `kaidan.web.guard.Guard` has them.
     """
-    hands = Workers(workers, limits or Limits())
+    hands = Workers(workers, limits or Limits(), state.passing)
+    jobs = Jobs(JobTable(state.jobs), hands)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        async with hands:
-            yield
+        with state:
+            async with hands, jobs:
+                yield
 
     app = FastAPI(
         title="kaidan",
@@ -81,13 +83,13 @@ def app_of(
         telemetry={"tracing": False, "metrics": False, "logs": False},
         max_body_size=LARGEST_UPLOAD,
     )
-    app.state.workers = hands
     app.add_middleware(Guard, token=token, hosts=hosts)
     _add_errors(app)
     _add_catalogue(app)
     _add_verbs(app, hands)
-    _add_files(app, hands)
-    _add_report(app, hands)
+    report_routes.add(app, hands)
+    file_routes.add(app, hands)
+    job_routes.add(app, jobs, Sessions(state.folder / "key"))
     app.openapi = lambda: openapi.described(app)  # type: ignore[method-assign]
     app.mount("/", StaticFiles(directory=STATIC, html=True), name="page")
     return app
@@ -144,8 +146,8 @@ def _add_catalogue(app: FastAPI) -> None:
 def _add_verbs(app: FastAPI, hands: Workers) -> None:
     def add(path: str, kind: str, verb: str, summary: str, schema: Any) -> None:
         async def answer(request: Request) -> Response:
-            body = await _json_of(request)
-            return _sent(await hands.ask({"kind": kind, "verb": verb, "body": body}))
+            body = await json_of(request)
+            return sent(await hands.ask({"kind": kind, "verb": verb, "body": body}))
 
         app.add_api_route(
             path, answer, methods=["POST"], name=path.removeprefix("/api/").replace("/", "_"),
@@ -155,104 +157,3 @@ def _add_verbs(app: FastAPI, hands: Workers) -> None:
     for verb, each in VERBS.items():
         add(f"/api/{verb}", "ask", verb, f"As kaidan {verb} --json", each.answers())
         add(f"/api/text/{verb}", "text", verb, f"As kaidan {verb} says it", openapi.Said)
-
-
-def _add_files(app: FastAPI, hands: Workers) -> None:
-    def add(verb: str, summary: str) -> None:
-        async def answer(request: Request) -> Response:
-            return await _uploaded(request, verb, hands)
-
-        app.add_api_route(
-            f"/api/{verb}", answer, methods=["POST"], name=verb, summary=summary,
-            openapi_extra=openapi.uploaded(verb),
-        )  # fmt: skip
-
-    add("read", "As kaidan read FILE --json")
-    add("building", "As kaidan building FILE --json")
-    add("sheets", "Robots and stairs of a file, as sheets")
-
-
-def _add_report(app: FastAPI, hands: Workers) -> None:
-    @app.post(
-        "/api/report", openapi_extra=openapi.written(tuple(_DOCUMENTS)), max_body_size=LARGEST_BODY
-    )
-    async def report(request: Request) -> Response:
-        """As kaidan report -o FILE."""
-        body = await _json_of(request)
-        form = body.pop("format", "html")
-        if form not in (*_DOCUMENTS, "json"):
-            known = ", ".join((*_DOCUMENTS, "json"))
-            raise InputError(f"report: format {shown(form)} is not known; known: {known}")
-        task = {"kind": "report", "format": form, "body": body}
-        reply = await hands.ask(task, seconds=_UPLOAD_SECONDS)
-        if form == "json" or reply.status != 200:
-            return _sent(reply)
-        headers = {
-            "Content-Disposition": f'inline; filename="kaidan-report.{form}"',
-            "Content-Security-Policy": _OF_A_DOCUMENT,
-        }
-        return Response(reply.content, 200, headers, _DOCUMENTS[form])
-
-
-async def _uploaded(request: Request, verb: str, hands: Workers) -> Response:
-    """Answer about a file, which lies in a folder of its own for as long as that takes."""
-    async with request.form(max_files=1, max_fields=32, max_part_size=LARGEST_BODY) as form:
-        file = form.get("file")
-        if file is None or isinstance(file, str):
-            raise InputError(f"{verb}: no file: send multipart/form-data with a part called file")
-        fields = [(name, value) for name, value in form.multi_items() if isinstance(value, str)]
-        folder = Path(tempfile.mkdtemp(prefix="kaidan-"))
-        try:
-            with (folder / "upload").open("wb") as kept:
-                while chunk := await file.read(1 << 20):
-                    kept.write(chunk)
-            task: dict[str, Any] = {"kind": verb, "folder": str(folder), "file": "upload"}
-            task["body"] = _values(fields)
-            task["part"] = task["body"].pop("part", None)
-            return _sent(await hands.ask(task, seconds=_UPLOAD_SECONDS))
-        finally:
-            shutil.rmtree(folder, ignore_errors=True)
-
-
-def _values(fields: list[tuple[str, str]]) -> dict[str, Any]:
-    """Texts by name; those that came several times, and robots, as lists."""
-    found: dict[str, Any] = {}
-    for name, value in fields:
-        if name in found:
-            found[name] = (
-                [*found[name], value] if isinstance(found[name], list) else [found[name], value]
-            )
-        else:
-            found[name] = value
-    return found
-
-
-async def _json_of(request: Request) -> dict[str, Any]:
-    """Object of a request's body.
-
-    Raises
-    ------
-    HTTPException
-        Another type of content.
-    InputError
-        No JSON object.
-    """
-    kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
-    if kind != "application/json":
-        raise HTTPException(415, "send application/json")
-    try:
-        body = json.loads(await request.body(), parse_constant=_refuse_constant)
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"the body is no JSON: {error}") from None
-    if not isinstance(body, dict):
-        raise InputError("the body is no JSON object")
-    return body
-
-
-def _refuse_constant(word: str) -> None:
-    raise ValueError(f"{word} is no number of JSON")
-
-
-def _sent(reply: Reply) -> Response:
-    headers = {"Retry-After": "1"} if reply.status == 503 else None
-    return Response(reply.content, reply.status, headers, "application/json")

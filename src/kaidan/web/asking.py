@@ -169,18 +169,18 @@ def answered(verb: str, body: Mapping[str, Any]) -> Answer:
     values = {name: value for name, value in body.items() if value is not None}
     whole = values.pop("question", None) if asked.takes_question else None
     if not asked.open:
-        _refuse_unknown(verb, values, asked.parameters())
+        refuse_unknown(verb, values, asked.parameters())
         one = {name for name in values if name in asked.several}
         values |= {name: [values[name]] for name in one if not isinstance(values[name], list)}
     for name in asked.required if whole is None else ():
         if name not in values:
             raise InputError(f"{verb}: no {name}: give a name of the catalogue or a sheet")
-    made = _made(values, asked.several)
+    keywords = made(values, asked.several)
     if whole is not None:
         if not isinstance(whole, Mapping):
             raise InputError(f"question = {shown(whole)} is not a table")
-        made["robot"] = Question.model_validate(whole)
-    return asked.load()(**made)
+        keywords["robot"] = Question.model_validate(whole)
+    return asked.load()(**keywords)
 
 
 def report_of(body: Mapping[str, Any]) -> "Report":
@@ -196,30 +196,32 @@ def report_of(body: Mapping[str, Any]) -> "Report":
 
     values = {name: value for name, value in body.items() if value is not None}
     whole = values.pop("question", None)
-    _refuse_unknown("report", values, {"robots", *signature(Question.of).parameters})
+    refuse_unknown("report", values, {"robots", *signature(Question.of).parameters})
     if "robots" in values and "robot" in values:
         raise InputError("report: give robot or robots, not both")
     robots = values.pop("robots", values.pop("robot", None))
-    made = _made(values, {"stairs"})
+    keywords = made(values, {"stairs"})
     if whole is not None:
         questions = whole if isinstance(whole, list) else [whole]
         for each in questions:
             if not isinstance(each, Mapping):
                 raise InputError(f"question = {shown(each)} is not a table")
-        return report([Question.model_validate(each) for each in questions], **made)
+        return report([Question.model_validate(each) for each in questions], **keywords)
     for name, given in (("robot", robots), ("stairs", values.get("stairs"))):
         if given is None:
             raise InputError(f"report: no {name}: give a name of the catalogue or a sheet")
     each_robot = robots if isinstance(robots, list) else [robots]
-    return report([_robot(each) for each in each_robot], made.pop("stairs"), **made)
+    return report([_robot(each) for each in each_robot], keywords.pop("stairs"), **keywords)
 
 
 def read_of(file: str, body: Mapping[str, Any]) -> Answer:
-    """What a file holds, see `kaidan.read`; the body has its hints."""
+    """What a file holds, see `kaidan.read`; the body has its hints, and which ``part`` of it."""
     from kaidan.verbs.read import read
 
-    _refuse_unknown("read", body, signature(read).parameters.keys() - {"file"})
-    return read(file, **body)
+    hints = dict(body)
+    part = hints.pop("part", "")
+    refuse_unknown("read", hints, signature(read).parameters.keys() - {"file"})
+    return read(f"{file}#{part}" if part else file, **hints)
 
 
 def building_of(file: str, body: Mapping[str, Any]) -> Answer:
@@ -231,11 +233,11 @@ def building_of(file: str, body: Mapping[str, Any]) -> Answer:
 
     values = dict(body)
     known = signature(building).parameters.keys() | signature(Question.of).parameters.keys()
-    _refuse_unknown("building", values, known - {"file", "manner", "robot", "stairs"})
+    refuse_unknown("building", values, known - {"file", "manner", "robot", "stairs"})
     given = values.pop("robots", ())
     texts = [given] if isinstance(given, str) else given
     robots = [_robot_of_text(each) for text in texts for each in _parts(text)]
-    return building(file, robots, **_made(values))
+    return building(file, robots, **made(values))
 
 
 def _parts(text: str) -> list[str]:
@@ -246,14 +248,15 @@ def _robot_of_text(text: str) -> Robot:
     return Robot.from_json(text) if text.lstrip().startswith("{") else _sheet(text, Robot)
 
 
-def _refuse_unknown(verb: str, values: Mapping[str, Any], known: Collection[str]) -> None:
+def refuse_unknown(verb: str, values: Mapping[str, Any], known: Collection[str]) -> None:
+    """Refuse a keyword that is none of those known."""
     for name in values:
         if name not in known:
             hint = did_you_mean(name, known) or f"; known: {', '.join(sorted(known))}"
             raise InputError(f"{verb}: {shown(name)} is not known{hint}")
 
 
-def _made(values: Mapping[str, Any], several: Collection[str] = ()) -> dict[str, Any]:
+def made(values: Mapping[str, Any], several: Collection[str] = ()) -> dict[str, Any]:
     """Keywords with sheets for what is more than a number or a text."""
     return {
         name: _READ[name](value, name in several) if name in _READ else value
@@ -283,7 +286,7 @@ def _stairs(given: Any, many: bool = False) -> Any:
     if isinstance(given, Mapping) and "points" in given:
         return Profile.from_dict(given)
     if isinstance(given, Mapping) and given.keys() >= {"angle", "nosing_spacing"}:
-        _refuse_unknown("stairs", given, ("angle", "nosing_spacing", "steps"))
+        refuse_unknown("stairs", given, ("angle", "nosing_spacing", "steps"))
         return Stairs.inclined(**given)
     return _sheet(given, Stairs)
 

@@ -12,6 +12,8 @@ from pydantic import BaseModel
 from kaidan.question import Question
 from kaidan.verbs.report.answer import Report
 from kaidan.web.asking import VERBS
+from kaidan.web.job_table import JobState
+from kaidan.web.long_work import JOBS
 
 _PLACE = "#/components/schemas/{model}"
 
@@ -32,6 +34,38 @@ class Refusal(BaseModel):
     """As the command says it."""
     kind: str
     """In one word."""
+
+
+class ProgressShown(BaseModel):
+    """How far a job is."""
+
+    what: str
+    """What is counted."""
+    done: int
+    of: int
+    """How many there are; 0: nobody knows."""
+
+
+class JobShown(BaseModel):
+    """A job as its owner sees it."""
+
+    id: str
+    verb: str
+    state: JobState
+    progress: ProgressShown
+    created: float
+    """Seconds since 1970."""
+    ended: float | None
+    error: Refusal | None
+    """Why it failed."""
+    result: str | None
+    """Address of what it came to, once it is done."""
+
+
+class JobList(BaseModel):
+    """Jobs of a session."""
+
+    jobs: list[JobShown]
 
 
 _ERRORS = {"422": "the question has no meaning, or takes too long", "503": "ask again"}
@@ -79,6 +113,24 @@ def uploaded(verb: str) -> dict[str, Any]:
     }
 
 
+def job_request() -> dict[str, Any]:
+    """What begins a job."""
+    schema = {
+        "type": "object",
+        "required": ["verb", "body"],
+        "properties": {"verb": {"enum": list(JOBS)}, "body": {"type": "object"}},
+    }
+    return {
+        "requestBody": {"required": True, "content": {"application/json": {"schema": schema}}},
+        "responses": {"201": _responses(JobShown)["200"], "422": _responses(JobShown)["422"]},
+    }
+
+
+def gives(answer: type[BaseModel]) -> dict[str, Any]:
+    """What a route gives."""
+    return {"responses": {"200": _responses(answer)["200"]}}
+
+
 def _responses(answer: type[BaseModel]) -> dict[str, Any]:
     def of(model: type[BaseModel], description: str) -> dict[str, Any]:
         place = {"$ref": _PLACE.format(model=model.__name__)}
@@ -107,7 +159,7 @@ def described(app: FastAPI) -> dict[str, Any]:
             title=app.title, version=app.version, description=app.description, routes=app.routes
         )
         schemas = whole.setdefault("components", {}).setdefault("schemas", {})
-        models: list[type[BaseModel]] = [Said, Refusal, Report]
+        models: list[type[BaseModel]] = [Said, Refusal, Report, JobList]
         models += [each.answers() for each in VERBS.values()]
         for model in models:
             schemas |= _schemas(model)

@@ -3,11 +3,13 @@
 import ipaddress
 import secrets
 import socket
+from typing import Any
 
 import uvicorn
 
 from kaidan.errors import InputError, short
 from kaidan.web.app import app_of
+from kaidan.web.state import State
 
 
 def is_local(host: str) -> bool:
@@ -40,21 +42,25 @@ def listening(host: str, port: int) -> socket.socket:
         raise InputError(f"cannot listen at {short(host)}, port {port}: {why}") from None
 
 
-def server_of(*, host: str, token: str, workers: int) -> uvicorn.Server:
+def server_of(state: State, *, host: str, token: str, workers: int, **how: Any) -> uvicorn.Server:
     """Server that has yet to run on a socket that listens.
 
     Parameters
     ----------
+    state : State
+        Folder that it keeps.
     host : str
         Address at which it listens.
     token : str
         What clients must know; empty: none, which only this machine may be allowed.
     workers : int
         Processes that answer.
+    **how
+        As `kaidan.web.app.app_of` has it.
     """
     hosts = () if is_local(host) else (host, socket.gethostname(), socket.getfqdn())
     config = uvicorn.Config(
-        app_of(workers=workers, token=token, hosts=hosts),
+        app_of(state, workers=workers, token=token, hosts=hosts, **how),
         log_level="warning",
         access_log=False,
         server_header=False,

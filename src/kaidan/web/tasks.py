@@ -3,11 +3,16 @@
 import json
 import os
 from collections.abc import Callable, Mapping
+from contextlib import chdir
+from pathlib import Path
 from typing import Any
 
 from kaidan.answer import Answer
 from kaidan.errors import KaidanError, MissingExtraError, RefusedError
+from kaidan.files import whole_file
 from kaidan.web.asking import answered, building_of, read_of, report_of
+from kaidan.web.long_work import RESULT, UPLOAD, result_of
+from kaidan.web.sheets import sheets_of
 
 Done = tuple[dict[str, Any], bytes]
 """How a task ended, and what is to be sent."""
@@ -64,11 +69,13 @@ def _text(task: Mapping[str, Any]) -> bytes:
 
 
 def _read(task: Mapping[str, Any]) -> bytes:
-    return _as_json(read_of(_uploaded(task), task["body"]))
+    with chdir(task["folder"]):
+        return _as_json(read_of(UPLOAD, task["body"]))
 
 
 def _building(task: Mapping[str, Any]) -> bytes:
-    return _as_json(building_of(_uploaded(task), task["body"]))
+    with chdir(task["folder"]):
+        return _as_json(building_of(UPLOAD, task["body"]))
 
 
 def _report(task: Mapping[str, Any]) -> bytes:
@@ -81,16 +88,17 @@ def _report(task: Mapping[str, Any]) -> bytes:
 
 
 def _sheets(task: Mapping[str, Any]) -> bytes:
-    from kaidan.web.sheets import sheets_of
+    with chdir(task["folder"]):
+        return json.dumps(sheets_of(UPLOAD)).encode()
 
-    return json.dumps(sheets_of(_uploaded(task))).encode()
 
-
-def _uploaded(task: Mapping[str, Any]) -> str:
-    """Name of the one file in the folder of a task, which becomes the process's own."""
-    os.chdir(task["folder"])
-    part = task.get("part")
-    return f"{task['file']}#{part}" if part else str(task["file"])
+def _job(task: Mapping[str, Any]) -> bytes:
+    folder = Path(task["folder"])
+    with chdir(folder):
+        found = result_of(task["verb"], task["body"], folder)
+    with whole_file(folder / RESULT, durable=True) as file:
+        file.write(found.content)
+    return json.dumps({"media": found.media}).encode()
 
 
 _DO: Mapping[str, Callable[[Mapping[str, Any]], bytes]] = {
@@ -100,4 +108,5 @@ _DO: Mapping[str, Callable[[Mapping[str, Any]], bytes]] = {
     "building": _building,
     "report": _report,
     "sheets": _sheets,
+    "job": _job,
 }

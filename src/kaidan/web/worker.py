@@ -1,7 +1,8 @@
 """A worker process: tasks in, answers out, within a bound of memory, until its input ends.
 
 Tasks and answers are frames: eight bytes of length, then so many bytes. A task is one frame of
-JSON; its answer is a frame of JSON that says how it ended, then one of what is to be sent.
+JSON; its answer is a frame of JSON that says how it ended, then one of what is to be sent. Before
+that there may be frames that say how far it is.
 """
 
 import json
@@ -13,20 +14,37 @@ import time
 from typing import BinaryIO
 
 LENGTH = struct.Struct("!Q")
+_EVERY = 0.2
+"""Least time between two words on how far it is [s]."""
 
 
 def main() -> None:
-    """Answer tasks from standard input until it ends; the argument is the most memory [bytes]."""
+    """Answer tasks from standard input until it ends.
+
+    Arguments are the most memory [bytes] and by how much other processes go first.
+    """
     tasks = sys.stdin.buffer
     answers = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # what a library prints is no answer
     _bound_memory(int(sys.argv[1]))
+    if int(sys.argv[2]) and hasattr(os, "nice"):
+        os.nice(int(sys.argv[2]))
     threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
+    from kaidan.progress import followed
     from kaidan.web import tasks as known
 
-    while (frame := _read(tasks)) is not None:
-        head, content = known.done(json.loads(frame))
-        _write(answers, json.dumps(head).encode(), content)
+    said = 0.0
+
+    def follow(what: str, done: int, of: int) -> None:
+        nonlocal said
+        if time.monotonic() - said >= _EVERY:
+            said = time.monotonic()
+            _write(answers, json.dumps({"progress": [what, done, of]}).encode())
+
+    with followed(follow):
+        while (frame := _read(tasks)) is not None:
+            head, content = known.done(json.loads(frame))
+            _write(answers, json.dumps(head).encode(), content)
 
 
 def _bound_memory(most: int) -> None:

@@ -3,12 +3,16 @@
 import asyncio
 import json
 import os
+import shutil
 import signal
 import sys
+import tempfile
 from collections.abc import Mapping
 from contextlib import suppress
+from pathlib import Path
 from typing import Any, NamedTuple, Self
 
+from kaidan.progress import Follower
 from kaidan.web.worker import LENGTH
 
 
@@ -37,46 +41,50 @@ class WorkerDiedError(Exception):
 
 
 class _Worker:
-    """One process."""
+    """One process, with a folder for its passing files."""
 
-    def __init__(self, process: asyncio.subprocess.Process) -> None:
-        self.process, self.done = process, 0
+    def __init__(self, process: asyncio.subprocess.Process, folder: Path) -> None:
+        self.process, self.folder, self.done = process, folder, 0
 
     @classmethod
-    async def begin(cls, limits: Limits) -> Self:
-        return cls(
-            await asyncio.create_subprocess_exec(
-                sys.executable, "-m", "kaidan.web.worker", str(limits.memory),
-                stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
-                stderr=asyncio.subprocess.DEVNULL, start_new_session=True,
-                env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"},
-            )
+    async def begin(cls, limits: Limits, folder: Path, *, nice: int = 0) -> Self:
+        process = await asyncio.create_subprocess_exec(
+            sys.executable, "-m", "kaidan.web.worker", str(limits.memory), str(nice),
+            stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
+            stderr=asyncio.subprocess.DEVNULL, start_new_session=True, cwd=folder,
+            env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1",
+                              "TMPDIR": str(folder)},
         )  # fmt: skip
+        return cls(process, folder)
 
-    async def ask(self, task: Mapping[str, Any]) -> Reply:
-        stdin, stdout = self.process.stdin, self.process.stdout
-        assert stdin is not None
-        assert stdout is not None
+    async def ask(self, task: Mapping[str, Any], follower: Follower | None = None) -> Reply:
+        assert self.process.stdin is not None
         frame = json.dumps(task).encode()
         try:
-            stdin.write(LENGTH.pack(len(frame)) + frame)
-            await stdin.drain()
-            frames = []
-            for _ in range(2):
-                size = LENGTH.unpack(await stdout.readexactly(LENGTH.size))[0]
-                frames.append(await stdout.readexactly(size))
+            self.process.stdin.write(LENGTH.pack(len(frame)) + frame)
+            await self.process.stdin.drain()
+            while "progress" in (head := json.loads(await self._frame())):
+                if follower is not None:
+                    follower(*head["progress"])
+            content = await self._frame()
         except (asyncio.IncompleteReadError, ConnectionError):
             raise WorkerDiedError from None
         self.done += 1
-        return Reply(json.loads(frames[0])["status"], frames[1])
+        return Reply(head["status"], content)
+
+    async def _frame(self) -> bytes:
+        assert self.process.stdout is not None
+        size = LENGTH.unpack(await self.process.stdout.readexactly(LENGTH.size))[0]
+        return await self.process.stdout.readexactly(size)
 
     async def end(self) -> None:
-        """Kill it and whatever it began."""
+        """Kill it and whatever it began, and empty its folder."""
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(self.process.pid, signal.SIGKILL)
         await self.process.wait()
         if self.process.stdin is not None:
             self.process.stdin.close()
+        shutil.rmtree(self.folder, ignore_errors=True)
 
 
 class Workers:
@@ -88,10 +96,12 @@ class Workers:
         Processes.
     limits : Limits
         What one question may take.
+    folder : Path
+        Where each has a folder for passing files.
     """
 
-    def __init__(self, count: int, limits: Limits) -> None:
-        self.count, self.limits = count, limits
+    def __init__(self, count: int, limits: Limits, folder: Path) -> None:
+        self.count, self.limits, self.folder = count, limits, folder
         self._idle: asyncio.LifoQueue[_Worker | None] = asyncio.LifoQueue()
         self._all: set[_Worker] = set()
         self._waiting = 0
@@ -125,22 +135,41 @@ class Workers:
         whole = False
         try:
             worker = await self._living(worker)
-            reply = await asyncio.wait_for(worker.ask(task), seconds or self.limits.seconds)
-            whole = worker.done < self.limits.tasks
+            reply = await self._within(worker, task, seconds or self.limits.seconds)
+            whole = worker.process.returncode is None and worker.done < self.limits.tasks
             return reply
-        except TimeoutError:
-            return refused(
-                422,
-                "time",
-                f"no answer within {seconds or self.limits.seconds:g} s: ask for less, or make it "
-                "a job",
-            )
-        except WorkerDiedError:
-            return refused(503, "died", "the process that worked on this died; ask again")
         finally:
             if not whole and worker is not None:
                 await self._drop(worker)
             self._idle.put_nowait(worker if whole else None)
+
+    async def ask_apart(
+        self, task: Mapping[str, Any], *, seconds: float, follower: Follower
+    ) -> Reply:
+        """Reply to a task by a process of its own, which lets the others go first."""
+        worker = await self._begin(nice=10)
+        try:
+            return await self._within(worker, task, seconds, follower)
+        finally:
+            await self._drop(worker)
+
+    async def _within(
+        self,
+        worker: _Worker,
+        task: Mapping[str, Any],
+        seconds: float,
+        follower: Follower | None = None,
+    ) -> Reply:
+        """Reply of a worker, or why there is none; one that gives none is dead afterwards."""
+        try:
+            return await asyncio.wait_for(worker.ask(task, follower), seconds)
+        except TimeoutError:
+            await worker.end()
+            text = f"no answer within {seconds:g} s: ask for less, or make it a job"
+            return refused(422, "time", text)
+        except WorkerDiedError:
+            await worker.end()
+            return refused(503, "died", "the process that worked on this died; ask again")
 
     async def _living(self, worker: _Worker | None) -> _Worker:
         """Worker that runs: the one given, or a new one where it died between two tasks."""
@@ -150,8 +179,9 @@ class Workers:
             await self._drop(worker)
         return await self._begin()
 
-    async def _begin(self) -> _Worker:
-        worker = await _Worker.begin(self.limits)
+    async def _begin(self, *, nice: int = 0) -> _Worker:
+        folder = Path(tempfile.mkdtemp(dir=self.folder))
+        worker = await _Worker.begin(self.limits, folder, nice=nice)
         self._all.add(worker)
         return worker
 

@@ -1,0 +1,82 @@
+"""Bodies of requests, as what they hold, and replies as responses."""
+
+import json
+from typing import Any
+
+from fastapi import Request
+from fastapi.responses import Response
+from starlette.datastructures import FormData, UploadFile
+from starlette.exceptions import HTTPException
+
+from kaidan.errors import InputError
+from kaidan.web.workers import Reply
+
+LARGEST_BODY = 2 << 20
+"""Largest body of a question [bytes]."""
+LARGEST_UPLOAD = 256 << 20
+"""Largest upload [bytes]."""
+FORM = {"max_files": 1, "max_fields": 32, "max_part_size": LARGEST_BODY}
+"""What a form may have."""
+
+
+def type_of(request: Request) -> str:
+    """Type of a request's content."""
+    return request.headers.get("content-type", "").partition(";")[0].strip().lower()
+
+
+async def json_of(request: Request) -> dict[str, Any]:
+    """Object of a request's body.
+
+    Raises
+    ------
+    HTTPException
+        Another type of content.
+    InputError
+        No JSON object.
+    """
+    if type_of(request) != "application/json":  # a form of elsewhere could not be told apart
+        raise HTTPException(415, "send application/json")
+    return object_of(await request.body())
+
+
+def object_of(text: str | bytes) -> dict[str, Any]:
+    """Object of a text.
+
+    Raises
+    ------
+    InputError
+        No JSON object.
+    """
+    try:
+        found = json.loads(text, parse_constant=_refuse_constant)
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"the body is no JSON: {error}") from None
+    if not isinstance(found, dict):
+        raise InputError("the body is no JSON object")
+    return found
+
+
+def file_of(form: FormData) -> UploadFile | None:
+    """File of a form; None: it has none."""
+    file = form.get("file")
+    return file if isinstance(file, UploadFile) else None
+
+
+def fields_of(form: FormData) -> dict[str, Any]:
+    """Texts of a form by name; those that came several times as lists."""
+    found: dict[str, Any] = {}
+    for name in form:
+        texts = [each for each in form.getlist(name) if isinstance(each, str)]
+        if texts:
+            found[name] = texts if len(texts) > 1 else texts[0]
+    return found
+
+
+def sent(reply: Reply) -> Response:
+    """Response of a reply."""
+    headers = {"Retry-After": "1"} if reply.status == 503 else None
+    return Response(reply.content, reply.status, headers, "application/json")
+
+
+def _refuse_constant(word: str) -> None:
+    raise ValueError(f"{word} is no number of JSON")

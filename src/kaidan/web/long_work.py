@@ -1,0 +1,92 @@
+"""What jobs do: any verb, larger sweeps, trials in MuJoCo, films, and files that take long."""
+
+from collections.abc import Mapping
+from inspect import signature
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from kaidan.answer import Answer
+from kaidan.errors import InputError
+from kaidan.web.asking import VERBS, answered, building_of, made, read_of, refuse_unknown
+
+FILES = ("read", "building")
+"""Jobs that need a file."""
+JOBS = (*VERBS, *FILES, "experiment", "film")
+"""What a job may do."""
+STORE, UPLOAD, RESULT = "store", "upload", "result"
+"""Names in the folder of a job."""
+_MEDIA = {".mp4": "video/mp4", ".gif": "image/gif"}
+
+
+class Result(NamedTuple):
+    """What a job came to."""
+
+    media: str
+    """Type of its content."""
+    content: bytes
+
+
+def result_of(verb: str, body: Mapping[str, Any], folder: Path) -> Result:
+    """Do a job, or go on with it.
+
+    Parameters
+    ----------
+    verb : str
+        One of `JOBS`.
+    body : mapping
+        What it needs to know.
+    folder : Path
+        Its own: what is done is kept there, and there its file lies.
+
+    Raises
+    ------
+    InputError
+        An input without physical meaning.
+    """
+    if verb == "film":
+        return _film(body)
+    answer: Answer
+    if verb == "sweep":
+        answer = _sweep(body, folder)
+    elif verb == "experiment":
+        answer = _experiment(body, folder)
+    elif verb == "read":
+        answer = read_of(UPLOAD, body)
+    elif verb == "building":
+        answer = building_of(UPLOAD, body)
+    else:
+        answer = answered(verb, body)
+    return Result("application/json", answer.to_json().encode())
+
+
+def _sweep(body: Mapping[str, Any], folder: Path) -> Answer:
+    from kaidan.sweeps.plan import Plan
+    from kaidan.sweeps.running import carried_out
+    from kaidan.sweeps.summary import summary_of
+
+    values = dict(body)
+    plan = Plan.of(made(values, VERBS["sweep"].several), screen=bool(values.pop("go_only", False)))
+    return summary_of(carried_out(plan, store=folder / STORE, progress=True))
+
+
+def _experiment(body: Mapping[str, Any], folder: Path) -> Answer:
+    from kaidan.campaign.plans import Setting
+    from kaidan.studies.experiment import experiment, plan_of
+
+    known = {*signature(plan_of).parameters, *signature(Setting.of).parameters} - {"setting"}
+    refuse_unknown("experiment", body, known)
+    if "robot" not in body:
+        raise InputError("experiment: no robot: give a name of the catalogue or a sheet")
+    return experiment(**made(body), store=folder / STORE)
+
+
+def _film(body: Mapping[str, Any]) -> Result:
+    from kaidan.figures.animation import film_of
+    from kaidan.films import film_format
+    from kaidan.verbs.traverse_report import TraverseReport
+
+    values = dict(body)
+    suffix = film_format(Path(f"film.{values.pop('format', 'gif')}"), "film")
+    found = answered("traverse", values)
+    assert isinstance(found, TraverseReport)
+    return Result(_MEDIA[suffix], film_of(found, suffix))

@@ -1,0 +1,43 @@
+"""Sessions: who may see which job. A session is a word that the server signed, and no more."""
+
+import hashlib
+import hmac
+import os
+import secrets
+from pathlib import Path
+
+COOKIE = "kaidan_session"
+HEADER = "X-Kaidan-Session"
+KEPT = 30 * 86_400
+"""How long a browser keeps a session [s]."""
+
+
+class Sessions:
+    """Sessions signed with a key that outlives the server.
+
+    Parameters
+    ----------
+    key : Path
+        File of the key; made if it is not there, readable by its owner alone.
+    """
+
+    def __init__(self, key: Path) -> None:
+        if not key.exists():
+            with open(os.open(key, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
+                file.write(secrets.token_bytes(32))
+        self._key = key.read_bytes()
+
+    def new(self) -> str:
+        """Session that nobody had before."""
+        word = secrets.token_urlsafe(24)
+        return f"{word}.{self._signed(word)}"
+
+    def owner(self, session: str) -> str | None:
+        """Who has a session, as jobs name it; None: the server never gave it out."""
+        word, _, signature = session.partition(".")
+        if not hmac.compare_digest(self._signed(word).encode(), signature.encode()):
+            return None
+        return hashlib.sha256(word.encode()).hexdigest()
+
+    def _signed(self, word: str) -> str:
+        return hmac.new(self._key, word.encode(), hashlib.sha256).hexdigest()

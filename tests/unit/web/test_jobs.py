@@ -1,0 +1,112 @@
+"""Long work in the background: progress, cancelling, going on, and nobody else's."""
+
+import json
+import time
+
+import httpx
+import pytest
+
+import kaidan
+from serving import served
+
+SWEEP = {"robot": "absolem", "stairs": "ibc", "flippers": "flat", "friction": [0.8, 1.0, 1.2]}
+
+
+def until(client, job, holds, seconds=60.0):
+    """Wait until something holds of a job."""
+    end = time.monotonic() + seconds
+    while not holds(client.get(f"/api/jobs/{job['id']}").json()):
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def ended(client, job):
+    """Job once it is over."""
+    until(client, job, lambda now: now["state"] not in ("queued", "running"))
+    return client.get(f"/api/jobs/{job['id']}").json()
+
+
+def begun(client, verb, body):
+    answer = client.post("/api/jobs", json={"verb": verb, "body": body})
+    assert answer.status_code == 201, answer.text
+    return answer.json()
+
+
+def test_a_job_comes_to_what_the_verb_answers(client):
+    job = begun(client, "sweep", SWEEP)
+    done = ended(client, job)
+    assert done["state"] == "done"
+    assert client.get(done["result"]).json() == client.post("/api/sweep", json=SWEEP).json()
+    assert [each["id"] for each in client.get("/api/jobs").json()["jobs"]] == [job["id"]]
+    assert client.delete(f"/api/jobs/{job['id']}").status_code == 204
+    assert client.get("/api/jobs").json() == {"jobs": []}
+
+
+def test_events_end_with_what_became_of_it(client):
+    job = begun(client, "compare", {"robots": ["kenaf"], "stairs": ["ibc", "ada"], "friction": 1})
+    with client.stream("GET", f"/api/jobs/{job['id']}/events") as stream:
+        assert stream.headers["content-type"].startswith("text/event-stream")
+        lines = [line for line in stream.iter_lines() if line.startswith("data: ")]
+    last = json.loads(lines[-1].removeprefix("data: "))
+    assert last["state"] == "done"
+
+
+def test_a_failed_job_says_why(client):
+    done = ended(client, begun(client, "assess", {"robot": "nobody", "stairs": "ibc"}))
+    assert done["state"] == "failed"
+    assert done["error"]["kind"] == "input"
+    assert "no robot is called 'nobody'" in done["error"]["error"]
+    assert client.get(f"/api/jobs/{done['id']}/result").status_code == 409
+
+
+def test_nobody_sees_the_job_of_another(client):
+    job = begun(client, "assess", {"robot": "kenaf", "stairs": "ibc"})
+    with httpx.Client(base_url=client.base_url) as stranger:
+        for method, end in (("GET", ""), ("GET", "/result"), ("GET", "/events"), ("DELETE", "")):
+            answer = stranger.request(method, f"/api/jobs/{job['id']}{end}")
+            assert answer.status_code == 404
+            assert answer.json() == {"error": "no such job", "kind": "not-found"}
+        assert stranger.get("/api/jobs").json() == {"jobs": []}
+        forged = {"X-Kaidan-Session": "somebody.0123"}
+        assert stranger.get(f"/api/jobs/{job['id']}", headers=forged).status_code == 404
+    assert client.get(f"/api/jobs/{job['id']}").status_code == 200
+
+
+@pytest.mark.parametrize(
+    ("asked", "text"),
+    [
+        ({"verb": "swep", "body": {}}, "did you mean sweep?"),
+        ({"verb": "read", "body": {}}, "read: no file"),
+        ({"verb": "assess", "body": 3}, "body = 3 is not a table"),
+    ],
+)
+def test_what_is_no_job_is_refused(client, asked, text):
+    answer = client.post("/api/jobs", json=asked)
+    assert answer.status_code == 422
+    assert text in answer.json()["error"]
+
+
+def test_jobs_go_on_when_the_server_comes_back(tmp_path):
+    many = SWEEP | {"com_height": [0.1 + k / 1e4 for k in range(100)], "friction": 1.0}
+    with served(state=tmp_path) as client:
+        job = begun(client, "sweep", many)
+        until(client, job, lambda now: now["progress"]["done"] > 0)
+        waiting = begun(client, "assess", {"robot": "kenaf", "stairs": "ibc", "friction": 1})
+        cookies = client.cookies
+    with served(state=tmp_path) as client:
+        client.cookies = cookies
+        found = ended(client, job)
+        assert found["state"] == "done", found
+        result = client.get(found["result"]).json()
+        assert result["cells"] == 100
+        last = client.get(ended(client, waiting)["result"]).json()
+        assert last == kaidan.assess("kenaf", "ibc", friction=1).to_dict()
+
+
+def test_a_running_job_can_be_cancelled(client):
+    job = begun(client, "sweep", SWEEP | {"com_height": [0.1 + k / 1e5 for k in range(3000)]})
+    until(client, job, lambda now: now["state"] == "running")
+    assert client.delete(f"/api/jobs/{job['id']}").status_code == 204
+    assert client.get(f"/api/jobs/{job['id']}").status_code == 404
+    after = begun(client, "assess", {"robot": "kenaf", "stairs": "ibc"})
+    assert ended(client, after)["state"] == "done"
