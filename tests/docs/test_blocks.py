@@ -79,6 +79,7 @@ ELSEWHERE = {
     "python benchmarks/contact.py": "by hand",
     "kaidan calibrate compliance --store compliance --figure compliance.svg": "by hand",
     "kaidan calibrate yielding --store yielding --figure region.svg": "by hand",
+    "kaidan calibrate rig.toml": "tests/unit/rig/test_rig_kit.py",
     "kaidan calibrate grousers --store grousers --figure grousers.svg": "by hand",
     "kaidan calibrate effects --store effects --figure effects.svg --csv effects.csv": "by hand",
     "pytest -m slow -s tests/validation/test_physics_acceptance.py": "by hand",

@@ -9,13 +9,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kaidan.cli import options, output
+from kaidan.cli.rig import FileOrStudy, rig
 
 if TYPE_CHECKING:
     from kaidan.studies.calibration.bench import Bench
 
 group = typer.Typer(
     name="calibrate",
-    help="Fit the physics to the paper's text, judge it blind on the rest, vary the grousers.",
+    cls=FileOrStudy,
+    help="Fit the physics to the paper's text, judge it blind on the rest, vary the grousers; or "
+    "fit a real robot: kaidan calibrate RIG.toml.",
     no_args_is_help=True,
 )
 
@@ -43,6 +46,7 @@ Friction = Annotated[float, typer.Option(min=0.0, max=5.0, help="Of grousers on 
 
 def register(app: typer.Typer) -> None:
     """Add ``calibrate`` to the command line."""
+    group.command("rig")(rig)
     app.add_typer(group)
 
 

@@ -8,7 +8,11 @@ import typer
 from kaidan.cli import options, output, physics
 
 Spacings = Annotated[
-    str, typer.Option(help="Nosing spacings, for example 150mm,180mm [those of the paper].")
+    str | None,
+    typer.Option(
+        help="Nosing spacings, for example 150mm,180mm [those of the paper; of a protocol, the "
+        "same shares of the robot's L]."
+    ),
 ]
 Angles = Annotated[
     str | None,
@@ -18,6 +22,15 @@ Angles = Annotated[
     ),
 ]
 Trials = Annotated[int, typer.Option(min=1, max=1_000_000, help="A condition.")]
+ProtocolFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--protocol",
+        metavar="FILE",
+        help="Try nothing: write how to do it on a real robot, with the trials that tell most, and "
+        "beside it the sheet to fill in, FILE.toml.",
+    ),
+]
 Descent = Annotated[
     bool, typer.Option("--descent", help="Come down too, tail first: theta_M and Eq. (24).")
 ]
@@ -52,7 +65,7 @@ def register(app: typer.Typer) -> None:
 
 def experiment(
     robot: options.RobotName,
-    spacings: Spacings = "150mm,180mm,200mm,220mm",
+    spacings: Spacings = None,
     angles: Angles = None,
     trials: Trials = 5,
     descent: Descent = False,
@@ -69,6 +82,7 @@ def experiment(
     payload: options.PayloadText = None,
     override: options.Override = None,
     seed: Seed = 0,
+    protocol: ProtocolFile = None,
     store: StoreFolder = None,
     workers: Workers = None,
     scheduler: Scheduler = None,
@@ -82,14 +96,17 @@ def experiment(
     """
     from kaidan import files
     from kaidan.errors import InputError
-    from kaidan.studies.experiment import carried_out, plan_of
+    from kaidan.studies.experiment import PAPER, carried_out, plan_of
 
     pictures = output.checked(figure, csv)
+    if protocol is not None:
+        write_protocol(robot, protocol, spacings, trials, override)
+        return
     if workers is not None and scheduler is not None:
         raise InputError("give either --workers or --scheduler, not both")
     plan = plan_of(
         robot,
-        spacings=spacings,
+        spacings=PAPER if spacings is None else spacings,
         angles=angles,
         trials=trials,
         descent=descent,
@@ -125,3 +142,26 @@ def experiment(
         typer.echo(f"{done.found} of {len(plan)} trials were in the store already.")
     output.put_out(found, contents, as_json=as_json)
     raise typer.Exit(found.exit_code)
+
+
+def write_protocol(
+    robot: str, file: Path, spacings: str | None, trials: int, override: list[str] | None
+) -> None:
+    """Write the protocol and the sheet beside it."""
+    from kaidan.cli.new import checked_sheet_file
+    from kaidan.errors import InputError
+    from kaidan.files import write_all
+    from kaidan.spelling import robot_of
+    from kaidan.studies.rig.protocol import protocol_of
+    from kaidan.units import value_of
+
+    if file.suffix.lower() != ".md":
+        raise InputError(f"{file}: a protocol is Markdown; write {file.stem}.md")
+    sheet = file.with_suffix(".toml")
+    checked_sheet_file(sheet, force=False)
+    given = None
+    if spacings is not None:
+        given = [value_of(each, "length", option="--spacings") for each in spacings.split(",")]
+    made = protocol_of(robot, robot_of(robot, override), spacings=given, trials=trials)
+    write_all({file: made.page, sheet: made.sheet})
+    typer.echo(f"wrote {file} and {sheet}: fill it in, then kaidan calibrate {sheet}")
