@@ -19,7 +19,8 @@ Places = Annotated[
         metavar="[STAIRS] SAMPLES",
         help="Stairs (catalogue name or TOML file) unless options give their shape; then a CSV "
         "file, or - for standard input, with columns t, inclination, inclination_rate, "
-        "acceleration and perhaps position: s, rad, rad/s, m/s^2, m.",
+        "acceleration and perhaps position: s, rad, rad/s, m/s^2, m; serial:DEVICE with such "
+        "lines; or a recording of ROS with an Imu topic: .bag, .mcap, .db3.",
     ),
 ]
 AlarmMargin = Annotated[
@@ -43,6 +44,9 @@ Unjudged = Annotated[
 Horizon = Annotated[str | None, typer.Option(help="How far ahead is predicted [2s].")]
 Strict = Annotated[
     bool, typer.Option("--strict", help="End at the first sample that is not in order.")
+]
+Follow = Annotated[
+    bool, typer.Option("--follow", help="Wait at the end of the file for what is written next.")
 ]
 Changes = Annotated[
     bool, typer.Option("--changes", help="Only samples at which alarm or status change.")
@@ -80,6 +84,7 @@ def monitor(
     unjudged: Unjudged = None,
     horizon: Horizon = None,
     strict: Strict = False,
+    follow: Follow = False,
     changes: Changes = False,
     as_json: AsJsonLines = False,
 ) -> None:
@@ -117,7 +122,10 @@ def monitor(
     )
     limits = _limits(alarm_margin, clear_margin, alarm_time, clear_time, unjudged, horizon)
     watch = Monitor.of(requested, limits=limits, strict=strict)
-    with suppress(KeyboardInterrupt), _samples(places[-1]) as samples:
+    with (
+        suppress(KeyboardInterrupt),
+        opened(places[-1], follow=follow, nose_up=requested.nose_up) as samples,
+    ):
         _follow(watch, samples, changes=changes, as_json=as_json)
     answer = watch.answer()
     echo(dumps(answer.to_dict()) if as_json else f"\n{answer}")
@@ -165,7 +173,7 @@ def _limits(
 
 
 @contextmanager
-def _samples(origin: str) -> Iterator[Iterator["Sample"]]:
+def opened(origin: str, *, follow: bool, nose_up: bool) -> Iterator[Iterator["Sample"]]:
     """Samples of a file or of standard input, as they come."""
     import io
     import sys
@@ -174,7 +182,7 @@ def _samples(origin: str) -> Iterator[Iterator["Sample"]]:
     from kaidan.verbs.monitor.samples import lines_of, samples_of
 
     if origin != "-":
-        with open_samples(origin) as samples:
+        with open_samples(origin, follow=follow, nose_up=nose_up) as samples:
             yield samples
         return
     if isinstance(sys.stdin, io.TextIOWrapper):

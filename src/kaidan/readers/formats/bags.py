@@ -57,7 +57,7 @@ def read(source: Source, hints: Hints) -> Points | Heights:
     """
     source.refuse_larger(LARGEST_STREAM)
     with source.foreign():
-        reader, store = _opened(source)
+        reader, store = opened(source)
         try:
             reader.open()
             topics = {each.topic: each for each in reader.connections
@@ -71,7 +71,7 @@ def read(source: Source, hints: Hints) -> Points | Heights:
                     break
             if raw is None:
                 raise source.refuse("no message was recorded", topic)
-            message = _deserialised(store, raw, connection)
+            message = deserialised(store, raw, connection)
         finally:
             if getattr(reader, "is_open", True):
                 reader.close()
@@ -79,7 +79,8 @@ def read(source: Source, hints: Hints) -> Points | Heights:
         return made(source, message, topic, hints)
 
 
-def _opened(source: Source) -> tuple[Any, Any]:
+def opened(source: Source) -> tuple[Any, Any]:
+    """Reader of a recording, still closed, and the types of its messages."""
     from rosbags.rosbag1 import Reader as Reader1
     from rosbags.rosbag2 import Reader as Reader2
     from rosbags.typesys import Stores, get_types_from_msg, get_typestore
@@ -97,7 +98,8 @@ def _opened(source: Source) -> tuple[Any, Any]:
     return Reader2.STORAGE_PLUGINS[suffix](path), store
 
 
-def _deserialised(store: Any, raw: bytes, connection: Any) -> Any:
+def deserialised(store: Any, raw: bytes, connection: Any) -> Any:
+    """Message of its bytes."""
     from rosbags.interfaces import MessageDefinitionFormat
     from rosbags.typesys import get_types_from_msg
 

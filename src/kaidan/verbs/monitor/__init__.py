@@ -9,12 +9,11 @@ samples give the same answer.
 """
 
 import os
-from collections.abc import Iterable, Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Iterable
+from contextlib import ExitStack
 from typing import Any
 
-from kaidan.errors import InputError, short, shown
-from kaidan.files import reason
+from kaidan.errors import InputError, shown
 from kaidan.question import Question
 from kaidan.verbs.monitor.alarm import AlarmLimits as AlarmLimits
 from kaidan.verbs.monitor.answer import MonitorAnswer as MonitorAnswer
@@ -22,7 +21,7 @@ from kaidan.verbs.monitor.answer import MonitorState as MonitorState
 from kaidan.verbs.monitor.answer import SampleStatus as SampleStatus
 from kaidan.verbs.monitor.online import Monitor as Monitor
 from kaidan.verbs.monitor.samples import Sample as Sample
-from kaidan.verbs.monitor.samples import lines_of, samples_of
+from kaidan.verbs.monitor.sources import open_samples as open_samples
 
 
 def monitor(
@@ -43,7 +42,7 @@ def monitor(
     stairs : Stairs, str or path
         Stairs, or their name in the catalogue, or a TOML file.
     samples : iterable of Sample, str or path
-        Samples in order, or a CSV file of them (see `kaidan.verbs.monitor.samples`).
+        Samples in order, or a CSV file or a recording of them (see `open_samples`).
     limits : AlarmLimits, optional
         When the alarm is raised and cleared.
     strict : bool
@@ -76,7 +75,7 @@ def monitor(
     watch = Monitor.of(question, limits=limits, strict=strict)
     with ExitStack() as files:
         if isinstance(samples, str | os.PathLike):
-            samples = files.enter_context(open_samples(samples))
+            samples = files.enter_context(open_samples(samples, nose_up=question.nose_up))
         try:
             each = iter(samples)
         except TypeError:
@@ -91,21 +90,3 @@ def _sample(given: Any) -> Sample:
     if not isinstance(given, Sample):
         raise InputError(f"samples: {shown(given)} is not a Sample")
     return given
-
-
-@contextmanager
-def open_samples(path: str | os.PathLike[str]) -> Iterator[Iterator[Sample]]:
-    """Samples of a CSV file (see `kaidan.verbs.monitor.samples`), as its lines come.
-
-    Raises
-    ------
-    InputError
-        A file that cannot be read, or without a head.
-    """
-    origin = short(os.fspath(path))
-    try:
-        file = open(path, encoding="utf-8", errors="replace")  # noqa: SIM115 - closed below
-    except (OSError, ValueError) as error:
-        raise InputError(f"{origin}: cannot be read: {reason(error)}") from None
-    with file:
-        yield samples_of(lines_of(file, origin=origin), origin=origin)

@@ -1,0 +1,91 @@
+"""The monitor of a climb that somebody watches: each state with its tilt and the phase it is in."""
+
+import math
+from typing import Self
+
+from kaidan.modes import Phase
+from kaidan.question import Question
+from kaidan.verbs.monitor.alarm import AlarmLimits
+from kaidan.verbs.monitor.answer import MonitorAnswer, MonitorState
+from kaidan.verbs.monitor.online import Monitor
+from kaidan.verbs.monitor.samples import Sample
+
+ON_FLIGHT, OFF_FLIGHT = 0.8, 0.5
+"""Share of the slope at which the robot counts as on the flight, and below which it lands [1]."""
+
+
+class LiveState(MonitorState):
+    """What the monitor says of one sample to who watches."""
+
+    tilt_deg: float | None
+    """Inclination of the body, uphill end up positive [deg]; None if there is none."""
+    phase: Phase
+    """Part of the traverse, by the inclination so far."""
+
+
+class LiveMonitor:
+    """Monitor whose states have tilt and phase.
+
+    Parameters
+    ----------
+    question : Question
+        Robot, stairs, direction, facing, posture and payload.
+    limits : AlarmLimits, optional
+        When the alarm is raised and cleared.
+
+    Examples
+    --------
+    >>> from kaidan import Stairs
+    >>> stairs = Stairs.inclined(angle=0.80, nosing_spacing=0.150)
+    >>> watch = LiveMonitor(Question.of("kenaf", stairs))
+    >>> [watch.feed(Sample(t, angle, 0.0, 0.0)).phase.value
+    ...  for t, angle in enumerate((0.0, 0.4, 0.75, 0.5, 0.1))]
+    ['enter', 'enter', 'traverse', 'traverse', 'land']
+    """
+
+    def __init__(self, question: Question, *, limits: AlarmLimits | None = None) -> None:
+        self.question = question
+        self.limits = AlarmLimits() if limits is None else limits
+        self._watch = Monitor.of(question, limits=self.limits)
+        flight = question.flight
+        assert flight is not None  # the monitor refuses a terrain without steps
+        self.slope = flight.angle
+        self._sign = 1.0 if question.nose_up else -1.0
+        self._phase = Phase.ENTER
+
+    def feed(self, sample: Sample) -> LiveState:
+        """Take one sample.
+
+        Parameters
+        ----------
+        sample : Sample
+            The next one.
+
+        Returns
+        -------
+        LiveState
+        """
+        state = self._watch.feed(sample)
+        tilt = self._sign * sample.inclination if state.judged else math.nan
+        if state.judged:
+            self._phase = self._next_phase(tilt / self.slope)
+        return LiveState(
+            **{name: getattr(state, name) for name in MonitorState.model_fields},
+            tilt_deg=math.degrees(tilt),
+            phase=self._phase,
+        )
+
+    def answer(self) -> MonitorAnswer:
+        """Answer to all samples so far; see `Monitor.answer`."""
+        return self._watch.answer()
+
+    def again(self) -> Self:
+        """The same monitor before its first sample."""
+        return type(self)(self.question, limits=self.limits)
+
+    def _next_phase(self, share: float) -> Phase:
+        if share >= ON_FLIGHT:
+            return Phase.TRAVERSE
+        if self._phase is Phase.TRAVERSE and share <= OFF_FLIGHT:
+            return Phase.LAND
+        return self._phase
