@@ -29,6 +29,7 @@ _COMMANDS = {
     "design": ("design",),
     "doctor": ("doctor",),
     "experiment": ("experiment",),
+    "live": ("live",),
     "margin": ("margin",),
     "measure": ("measure",),
     "monitor": ("monitor",),

@@ -19,7 +19,7 @@ from kaidan.sheet import Sheet
 from kaidan.surface import Surface
 from kaidan.terrain.stairs import Stairs
 from kaidan.text.page import page_texts
-from kaidan.web import file_routes, job_routes, openapi, report_routes
+from kaidan.web import file_routes, job_routes, live_routes, openapi, report_routes
 from kaidan.web.asking import VERBS
 from kaidan.web.bodies import LARGEST_BODY, LARGEST_UPLOAD, json_of, sent
 from kaidan.web.guard import Guard
@@ -90,6 +90,7 @@ def app_of(
     report_routes.add(app, hands)
     file_routes.add(app, hands)
     job_routes.add(app, jobs, Sessions(state.folder / "key"))
+    live_routes.add(app)
     app.openapi = lambda: openapi.described(app)  # type: ignore[method-assign]
     app.mount("/", StaticFiles(directory=STATIC, html=True), name="page")
     return app

@@ -4,10 +4,11 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from inspect import Parameter, signature
+from itertools import islice
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from kaidan import catalog
-from kaidan.answer import Answer
+from kaidan.answer import Answer, plain
 from kaidan.errors import InputError, UnknownNameError, did_you_mean, shown
 from kaidan.question import Question
 from kaidan.robot import Payload, Posture, PostureChange, Robot
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 
 MOST_CELLS = 2_000
 """Largest sweep that is answered at once; a larger one is a job."""
+MOST_RECORDED = 500_000
+"""Most samples of a recording that is replayed: an hour at more than 100 Hz."""
 _Sheet = TypeVar("_Sheet", Robot, Stairs, Surface)
 _CATALOGUES: dict[type[Any], tuple[catalog.Folder, ...]] = {
     Robot: ("robots", "unweighed"),
@@ -212,6 +215,34 @@ def report_of(body: Mapping[str, Any]) -> "Report":
             raise InputError(f"report: no {name}: give a name of the catalogue or a sheet")
     each_robot = robots if isinstance(robots, list) else [robots]
     return report([_robot(each) for each in each_robot], keywords.pop("stairs"), **keywords)
+
+
+_LIVE = ("robot", "stairs", "direction", "facing", "flippers", "payload", "override")
+
+
+def live_question(body: Mapping[str, Any]) -> Question:
+    """Question of a climb that is watched; see `kaidan.monitor`."""
+    values = {name: value for name, value in body.items() if value is not None}
+    _refuse_unknown("live", values, _LIVE)
+    for name in ("robot", "stairs"):
+        if name not in values:
+            raise InputError(f"live: no {name}: give a name of the catalogue or a sheet")
+    made = _made(values)
+    return Question.of(made.pop("robot"), made.pop("stairs"), **made)
+
+
+def samples_of_file(file: str, body: Mapping[str, Any]) -> dict[str, Any]:
+    """Samples of a file, as JSON has them; the body may say that the nose is "down" the stairs."""
+    from kaidan.verbs.monitor import open_samples
+
+    _refuse_unknown("samples", body, ("nose",))
+    if body.get("nose", "up") not in ("up", "down"):
+        raise InputError(f"nose = {shown(body['nose'])} is not known; known: up, down")
+    with open_samples(file, nose_up=body.get("nose", "up") == "up") as samples:
+        found = list(islice(samples, MOST_RECORDED + 1))
+    if len(found) > MOST_RECORDED:
+        raise InputError(f"{file}: more than {MOST_RECORDED:,} samples")
+    return {"samples": [plain(each._asdict()) for each in found]}
 
 
 def read_of(file: str, body: Mapping[str, Any]) -> Answer:

@@ -21,6 +21,7 @@ _PIECE = 1 << 20
 _ROUTES = {
     "read": "As kaidan read FILE --json",
     "building": "As kaidan building FILE --json",
+    "samples": "Samples of a recorded climb: CSV, or a recording of ROS",
     "sheets": "Robots and stairs of a file, as sheets",
 }
 

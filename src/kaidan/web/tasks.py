@@ -10,7 +10,7 @@ from typing import Any
 from kaidan.answer import Answer
 from kaidan.errors import KaidanError, MissingExtraError, RefusedError
 from kaidan.files import whole_file
-from kaidan.web.asking import answered, building_of, read_of, report_of
+from kaidan.web.asking import answered, building_of, read_of, report_of, samples_of_file
 from kaidan.web.long_work import RESULT, UPLOAD, result_of
 from kaidan.web.sheets import sheets_of
 
@@ -78,6 +78,11 @@ def _building(task: Mapping[str, Any]) -> bytes:
         return _as_json(building_of(UPLOAD, task["body"]))
 
 
+def _samples(task: Mapping[str, Any]) -> bytes:
+    with chdir(task["folder"]):
+        return json.dumps(samples_of_file(UPLOAD, task["body"])).encode()
+
+
 def _report(task: Mapping[str, Any]) -> bytes:
     form = task["format"]
     if form == "json":
@@ -109,4 +114,5 @@ _DO: Mapping[str, Callable[[Mapping[str, Any]], bytes]] = {
     "report": _report,
     "sheets": _sheets,
     "job": _job,
+    "samples": _samples,
 }

@@ -17,14 +17,20 @@ from kaidan.verbs.monitor.samples import Sample
 
 IMU = "sensor_msgs/msg/Imu"
 """Type of the messages that are read."""
-SUFFIXES = (".bag", ".mcap", ".db3")
-"""By which a recording is known."""
+_HEADS = (b"#ROSBAG", b"\x89MCAP", b"SQLite format 3")
+"""How recordings begin."""
 
 
 def is_recording(path: str | os.PathLike[str]) -> bool:
-    """Whether a file, or a folder, is a recording by its name."""
+    """Whether a file is a recording by its content, or it is a folder."""
     where = Path(path)
-    return where.suffix.lower() in SUFFIXES or where.is_dir()
+    try:
+        if not where.is_file():
+            return where.is_dir()
+        with where.open("rb") as file:
+            return file.read(16).startswith(_HEADS)
+    except (OSError, ValueError):  # what opens it says why
+        return False
 
 
 def sample_of_imu(message: Any, t: float, *, nose_up: bool = True, row: int = 0) -> Sample:

@@ -1,0 +1,87 @@
+"""Samples sent to a server that judges and shows them."""
+
+import json
+import urllib.error
+import urllib.request
+from typing import Any, NamedTuple, Self
+from urllib.parse import urldefrag, urljoin, urlsplit
+
+from kaidan.answer import plain
+from kaidan.errors import InputError, short
+from kaidan.question import Question
+from kaidan.verbs.monitor.samples import Sample
+
+PATIENCE = 10.0
+"""How long a server may take to answer [s]."""
+
+
+class Channel(NamedTuple):
+    """A climb that a server watches."""
+
+    address: str
+    """Where samples go."""
+    page: str
+    """Where people see it."""
+    token: str
+    """Of the server; empty: it has none."""
+
+    @classmethod
+    def at(cls, url: str, question: Question, *, token: str = "") -> Self:
+        """Channel of a page that waits, whose address ends in its name, else a new one.
+
+        Parameters
+        ----------
+        url : str
+            Address of a server or of a page.
+        question : Question
+            What is driven: of a new channel.
+        token : str
+            Of the server.
+
+        Raises
+        ------
+        InputError
+            No address, or a server that does not answer as one of kaidan.
+        """
+        if urlsplit(url).scheme not in ("http", "https") or not urlsplit(url).netloc:
+            raise InputError(f"--to {short(url)!r} is no address: write http://HOST:PORT/")
+        root, name = urldefrag(url)
+        if not name:
+            body = {
+                "robot": question.robot.model_dump(mode="json"),
+                "stairs": question.model_dump(mode="json")["terrain"],
+                "direction": question.direction,
+                "facing": question.facing,
+                "flippers": question.posture.model_dump(mode="json"),
+                "payload": [each.model_dump(mode="json") for each in question.payload],
+            }
+            name = str(_posted(urljoin(root, "api/live"), body, token)["id"])
+        return cls(urljoin(root, f"api/live/{name}"), urljoin(root, f"live.html#{name}"), token)
+
+    def send(self, samples: list[Sample]) -> None:
+        """Send samples."""
+        given = [plain(each._asdict()) for each in samples]
+        _posted(self.address, {"samples": given}, self.token)
+
+    def end(self) -> str:
+        """End the climb; its summary."""
+        return str(_posted(self.address, {"end": True}, self.token)["summary"])
+
+
+def _posted(address: str, body: dict[str, Any], token: str) -> dict[str, Any]:
+    headers = {"Content-Type": "application/json"}
+    headers |= {"Authorization": f"Bearer {token}"} if token else {}
+    asked = urllib.request.Request(address, json.dumps(body).encode(), headers)
+    try:
+        with urllib.request.urlopen(asked, timeout=PATIENCE) as answer:
+            said: dict[str, Any] = json.load(answer)
+            return said
+    except urllib.error.HTTPError as error:
+        try:
+            why = json.load(error)["error"]
+        except (ValueError, KeyError, TypeError):
+            why = error.reason
+        raise InputError(f"{short(address)}: {short(why)}") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "reason", error)
+        raise InputError(f"{short(address)}: no answer: {short(reason)}") from None

@@ -1,0 +1,274 @@
+// A climb that is watched: numbers, chart, alarm with sound. Judged by the server; here it is shown.
+
+const SILENT = 1.0; // s without a state after which the sensor counts as silent
+const SEEN = 20; // s of the chart
+const TICK = 50; // ms between two requests of a replay
+const at = (id) => document.getElementById(id);
+const texts = await (await fetch("live.texts.json")).json();
+
+let language = 0;
+let head = null; // what the server says of the climb
+let states = [];
+let last = 0; // when the last state came [ms]
+let mood = "idle";
+let over = false;
+let socket = null;
+let replay = null;
+let audio = null;
+let loud = false;
+
+function t(key, values = {}) {
+  return (texts[key]?.[language] ?? key).replace(/\{(\w+)\}/g, (_, name) => values[name] ?? "");
+}
+
+function speak(chosen) {
+  language = chosen === "ja" ? 1 : 0;
+  at("language").value = language ? "ja" : "en";
+  document.documentElement.lang = at("language").value;
+  document.title = t("title");
+  for (const each of document.querySelectorAll("[data-text]")) each.textContent = t(each.dataset.text);
+  if (replay) at("pause").textContent = t(replay.paused ? "go_on" : "pause");
+  show();
+}
+
+// Connection
+
+function connect(id, wait = 500) {
+  socket?.close();
+  const mine = new WebSocket(new URL(`api/live/${id}`, location.href.replace(/^http/, "ws").replace(/#.*/, "")));
+  socket = mine;
+  mine.onmessage = (message) => {
+    wait = 500;
+    take(JSON.parse(message.data));
+  };
+  mine.onclose = (ended) => {
+    if (socket !== mine) return;
+    if (ended.code === 4404) {
+      at("note").textContent = t("gone");
+      return;
+    }
+    at("note").textContent = t("lost");
+    setTimeout(() => socket === mine && connect(id, Math.min(2 * wait, 5000)), wait);
+  };
+}
+
+function take(said) {
+  if (said.kind === "begin") {
+    head = said;
+    states = [];
+    over = false;
+    at("note").textContent = `${t("linked")}: ${said.robot}, ${said.stairs}`;
+  } else if (said.kind === "end") {
+    over = true;
+    at("note").textContent = `${t("over")} ${said.text}`;
+  } else {
+    states.push(said);
+    if (states.length > 6000) states = states.slice(-3000);
+    last = performance.now();
+  }
+  if (!take.waits) {
+    take.waits = true;
+    requestAnimationFrame(() => {
+      take.waits = false;
+      show();
+    });
+  }
+}
+
+// What is shown
+
+function number(value, digits) {
+  return value === null || value === undefined ? "–" : value.toFixed(digits).replace("-", "−");
+}
+
+function show() {
+  const state = states.at(-1);
+  const silence = (performance.now() - last) / 1000;
+  const silent = Boolean(state) && !over && !replay?.paused && silence > SILENT;
+  const next = !state ? "idle" : silent ? "silent" : state.alarm ? "alarm" : "calm";
+  if (next !== mood || !at("said").textContent || language !== show.language) {
+    mood = next;
+    show.language = language;
+    at("alarm").className = mood;
+    at("mark").textContent = { idle: "○", calm: "●", alarm: "▲", silent: "✕" }[mood];
+    at("said").textContent = t(mood);
+    at("why").textContent = mood === "alarm" ? t("alarm_do") : mood === "silent" ? t("silent_do", { s: SILENT }) : "";
+  }
+  at("margin").textContent = number(state?.margin_deg, 1);
+  at("time").textContent = state && state.time_to_tip_s === null && state.margin_deg !== null ? "> 2" : number(state?.time_to_tip_s, 1);
+  at("tilt").textContent = number(state?.tilt_deg, 1);
+  at("phase").textContent = state ? t(state.phase) : "–";
+  if (state?.message) at("note").textContent = state.message;
+  draw();
+}
+
+function draw() {
+  const times = states.filter((each) => each.t_s !== null && each.margin_deg !== null);
+  const end = times.at(-1)?.t_s ?? 0;
+  const seen = times.filter((each) => each.t_s > end - SEEN);
+  const most = Math.max(20, ...seen.map((each) => each.margin_deg));
+  const least = Math.min(-2, ...seen.map((each) => each.margin_deg));
+  const x = (time) => 600 * (1 - (end - time) / SEEN);
+  const y = (margin) => 135 - (130 * (margin - least)) / (most - least);
+  at("curve").setAttribute("points", seen.map((each) => `${x(each.t_s).toFixed(1)},${y(each.margin_deg).toFixed(1)}`).join(" "));
+  const limit = head?.margin_on_deg ?? 0;
+  for (const [id, value] of [["zero", 0], ["limit", limit]])
+    for (const [name, to] of [["x1", 0], ["x2", 600], ["y1", y(value)], ["y2", y(value)]]) at(id).setAttribute(name, to);
+  at("limit-name").textContent = head ? `${t("limit")} ${limit.toFixed(1)}°` : "";
+  at("limit-name").setAttribute("x", 6);
+  at("limit-name").setAttribute("y", y(limit) - 5);
+}
+
+// For a screen reader: a sentence now and then; the alarm speaks for itself at once.
+setInterval(() => {
+  const state = states.at(-1);
+  if (state && mood !== "silent" && !over) at("status").textContent = t("state", { margin: number(state.margin_deg, 1), phase: t(state.phase) });
+}, 5000);
+setInterval(show, 250);
+
+// Sound
+
+function beep(pitch) {
+  if (!audio) return;
+  const tone = audio.createOscillator();
+  const volume = audio.createGain();
+  tone.type = "square";
+  tone.frequency.value = pitch;
+  volume.gain.setValueAtTime(0.25, audio.currentTime);
+  volume.gain.setValueAtTime(0, audio.currentTime + 0.22);
+  tone.connect(volume).connect(audio.destination);
+  tone.start();
+  tone.stop(audio.currentTime + 0.25);
+  document.body.dataset.beeps = Number(document.body.dataset.beeps ?? 0) + 1;
+}
+
+function wake() {
+  audio ??= new AudioContext();
+  audio.resume();
+}
+
+function setLoud(on) {
+  loud = on;
+  at("sound").setAttribute("aria-pressed", String(on));
+  if (on) wake();
+}
+
+setInterval(() => {
+  if (loud && mood === "alarm") beep(880);
+  if (loud && mood === "silent") beep(440);
+}, 450);
+at("sound").onclick = () => setLoud(!loud);
+at("try").onclick = () => {
+  wake();
+  beep(880);
+};
+
+// Begin, and replay
+
+async function ask(path, options) {
+  const answer = await fetch(path, options);
+  const said = await answer.json().catch(() => ({ error: answer.statusText }));
+  if (!answer.ok) throw new Error(said.error);
+  return said;
+}
+
+function post(path, body) {
+  return ask(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) });
+}
+
+async function begin() {
+  at("error").textContent = "";
+  const body = {};
+  for (const each of ["robot", "stairs", "direction", "facing", "flippers"]) body[each] = at(each).value;
+  const made = await post("api/live", body);
+  history.replaceState(null, "", `#${made.id}`);
+  over = false;
+  connect(made.id);
+  return made;
+}
+
+async function attempt(what) {
+  try {
+    await what();
+  } catch (error) {
+    at("error").textContent = error.message;
+  }
+}
+
+at("watch").onclick = () =>
+  attempt(async () => {
+    stopReplay();
+    const made = await begin();
+    const values = { robot: made.robot, stairs: made.stairs, url: location.href };
+    at("link").textContent = t("feed", values);
+  });
+
+at("begin").onsubmit = (event) => {
+  event.preventDefault();
+  setLoud(true); // a click is what lets a page make a sound
+  attempt(async () => {
+    stopReplay();
+    const file = at("file").files[0];
+    if (!file) throw new Error(t("no_file"));
+    const form = new FormData();
+    const up = at("direction").value === "up";
+    form.append("nose", up === (at("facing").value === "nose-first") ? "up" : "down");
+    form.append("file", file);
+    const { samples } = await ask("api/samples", { method: "POST", body: form });
+    const made = await begin();
+    play(made.id, samples);
+  });
+};
+
+function stopReplay() {
+  if (replay) replay.over = true;
+  replay = null;
+  at("pause").hidden = true;
+  at("link").textContent = "";
+}
+
+async function play(id, samples) {
+  const mine = (replay = { paused: false, over: false });
+  at("pause").hidden = false;
+  at("pause").textContent = t("pause");
+  let now = samples.find((each) => each.t !== null)?.t ?? 0;
+  let next = 0;
+  let before = performance.now();
+  while (!mine.over && next < samples.length) {
+    const passed = performance.now() - before;
+    before = performance.now();
+    if (!mine.paused) now += (Number(at("speed").value) * passed) / 1000;
+    const due = [];
+    while (next < samples.length && due.length < 500 && !(samples[next].t > now)) due.push(samples[next++]);
+    if (due.length) {
+      try {
+        await post(`api/live/${id}`, { samples: due });
+      } catch (error) {
+        at("error").textContent = error.message;
+        break;
+      }
+    }
+    await new Promise((done) => setTimeout(done, TICK));
+  }
+  if (!mine.over) {
+    await post(`api/live/${id}`, { end: true }).catch(() => null);
+    stopReplay();
+  }
+}
+
+at("pause").onclick = () => {
+  replay.paused = !replay.paused;
+  last = performance.now();
+  at("pause").textContent = t(replay.paused ? "go_on" : "pause");
+};
+
+at("language").onchange = () => speak(at("language").value);
+const catalogue = await ask("api/catalogue", {});
+for (const [id, kind, first] of [["robot", "robots", "absolem"], ["stairs", "stairs", "ibc"]]) {
+  for (const each of catalogue[kind]) at(id).append(new Option(`${each.name}: ${each.title}`, each.name));
+  at(id).value = first;
+}
+speak(new URLSearchParams(location.search).get("lang") ?? navigator.language.slice(0, 2));
+const named = location.hash.slice(1);
+if (named) connect(named);
+document.body.dataset.ready = "yes";
