@@ -14,7 +14,7 @@ TEXTS = page_texts()
 SCRIPTS = Path(kaidan.__file__).parent / "web" / "static" / "js"
 # Topics whose names the page makes of an answer's words.
 OPEN = {"advice", "verdict", "mode", "phase", "reason", "figure", "ground", "binds", "stairs"}
-OPEN |= {"side", "chart", "app", "answer", "guide", "saved"}
+OPEN |= {"side", "chart", "app", "answer", "guide", "saved", "live"}
 
 
 def test_every_text_is_there_in_japanese():
@@ -53,6 +53,13 @@ def test_every_text_that_a_script_names_is_there():
     for script in SCRIPTS.glob("*.js"):
         for topic, name in re.findall(r"""\bt\(["'`](\w+)\.([\w-]+)["'`]""", script.read_text()):
             assert name in TEXTS[topic], f"{script.name}: {topic}.{name}"
+
+
+def test_the_live_page_has_its_texts_and_none_is_left_over():
+    own = "".join((SCRIPTS.parent / f"live.{kind}").read_text() for kind in ("html", "js"))
+    said = set(re.findall(r"""data-text="(\w+)\"|\bt\("(\w+)\"""", own))
+    made = {"idle", "calm", "alarm", "silent", *(phase.value for phase in Phase)}
+    assert {first or second for first, second in said} | made | {"go_on"} == TEXTS["live"].keys()
 
 
 def test_no_text_is_left_over():

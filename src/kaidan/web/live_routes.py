@@ -65,6 +65,7 @@ class Channel:
             "slope_deg": math.degrees(self.monitor.slope),
             "margin_on_deg": math.degrees(limits.margin_on),
             "time_on_s": limits.time_on,
+            "horizon_s": limits.horizon,
         }
 
     async def feed(self, samples: list[Sample], *, again: bool = False) -> list[dict[str, Any]]:

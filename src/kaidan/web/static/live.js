@@ -4,9 +4,9 @@ const SILENT = 1.0; // s without a state after which the sensor counts as silent
 const SEEN = 20; // s of the chart
 const TICK = 50; // ms between two requests of a replay
 const at = (id) => document.getElementById(id);
-const texts = await (await fetch("live.texts.json")).json();
+const texts = (await (await fetch("api/texts")).json()).live;
 
-let language = 0;
+let language = "en";
 let head = null; // what the server says of the climb
 let states = [];
 let last = 0; // when the last state came [ms]
@@ -22,9 +22,9 @@ function t(key, values = {}) {
 }
 
 function speak(chosen) {
-  language = chosen === "ja" ? 1 : 0;
-  at("language").value = language ? "ja" : "en";
-  document.documentElement.lang = at("language").value;
+  language = chosen === "ja" ? "ja" : "en";
+  at("language").value = language;
+  document.documentElement.lang = language;
   document.title = t("title");
   for (const each of document.querySelectorAll("[data-text]")) each.textContent = t(each.dataset.text);
   if (replay) at("pause").textContent = t(replay.paused ? "go_on" : "pause");
@@ -95,7 +95,7 @@ function show() {
     at("why").textContent = mood === "alarm" ? t("alarm_do") : mood === "silent" ? t("silent_do", { s: SILENT }) : "";
   }
   at("margin").textContent = number(state?.margin_deg, 1);
-  at("time").textContent = state && state.time_to_tip_s === null && state.margin_deg !== null ? "> 2" : number(state?.time_to_tip_s, 1);
+  at("time").textContent = state && state.time_to_tip_s === null && state.margin_deg !== null ? `> ${head?.horizon_s ?? 2}` : number(state?.time_to_tip_s, 1);
   at("tilt").textContent = number(state?.tilt_deg, 1);
   at("phase").textContent = state ? t(state.phase) : "–";
   if (state?.message) at("note").textContent = state.message;
@@ -183,6 +183,7 @@ async function begin() {
   const made = await post("api/live", body);
   history.replaceState(null, "", `#${made.id}`);
   over = false;
+  scrollTo(0, 0);
   connect(made.id);
   return made;
 }

@@ -55,7 +55,7 @@ function build() {
     h("a", { class: "skip", href: "#answer", onclick: (event) => { event.preventDefault(); document.getElementById("answer")?.focus(); } }, t("app.skip")),
     h("header", {},
       h("p", { class: "brand" }, h("b", {}, "kaidan"), h("span", { lang: "ja", "aria-hidden": "true" }, " 階段")),
-      h("nav", { "aria-label": "kaidan" }, links), chip,
+      h("nav", { "aria-label": "kaidan" }, links, h("a", { href: "live.html" }, t("app.live"))), chip,
       h("details", { class: "settings" }, h("summary", {}, t("app.settings")), h("div", {},
         select(t("app.language"), "language", [["en", "English"], ["ja", "日本語"]], language),
         select(t("app.units"), "lengths", [["mm", "mm"], ["in", "inch"]], lengths),

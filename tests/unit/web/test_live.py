@@ -1,0 +1,136 @@
+"""Live climbs: what is fed comes out, to who knows the climb's name, and as the monitor says it."""
+
+import json
+
+import pytest
+
+import kaidan
+from climbs import SLOPE, climb, csv_of, recording
+from kaidan import Stairs
+from kaidan.cli import run
+
+BODY = {"robot": "kenaf", "stairs": {"angle": SLOPE, "nosing_spacing": 0.150}}
+ROWS = [{**row._asdict(), "acceleration": 0.0} for row in climb()]
+
+
+def watched(client, name):
+    """Websocket of a climb."""
+    from websockets.sync.client import connect
+
+    address = str(client.base_url).rstrip("/").replace("http", "ws")
+    return connect(f"{address}/api/live/{name}", proxy=None)
+
+
+def test_states_are_those_of_the_monitor_and_come_to_who_watches(client):
+    head = client.post("/api/live", json=BODY).json()
+    assert head["robot"] == "kenaf"
+    with watched(client, head["id"]) as socket:
+        assert json.loads(socket.recv(5)) == head
+        sent = client.post(f"/api/live/{head['id']}", json={"samples": ROWS}).json()["states"]
+        came = [json.loads(socket.recv(5)) for _ in ROWS]
+    assert came == sent
+    flight = Stairs.inclined(angle=SLOPE, nosing_spacing=0.150)
+    from kaidan.verbs.monitor import Sample
+
+    plain = kaidan.monitor("kenaf", flight, [Sample(**row) for row in ROWS])
+    for state, expected in zip(came, plain.to_dict()["states"], strict=True):
+        for name in ("t_s", "margin_deg", "time_to_tip_s", "alarm", "status"):
+            assert state[name] == expected[name]
+    assert [each["alarm"] for each in came[:: len(came) - 1]] == [False, True]
+
+
+def test_who_comes_later_is_sent_what_was_and_again_begins_anew(client):
+    name = client.post("/api/live", json=BODY).json()["id"]
+    client.post(f"/api/live/{name}", json={"samples": ROWS[:3]})
+    with watched(client, name) as socket:
+        assert [json.loads(socket.recv(5))["kind"] for _ in range(4)] == ["begin"] + 3 * ["state"]
+        ended = client.post(
+            f"/api/live/{name}", json={"samples": ROWS[:1], "again": True, "end": True}
+        ).json()
+        assert [json.loads(socket.recv(5))["kind"] for _ in range(3)] == ["begin", "state", "end"]
+    assert ended["summary"].startswith("1 samples, 0 not judged")
+
+
+def test_an_unknown_climb_is_neither_seen_nor_fed(client):
+    from websockets.exceptions import ConnectionClosed
+
+    assert client.post("/api/live/nothing", json={"samples": []}).status_code == 404
+    with watched(client, "nothing") as socket, pytest.raises(ConnectionClosed) as closed:
+        socket.recv(5)
+    assert closed.value.rcvd.code == 4404
+
+
+@pytest.mark.parametrize(
+    ("body", "text"),
+    [
+        ({"samples": 5}, "samples = 5 is not a list"),
+        ({"samples": [5]}, "samples[0] = 5 is not a table"),
+        ({"samples": [{"t": "x"}]}, "samples[0]: t = 'x' is not a number"),
+        ({"samples": [{"x": 1}]}, "samples[0]: 'x' is not known; known: t, inclination"),
+        ({"samples": [{}] * 2001}, "samples: 2001 are more than 2000 at once"),
+        ({"stop": 1}, "live: 'stop' is not known; known: again, end, samples"),
+        ({"end": True}, "no samples came"),
+    ],
+)
+def test_what_has_no_meaning_is_refused(client, body, text):
+    name = client.post("/api/live", json=BODY).json()["id"]
+    answer = client.post(f"/api/live/{name}", json=body)
+    assert answer.status_code == 422
+    assert text in answer.json()["error"]
+
+
+def test_a_climb_that_cannot_be_watched_is_refused(client):
+    for body, text in (
+        ({"robot": "kenaf"}, "live: no stairs"),
+        (BODY | {"limits": 5}, "limits = 5 is not a table"),
+        (BODY | {"limits": {"margin_on": 1.0, "margin_off": 0.5}}, "margin_off"),
+        ({"robot": "kenaf", "stairs": [[0, 0], [1, 0]]}, "the monitor needs the spacing"),
+    ):
+        answer = client.post("/api/live", json=body)
+        assert answer.status_code == 422, body
+        assert text in answer.json()["error"]
+
+
+def test_an_origin_of_elsewhere_sees_nothing(client):
+    from websockets.exceptions import InvalidStatus
+    from websockets.sync.client import connect
+
+    address = str(client.base_url).rstrip("/").replace("http", "ws")
+    with (
+        pytest.raises(InvalidStatus),
+        connect(f"{address}/api/live/x", origin="http://evil.example", proxy=None),
+    ):
+        pass
+
+
+def test_a_recorded_climb_becomes_samples(client, tmp_path):
+    pytest.importorskip("rosbags", reason="skipped: rosbags not installed")
+    plain = client.post("/api/samples", files={"file": csv_of(climb()).encode()}).json()["samples"]
+    assert plain[-1]["inclination"] == climb()[-1].inclination
+    bag = recording(climb(), tmp_path / "climb").read_bytes()
+    found = client.post("/api/samples", files={"file": bag}, data={"nose": "up"}).json()["samples"]
+    assert [each["t"] for each in found] == pytest.approx([each["t"] for each in plain])
+    name = client.post("/api/live", json=BODY).json()["id"]
+    states = client.post(f"/api/live/{name}", json={"samples": found}).json()["states"]
+    assert states[-1]["alarm"]
+    refused = client.post("/api/samples", files={"file": b"\x00\x01"})
+    assert refused.status_code == 422
+
+
+def test_the_sender_brings_a_file_to_the_page(client, tmp_path, capsys):
+    file = tmp_path / "climb.csv"
+    file.write_text(csv_of(climb()))
+    stairs = tmp_path / "flight.toml"
+    flight = Stairs.inclined(angle=SLOPE, nosing_spacing=0.150)
+    stairs.write_text(flight.to_toml())
+    words = ["live", "kenaf", str(stairs), str(file), "--to", str(client.base_url)]
+    assert run(words) == 0
+    page, *said = capsys.readouterr().out.splitlines()
+    assert said[0] == str(kaidan.monitor("kenaf", flight, file)).splitlines()[-1]
+    name = page.partition("#")[2]
+    assert page.endswith(f"/live.html#{name}")
+    assert run([*words[:-1], page, "--pace", "1000"]) == 0  # a page that waits
+    assert run(["live", "kenaf", "ibc", str(file), "--to", "nowhere"]) == 2
+    assert "--to 'nowhere' is no address" in capsys.readouterr().err
+    assert run(["live", "kenaf", "ibc", str(file), "--to", "http://127.0.0.1:1/"]) == 2
+    assert "no answer" in capsys.readouterr().err

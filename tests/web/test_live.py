@@ -1,0 +1,101 @@
+"""The live page: the alarm of a replayed climb is seen and heard, and a lost server is noticed."""
+
+import httpx
+import pytest
+
+from climbs import SLOPE, climb, csv_of
+from web.conftest import pictures
+
+BODY = {"robot": "kenaf", "stairs": {"angle": SLOPE, "nosing_spacing": 0.150}}
+ROWS = [{**row._asdict(), "acceleration": 0.0} for row in climb()]
+
+
+def fed(server, name, rows, **more):
+    said = httpx.post(f"{server.address}api/live/{name}", json={"samples": rows, **more})
+    assert said.status_code == 200
+    return said.json()
+
+
+@pytest.fixture
+def climbing(server):
+    return httpx.post(f"{server.address}api/live", json=BODY).json()["id"]
+
+
+def ready(page, name=""):
+    page.goto(f"live.html{'#' + name if name else ''}")
+    page.wait_for_selector("body[data-ready]")
+
+
+def test_an_alarm_from_a_replay_is_seen_and_heard(page, tmp_path):
+    steep = csv_of(climb())  # steeper than the flight of the catalogue: it tips
+    (tmp_path / "climb.csv").write_text(steep)
+    ready(page)
+    page.locator("#robot").select_option("absolem")
+    page.locator("#stairs").select_option("ibc")
+    page.get_by_role("textbox", name="Flippers").fill("flat")
+    page.get_by_label("Speed of the replay").select_option("5")
+    page.get_by_label("Recorded climb (CSV, bag, MCAP)").set_input_files(tmp_path / "climb.csv")
+    page.get_by_role("button", name="Replay").click()
+    page.wait_for_selector("#alarm.calm")
+    page.wait_for_selector("#alarm.alarm")
+    assert "ALARM" in page.get_by_role("alert").first.inner_text()
+    page.wait_for_selector("body[data-beeps]")
+    if pictures():
+        page.screenshot(path=pictures() / f"live-{page.viewport_size['width']}.png")
+    page.get_by_text("The climb is over.").wait_for()
+    assert page.inner_text("#margin") != "–"
+
+
+def test_a_sensor_that_falls_silent_is_noticed(desk, server, climbing):
+    ready(desk, climbing)
+    fed(server, climbing, ROWS[:40])
+    desk.wait_for_selector("#alarm.calm")
+    desk.wait_for_selector("#alarm.silent")
+    assert "NO DATA" in desk.inner_text("#alarm")
+    fed(server, climbing, ROWS[40:60])
+    desk.wait_for_selector("#alarm.calm")
+
+
+def test_the_numbers_are_those_of_the_server_also_for_who_comes_later(desk, server, climbing):
+    last = fed(server, climbing, ROWS[:100])["states"][-1]
+    ready(desk, climbing)
+    desk.wait_for_selector("#alarm.calm, #alarm.silent")
+    shown = [desk.inner_text(f"#{name}").replace("−", "-") for name in ("margin", "tilt", "phase")]
+    assert shown == [f"{last['margin_deg']:.1f}", f"{last['tilt_deg']:.1f}", "on the flight"]
+
+
+def test_a_climb_of_a_server_that_began_anew_is_over_and_says_so(desk, server, climbing):
+    ready(desk, climbing)
+    desk.get_by_text("Connected").wait_for()
+    server.stop()
+    desk.get_by_text("Not connected. Trying again.").wait_for()
+    server.start()
+    desk.get_by_text("This climb is not watched any more. Begin again.").wait_for()
+
+
+def test_it_works_from_the_keyboard_in_japanese_and_for_assistive_technology(desk, tmp_path):
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="skipped: no axe")
+    ready(desk)
+    order = []
+    for _ in range(13):
+        desk.keyboard.press("Tab")
+        order.append(desk.evaluate("document.activeElement.id || document.activeElement.tagName"))
+    assert order == [
+        "A", "language", "sound", "try", "robot", "stairs", "direction", "facing", "flippers",
+        "file", "speed", "replay", "watch",
+    ]  # fmt: skip
+    desk.get_by_label("Language").select_option("ja")
+    assert desk.inner_text("#said") == "未開始"
+    found = axe.Axe().run(desk).response["violations"]
+    assert [
+        (each["id"], each["impact"]) for each in found if each["impact"] in ("serious", "critical")
+    ] == []
+
+
+def test_what_the_server_refuses_is_said(desk):
+    ready(desk)
+    desk.get_by_role("textbox", name="Flippers").fill("nonsense")
+    desk.get_by_role("button", name="Watch a sensor").click()
+    desk.locator("#error", has_text="nonsense").wait_for()
+    desk.get_by_role("button", name="Replay").click()
+    desk.get_by_text("Choose a recorded climb first.").wait_for()
