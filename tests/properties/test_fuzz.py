@@ -260,7 +260,7 @@ OPTIONS = {
 SLOW = ("experiment", "calibrate", "physics", "agree", "posture", "compare", "campaign")
 NO_TERRAIN = ("margin", "robots", "stairs", "surfaces", "schema", "new")
 FILES = 20
-SLOW_OPTIONS = ("--figure", "--animation", "--pose-map", "--scheduler", "--help")
+SLOW_OPTIONS = ("--follow", "--figure", "--animation", "--pose-map", "--scheduler", "--help")
 
 
 def commands():

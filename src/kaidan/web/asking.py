@@ -223,19 +223,19 @@ _LIVE = ("robot", "stairs", "direction", "facing", "flippers", "payload", "overr
 def live_question(body: Mapping[str, Any]) -> Question:
     """Question of a climb that is watched; see `kaidan.monitor`."""
     values = {name: value for name, value in body.items() if value is not None}
-    _refuse_unknown("live", values, _LIVE)
+    refuse_unknown("live", values, _LIVE)
     for name in ("robot", "stairs"):
         if name not in values:
             raise InputError(f"live: no {name}: give a name of the catalogue or a sheet")
-    made = _made(values)
-    return Question.of(made.pop("robot"), made.pop("stairs"), **made)
+    keywords = made(values)
+    return Question.of(keywords.pop("robot"), keywords.pop("stairs"), **keywords)
 
 
 def samples_of_file(file: str, body: Mapping[str, Any]) -> dict[str, Any]:
     """Samples of a file, as JSON has them; the body may say that the nose is "down" the stairs."""
     from kaidan.verbs.monitor import open_samples
 
-    _refuse_unknown("samples", body, ("nose",))
+    refuse_unknown("samples", body, ("nose",))
     if body.get("nose", "up") not in ("up", "down"):
         raise InputError(f"nose = {shown(body['nose'])} is not known; known: up, down")
     with open_samples(file, nose_up=body.get("nose", "up") == "up") as samples:
