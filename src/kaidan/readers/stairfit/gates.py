@@ -10,6 +10,7 @@ from kaidan.readers.stairfit.corridor import Lane
 from kaidan.readers.stairfit.echo import SPACINGS
 from kaidan.readers.stairfit.patches import Patches
 from kaidan.readers.stairfit.steps import Steps
+from kaidan.readers.stairfit.turning_steps import turn_of
 
 ANGLES = (math.radians(15.0), math.radians(60.0))
 """Slopes between which stairs lie [rad]."""
@@ -64,6 +65,9 @@ def refused(
         return Refusal("none", {}, provenance)
     if steps.explained < EXPLAINED or steps.level < LEVEL:
         return Refusal("rubble", {"residual_mm": 1e3 * steps.residual}, provenance)
+    word, turn = turn_of(steps.angles)
+    if word:
+        return Refusal(word, {"turn_deg": math.degrees(turn)}, provenance)
     number = np.arange(len(steps.at))
     off = steps.at - np.column_stack(
         [np.polyval(np.polyfit(number, steps.at[:, axis], 1), number) for axis in (0, 1)]

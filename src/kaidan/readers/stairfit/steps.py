@@ -24,6 +24,7 @@ from kaidan.readers.stairfit.staircase_line import (
     robust_plane,
     tops,
 )
+from kaidan.readers.stairfit.turning_steps import nosing_angles
 
 FEWEST_POINTS = 12
 """Points of a tread or a riser from which its mean is taken."""
@@ -34,6 +35,8 @@ FEWEST_LANES = 3
 LOCAL = 0.15
 """Share of the doubt of the range that differs from one nosing to the next [1]: half of that which
 differs from one direction to the next, because a nosing is a mean over its width."""
+FLOOR = 1.2
+"""The same of the floor, over that of a nosing [1]: it is seen at a smaller angle."""
 SMALLEST = 5e-4
 """Standard uncertainty of a nosing at best [m]: edges are not sharper."""
 STRIP = 0.1
@@ -44,7 +47,7 @@ EDGE_OFF = 0.03
 """Distance of the end of an element from its regular place up to which it is its end [m]."""
 OUT_OF_LEVEL = math.tan(math.radians(3.0))
 """Slope across at which a tread is none; along it, where edges blur it, twice that."""
-ODD_UNSEEN = 0.3
+ODD_UNSEEN = 0.25
 """Largest difference of the last riser from the others, as a share of them, where its face was not
 seen [1]: what lies higher is something that stands on the landing."""
 FLOOR_SEEN = 15
@@ -83,6 +86,8 @@ class Steps:
     """Share of the treads, by their points, that are level across and along [1]; NaN: too few."""
     width: tuple[float, float]
     """Least and greatest t at which steps were seen [m]."""
+    angles: Array
+    """Of the nosings off square to the heading, NaN: not seen, shape (at most m,) [rad]."""
 
 
 def steps_of(
@@ -142,7 +147,9 @@ def steps_of(
     covariance = np.einsum("mi,mj->mij", along, along)
     covariance[:, [0, 1], [0, 1]] += sigma**2 + SMALLEST**2
     rms = float(np.sqrt(np.mean(np.minimum(np.abs(off), tight) ** 2)))
-    floor_sigma = math.hypot(floor_sigma, 2 * LOCAL * range_error * float(ranges[0]))
+    on = at.tread | at.riser
+    width = _width(at.step[on], t[on], line)
+    floor_sigma = math.hypot(floor_sigma, FLOOR * LOCAL * range_error * float(ranges[0]))
     return Steps(
         line=line, at=found, covariance=covariance, measured=measured,
         floor=floor, floor_sigma=floor_sigma,
@@ -150,7 +157,7 @@ def steps_of(
         roughness=rms, residual=float(np.median(np.abs(off))),
         explained=explained_share(line, s, t, z, tight), depth=_depth(line, s, t, z),
         level=_level_share(line, at, s, t, z),
-        width=_width(at.step[at.tread | at.riser], t[at.tread | at.riser], line),
+        width=width, angles=nosing_angles(line, s, t, z, width),
     )  # fmt: skip
 
 

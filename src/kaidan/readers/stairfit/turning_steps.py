@@ -1,0 +1,88 @@
+"""By what angle each nosing lies across the heading: curved flights and winders show themselves.
+
+Between two levels nothing but the face of a riser stands. Strip by strip across the flight the
+median of its points says where it is; the median of the slopes between strips says how it lies
+(Theil 1950, Sen 1968), whatever stands about.
+"""
+
+import numpy as np
+
+from kaidan.readers.kinds import Array
+from kaidan.readers.stairfit.staircase_line import StairLine
+
+STRIP = 0.08
+"""Width of a strip [m]."""
+FEWEST_STRIPS, FEWEST_POINTS = 4, 3
+"""Strips that a face needs, and points that a strip needs."""
+BAND = (0.2, 0.8)
+"""Part of the rise below a nosing in which its face is looked for [1]: treads are outside it."""
+REACH = 1.5
+"""Distance from the regular face up to which one is looked for, in goings [1]."""
+CURVED, WINDING = np.radians(6.0), np.radians(15.0)
+"""Turn of a flight from its first to its last nosing from which it is curved, and angle of single
+nosings off the others from which they are winders [rad]."""
+
+
+def nosing_angles(
+    line: StairLine, s: Array, t: Array, z: Array, sides: tuple[float, float]
+) -> Array:
+    """Angle of each nosing off square to the heading, shape (m,) [rad]; NaN: too little was seen.
+
+    Parameters
+    ----------
+    line : StairLine
+        Of the flight.
+    s, t, z : array, shape (n,)
+        Points in the frame of its heading [m].
+    sides : tuple of float
+        Least and greatest t of the flight [m].
+    """
+    low, high = sides[0] + 0.05, sides[1] - 0.05
+    inside = (t > low) & (t < high)
+    s, t, z = s[inside], t[inside], z[inside]
+    found = np.full(line.last - line.first + 1, np.nan)
+    for row, (at, level) in enumerate(line.at(np.arange(line.first, line.last + 1)).tolist()):
+        below = (level - z) / line.rise
+        face = (below > BAND[0]) & (below < BAND[1])
+        face &= np.abs(s - line.skew * t - at) < REACH * line.going
+        if face.sum() < FEWEST_STRIPS * FEWEST_POINTS:
+            continue
+        strip = ((t[face] - low) / STRIP).astype(np.int64)
+        places = [
+            (float(np.median(t[face][here])), float(np.median(s[face][here])))
+            for each in np.unique(strip).tolist()
+            if (here := strip == each).sum() >= FEWEST_POINTS
+        ]
+        if len(places) < FEWEST_STRIPS:
+            continue
+        x, y = np.array(places).T
+        i, j = np.triu_indices(len(x), 2)  # neighbours say little
+        found[row] = np.arctan(np.median((y[j] - y[i]) / (x[j] - x[i])))
+    return found
+
+
+def turn_of(angles: Array) -> tuple[str, float]:
+    """Word of the refusal for nosings that turn, empty for a straight flight, and the turn [rad].
+
+    Examples
+    --------
+    >>> turn_of(np.radians([-6.0, -3.0, 0.0, 3.0, 6.0]))[0]
+    'curved'
+    >>> turn_of(np.radians([0.0, 1.0, -1.0, 0.0, 30.0]))[0]
+    'winders'
+    >>> turn_of(np.radians([0.0, 1.0, -1.0, 0.0, 1.0]))[0]
+    ''
+    """
+    number = np.flatnonzero(np.isfinite(angles))
+    if len(number) < 3:
+        return "", 0.0
+    seen = angles[number]
+    i, j = np.triu_indices(len(number), 1)
+    slope = float(np.median((seen[j] - seen[i]) / (number[j] - number[i])))
+    turn = slope * (len(angles) - 1)
+    if abs(turn) > CURVED:
+        return "curved", abs(turn)
+    off = np.abs(seen - np.median(seen))
+    if off.max() > WINDING:
+        return "winders", float(off.max())
+    return "", 0.0
