@@ -95,6 +95,15 @@ NEEDS = {"docs/buildings.md": "ifcopenshell"}
 """Optional packages without which a page is skipped."""
 
 
+LONG_WORK = ("calibration", "campaigns", "design", "experiment", "stock")
+"""Pages whose commands run many trials, or many questions: among the slow tests."""
+
+
+def case(page: Path) -> object:
+    """A page as a case of a test."""
+    return pytest.param(page, marks=pytest.mark.slow if page.stem in LONG_WORK else ())
+
+
 class Fence(NamedTuple):
     language: str
     line: int
@@ -215,7 +224,7 @@ def run_doctest(fence: Fence, page: Path, names: dict[str, object]) -> None:
     assert runner.failures == 0, told.getvalue()
 
 
-@pytest.mark.parametrize("page", PAGES, ids=str)
+@pytest.mark.parametrize("page", [case(page) for page in PAGES], ids=str)
 def test_blocks_of_a_page_do_what_they_show(page, tmp_path, monkeypatch):
     if str(page) in NEEDS:
         pytest.importorskip(NEEDS[str(page)], reason=f"skipped: {NEEDS[str(page)]} not installed")

@@ -6,6 +6,7 @@ import hypothesis.strategies as st
 import pytest
 from hypothesis import HealthCheck, given, settings
 
+from amounts import examples
 from kaidan import catalog
 from kaidan.errors import InputError
 from kaidan.robot import Payload, Posture, Robot
@@ -86,7 +87,7 @@ def assert_refused_well(error, start=""):
 
 
 @by_sheet
-@settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(300), deadline=None, suppress_health_check=list(HealthCheck))
 @given(data=st.data())
 def test_any_table_is_a_sheet_or_an_input_error(sheet, data):
     table = data.draw(tables_of(sheet) | values)
@@ -99,7 +100,7 @@ def test_any_table_is_a_sheet_or_an_input_error(sheet, data):
 
 
 @by_sheet
-@settings(max_examples=200, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(200), deadline=None, suppress_health_check=list(HealthCheck))
 @given(data=st.data())
 def test_any_single_change_of_a_good_sheet_is_a_sheet_or_an_input_error(sheet, data):
     kind = next(kind for kind, each in SHEETS.items() if each is sheet)
@@ -121,7 +122,7 @@ def test_any_single_change_of_a_good_sheet_is_a_sheet_or_an_input_error(sheet, d
 
 
 @by_sheet
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(text=st.text() | st.text(alphabet="[]{}=\"'.,#0123456789abmeftinrue \n_-+:\\x"))
 def test_any_text_is_a_sheet_or_an_input_error(sheet, text):
     try:
@@ -133,7 +134,7 @@ def test_any_text_is_a_sheet_or_an_input_error(sheet, text):
 
 
 @by_sheet
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150), deadline=None)
 @given(data=st.data())
 def test_a_damaged_file_is_a_sheet_or_an_input_error(sheet, data, tmp_path_factory):
     """Cut, drop, double or overwrite some bytes of a good file."""
@@ -153,7 +154,7 @@ def test_a_damaged_file_is_a_sheet_or_an_input_error(sheet, data, tmp_path_facto
 
 
 @by_sheet
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(name=st.text(max_size=30))
 def test_any_name_is_a_sheet_or_an_input_error(sheet, name):
     try:
@@ -164,7 +165,7 @@ def test_any_name_is_a_sheet_or_an_input_error(sheet, name):
         assert_sound(made)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(
     posture=tables_of(Posture) | st.fixed_dictionaries({}, optional={"front": st.floats(-4, 4)}),
     payload=tables_of(Payload),

@@ -89,6 +89,7 @@ def test_one_of_two_workers_is_killed_in_mid_campaign(tmp_path):
         assert (again.done, again.found) == (2, 60), "what a store has is not done again"
 
 
+@pytest.mark.slow
 def test_bad_news_is_data_on_a_scheduler_too(tmp_path):
     """A trial that kills its workers, started anew by their nannies, and one that raises."""
     plan = [
@@ -107,6 +108,7 @@ def test_bad_news_is_data_on_a_scheduler_too(tmp_path):
     assert found[5]["error"] == "ZeroDivisionError: half a character ?"
 
 
+@pytest.mark.slow
 def test_kill_9_of_the_campaign_on_a_scheduler(tmp_path):
     store, notes = tmp_path / "store", tmp_path / "notes"
     notes.mkdir()

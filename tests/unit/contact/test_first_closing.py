@@ -5,14 +5,16 @@ import math
 import numpy as np
 import pytest
 
-from contact_cases import random_robot, steps
+from amounts import few_of
+from contact_cases import random_robot, random_terrain, steps
 from kaidan.contact import body_table, ground_table
 from kaidan.contact.kernel.first_closing import first_closing
 from kaidan.contact.kernel.gaps import gap
 from kaidan.contact.kernel.nearest_feature import nearest
-from kaidan.contact.kernel.rotation import foot_limit, turned
+from kaidan.contact.kernel.rotation import foot_limit, next_pivot, turned
 from kaidan.contact.kernel.settling import settle
 
+FARTHEST = 0.25  # rad: a gap that opens, closes and opens again within one look is not seen
 OPEN = -1e-9  # m: gaps are closed to 1e-12, coordinates of some metres are rounded
 TERRAINS = [
     steps(0.15, 0.25, 4),
@@ -27,6 +29,28 @@ def at_angle(ground, body, pivot, x, z, phi, turn):
     return x_1, z_1, math.cos(phi + turn), math.sin(phi + turn)
 
 
+def checked_closing(ground, body, pivot, x, z, phi, sense, end):
+    """What `first_closing` finds, once it is sure: nothing sooner, and there it does."""
+    for hint in (0, 5):
+        closed, angle, after = first_closing(ground, body, pivot, x, z, phi, sense, end, hint)
+        assert 0 <= after <= len(ground)
+    assert 0.0 <= angle <= end
+    for share in (0.02, 0.2, 0.4, 0.6, 0.8, 0.9, 0.97, 0.999):
+        pose = at_angle(ground, body, pivot, x, z, phi, sense * share * angle)
+        which, smallest, _ = nearest(ground, body, *pose, pivot, -1, 0.0, 0)
+        # the segment beside the one that a disc rolls on begins where it ends
+        beside = which >= 0 and abs((which >> 6) - (pivot >> 6)) <= 1
+        assert which < 0 or smallest > OPEN or beside, (share, which, smallest)
+    if closed >= 0:
+        pose = at_angle(ground, body, pivot, x, z, phi, sense * angle)
+        assert abs(gap(ground, body, closed, *pose)[0]) < 1e-8
+        pose = at_angle(ground, body, pivot, x, z, phi, sense * (angle + 1e-3))
+        assert gap(ground, body, closed, *pose)[0] < OPEN
+    else:
+        assert angle == end
+    return closed, angle
+
+
 @pytest.mark.parametrize("terrain", range(len(TERRAINS)))
 @pytest.mark.parametrize("seed", range(40))
 def test_nothing_closes_sooner_and_there_it_does(seed, terrain):
@@ -39,20 +63,29 @@ def test_nothing_closes_sooner_and_there_it_does(seed, terrain):
         return
     for sense, pivot in ((1.0, rear), (-1.0, front)):
         end = min(0.6, foot_limit(ground, body, pivot, x, z, phi, sense))
-        for hint in (0, 5):
-            closed, angle, after = first_closing(ground, body, pivot, x, z, phi, sense, end, hint)
-            assert 0 <= after <= len(ground)
-        assert 0.0 <= angle <= end
-        for share in (0.02, 0.2, 0.4, 0.6, 0.8, 0.9, 0.97, 0.999):
-            pose = at_angle(ground, body, pivot, x, z, phi, sense * share * angle)
-            which, smallest, _ = nearest(ground, body, *pose, pivot, -1, 0.0, 0)
-            # the segment beside the one that a disc rolls on begins where it ends
-            beside = which >= 0 and abs((which >> 6) - (pivot >> 6)) <= 1
-            assert which < 0 or smallest > OPEN or beside, (share, which, smallest)
-        if closed >= 0:
-            pose = at_angle(ground, body, pivot, x, z, phi, sense * angle)
-            assert abs(gap(ground, body, closed, *pose)[0]) < 1e-8
-            pose = at_angle(ground, body, pivot, x, z, phi, sense * (angle + 1e-3))
-            assert gap(ground, body, closed, *pose)[0] < OPEN
-        else:
-            assert angle == end
+        checked_closing(ground, body, pivot, x, z, phi, sense, end)
+
+
+@pytest.mark.parametrize("seed", few_of(400, fast=60))
+def test_turning_on_about_what_closed_nothing_closes_sooner_either(seed):
+    """Over rough ground and steps: discs roll on to the next segment, end upon the next point."""
+    rng = np.random.default_rng(seed)
+    parts, kinds = random_robot(rng)
+    terrain = random_terrain(rng)
+    ground, body = ground_table(terrain), body_table(parts, kinds)
+    x = rng.uniform(terrain[0, 0] + 3.0, terrain[-1, 0] - 3.0)
+    found, z, phi, rear, front = settle(ground, body, x, rng.uniform(-0.3, 0.3), 0.0)
+    if not found:
+        return
+    for sense, pivot in ((1.0, rear), (-1.0, front)):
+        at, turn = pivot, (x, z, phi)
+        for _ in range(6):
+            limit = foot_limit(ground, body, at, *turn, sense)
+            closed, angle = checked_closing(ground, body, at, *turn, sense, min(FARTHEST, limit))
+            turn = (*turned(ground, body, at, *turn, sense * angle), turn[2] + sense * angle)
+            if closed >= 0:
+                at = closed
+            elif angle == limit:
+                at = next_pivot(ground, body, at, *turn, sense)
+            if abs(turn[2]) > 1.3:
+                break
