@@ -29,3 +29,12 @@ def test_a_traverse_is_named_after_its_verdict(name):
     words = PICTURES[name].removesuffix(" --side").split()
     done = CliRunner().invoke(app, [*words, "--json"])
     assert json.loads(done.stdout)["assessment"]["verdict"] == Path(name).stem
+
+
+def test_pictures_of_the_page_are_small_and_shown():
+    names = [path.name for path in STATIC.glob("page-*.png")]
+    shown = (ROOT / "docs" / "page.md").read_text(encoding="utf-8")
+    assert len(names) > 3
+    for name in names:
+        assert (STATIC / name).stat().st_size <= LARGEST / 2
+        assert f"_static/{name})" in shown

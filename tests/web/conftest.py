@@ -4,7 +4,6 @@ import os
 import shutil
 import threading
 import time
-from pathlib import Path
 
 import pytest
 
@@ -103,9 +102,3 @@ def opened(chromium, server, viewport):
     context.close()
     assert faults == []
     assert elsewhere == []
-
-
-def pictures():
-    """Folder into which journeys put pictures of what they see; None: nobody asked for them."""
-    place = os.environ.get("KAIDAN_PICTURES")
-    return Path(place) if place else None

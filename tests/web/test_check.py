@@ -46,7 +46,8 @@ def test_an_operator_gets_from_nothing_to_a_printed_sheet(page):
     assert "Mission sheet" in page.inner_text("#sheet")
     assert "robot=absolem" in page.inner_text("#sheet")
     assert page.locator(".inputs").is_hidden()
-    assert page.pdf()[:4] == b"%PDF"
+    sheet = page.pdf(prefer_css_page_size=True, print_background=True)
+    assert len(re.findall(rb"/Type\s*/Page\b", sheet)) == 1
 
 
 def test_numbers_on_the_page_are_those_of_the_api(desk, server):

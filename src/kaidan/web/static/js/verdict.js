@@ -110,7 +110,7 @@ function numbers(answer) {
 
 function first(answer) {
   const measure = answer.to_measure.find((each) => each.share > 0.01);
-  if (!measure) return null;
+  if (!measure || answer.verdict !== "caution") return null;
   return h("p", { class: "measure" }, h("b", {}, `${t("answer.measure")}: `), english(measure.what), " ",
     t("answer.measure_share", { share: (100 * measure.share).toFixed(0) }));
 }
