@@ -33,7 +33,7 @@ def test_a_traverse_is_named_after_its_verdict(name):
 
 def test_pictures_of_the_page_are_small_and_shown():
     names = [path.name for path in STATIC.glob("page-*.png")]
-    shown = (ROOT / "docs" / "page.md").read_text(encoding="utf-8")
+    shown = (ROOT / "docs/page.md").read_text(encoding="utf-8")
     assert len(names) > 3
     for name in names:
         assert (STATIC / name).stat().st_size <= LARGEST / 2
