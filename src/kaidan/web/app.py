@@ -22,9 +22,9 @@ from kaidan.text.page import page_texts
 from kaidan.web import file_routes, job_routes, live_routes, openapi, report_routes
 from kaidan.web.asking import VERBS
 from kaidan.web.bodies import LARGEST_BODY, LARGEST_UPLOAD, json_of, sent
-from kaidan.web.guard import Guard
 from kaidan.web.job_table import JobTable
 from kaidan.web.jobs import Jobs
+from kaidan.web.remembered import Remembered
 from kaidan.web.sessions import Sessions
 from kaidan.web.state import State
 from kaidan.web.workers import Limits, Workers
@@ -42,15 +42,8 @@ _SHEETS: Mapping[str, type[Robot | Stairs | Surface]] = {
 }
 
 
-def app_of(
-    state: State,
-    *,
-    workers: int,
-    limits: Limits | None = None,
-    token: str = "",
-    hosts: tuple[str, ...] = (),
-) -> FastAPI:
-    """Application.
+def app_of(state: State, *, workers: int, limits: Limits | None = None) -> FastAPI:
+    """Application, to be put behind a `kaidan.web.guard.Guard`.
 
     Parameters
     ----------
@@ -60,8 +53,6 @@ def app_of(
         Processes that answer.
     limits : Limits, optional
         What one question may take.
-    token, hosts
-        As `kaidan.web.guard.Guard` has them.
     """
     hands = Workers(workers, limits or Limits(), state.passing)
     jobs = Jobs(JobTable(state.jobs), hands)
@@ -83,10 +74,9 @@ def app_of(
         telemetry={"tracing": False, "metrics": False, "logs": False},
         max_body_size=LARGEST_UPLOAD,
     )
-    app.add_middleware(Guard, token=token, hosts=hosts)
     _add_errors(app)
     _add_catalogue(app)
-    _add_verbs(app, hands)
+    _add_verbs(app, Remembered(hands))
     report_routes.add(app, hands)
     file_routes.add(app, hands)
     job_routes.add(app, jobs, Sessions(state.folder / "key"))
@@ -144,7 +134,7 @@ def _add_catalogue(app: FastAPI) -> None:
         return Response(found.to_json(), media_type="application/json")
 
 
-def _add_verbs(app: FastAPI, hands: Workers) -> None:
+def _add_verbs(app: FastAPI, hands: Remembered) -> None:
     def add(path: str, kind: str, verb: str, summary: str, schema: Any) -> None:
         async def answer(request: Request) -> Response:
             body = await json_of(request)

@@ -30,7 +30,7 @@ _LOCAL = ("localhost", "127.0.0.1", "[::1]")
 
 
 class Guard:
-    """Middleware that lets nobody in who should not be.
+    """What stands around the application and lets nobody in who should not be.
 
     Parameters
     ----------
@@ -52,13 +52,26 @@ class Guard:
             await self.app(scope, receive, send)
             return
 
+        large = False
+
         async def with_headers(message: Message) -> None:
+            nonlocal large
+            if large:  # what the framework says of it in words of its own
+                return
             if message["type"] == "http.response.start":
+                large = message["status"] == 413
                 headers = MutableHeaders(scope=message)
                 for name, value in HEADERS.items():
                     headers.setdefault(name, value)
                 if scope["path"].startswith("/api/"):
                     headers.setdefault("Cache-Control", "no-store")
+                if large:
+                    said = b'{"error": "too large", "kind": "too-large"}'
+                    headers["Content-Type"] = "application/json"
+                    headers["Content-Length"] = str(len(said))
+                    await send(message)
+                    await send({"type": "http.response.body", "body": said})
+                    return
             await send(message)
 
         answer = self._answer(scope)

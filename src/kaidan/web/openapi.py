@@ -1,21 +1,19 @@
 """The description of the service, OpenAPI 3.1, from the sheets and answers that there are."""
 
-from collections.abc import Mapping
-from functools import cache
 from inspect import signature
 from typing import Any
 
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
+from pydantic.json_schema import JsonSchemaMode, models_json_schema
 
 from kaidan.question import Question
 from kaidan.verbs.report.answer import Report
 from kaidan.web.asking import VERBS
 from kaidan.web.job_table import JobState
 from kaidan.web.long_work import JOBS
-
-_PLACE = "#/components/schemas/{model}"
+from kaidan.web.request_schemas import PLACE, SHEETS, body_of, of
 
 
 class Said(BaseModel):
@@ -76,7 +74,7 @@ def asked(verb: str, answer: type[BaseModel]) -> dict[str, Any]:
     return {
         "requestBody": {
             "required": True,
-            "content": {"application/json": {"schema": _body(verb)}},
+            "content": {"application/json": {"schema": body_of(verb)}},
         },
         "responses": _responses(answer),
     }
@@ -94,7 +92,7 @@ def written(formats: tuple[str, ...]) -> dict[str, Any]:
             "200": {
                 "description": "the document",
                 "content": {
-                    "application/json": {"schema": {"$ref": _PLACE.format(model="Report")}},
+                    "application/json": {"schema": of(Report)},
                     "application/pdf": {},
                     "text/html": {},
                 },
@@ -132,23 +130,11 @@ def gives(answer: type[BaseModel]) -> dict[str, Any]:
 
 
 def _responses(answer: type[BaseModel]) -> dict[str, Any]:
-    def of(model: type[BaseModel], description: str) -> dict[str, Any]:
-        place = {"$ref": _PLACE.format(model=model.__name__)}
-        return {"description": description, "content": {"application/json": {"schema": place}}}
+    def given(model: type[BaseModel], description: str) -> dict[str, Any]:
+        return {"description": description, "content": {"application/json": {"schema": of(model)}}}
 
-    return {"200": of(answer, "the answer")} | {
-        status: of(Refusal, why) for status, why in _ERRORS.items()
-    }
-
-
-@cache
-def _body(verb: str) -> dict[str, Any]:
-    each = VERBS[verb]
-    return {
-        "type": "object",
-        "required": [],
-        "properties": {name: {} for name in each.parameters()},
-        "additionalProperties": each.open,
+    return {"200": given(answer, "the answer")} | {
+        status: given(Refusal, why) for status, why in _ERRORS.items()
     }
 
 
@@ -158,15 +144,13 @@ def described(app: FastAPI) -> dict[str, Any]:
         whole = get_openapi(
             title=app.title, version=app.version, description=app.description, routes=app.routes
         )
-        schemas = whole.setdefault("components", {}).setdefault("schemas", {})
-        models: list[type[BaseModel]] = [Said, Refusal, Report, JobList]
-        models += [each.answers() for each in VERBS.values()]
-        for model in models:
-            schemas |= _schemas(model)
+        given: list[type[BaseModel]] = [Said, Refusal, Report, JobList]
+        given += [each.answers() for each in VERBS.values()]
+        modes: list[tuple[type[BaseModel], JsonSchemaMode]] = [
+            *((each, "serialization") for each in given),
+            *((each, "validation") for each in SHEETS),
+        ]
+        schemas = models_json_schema(modes, ref_template=PLACE)[1]["$defs"]
+        whole.setdefault("components", {}).setdefault("schemas", {}).update(schemas)
         app.openapi_schema = whole
     return app.openapi_schema
-
-
-def _schemas(model: type[BaseModel]) -> Mapping[str, Any]:
-    made = model.model_json_schema(ref_template=_PLACE, mode="serialization")
-    return {**made.pop("$defs", {}), model.__name__: made}

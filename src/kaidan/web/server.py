@@ -9,6 +9,7 @@ import uvicorn
 
 from kaidan.errors import InputError, short
 from kaidan.web.app import app_of
+from kaidan.web.guard import Guard
 from kaidan.web.state import State
 
 
@@ -60,7 +61,7 @@ def server_of(state: State, *, host: str, token: str, workers: int, **how: Any) 
     """
     hosts = () if is_local(host) else (host, socket.gethostname(), socket.getfqdn())
     config = uvicorn.Config(
-        app_of(state, workers=workers, token=token, hosts=hosts, **how),
+        Guard(app_of(state, workers=workers, **how), token=token, hosts=hosts),
         log_level="warning",
         access_log=False,
         server_header=False,

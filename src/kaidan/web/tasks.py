@@ -35,7 +35,9 @@ def done(task: Mapping[str, Any]) -> Done:
     except KaidanError as error:
         return refusal(422, "input", str(error))
     except MemoryError:
-        return refusal(422, "memory", "the answer needs more memory than a question may take")
+        text = "the answer needs more memory than a question may take: ask for less"
+        head, content = refusal(422, "memory", text)
+        return head | {"spent": True}, content
     except Exception as error:
         from traceback import extract_tb
 

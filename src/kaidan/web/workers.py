@@ -45,6 +45,8 @@ class _Worker:
 
     def __init__(self, process: asyncio.subprocess.Process, folder: Path) -> None:
         self.process, self.folder, self.done = process, folder, 0
+        self.spent = False
+        """Whether it had no memory left, so that nobody knows what is whole in it."""
 
     @classmethod
     async def begin(cls, limits: Limits, folder: Path, *, nice: int = 0) -> Self:
@@ -70,6 +72,7 @@ class _Worker:
         except (asyncio.IncompleteReadError, ConnectionError):
             raise WorkerDiedError from None
         self.done += 1
+        self.spent = head.get("spent", False)
         return Reply(head["status"], content)
 
     async def _frame(self) -> bytes:
@@ -136,7 +139,8 @@ class Workers:
         try:
             worker = await self._living(worker)
             reply = await self._within(worker, task, seconds or self.limits.seconds)
-            whole = worker.process.returncode is None and worker.done < self.limits.tasks
+            fresh = worker.done < self.limits.tasks and not worker.spent
+            whole = fresh and worker.process.returncode is None
             return reply
         finally:
             if not whole and worker is not None:

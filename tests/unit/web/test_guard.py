@@ -1,0 +1,72 @@
+"""Who may ask: host, origin, token, and the headers of every response."""
+
+import httpx
+import pytest
+
+from serving import served
+
+QUESTION = {"robot": "kenaf", "stairs": "ibc", "friction": 1.0}
+
+
+def test_every_response_has_the_headers_that_keep_a_page_to_itself(client):
+    for answer in (client.get("/"), client.get("/api/catalogue"), client.get("/api/nothing")):
+        policy = answer.headers["content-security-policy"]
+        assert "default-src 'none'" in policy
+        assert "unsafe" not in policy
+        assert "//" not in policy
+        assert answer.headers["x-content-type-options"] == "nosniff"
+        assert answer.headers["referrer-policy"] == "no-referrer"
+    assert client.get("/api/catalogue").headers["cache-control"] == "no-store"
+    assert "server" not in client.get("/").headers
+
+
+@pytest.mark.parametrize("host", ["evil.example", "127.0.0.1.evil.example", "10.0.0.1", ""])
+def test_another_name_of_the_server_is_refused(client, host):
+    """A name that was made to lead here after the page was loaded (DNS rebinding)."""
+    answer = client.get("/api/catalogue", headers={"host": host})
+    assert answer.status_code in (400, 421)
+
+
+def test_its_own_names_are_known(client):
+    port = client.base_url.port
+    for host in (f"localhost:{port}", f"127.0.0.1:{port}", f"[::1]:{port}", "LOCALHOST"):
+        assert client.get("/api/catalogue", headers={"host": host}).status_code == 200
+
+
+@pytest.mark.parametrize("origin", ["http://evil.example", "null", "http://127.0.0.1:1"])
+def test_a_page_of_elsewhere_cannot_post(client, origin):
+    answer = client.post("/api/assess", json=QUESTION, headers={"origin": origin})
+    assert answer.status_code == 403
+    assert answer.json()["kind"] == "origin"
+
+
+def test_its_own_page_can_post(client):
+    origin = str(client.base_url).rstrip("/")
+    assert client.post("/api/assess", json=QUESTION, headers={"origin": origin}).status_code == 200
+
+
+def test_a_form_of_elsewhere_is_no_question(client):
+    """Browsers send text/plain anywhere without a question before it."""
+    answer = client.post("/api/assess", content=b"{}", headers={"content-type": "text/plain"})
+    assert answer.status_code == 415
+    assert answer.json() == {"error": "send application/json", "kind": "input"}
+
+
+def test_a_token_is_demanded_everywhere_and_kept_by_a_browser():
+    with served(token="secret-word") as client:
+        for place in ("/", "/api/catalogue", "/api/openapi.json", "/api/jobs"):
+            assert client.get(place).status_code == 401
+            assert client.get(place, params={"token": "secret"}).status_code == 401
+        assert client.post("/api/assess", json=QUESTION).status_code == 401
+        bearer = {"authorization": "Bearer secret-word"}
+        assert client.post("/api/assess", json=QUESTION, headers=bearer).status_code == 200
+        led = client.get("/", params={"token": "secret-word"})
+        assert led.status_code == 303
+        assert led.headers["location"] == "/"
+        cookie = led.headers["set-cookie"].lower()
+        assert "httponly" in cookie
+        assert "samesite=strict" in cookie
+        assert client.get("/").status_code == 200
+        with httpx.Client(base_url=client.base_url) as other:
+            odd = {"authorization": "Bearer ü".encode()}
+            assert other.get("/", headers=odd).status_code == 401
