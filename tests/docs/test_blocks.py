@@ -67,6 +67,7 @@ ELSEWHERE = {
     "pip install 'kaidan[report]'   # matplotlib, ReportLab, segno": ".ci/run, within '.[dev]'",
     "pip install 'kaidan[ifc]'   # ifcopenshell and shapely": ".ci/run, within '.[dev]'",
     "python benchmarks/building.py": "by hand",
+    "python benchmarks/serve.py": "by hand",
     "pip install 'kaidan[design]'   # scipy, which searches": ".ci/run, within '.[dev]'",
     "pip install 'kaidan[sensitivity]'   # SALib": ".ci/run, within '.[dev]'",
     "pip install 'kaidan[web]'   # FastAPI and uvicorn": ".ci/run, within '.[dev]'",

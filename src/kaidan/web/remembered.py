@@ -14,7 +14,7 @@ MOST = 64 << 20
 
 
 class Remembered:
-    """Answers by their questions; who asks what is being answered waits for that answer.
+    """Answers by their questions; the same question at the same time waits for the one answer.
 
     An answer follows from its question alone, so that it does not matter whose it was.
 
@@ -23,7 +23,7 @@ class Remembered:
     hands : Workers
         Who answers.
     most : int
-        Most that is remembered [bytes]; what was not asked for longest goes first.
+        Most that is remembered [bytes]; the answer that nobody needed for longest goes first.
     """
 
     def __init__(self, hands: Workers, most: int = MOST) -> None:

@@ -1,0 +1,139 @@
+"""Users of the server on loopback: latency of answers, and memory over thousands of requests.
+
+Each user asks once a second, of so many different questions that a share of them is new; the time
+is from sending to the last byte. Memory is the resident set of the server and of its workers, once
+after a tenth of the requests and once at the end. The server is a process of its own.
+"""
+
+import argparse
+import asyncio
+import itertools
+import random
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import httpx
+import numpy as np
+
+from record import finish, options
+
+STAIRS = ("ibc", "ada", "osha-ship")
+
+
+def questions(different: int) -> list[dict[str, object]]:
+    """So many different questions with a stated posture."""
+    return [
+        {"robot": "absolem", "stairs": STAIRS[k % 3], "flippers": ("flat", "stowed")[k % 2],
+         "friction": round(0.5 + 0.001 * k, 3)}
+        for k in range(different)
+    ]  # fmt: skip
+
+
+async def user(client: httpx.AsyncClient, seconds: float, asked: itertools.cycle, found: list):
+    """One user: a request a second, wherever in the second it began."""
+    await asyncio.sleep(random.random())
+    end = time.perf_counter() + seconds
+    while (began := time.perf_counter()) < end:
+        answer = await client.post("/api/assess", json=next(asked))
+        took = time.perf_counter() - began
+        found.append((took, answer.status_code))
+        await asyncio.sleep(max(0.0, 1.0 - took))
+
+
+async def load(address: str, users: int, seconds: float, different: int, warm: bool) -> dict:
+    """Latencies of many users [ms], and errors."""
+    every = questions(different)
+    limits = httpx.Limits(max_connections=users)
+    async with httpx.AsyncClient(base_url=address, timeout=60, limits=limits) as client:
+        if warm:
+            for each in every:
+                await client.post("/api/assess", json=each)
+        random.seed(1)
+        random.shuffle(every)
+        found: list[tuple[float, int]] = []
+        asked = itertools.cycle(every)
+        await asyncio.gather(*(user(client, seconds, asked, found) for _ in range(users)))
+    times = np.array([took for took, _ in found]) * 1e3
+    return {
+        "requests": len(found),
+        "errors": sum(status != 200 for _, status in found),
+        "p50_ms": float(np.percentile(times, 50)),
+        "p95_ms": float(np.percentile(times, 95)),
+    }
+
+
+def memory(pid: int) -> dict[int, float]:
+    """Resident sets of a process and of its children [MB] (Linux)."""
+    listed = subprocess.run(
+        ["ps", "-o", "pid=,rss=", "--pid", str(pid), "--ppid", str(pid)],
+        capture_output=True, text=True, check=True,
+    ).stdout  # fmt: skip
+    return {int(a): int(b) / 1024 for a, b in (line.split() for line in listed.splitlines())}
+
+
+def growth(address: str, pid: int, requests: int) -> dict:
+    """Growth of memory from a tenth of the requests to the end [MB]: catalogue, answers, refusals."""
+    asked = itertools.cycle(
+        [
+            *({"robot": "kenaf", "stairs": "ibc", "friction": round(0.4 + k / 1e4, 4)}
+              for k in range(requests)),
+        ]
+    )  # fmt: skip
+    with httpx.Client(base_url=address, timeout=60) as client:
+        before: dict[int, float] = {}
+        for k in range(requests):
+            if k == requests // 10:
+                before = memory(pid)
+            if k % 4 == 0:
+                client.post("/api/assess", json={"robot": f"nobody{k}", "stairs": "ibc"})
+            elif k % 4 == 1:
+                client.get("/api/catalogue/robots/absolem")
+            else:
+                client.post("/api/assess", json=next(asked) | {"model": "closed-form"})
+        after = memory(pid)
+    return {
+        "server_growth_mb": after[pid] - before[pid],
+        "workers_growth_mb": sum(after.values()) - sum(before.values()) - after[pid] + before[pid],
+        "server_mb": after[pid],
+    }
+
+
+def main(arguments: argparse.Namespace) -> dict[str, float]:
+    with tempfile.TemporaryDirectory() as folder:
+        server = subprocess.Popen(
+            [sys.executable, "-m", "kaidan", "serve", "--port", "0", "--state", folder],
+            stdout=subprocess.PIPE, text=True, cwd=Path(folder),
+        )  # fmt: skip
+        try:
+            assert server.stdout is not None
+            address = re.match(r"\S+", server.stdout.readline())[0]
+            time.sleep(2.0)
+            found = {}
+            for name, warm in (("new", False), ("again", True)):
+                each = asyncio.run(
+                    load(address, arguments.users, arguments.seconds, arguments.different, warm)
+                )
+                found |= {f"{name}_{key}": value for key, value in each.items()}
+            found |= growth(address, server.pid, arguments.requests)
+        finally:
+            server.terminate()
+            server.wait(20)
+    return found
+
+
+if __name__ == "__main__":
+    parser = options(argparse.ArgumentParser(description=__doc__))
+    parser.add_argument("--users", type=int, default=50)
+    parser.add_argument("--seconds", type=float, default=60.0)
+    parser.add_argument("--different", type=int, default=300)
+    parser.add_argument("--requests", type=int, default=10_000)
+    arguments = parser.parse_args()
+    finish(
+        main(arguments),
+        arguments,
+        {"new_errors": 0, "again_errors": 0, "again_p95_ms": 80, "server_growth_mb": 8},
+    )
