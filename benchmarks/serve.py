@@ -76,13 +76,8 @@ def memory(pid: int) -> dict[int, float]:
 
 
 def growth(address: str, pid: int, requests: int) -> dict:
-    """Growth of memory from a tenth of the requests to the end [MB]: catalogue, answers, refusals."""
-    asked = itertools.cycle(
-        [
-            *({"robot": "kenaf", "stairs": "ibc", "friction": round(0.4 + k / 1e4, 4)}
-              for k in range(requests)),
-        ]
-    )  # fmt: skip
+    """Growth of memory from a tenth of the requests to the end [MB]."""
+    frictions = itertools.count(4000)
     with httpx.Client(base_url=address, timeout=60) as client:
         before: dict[int, float] = {}
         for k in range(requests):
@@ -93,7 +88,8 @@ def growth(address: str, pid: int, requests: int) -> dict:
             elif k % 4 == 1:
                 client.get("/api/catalogue/robots/absolem")
             else:
-                client.post("/api/assess", json=next(asked) | {"model": "closed-form"})
+                new = {"robot": "kenaf", "stairs": "ibc", "friction": next(frictions) / 1e4}
+                client.post("/api/assess", json=new | {"model": "closed-form"})
         after = memory(pid)
     return {
         "server_growth_mb": after[pid] - before[pid],
