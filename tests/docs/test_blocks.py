@@ -65,6 +65,7 @@ ELSEWHERE = {
         ".ci/run, within '.[dev]'"
     ),
     "pip install 'kaidan[report]'   # matplotlib, ReportLab, segno": ".ci/run, within '.[dev]'",
+    "pip install 'kaidan[rerun]'   # rerun-sdk": ".ci/run, within '.[dev]'",
     "pip install 'kaidan[ifc]'   # ifcopenshell and shapely": ".ci/run, within '.[dev]'",
     "python benchmarks/building.py": "by hand",
     "python benchmarks/serve.py": "by hand",

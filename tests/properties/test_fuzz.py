@@ -268,7 +268,7 @@ def commands():
     from typer.main import get_command
 
     for name, command in get_command(app_for(())).commands.items():
-        if name in ("reproduce", "outcomes"):  # nothing to ask
+        if name in ("reproduce", "outcomes", "serve"):  # nothing to ask, or without end
             continue
         for inner, each in getattr(command, "commands", {"": command}).items():
             yield ((name, inner) if inner else (name,)), each

@@ -54,3 +54,11 @@ def test_links_between_pages_lead_somewhere(path):
         if not ((ROOT / path).parent / link).exists() and not link.endswith((".rst", ".html"))
     ]  # .rst and .html are written when the site is built
     assert gone == []
+
+
+def test_the_citation_file_has_the_version_and_the_paper():
+    text = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    import kaidan
+
+    assert f"\nversion: {kaidan.__version__}\n" in text
+    assert "\n    doi: 10.1186/s40648-016-0058-y\n" in text

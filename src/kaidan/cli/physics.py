@@ -170,6 +170,7 @@ def trial(
     figure: output.FigureFiles = None,
     picture: PictureFile = None,
     video: VideoFile = None,
+    rerun: output.RerunFile = None,
     as_json: options.AsJson = False,
 ) -> None:
     """Drive ROBOT over STAIRS in MuJoCo.
@@ -183,7 +184,11 @@ def trial(
     from kaidan.films import film_format
     from kaidan.physics import record, trial_files
 
-    pictures = output.checked(figure, log, picture, video)
+    pictures = output.checked(figure, log, picture, video, rerun)
+    if rerun is not None:
+        from kaidan.figures.rerun_recording import recording_file
+
+        recording_file(rerun)
     write_log = None if log is None else trial_files.log_writer(log)
     film = None if video is None else film_format(video, "video")
     if picture is not None and picture.suffix.lower() != ".png":
@@ -199,6 +204,13 @@ def trial(
         return trial_figure(found)
 
     contents |= output.drawn(pictures, draw)
+
+    def shown() -> bytes:
+        from kaidan.figures.rerun_recording import trial_recording
+
+        return trial_recording(found)
+
+    contents |= output.recorded(rerun, shown)
     if picture is not None:
         contents[picture] = trial_files.picture_bytes(found)
     if video is not None and film is not None:
