@@ -82,6 +82,7 @@ ELSEWHERE = {
     "kaidan calibrate compliance --store compliance --figure compliance.svg": "by hand",
     "kaidan calibrate yielding --store yielding --figure region.svg": "by hand",
     "kaidan calibrate rig.toml": "tests/unit/rig/test_rig_kit.py",
+    "kaidan calibrate theta-m --store theta-m": "by hand",
     "kaidan calibrate grousers --store grousers --figure grousers.svg": "by hand",
     "kaidan calibrate effects --store effects --figure effects.svg --csv effects.csv": "by hand",
     "pytest -m slow -s tests/validation/test_physics_acceptance.py": "by hand",

@@ -12,10 +12,13 @@ pytest.importorskip("pyarrow")
 from kaidan.campaign.lock import Lock
 from kaidan.cli import app
 from kaidan.errors import InputError
+from kaidan.physics import SmoothBelt
+from kaidan.robot import Robot
+from kaidan.studies.calibration.fitted import fitted
 
 runner = CliRunner()
 QUICK = ["experiment", "kenaf", "--spacings", "150mm", "--angles", "55deg,70deg", "--trials", "2",
-         "--workers", "1"]  # fmt: skip
+         "--track", "smooth-belt", "--workers", "1"]  # fmt: skip
 
 
 def told(*words):
@@ -161,6 +164,34 @@ def test_the_same_from_python(store):
 
     folder, output = store
     found = kaidan.experiment(
-        "kenaf", spacings=[0.15], angles="55deg,70deg", trials=2, store=folder, workers=1
+        "kenaf",
+        spacings=[0.15],
+        angles="55deg,70deg",
+        trials=2,
+        track=SmoothBelt(),
+        store=folder,
+        workers=1,
     )
     assert str(found).splitlines() == output.splitlines()[:-2]
+
+
+def test_without_a_track_it_is_the_one_that_was_fitted_and_says_so():
+    words = ["experiment", "kenaf", "--spacings", "150mm", "--angles", "50deg", "--trials", "1",
+             "--workers", "1"]  # fmt: skip
+    lines = told(*words).output.splitlines()
+    assert lines[0] == "kenaf: 1 trials; yielding-belt, 0.1 m/s, seed 0"
+    assert lines[1].startswith("  The track is the one fitted to the paper's text")
+    told_by = json.loads(told(*words, "--json").output)
+    # 4.1 mm under 20 kg; the sheet's own figures come before it
+    assert told_by["stiffness_N_m"] == pytest.approx(20 * 9.80665 / 0.0041)
+    assert told_by["track_from"] == "fit"
+    own = told(*words, "--override", "track.stiffness=60kN/m", "--json").output
+    assert (json.loads(own)["track_from"], json.loads(own)["stiffness_N_m"]) == ("sheet", 6e4)
+
+
+def test_the_fitted_ends_are_kenafs_alone():
+    kenaf, belt = fitted(Robot.named("kenaf"))
+    assert (kenaf.track.front_radius, kenaf.track.rear_radius) == (0.011, 0.011)
+    assert belt.shear_ratio == 1.1
+    absolem = Robot.named("absolem")
+    assert fitted(absolem)[0] == absolem

@@ -260,6 +260,32 @@ def _calibrate(
     output.put_out(found, output.drawn(pictures, draw), as_json=as_json)
 
 
+@group.command("theta-m")
+def theta_m(
+    robot: RobotName = "kenaf",
+    criterion: Annotated[
+        float, typer.Option(min=2.0, max=80.0, help="Beyond the stairs, counted as a fall [deg].")
+    ] = 15.0,
+    trials: Trials = 3,
+    seed: Seed = 0,
+    step: Step = "1deg",
+    store: StoreFolder = None,
+    workers: Workers = None,
+    as_json: options.AsJson = False,
+) -> None:
+    """Vary eleven things that the paper does not state, and tell their effects on theta_M.
+
+    24 runs of about 170 trials, two minutes on two quiet cores. Exit code: 0 done, 2 bad input.
+    """
+    from kaidan.robot import Robot
+    from kaidan.studies.calibration.theta_m import theta_m_study
+
+    sheet = Robot.named(robot)
+    with _bench(store, workers, seed, trials) as bench:
+        found = theta_m_study(bench, sheet, criterion=criterion, step=_step(step))
+    output.put_out(found, {}, as_json=as_json)
+
+
 @contextmanager
 def _bench(store: Path | None, workers: int | None, seed: int, trials: int) -> "Iterator[Bench]":
     from kaidan.studies.calibration.bench import Bench, in_store

@@ -44,6 +44,13 @@ StoreFolder = Annotated[
 Workers = Annotated[
     int | None, typer.Option(min=1, max=1024, help="Processes on this machine [one a processor].")
 ]
+Track = Annotated[
+    str | None,
+    typer.Option(
+        help="Model: smooth-belt, yielding-belt, sprung-noses (stairs that yield), driven-grousers "
+        "or shoe-chain [yielding-belt, as the sheet says or as fitted to the paper's text]."
+    ),
+]
 Friction = Annotated[
     str | None,
     typer.Option(help="Of the track on the nosings [3, which isolates tipping; grousers 0.8]."),
@@ -69,7 +76,7 @@ def experiment(
     angles: Angles = None,
     trials: Trials = 5,
     descent: Descent = False,
-    track: physics.Track = "smooth-belt",
+    track: Track = None,
     stiffness: physics.Stiffness = None,
     shear_ratio: physics.ShearRatio = None,
     grouser_height: physics.GrouserHeight = None,
@@ -104,6 +111,7 @@ def experiment(
         return
     if workers is not None and scheduler is not None:
         raise InputError("give either --workers or --scheduler, not both")
+    given = (stiffness, shear_ratio, grouser_height, grouser_spacing, shoes)
     plan = plan_of(
         robot,
         spacings=PAPER if spacings is None else spacings,
@@ -111,9 +119,9 @@ def experiment(
         trials=trials,
         descent=descent,
         seed=seed,
-        track=physics.track_model(
-            track, stiffness, shear_ratio, grouser_height, grouser_spacing, shoes
-        ),
+        track=None
+        if track is None and not any(given)
+        else physics.track_model(track or "yielding-belt", *given),
         speed=speed,
         friction=friction,
         ground=ground,

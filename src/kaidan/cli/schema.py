@@ -30,6 +30,7 @@ KINDS = {
     "experiment": "kaidan.studies.verification:Verification",
     "calibration": "kaidan.studies.calibration.answer:Calibration",
     "yielding-calibration": "kaidan.studies.calibration.yielding:YieldingCalibration",
+    "theta-m": "kaidan.studies.calibration.theta_m:ThetaMStudy",
     "rig-calibration": "kaidan.studies.rig.calibration:RigCalibration",
     "grouser-effects": "kaidan.studies.calibration.answer:GrouserEffects",
     "reproduction": "kaidan.studies.reproduction:Reproduction",

@@ -9,6 +9,8 @@ from typing import Any, NamedTuple
 
 from kaidan.campaign import Condition, Setting, VerificationTest, carry_out, read_batches
 from kaidan.errors import InputError, shown
+from kaidan.spelling import robot_of
+from kaidan.studies.calibration.fitted import fitted
 from kaidan.studies.verification import Verification, usual_conditions, verification
 from kaidan.units import parse, value_of
 
@@ -110,7 +112,7 @@ def plan_of(
         Of all start offsets and grousers' phases.
     **setting
         Of `kaidan.campaign.Setting.of`: flippers, payload, override, friction, speed, track,
-        ground.
+        ground. Without a track that of `kaidan.studies.calibration.fitted`.
 
     Raises
     ------
@@ -120,6 +122,9 @@ def plan_of(
     distances = list(dict.fromkeys(_values(spacings, "length", "spacings")))
     if not distances:
         raise InputError("spacings: none is given")
+    if setting.get("track") is None:
+        sheet = robot_of(robot, setting.pop("override", ())).weighed
+        robot, setting["track"] = fitted(sheet)
     shared = Setting.of(robot, **setting)
     if angles is None:
         conditions = usual_conditions(shared, distances, descent=descent)

@@ -14,6 +14,7 @@ from kaidan.mechanics.margin import theta_s_sup
 from kaidan.mechanics.plane import two_contacts_remain
 from kaidan.outline import Outline
 from kaidan.physics.initial_pose import course_of
+from kaidan.studies.calibration.fitted import From, track_from
 from kaidan.studies.counts import (
     Count,
     Range,
@@ -79,6 +80,8 @@ class Verification(Answer):
     robot: str
     track: str
     """Model of the track."""
+    track_from: From
+    """Where its figures are from: stated, the robot's sheet, or a fit to the paper's text."""
     stiffness_N_m: float | None
     """Of a nosing or a grouser [N/m]; null where nothing yields."""
     speed_m_s: float
@@ -169,10 +172,11 @@ def verification(plan: VerificationTest, rows: Iterable[Mapping[str, Any]]) -> V
     spacings = dict.fromkeys(condition.nosing_spacing for condition in plan.conditions)
     setting = plan.setting
     track, robot = setting.track, setting.robot
-    own = robot.track.stiffness if track.kind == "sprung-noses" else None
+    own = setting.trial(plan.conditions[0], 0).stiffness
     return Verification(
         robot=robot.name,
         track=track.kind,
+        track_from=track_from(setting),
         stiffness_N_m=getattr(track, "stiffness", None) or own,
         speed_m_s=setting.speed,
         friction=setting.static_friction,

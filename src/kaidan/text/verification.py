@@ -8,6 +8,14 @@ if TYPE_CHECKING:
     from kaidan.studies.counts import Count, Range
     from kaidan.studies.verification import Spacing, Verification
 
+_SAID = {
+    "stated": (),
+    "sheet": ("  The track yields as the robot's sheet says.",),
+    "fit": (
+        "  The track is the one fitted to the paper's text (kaidan calibrate yielding), for want "
+        "of figures of its own (kaidan calibrate RIG.toml); --track names another.",
+    ),
+}
 _HEADS = {
     "p": "p [mm]",
     "closed": "closed form [deg]",
@@ -26,6 +34,7 @@ def text(found: "Verification") -> str:
     lines = [
         f"{found.robot}: {number} trials; {found.track}, {found.speed_m_s:g} m/s, seed "
         f"{found.seed}",
+        *_SAID[found.track_from],
         f"  {found.version}",
         "",
         table([_row(each) for each in found.spacings], _HEADS),

@@ -81,9 +81,11 @@ class Bench:
 
     def __init__(self, runner: Runner, *, seed: int = 0, trials: int = FIVE) -> None:
         self.runner, self.seed, self.trials = runner, seed, trials
-        self._counts: dict[str, Count] = {}
+        self._counts: dict[str, tuple[Figures, ...]] = {}
 
-    def counts(self, conditions: Iterable[tuple[Setting, Condition]]) -> list[Count]:
+    def counts(
+        self, conditions: Iterable[tuple[Setting, Condition]], *, fall: float = FALL
+    ) -> list[Count]:
         """Counts of settings at conditions, in their order; all trials in one go."""
         required = list(conditions)
         keys = [self._key(setting, condition) for setting, condition in required]
@@ -94,8 +96,8 @@ class Bench:
         }
         figures = self.runner([spec for specs in new.values() for spec in specs]) if new else []
         for at, key in enumerate(new):
-            self._counts[key] = count_of(figures[at * self.trials : (at + 1) * self.trials])
-        return [self._counts[key] for key in keys]
+            self._counts[key] = tuple(figures[at * self.trials : (at + 1) * self.trials])
+        return [count_of(self._counts[key], fall) for key in keys]
 
     def _specs(self, setting: Setting, condition: Condition) -> list[TrialSpec]:
         plan = VerificationTest(

@@ -1,9 +1,12 @@
 """The yielding track fitted to theta_d and the fall zone, shown as a region, judged blind."""
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.answer import Answer, Part
+from kaidan.mechanics.margin import theta_s_sup
 from kaidan.robot import Robot
 from kaidan.studies.calibration.bench import Bench
 from kaidan.studies.calibration.design import AXES, FIGURES, points_of, shares_of
@@ -156,7 +159,7 @@ def calibrate_yielding(
         for ground in ("steps", "noses")
     }
     draws = posterior(emulators, evidence, seed=bench.seed, steps=steps)
-    predictions, agree = _predictions(draws, evidence)
+    predictions, agree = _predictions(draws, evidence, robot)
     blind = [ok for each, ok in zip(predictions, agree, strict=True) if not each.fitted]
     return YieldingCalibration(
         robot=robot.name,
@@ -205,11 +208,19 @@ def _parameters(draws: Draws) -> list[ParameterShown]:
 
 
 def _predictions(
-    draws: Draws, evidence: Evidence
+    draws: Draws, evidence: Evidence, robot: Robot
 ) -> tuple[list[Predicted], list[NDArray[np.bool_]]]:
     zone, theta_d, seen = evidence.zone, evidence.theta_d, evidence.rotation
     good = evidence.agreement
-    formula = {0.200: 46.185, 0.220: 37.255}  # the paper's Eqs. (19)-(23) for Kenaf [deg]
+    stance = robot.stance()
+    formula = {
+        p: math.degrees(
+            theta_s_sup(
+                L=stance.flat_length, p=p, C_L=stance.com_from_front, C_N=stance.com_height, a=0.0
+            )
+        )
+        for p in evidence.agreement_at
+    }
     figures = draws.figures
     p1, p2 = evidence.agreement_at
     rows: list[tuple[str, str, bool, Array, float | None, float | None]] = [
