@@ -86,7 +86,7 @@ def main() -> None:
                 page.wait_for_timeout(500)
                 shot = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
                 shot.thumbnail(SHOWN)
-                shot = shot.quantize(128)
+                shot = shot.quantize(255, Image.Quantize.MAXCOVERAGE)
                 shot.save(STATIC / name, optimize=True)
                 size = (STATIC / name).stat().st_size
                 assert size <= LARGEST, f"{name}: {size} bytes"

@@ -130,6 +130,16 @@ VERBS: Mapping[str, Verb] = {
     ),
     "plane": Verb("kaidan.verbs.d_a_plane:plane", "kaidan.verbs.d_a_plane:Plane"),
     "pose-map": Verb("kaidan.web.asking:pose_map_of", "kaidan.verbs.pose_map:PoseMap"),
+    "measure-robot": Verb(
+        "kaidan.verbs.measure_robot:measure_robot",
+        "kaidan.verbs.measure_robot:RobotMeasurement",
+        required=("flat_length",),
+    ),
+    "measure-stairs": Verb(
+        "kaidan.verbs.measure_stairs:measure_stairs",
+        "kaidan.verbs.measure_stairs:StairsMeasurement",
+        required=("total_rise", "total_going", "risers"),
+    ),
     "compare": Verb(
         "kaidan.verbs.comparison:compare",
         "kaidan.verbs.comparison:Comparison",
@@ -177,7 +187,8 @@ def answered(verb: str, body: Mapping[str, Any]) -> Answer:
         values |= {name: [values[name]] for name in one if not isinstance(values[name], list)}
     for name in asked.required if whole is None else ():
         if name not in values:
-            raise InputError(f"{verb}: no {name}: give a name of the catalogue or a sheet")
+            hint = ": give a name of the catalogue or a sheet" if name in _READ else ""
+            raise InputError(f"{verb}: no {name}{hint}")
     keywords = made(values, asked.several)
     if whole is not None:
         if not isinstance(whole, Mapping):

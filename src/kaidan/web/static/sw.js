@@ -4,8 +4,9 @@
 const STORE = "kaidan-1";
 const FILES = [
   "./", "style.css", "manifest.webmanifest", "icon.svg", "icon-192.png", "icon-512.png",
+  "live.html", "live.css", "live.js",
   ...[
-    "api", "building", "chart", "check", "controls", "dom", "ground", "i18n", "light", "main", "margin", "plane",
+    "api", "building", "chart", "check", "controls", "dom", "ground", "i18n", "light", "main", "margin", "measure", "plane",
     "posemap", "question", "robot", "saved", "sentences", "sheet", "side", "stairs", "state", "storage",
     "units", "upload", "verdict",
   ].map((name) => `js/${name}.js`),

@@ -3,6 +3,7 @@
 import { button, fileButton, picker, slider } from "./controls.js";
 import { h, replace, s } from "./dom.js";
 import { t } from "./i18n.js";
+import { guide } from "./measure.js";
 import { catalogue, valueOf, withFigures } from "./question.js";
 import { change, clear, packed, state, unpacked } from "./state.js";
 import { nameOf, save, sheetsOf } from "./storage.js";
@@ -74,8 +75,11 @@ export function robotPanel(current) {
   return {
     node: h("section", { class: "panel", "aria-label": t("robot.heading") },
       pick.node, details,
-      h("details", {}, h("summary", {}, t("robot.guide")),
-        h("ol", {}, [1, 2, 3, 4].map((each) => h("li", {}, t(`guide.robot_${each}`))))),
+      guide("robot", (sheet) => {
+        clear("robotFigures");
+        change({ robot: packed(sheet) });
+        details.open = true;
+      }),
       fileButton(t("robot.upload"), ".toml,.urdf,.sdf,.xml,.xacro", (file) => readFile(file, "robots", found, (sheet) => {
         clear("robotFigures");
         change({ robot: packed(sheet) });

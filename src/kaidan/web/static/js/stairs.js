@@ -3,6 +3,7 @@
 import { button, choice, fileButton, picker, slider } from "./controls.js";
 import { h, replace, s } from "./dom.js";
 import { t } from "./i18n.js";
+import { guide } from "./measure.js";
 import { catalogue, terrainOf, valueOf, withFigures } from "./question.js";
 import { change, clear, packed, state, unpacked } from "./state.js";
 import { nameOf, save, sheetsOf } from "./storage.js";
@@ -67,8 +68,11 @@ export function stairsPanel(current) {
   return {
     node: h("section", { class: "panel", "aria-label": t("stairs.heading") },
       pick.node, direction.node, details,
-      h("details", {}, h("summary", {}, t("stairs.guide")),
-        h("ol", {}, [1, 2, 3, 4].map((each) => h("li", {}, t(`guide.stairs_${each}`))))),
+      guide("stairs", (sheet) => {
+        clear("stairsFigures");
+        change({ stairs: packed(sheet) });
+        details.open = true;
+      }),
       fileButton(t("stairs.upload"), "", (file) => readFile(file, "stairs", found, (sheet) => {
         clear("stairsFigures");
         change({ stairs: packed(sheet) });
