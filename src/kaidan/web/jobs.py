@@ -114,6 +114,7 @@ class Jobs:
             reply = await self._workers.ask_apart(task, seconds=SECONDS, follower=follow)
             if reply.status == 200:
                 job.state, job.media = "done", json.loads(reply.content)["media"]
+                job.done = job.of
             else:
                 job.state = "failed"
                 said = json.loads(reply.content)

@@ -73,7 +73,8 @@ def _experiment(body: Mapping[str, Any], folder: Path) -> Answer:
     from kaidan.campaign.plans import Setting
     from kaidan.studies.experiment import experiment, plan_of
 
-    known = {*signature(plan_of).parameters, *signature(Setting.of).parameters} - {"setting"}
+    known = {*signature(plan_of).parameters, *signature(Setting.of).parameters, "track", "ground"}
+    known -= {"setting", "others"}
     refuse_unknown("experiment", body, known)
     if "robot" not in body:
         raise InputError("experiment: no robot: give a name of the catalogue or a sheet")
