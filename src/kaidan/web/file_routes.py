@@ -15,8 +15,6 @@ from kaidan.web.bodies import FORM, fields_of, file_of, sent
 from kaidan.web.long_work import UPLOAD
 from kaidan.web.workers import Workers
 
-SECONDS = 120.0
-"""Time to read a file [s]."""
 _PIECE = 1 << 20
 _ROUTES = {
     "read": "As kaidan read FILE --json",
@@ -45,7 +43,7 @@ def _answer(verb: str, hands: Workers) -> Callable[[Request], Awaitable[Response
             try:
                 await keep(file, folder)
                 task = {"kind": verb, "folder": str(folder), "body": fields_of(form)}
-                return sent(await hands.ask(task, seconds=SECONDS))
+                return sent(await hands.ask(task, seconds=hands.limits.file_seconds))
             finally:
                 shutil.rmtree(folder, ignore_errors=True)
 

@@ -6,7 +6,6 @@ from fastapi.responses import Response
 from kaidan.errors import InputError, shown
 from kaidan.web import openapi
 from kaidan.web.bodies import LARGEST_BODY, json_of, sent
-from kaidan.web.file_routes import SECONDS
 from kaidan.web.workers import Workers
 
 _DOCUMENTS = {"html": "text/html; charset=utf-8", "pdf": "application/pdf"}
@@ -28,7 +27,7 @@ def add(app: FastAPI, hands: Workers) -> None:
             known = ", ".join((*_DOCUMENTS, "json"))
             raise InputError(f"report: format {shown(form)} is not known; known: {known}")
         task = {"kind": "report", "format": form, "body": body}
-        reply = await hands.ask(task, seconds=SECONDS)
+        reply = await hands.ask(task, seconds=hands.limits.file_seconds)
         if form == "json" or reply.status != 200:
             return sent(reply)
         headers = {

@@ -28,6 +28,8 @@ class Limits(NamedTuple):
 
     seconds: float = 30.0
     """Time of an answer [s]."""
+    file_seconds: float = 120.0
+    """Time of an answer about a file, and of a document [s]."""
     memory: int = 4 << 30
     """Address space of a worker [bytes]."""
     waiting: int = 256

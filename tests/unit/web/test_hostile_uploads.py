@@ -11,6 +11,8 @@ from ifc_cases import half_turn_house
 from robot_files import tank_mjcf, tank_sdf, tank_urdf
 from serving import served
 
+from kaidan.web.workers import Limits
+
 VERTICES = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.5]], dtype=float)
 FACES = [[0, 1, 2], [0, 2, 3]]
 
@@ -58,7 +60,7 @@ def send(count, folder):
     rng = random.Random(2000)
     valid = seeds()
     statuses = dict.fromkeys(("answered", "refused"), 0)
-    with served(state=folder) as client:
+    with served(state=folder, limits=Limits(file_seconds=10.0)) as client:
         for _ in range(count):
             content = mutant(rng, rng.choice(valid))
             place = rng.choice(("read", "read", "sheets", "building"))
