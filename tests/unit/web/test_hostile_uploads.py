@@ -8,10 +8,9 @@ import pytest
 
 import reader_files as files
 from ifc_cases import half_turn_house
+from kaidan.web.workers import Limits
 from robot_files import tank_mjcf, tank_sdf, tank_urdf
 from serving import served
-
-from kaidan.web.workers import Limits
 
 VERTICES = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.5]], dtype=float)
 FACES = [[0, 1, 2], [0, 2, 3]]
