@@ -8,11 +8,11 @@ to 1e-9 deg and accelerations to 1e-9 m/s^2 unless said: a dozen operations in d
 from functools import partial
 from math import radians
 
-import kaidan
+import one_posture
 from kaidan import Robot, Stairs
 from kaidan.robot import Uncertainty
 
-assess = partial(kaidan.assess, model="closed-form")
+assess = partial(one_posture.assess, model="closed-form")
 G = 9.80665
 KENAF = Robot.named("kenaf").model_copy(update={"theta_d": None, "theta_M": None})
 """Kenaf (paper) without the allowances that were measured on it."""

@@ -31,7 +31,7 @@ def spec(angle, spacing=0.150, *, radius=0.06, **fields):
     trial = {name: fields.pop(name) for name in TrialSpec.model_fields if name in fields}
     stairs = Stairs.inclined(angle=math.radians(angle), nosing_spacing=spacing)
     sheet, terrain = fields.pop("robot", robot(radius)), fields.pop("terrain", stairs)
-    question = Question.of(sheet, terrain, **fields)
+    question = Question.in_one_posture(sheet, terrain, **fields)
     return TrialSpec(**{"question": question, "start_offset": 0.3, "seed": 0} | trial)
 
 

@@ -105,8 +105,8 @@ class Question(Sheet):
     )
     best_of: tuple[Literal["flippers", "facing"], ...] = Field(
         default=(),
-        description="what is to be found: the flippers' plan, the end that leads; stated values "
-        "of these then do not count",
+        description="what is to be found: the flippers' plan, the end that leads; a stated posture "
+        "then does not count, the stated end is tried first",
     )
     payload: tuple[Payload, ...] = Field(default=(), description="masses fixed to the robot")
     theta_d: Allowance | None = Field(
@@ -221,7 +221,7 @@ class Question(Sheet):
         speed: Any = None,
         direction: str | None = None,
         facing: str | None = None,
-        flippers: Any = "stowed",
+        flippers: Any = None,
         payload: Any = (),
         theta_d: Any = None,
         theta_M: Any = None,
@@ -255,10 +255,12 @@ class Question(Sheet):
         direction : {"up", "down"}, optional
             Which way the robot goes; the stairs sheet's without one.
         facing : {"nose-first", "tail-first"}, optional
-            Which end leads; the nose without it, or with "best" flippers whichever is better.
-        flippers : Posture, (Posture, PostureChange, ...) or str
+            Which end leads; without it the nose, or with "best" flippers whichever is better.
+        flippers : Posture, (Posture, PostureChange, ...) or str, optional
             "stowed", "flat", or angles: "20deg,-5deg" (front, rear); a plan by phase:
-            "flat/land:-60deg,-20deg"; or "best", which finds one.
+            "flat/land:-60deg,-20deg"; or "best", as without it: the contact model, straight on,
+            finds a plan; at a yaw, and by other models, the better of stowed and flat is found.
+            Trials of physics keep one posture: stowed without any.
         payload : Payload, str or a sequence of them
             Masses fixed to the robot; as text "5kg@200mm,300mm".
         theta_d, theta_M : float, (low, high), str or None
@@ -302,9 +304,13 @@ class Question(Sheet):
         terrain = doubted_terrain(terrain_of(stairs), doubts)
         if direction is None:
             direction = terrain.direction if isinstance(terrain, Stairs) else "up"
+        model = word_of("model", model, tuple(MODELS))
+        if flippers is None:
+            flippers = "stowed" if model == PHYSICS.name else BEST
         best = isinstance(flippers, str) and flippers.strip() == BEST
         posture, changes = (Posture(), ()) if best else postures_of(flippers, sheet)
-        free: tuple[str, ...] = ("flippers",) if facing is not None else ("flippers", "facing")
+        free = ["flippers"] if sheet.flippers() or sheet.states else []
+        free += ["facing"] if facing is None else []
         return cls(
             robot=doubted(sheet, doubts, "com_from_front", "com_height", "flat_length"),
             terrain=terrain,
@@ -315,7 +321,7 @@ class Question(Sheet):
             speed=_optional("speed", speed, "speed"),
             posture=posture,
             changes=changes,
-            best_of=free if best else (),
+            best_of=tuple(free) if best else (),
             payload=tuple(payloads_of(payload)),
             theta_d=allowance_of("theta_d", theta_d),
             theta_M=allowance_of("theta_M", theta_M),
@@ -323,7 +329,7 @@ class Question(Sheet):
             yaw=quantity_of("yaw", yaw, "angle"),
             risk=quantity_of("risk", risk, "number"),
             accept=Acceptance(word_of("accept", accept, tuple(Acceptance))),
-            model=word_of("model", model, tuple(MODELS)),
+            model=model,
             trials=trials,
             track=None if track is None else word_of("track", track, TRACKS),
         )
@@ -351,6 +357,13 @@ class Question(Sheet):
         if manner.get("friction") is not None:
             del fields["surface"]
         return cls.of(sheet, terrain, **fields | manner)
+
+    @classmethod
+    def in_one_posture(cls, robot: Any, stairs: Any = None, **manner: Any) -> Self:
+        """Question as `ask` makes it, for what knows no plan: stowed where no posture is stated."""
+        if not isinstance(robot, cls) and manner.get("flippers") is None:
+            manner["flippers"] = "stowed"
+        return cls.ask(robot, stairs, **manner)
 
     def changed(self, **changes: Any) -> Self:
         """Same question with something changed, validated again."""
@@ -386,7 +399,7 @@ class Question(Sheet):
 
     @property
     def _on_flight(self) -> Posture:
-        if self.best_of:
+        if "flippers" in self.best_of:
             raise InputError(
                 "flippers = best has to be found first; state stowed, flat, angles or a plan"
             )
@@ -451,6 +464,11 @@ class Question(Sheet):
         down = self.direction == "down"
         stated = self.theta_M or (None if down else self.robot.theta_M)
         return Allowance.of(stated, name="theta_M", descending=down)
+
+    @property
+    def plannable(self) -> bool:
+        """Whether angles by phase can be found: by the contact model, straight on."""
+        return self.model == CONTACT.name and not self.yaw
 
     @property
     def nose_up(self) -> bool:

@@ -35,7 +35,7 @@ def questions(number, seed):
         )
         stairs = Stairs.inclined(angle=angle, nosing_spacing=p, steps=math.ceil(L / p) + 5)
         found += 1
-        yield Question.of(
+        yield Question.in_one_posture(
             robot,
             stairs,
             friction=None if rng.random() < 0.1 else float(rng.uniform(0.4, 3.0)),

@@ -32,7 +32,7 @@ PROFILES = {
 
 
 def in_doubt(robot, flight, sigma, manner):
-    return Question.of(
+    return Question.in_one_posture(
         robot, flight, friction=3.0, uncertainty={"rise": sigma[0], "going": sigma[1]}, **manner
     )
 
@@ -102,7 +102,7 @@ def test_probability_of_a_list_of_steps_by_1000_flights(name):
 def test_probability_of_a_profile_by_1000_flights(name):
     sigma, (robot, flight, _, manner) = PROFILES[name]
     profile = Profile.of_points(Profile.of_stairs(flight).points, sigma=sigma)
-    question = Question.of(robot, profile, friction=3.0, **manner)
+    question = Question.in_one_posture(robot, profile, friction=3.0, **manner)
     check(question, lambda rng: nosings_drawn(flight, sigma, rng), 1000)
 
 

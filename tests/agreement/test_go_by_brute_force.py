@@ -57,7 +57,9 @@ def gos(seed, count):
     rng = np.random.default_rng(seed)
     while count:
         robot = robots(rng)
-        question = Question.of(robot, terrains(rng, robot.track.flat_length), friction=3.0)
+        question = Question.in_one_posture(
+            robot, terrains(rng, robot.track.flat_length), friction=3.0
+        )
         found = quasi_static.judge(question)
         if conclude(question, found).verdict is Verdict.GO:
             count -= 1

@@ -58,7 +58,7 @@ def gos(seed, count, *, grousers):
     while count:
         # without grousers friction holds, so that tipping decides
         friction = 0.8 if grousers else 3.0
-        question = Question.of(
+        question = Question.in_one_posture(
             sheet(rng, grousers=grousers),
             flight(rng),
             friction=friction,

@@ -40,7 +40,7 @@ def flight(rise, going, by=0.0, rng=None):
 
 
 def judged(robot, stairs, **manner):
-    question = Question.of(robot, stairs, **({"friction": 3.0} | manner))
+    question = Question.in_one_posture(robot, stairs, **({"friction": 3.0} | manner))
     found = judge(question)
     return conclude(question, found), found
 
@@ -145,7 +145,7 @@ def grounds(rng):
 def check_go(seed, count):
     rng = np.random.default_rng(seed)
     while count:
-        question = Question.of(
+        question = Question.in_one_posture(
             robots(rng), grounds(rng), friction=3.0, theta_d=0.0, theta_M=0.0, speed=0.01
         )
         found = judge(question)

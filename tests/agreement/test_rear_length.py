@@ -25,7 +25,7 @@ def check(seed, count):
             track=Track(flat_length=L, front_radius=R, rear_radius=R),
         )
         riser = Profile.of_points([(-3, 0), (0, 0), (0, h), (3, h)])
-        found = traverse_of(Question.of(robot, riser, friction=3.0))
+        found = traverse_of(Question.in_one_posture(robot, riser, friction=3.0))
         assert found.arrived == (margin > 0)
         assert found.rear_length == pytest.approx((margin, h))
         fell += not found.arrived

@@ -45,7 +45,7 @@ def required(teeth, steps):
         angle=steps.angle, nosing_spacing=steps.spacing,
         steps=max(8, int(2 * teeth.L / steps.spacing) + 5),
     )  # fmt: skip
-    found = traverse_of(Question.of(robot, flight))
+    found = traverse_of(Question.in_one_posture(robot, flight))
     grousers = Grousers(teeth.height, teeth.spacing, teeth.width, steps.radius, rigid=True)
     nothing = (0.0, 0.0, 0.0)
     margin = found.grip.with_grousers(nothing, grousers, found.grip.by_friction(nothing))
@@ -110,7 +110,7 @@ def test_driven_grousers_in_mujoco_do_not_slide_where_the_rule_says_so(angle, h,
         ),
     )  # fmt: skip
     flight = Stairs.inclined(angle=math.radians(angle), nosing_spacing=0.32)
-    question = Question.of(robot, flight, friction=friction)
+    question = Question.in_one_posture(robot, flight, friction=friction)
     found = traverse_of(question)
     phi = (math.atan(friction),) * 3
     grousers = Grousers(h, s, h / 2, h / 2, rigid=True)

@@ -83,14 +83,16 @@ def assert_ranked_alike(question, samples):
 @pytest.mark.parametrize("name", [in_every_run(name) for name in ASKED])
 def test_the_cheap_ranking_is_that_of_salib(name):
     asked = ASKED[name]
-    question = Question.of("absolem", "iso-14122-3", flippers="flat", model="closed-form", **asked)
+    question = Question.in_one_posture(
+        "absolem", "iso-14122-3", flippers="flat", model="closed-form", **asked
+    )
     assert_ranked_alike(question, samples=128)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("manner", ASKED.values(), ids=ASKED)
 def test_the_cheap_ranking_of_the_contact_model_is_that_of_salib(manner):
-    question = Question.of("absolem", "iso-14122-3", flippers="flat", **manner)
+    question = Question.in_one_posture("absolem", "iso-14122-3", flippers="flat", **manner)
     assert_ranked_alike(question, samples=128)
 
 
@@ -118,7 +120,7 @@ def test_an_exact_question_has_nothing_to_measure():
 
 
 def test_what_is_measured_is_no_longer_in_doubt():
-    question = Question.of(
+    question = Question.in_one_posture(
         "absolem", "iso-14122-3", flippers="flat", friction=(0.9, 1.1),
         uncertainty="com_height=5mm,flat_length=5mm,angle=1deg,friction=0.05",
     )  # fmt: skip

@@ -61,7 +61,7 @@ def test_the_sign_of_the_margin_is_the_polygons(count):
             track=Track(flat_length=L, front_radius=0.05, rear_radius=0.05, gauge=gauge),
         )
         flight = Stairs.inclined(angle=theta, nosing_spacing=p)
-        question = Question.of(robot, flight, friction=1.0, acceleration=a)
+        question = Question.in_one_posture(robot, flight, friction=1.0, acceleration=a)
         margin = float(margins_of(question, flight, np.array([psi])).min())
         load = C_N * math.tan(theta)
         z = np.array(
@@ -92,7 +92,7 @@ def test_energy_is_that_of_a_turn_about_the_edge():
     )
     theta, psi, p = 0.6, 0.4, 0.2
     flight = Stairs.inclined(angle=theta, nosing_spacing=p)
-    question = Question.of(robot, flight, friction=1.0)
+    question = Question.in_one_posture(robot, flight, friction=1.0)
     up = np.array(
         [math.sin(theta) * math.cos(psi), -math.sin(theta) * math.sin(psi), math.cos(theta)]
     )

@@ -69,9 +69,22 @@ def test_random_cells_are_the_answers_of_assess(model):
             manner.pop("stairs"),
             model=model,
             override={"com_height": height},
+            flippers="stowed",
             **manner,
         )
         assert_cell_is_the_answer(table.isel(at), answer)
+
+
+@pytest.mark.parametrize("model", ["contact", "closed-form"])
+def test_without_a_posture_each_cell_has_its_own_best_plan(model):
+    low = VARIED["stairs"][1]
+    table = sweep(["absolem", "kenaf"], low, direction=["up", "down"], friction=1.0, model=model)
+    for name in ("absolem", "kenaf"):
+        for direction in ("up", "down"):
+            answer = assess(name, low, direction=direction, friction=1.0, model=model)
+            cell = table.sel(robot=name, direction=direction)
+            assert_cell_is_the_answer(cell, answer)
+            assert str(cell.facing.values) == answer.question.facing
 
 
 def test_a_cell_with_the_best_posture_has_the_plan_of_assess():
@@ -101,7 +114,7 @@ def random_questions(count, seed):
             rise=draw.uniform(0.06, 0.2), going=draw.uniform(0.15, 0.35), steps=draw.integers(5, 14)
         )
         low = draw.uniform(0.4, 1.4)
-        yield Question.of(
+        yield Question.in_one_posture(
             robot,
             stairs,
             friction=(low, low * draw.uniform(1, 1.5)),
@@ -151,7 +164,9 @@ def test_a_screened_sweep_has_every_go_of_the_whole_one():
     ids=lambda changes: "".join(changes),
 )  # fmt: skip
 def test_the_closed_form_excludes_nothing_else(changes):
-    values = {"robot": "absolem", "rise": 0.178, "going": 0.279, "friction": 0.1} | changes
+    flat = {"robot": "absolem", "rise": 0.178, "going": 0.279, "friction": 0.1, "flippers": "flat"}
+    assert excluded([question_of(flat)]) == ["slides_down"]
+    values = flat | changes
     if "stairs" in changes:
         del values["rise"], values["going"]
     if "yaw" in changes:
@@ -159,6 +174,19 @@ def test_the_closed_form_excludes_nothing_else(changes):
     question = question_of(values)
     assert not applies(question)
     assert excluded([question]) == [None]
+
+
+def test_either_end_first_is_excluded_only_together():
+    """The centroid is ahead: up nose first it holds, down nose first it tips, tail first not."""
+    steep = {"robot": "kenaf", "angle": 0.7, "nosing_spacing": 0.15, "friction": 2.0}
+    up, down = (question_of(steep | {"direction": direction}) for direction in ("up", "down"))
+    assert up.best_of == ("facing",)
+    nose = [each.changed(best_of=()) for each in (up, down)]
+    assert excluded([up, down, *nose]) == [None, None, None, "tip_downhill"]
+    slippery = question_of(
+        {"robot": "kenaf", "angle": 0.7, "nosing_spacing": 0.15, "friction": 0.1}
+    )
+    assert excluded([slippery]) == ["slides_down"]
 
 
 def test_every_mode_has_a_column():

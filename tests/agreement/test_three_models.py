@@ -39,7 +39,7 @@ def differences(found):
 
 @pytest.fixture(scope="module")
 def kenaf():
-    return agree(Question.of(robot(), inclined(58.0, 0.150)))
+    return agree(Question.in_one_posture(robot(), inclined(58.0, 0.150)))
 
 
 def test_the_steepest_flight_of_each_model(kenaf):
@@ -70,7 +70,7 @@ def test_it_is_the_same_after_json(kenaf):
 
 
 def test_bisection_is_that_of_the_contact_model():
-    question = common(Question.of(robot(), inclined(50.0, 0.150)))
+    question = common(Question.in_one_posture(robot(), inclined(50.0, 0.150)))
     low, high = slopes(question)
 
     def flight(angle):
@@ -85,7 +85,7 @@ def test_bisection_is_that_of_the_contact_model():
 
 @pytest.mark.parametrize("spacing", SPACINGS)
 def test_excess_over_the_contact_model_is_in_the_band(spacing):
-    question = common(Question.of(robot(), inclined(40.0, spacing)))
+    question = common(Question.in_one_posture(robot(), inclined(40.0, spacing)))
     found = steepest_climbed(question, QUASI_STATIC[spacing] + 1.0, 0.25)
     # docs/physics.md: at 100 mm/s 0.9 to 1.1 deg above the quasi-static model
     assert 0.5 < found.value - QUASI_STATIC[spacing] < falling(0.1)
@@ -93,7 +93,7 @@ def test_excess_over_the_contact_model_is_in_the_band(spacing):
 
 def test_absolem_flat_on_178_279_is_one_story():
     # no rotation: docs/theory/contact.md, figures of the prototypes
-    question = Question.of("absolem", Stairs(rise=0.178, going=0.279), flippers="flat")
+    question = Question.in_one_posture("absolem", Stairs(rise=0.178, going=0.279), flippers="flat")
     found = agree(question, resolution=1.0)
     assert set(answers(found)["stairs"].values()) == {"holds"}
     assert answers(found)["extra"]["contact"] == pytest.approx(0.0, abs=0.01)
@@ -104,14 +104,14 @@ def test_absolem_flat_on_178_279_is_one_story():
 @pytest.mark.parametrize("begin", ["flight", "landing"])
 def test_ozbot_on_241_241_is_one_story_too(begin):
     # falls over: docs/theory/contact.md, figures of the prototypes
-    question = Question.of("ozbot-atr", Stairs(rise=0.241, going=0.241))
+    question = Question.in_one_posture("ozbot-atr", Stairs(rise=0.241, going=0.241))
     found = agree(question, begin=begin, resolution=1.0)
     assert set(answers(found)["stairs"].values()) == {"tips"}
     assert found.agrees
 
 
 def test_faster_than_it_can_fall_is_said():
-    question = Question.of("ozbot-atr", Stairs(rise=0.241, going=0.241), speed=0.4)
+    question = Question.in_one_posture("ozbot-atr", Stairs(rise=0.241, going=0.241), speed=0.4)
     found = agree(question, resolution=1.0)
     late = differences(found)["stairs", "physics", "contact"]
     assert late.within is False
@@ -120,7 +120,9 @@ def test_faster_than_it_can_fall_is_said():
 
 
 def test_beyond_half_the_flat_length_the_closed_form_is_not_compared():
-    found = agree(Question.of("absolem", Stairs(rise=0.178, going=0.279)), resolution=1.0)
+    found = agree(
+        Question.in_one_posture("absolem", Stairs(rise=0.178, going=0.279)), resolution=1.0
+    )
     assert answers(found)["steepest_flight"]["closed_form"] is None
     assert answers(found)["stairs"]["closed_form"] == "outside"
     one = differences(found)["stairs", "static_criterion", "closed_form"]
@@ -129,13 +131,15 @@ def test_beyond_half_the_flat_length_the_closed_form_is_not_compared():
 
 
 def test_too_little_friction_slides_in_all_of_them():
-    found = agree(Question.of(robot(), inclined(50.0, 0.150), friction=0.8), resolution=1.0)
+    found = agree(
+        Question.in_one_posture(robot(), inclined(50.0, 0.150), friction=0.8), resolution=1.0
+    )
     assert set(answers(found)["stairs"].values()) == {"slides"}
 
 
 def test_uncertainties_and_allowances_play_no_part():
-    plain = Question.of(robot(), inclined(58.0, 0.150), friction=2.0)
-    doubted = Question.of(
+    plain = Question.in_one_posture(robot(), inclined(58.0, 0.150), friction=2.0)
+    doubted = Question.in_one_posture(
         robot(), inclined(58.0, 0.150), friction=(2.0, 2.5), theta_d="3deg",
         uncertainty="com_from_front=20mm,angle=2deg", risk=0.3, accept="arrested",
     )  # fmt: skip
@@ -148,7 +152,7 @@ def test_the_excess_is_read_from_what_was_measured():
 
 
 def test_a_robot_that_cannot_stand_is_an_answer():
-    question = Question.of(robot(), inclined(75.0, 0.220))
+    question = Question.in_one_posture(robot(), inclined(75.0, 0.220))
     assert flight_traverse(common(question)).status is not Status.OK
     found = agree(question, resolution=1.0)
     assert answers(found)["stairs"]["physics"] in ("tips", "outside")
@@ -156,7 +160,7 @@ def test_a_robot_that_cannot_stand_is_an_answer():
 
 
 def test_from_the_landing_the_largest_inclination_is_not_compared():
-    question = Question.of(robot(), inclined(50.0, 0.150))
+    question = Question.in_one_posture(robot(), inclined(50.0, 0.150))
     found = agree(question, begin="landing", resolution=1.0)
     assert answers(found)["stairs"]["physics"] == "holds"
     extra = differences(found)["extra", "physics", "contact"]

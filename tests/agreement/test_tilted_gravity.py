@@ -88,7 +88,7 @@ def cases(seed, count, gap=False):
             ),
         )
         flight = Stairs(rise=rise, going=going, steps=8)
-        found = traverse_of(Question.of(robot, flight, friction=3.0))
+        found = traverse_of(Question.in_one_posture(robot, flight, friction=3.0))
         if found.arrived and found.downhill_margin > math.radians(1.0):
             count -= 1
             yield found
@@ -156,7 +156,7 @@ KENAF = Robot.named("kenaf")
 def test_the_papers_rig(p, angle, to_rock, to_fall):
     """It climbed at 54 deg and fell at 55-57; at (200 mm, 44 deg) it swung and climbed."""
     flight = Stairs.inclined(angle=math.radians(angle), nosing_spacing=p)
-    found = traverse_of(Question.of(KENAF, flight, friction=2.0))
+    found = traverse_of(Question.in_one_posture(KENAF, flight, friction=2.0))
     assert math.degrees(found.downhill_margin) == pytest.approx(to_rock, abs=1e-3)
     # an independent bisection of the whole traverse, another end radius: 0.1 deg, found within 0.1
     assert math.degrees(found.falls_downhill.tilt) == pytest.approx(to_fall, abs=0.2)
@@ -165,6 +165,6 @@ def test_the_papers_rig(p, angle, to_rock, to_fall):
 def test_after_a_drop_that_the_terrain_obliges_to_it_only_comes_back():
     """On the landing the edge of the last nosing lies behind the centroid: tilted, it returns."""
     flight = Stairs.inclined(angle=math.radians(40.0), nosing_spacing=0.150)
-    found = traverse_of(Question.of(KENAF, flight, friction=2.0))
+    found = traverse_of(Question.in_one_posture(KENAF, flight, friction=2.0))
     land = next(each for each in found.phases if each.phase is Phase.LAND)
     assert math.degrees(land.tilt_downhill[0]) >= 60.205 - 40.0 - 1e-3

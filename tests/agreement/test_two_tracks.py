@@ -43,7 +43,7 @@ def straight(psi, p=SPACING, count=40):
 def question(yaw=0.0, **more):
     manner = {"flippers": "flat", "friction": 2.0, "theta_d": 0.0, "theta_M": 0.0}
     flight = Stairs(rises=(0.178,) * 30, goings=(0.279,) * 29, **more)
-    return Question.of("absolem", flight, yaw=yaw, **manner)
+    return Question.in_one_posture("absolem", flight, yaw=yaw, **manner)
 
 
 @pytest.mark.parametrize("psi", [0.05, 0.1, 0.3, -0.2])

@@ -10,14 +10,14 @@ import jsonschema
 import pytest
 from hypothesis import assume, given, reject, settings
 
-import kaidan
+import one_posture
 from amounts import examples
 from kaidan import Assessment, Payload, Robot, Stairs, Surface
 from kaidan.modes import Verdict
 from kaidan.robot import Track, Uncertainty
 from kaidan.terrain.stairs import StairsUncertainty
 
-assess = partial(kaidan.assess, model="closed-form")
+assess = partial(one_posture.assess, model="closed-form")
 
 ROUNDING = {"rel": 1e-9, "abs": 1e-9}
 """A dozen operations with quotients up to 1e3, in degrees and millimetres."""

@@ -34,7 +34,7 @@ def drawn(pair, most, count):
             goings=tuple((stairs.going + off[stairs.steps :]).tolist()),
         )
         posture = {"flippers": "flat"} if Robot.named(name).flippers() else {}
-        question = Question.of(Robot.named(name), flight, friction=friction, **posture)
+        question = Question.in_one_posture(Robot.named(name), flight, friction=friction, **posture)
         found = quasi_static.judge(question)
         yield found, conclude(question, found)
 

@@ -210,7 +210,9 @@ def test_scale(seed, k):
             }
         )
         of_size = scaled(robot, factor)
-        return answered(Question.of(of_size, stairs, speed=0.1 * math.sqrt(factor), **asked))
+        return answered(
+            Question.in_one_posture(of_size, stairs, speed=0.1 * math.sqrt(factor), **asked)
+        )
 
     one, other = answer_at(1.0), answer_at(k)
     assert (other.verdict, other.governs) == (one.verdict, one.governs)
@@ -253,8 +255,8 @@ def test_a_robot_turned_round_goes_the_other_end_first(seed, direction):
         rise=max(p * math.sin(angle), 0.02), going=max(p * math.cos(angle), 0.03), steps=6
     )
     asked = {"friction": float(rng.uniform(0.5, 2.0)), "direction": direction}
-    one = answered(Question.of(same, stairs, facing="nose-first", **asked))
-    other = answered(Question.of(turned, stairs, facing="tail-first", **asked))
+    one = answered(Question.in_one_posture(same, stairs, facing="nose-first", **asked))
+    other = answered(Question.in_one_posture(turned, stairs, facing="tail-first", **asked))
     assert (other.verdict, other.governs) == (one.verdict, one.governs)
     for key, mine in one.findings.items():
         theirs = other.findings[key]

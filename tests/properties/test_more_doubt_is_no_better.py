@@ -28,7 +28,7 @@ ONE_DRAW = 1 / 2048
 
 
 def judged(flight, manner, sigma):
-    question = Question.of("kenaf", flight, uncertainty=sigma, risk=0.2, **manner)
+    question = Question.in_one_posture("kenaf", flight, uncertainty=sigma, risk=0.2, **manner)
     found = judge(question)
     fails = np.logical_or.reduce(np.broadcast_arrays(*(each.fails() for each in found.each)))
     return conclude(question, found).verdict, 1 - float(fails.mean())

@@ -52,7 +52,7 @@ def pairs(seed, count, size):
             "flippers": str(rng.choice(["stowed", "flat"])) if robot.flippers() else "stowed",
             "friction": float(rng.uniform(0.6, 1.5)),
         }
-        yield [Question.of(robot, each, **manner) for each in flights]
+        yield [Question.in_one_posture(robot, each, **manner) for each in flights]
         count -= 1
 
 
@@ -85,7 +85,9 @@ def test_the_first_rock_does_not_depend_on_where_poses_stand():
     marv = Robot.named("marv")
     rises = (0.18745, 0.18682, 0.18804, 0.18765, 0.18700, 0.18790, 0.18720, 0.18760)
     goings = (0.22029, 0.22005, 0.21938, 0.22010, 0.21990, 0.22040, 0.21960)
-    question = Question.of(marv, Stairs(rises=rises, goings=goings), friction=1.2, flippers="flat")
+    question = Question.in_one_posture(
+        marv, Stairs(rises=rises, goings=goings), friction=1.2, flippers="flat"
+    )
     margins = [
         traverse(question.profile, question.outline, step=step).phases[1].tilt_downhill[0]
         for step in (4e-3, 3e-4)

@@ -20,7 +20,7 @@ from kaidan.models.findings import Finding, Findings
 from kaidan.modes import SLIDES_DOWN, TIP_DOWNHILL, TIP_SIDEWAYS, TIP_UPHILL, Verdict
 
 G = 9.80665
-KENAF = Question.of("kenaf", Stairs(rise=0.1, going=0.15), friction=1.0)
+KENAF = Question.in_one_posture("kenaf", Stairs(rise=0.1, going=0.15), friction=1.0)
 
 
 def concluded(verdict, margin=0.1):
@@ -114,7 +114,7 @@ def test_a_centroid_that_is_moved_moves_that_of_robot_and_payload(load, share):
     robot = Robot.model_validate(Robot.named("kenaf").model_dump() | {"mass": 20.0})
     stance = robot.com_from_front, robot.com_height
     payload = [] if load is None else [Payload(mass=load, from_front=stance[0], height=stance[1])]
-    question = Question.of(robot, flight, friction=3.0, payload=payload)
+    question = Question.in_one_posture(robot, flight, friction=3.0, payload=payload)
     found = Findings(model="by hand", each=(finding(TIP_DOWNHILL, -0.1),))
     (one,) = _centroid_moved(question, found, conclude(question, found))
     moved = robot.com_from_front - one.question.robot.com_from_front

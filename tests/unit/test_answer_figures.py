@@ -24,7 +24,7 @@ def finding(mode, worst, best=None, **others):
 
 
 def answer(*each, terrain=FLIGHT, robot=KENAF, **manner):
-    question = Question.of(robot, terrain, **({"friction": 2.0} | manner))
+    question = Question.in_one_posture(robot, terrain, **({"friction": 2.0} | manner))
     return judged(question, Findings(model="contact", each=each), advice=False)
 
 

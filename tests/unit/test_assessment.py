@@ -20,6 +20,7 @@ from kaidan.modes import (
     Undecided,
     Verdict,
 )
+from one_posture import assess
 
 NAMED_BY_THE_ISSUE = {
     "verdict",
@@ -91,14 +92,14 @@ def answers():
     trial = kaidan.assess(GAUGED, flight(35, 0.15, steps=6), friction=1.0, model=PHYSICS.name)
     return [
         trial,
-        *(kaidan.assess(robot, stairs, **manner) for robot, stairs, manner in ASKED),
+        *(assess(robot, stairs, **manner) for robot, stairs, manner in ASKED),
         *(
-            kaidan.assess(robot, stairs, **manner, model=CLOSED_FORM.name)
+            assess(robot, stairs, **manner, model=CLOSED_FORM.name)
             for robot, stairs, manner in ASKED
             if "yaw" not in manner
         ),
         *(
-            kaidan.assess(robot, stairs, **manner, model=SUPPORT_POLYGON.name)
+            assess(robot, stairs, **manner, model=SUPPORT_POLYGON.name)
             for robot, stairs, manner in ASKED
             if robot in (GAUGED, "absolem")
         ),
@@ -228,7 +229,7 @@ def test_it_is_shown_as_text_and_as_a_table(answers):
 def test_its_text_is_that_of_the_command():
     words = ["assess", "kenaf", "ibc", "--friction", "1.0", "--flippers", "stowed"]
     said = CliRunner().invoke(app, words).stdout
-    answer = kaidan.assess("kenaf", "ibc", friction=1.0)
+    answer = assess("kenaf", "ibc", friction=1.0)
     assert said == f"{answer}\n"
     said = CliRunner().invoke(app, [*words, "--json"]).stdout
     assert said == f"{answer.to_json()}\n"
@@ -248,7 +249,7 @@ def test_a_fall_is_no_rotation_that_ends():
 
 
 def test_a_change_that_leaves_the_verdict_as_it_is_says_so():
-    answer = kaidan.assess("absolem", "ada", friction=0.6)
+    answer = assess("absolem", "ada", friction=0.6)
     assert "flippers flat, in line with the track: still NO-GO (" in str(answer)
 
 

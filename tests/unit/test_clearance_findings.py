@@ -4,10 +4,10 @@ import math
 
 import pytest
 
-import kaidan
 from kaidan import Robot, Stairs
 from kaidan.outline import Outline, footprint_of
 from kaidan.robot import Posture
+from one_posture import assess
 
 BOX = Robot(
     name="box",
@@ -29,7 +29,7 @@ FLIGHT = Stairs(rise=0.15, going=0.3)
 
 def asked(robot=BOX, **more):
     flight = FLIGHT.model_copy(update=more)
-    return kaidan.assess(robot, flight, friction=2.0, theta_d=0.0, theta_M=0.0)
+    return assess(robot, flight, friction=2.0, theta_d=0.0, theta_M=0.0)
 
 
 def test_nothing_is_said_where_nothing_is_stated():
@@ -74,7 +74,7 @@ def test_of_a_robot_of_unknown_size_it_is_not_known():
 
 def test_the_closed_form_has_them_too():
     flight = FLIGHT.model_copy(update={"width": 0.4})
-    answer = kaidan.assess(BOX, flight, friction=2.0, model="closed-form")
+    answer = assess(BOX, flight, friction=2.0, model="closed-form")
     assert (answer.verdict, answer.governs) == ("no-go", "narrow")
 
 

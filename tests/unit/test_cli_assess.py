@@ -227,7 +227,7 @@ def test_the_answer_fits_on_a_screen_with_the_verdict_first():
         "friction": "0.84 required, 2.00 stated",
         "not known": "the drive's traction: measure them",
     }
-    code, text = run(*KENAF_40, *GRIP, "--direction", "down")
+    code, text = run(*KENAF_40, *GRIP, "--direction", "down", "--flippers", "stowed")
     assert code == 1
     assert text.startswith("NO-GO  kenaf on 40 deg at 150 mm, down nose first\n")
     assert rows(text)["do"] == "Go down tail first: GO (+17.6 deg)"
@@ -258,8 +258,12 @@ def test_the_details_are_all_that_was_found():
     assert found["friction"] == "0.84 required, 2.00 stated"
     assert found["load"].endswith("highest to lowest, as the lowest one leaves")
     assert "What would help" not in text
-    down = run(*KENAF_40, *GRIP, "--direction", "down", "--details")[1]
+    down = run(*KENAF_40, *GRIP, "--direction", "down", "--details", "--flippers", "stowed")[1]
     assert "\n    Go down tail first: GO (+17.6 deg)\n" in down
+    found = run(*KENAF_40, *GRIP, "--direction", "down", "--details")[1]
+    assert found.startswith("GO  kenaf on 40 deg at 150 mm, down tail first\n")
+    assert "\n    Go tail first\n" in found
+    assert "\n    Nose first was tried too and is no better." in found
 
 
 def test_the_details_without_numbers_that_are_not_known():

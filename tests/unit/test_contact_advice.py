@@ -6,8 +6,9 @@ import re
 import pytest
 
 import kaidan
-from kaidan import Payload, Posture, Robot, Stairs, Surface, assess
+from kaidan import Payload, Posture, Robot, Stairs, Surface
 from kaidan.assessment.advice import RAISED
+from one_posture import assess
 
 KENAF = Robot.named("kenaf")
 ABSOLEM = Robot.named("absolem")

@@ -10,7 +10,7 @@ from statistics import NormalDist
 
 import pytest
 
-from kaidan import Payload, Profile, Question, Robot, Stairs, Surface, assess
+from kaidan import Payload, Profile, Question, Robot, Stairs, Surface
 from kaidan.assessment import answer_to
 from kaidan.assessment.verdict import conclude
 from kaidan.models import judge
@@ -18,6 +18,7 @@ from kaidan.models.quasi_static import findings_of, traverse_of
 from kaidan.modes import Phase, Verdict
 from kaidan.robot import Drive, Track, Uncertainty
 from kaidan.terrain.stairs import StairsUncertainty
+from one_posture import assess
 
 G = 9.80665
 KENAF = Robot.named("kenaf").model_copy(update={"theta_d": None, "theta_M": None})
@@ -351,16 +352,18 @@ def of_phase(question, phase=None):
 
 
 PHASED = {
-    "dry steps, flippers flat": Question.of("absolem", "ibc", flippers="flat", friction=0.8),
-    "steep": Question.of(KENAF, at(50), **SURE),
-    "rotates": Question.of(KENAF, at(61.5), **SURE),
-    "little energy": Question.of(KENAF, at(44, p=0.200), **SURE),
-    "falls entering": Question.of(KENAF, at(70), **SURE),
-    "falls landing": Question.of(
+    "dry steps, flippers flat": Question.in_one_posture(
+        "absolem", "ibc", flippers="flat", friction=0.8
+    ),
+    "steep": Question.in_one_posture(KENAF, at(50), **SURE),
+    "rotates": Question.in_one_posture(KENAF, at(61.5), **SURE),
+    "little energy": Question.in_one_posture(KENAF, at(44, p=0.200), **SURE),
+    "falls entering": Question.in_one_posture(KENAF, at(70), **SURE),
+    "falls landing": Question.in_one_posture(
         KENAF, Profile.of_points([(-3, 0), (0, 0), (0, 0.3), (3, 0.3)]), **SURE
     ),
-    "down": Question.of(KENAF, at(30), **SURE, direction="down"),
-    "slips on the flight": Question.of(KENAF, at(50), friction=1.1, **BARE),
+    "down": Question.in_one_posture(KENAF, at(30), **SURE, direction="down"),
+    "slips on the flight": Question.in_one_posture(KENAF, at(50), friction=1.1, **BARE),
 }
 
 
@@ -468,5 +471,5 @@ def test_the_default_is_the_contact_model():
     assert assess(KENAF, at(40), friction=2.0) == assess(
         KENAF, at(40), friction=2.0, model="contact"
     )
-    question = Question.of(KENAF, at(40), friction=2.0)
+    question = Question.in_one_posture(KENAF, at(40), friction=2.0)
     assert answer_to(question, advice=False).model == "contact"

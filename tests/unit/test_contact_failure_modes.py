@@ -10,12 +10,13 @@ from math import atan, atan2, cos, degrees, hypot, radians, sin, sqrt, tan
 
 import pytest
 
-from kaidan import Assessment, Profile, Question, Robot, Stairs, assess
+from kaidan import Assessment, Profile, Question, Robot, Stairs
 from kaidan.assessment import judged
 from kaidan.contact import Status
 from kaidan.models.quasi_static import Basis, findings_of, traverse_of
 from kaidan.modes import FAILURE_MODES, Phase
 from kaidan.robot import Drive, Track
+from one_posture import assess
 
 G = 9.80665
 KENAF = Robot.named("kenaf")
@@ -315,7 +316,7 @@ def test_every_mode_of_the_model_is_among_the_cases():
 
 
 def stuck(acceleration):
-    question = Question.of(KENAF, at(40), **SURE, acceleration=acceleration)
+    question = Question.in_one_posture(KENAF, at(40), **SURE, acceleration=acceleration)
     traverse = replace(traverse_of(question), status=Status.STUCK)
     return judged(question, findings_of(question, Basis(question, traverse)))
 
@@ -552,7 +553,7 @@ def test_a_robot_with_a_gap_on_stairs():
 
     So the lowest that stays is one spacing from the rear tip, as under a whole track.
     """
-    question = Question.of(robot(gap=0.2, belly_clearance=0.1), at(30, p=0.1), **SURE)
+    question = Question.in_one_posture(robot(gap=0.2, belly_clearance=0.1), at(30, p=0.1), **SURE)
     found = traverse_of(question)
     expected = degrees(atan2(0.5 - 0.1 - 0.25, 0.1)) - 30
     flight = [each for each in found.phases if each.phase is Phase.TRAVERSE]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from amounts import fast_and_slow
-from kaidan.assessment import answer_to, assess, judged
+from kaidan.assessment import answer_to, judged
 from kaidan.errors import InputError
 from kaidan.models.quasi_static import LONG_FLIGHT, Basis, findings_of, traverse_of
 from kaidan.models.support_polygon import margins_of, yaw_limit
@@ -19,6 +19,7 @@ from kaidan.question import Question
 from kaidan.robot import Robot, Track, Uncertainty
 from kaidan.surface import Surface
 from kaidan.terrain.stairs import Stairs, StairsUncertainty
+from one_posture import assess
 
 KENAF = Robot.named("kenaf")
 UNMEASURED = KENAF.model_copy(update={"theta_d": None, "theta_M": None})
@@ -174,7 +175,7 @@ def test_uncertain_margins_are_the_closed_forms(direction, facing):
         update={"uncertainty": StairsUncertainty(angle=0.003, nosing_spacing=0.0003)}
     )
     surface = Surface.of_friction(1.2, uncertainty=0.02)
-    question = Question.of(
+    question = Question.in_one_posture(
         doubtful(), stairs, surface=surface, direction=direction, facing=facing, theta_d=0.0,
         theta_M=0.0,
     )  # fmt: skip
@@ -208,7 +209,7 @@ def test_long_flights_are_driven_on_what_repeats():
 
 def test_where_no_friction_is_enough_the_answer_says_null():
     """JSON has no infinity. Rare on real stairs, so the requirement is made."""
-    question = Question.of(KENAF, at(40), **sure(friction=1.0))
+    question = Question.in_one_posture(KENAF, at(40), **sure(friction=1.0))
     driven = traverse_of(question)
     enter, *others = driven.phases
     driven = replace(driven, phases=(replace(enter, required_friction=math.inf), *others))
@@ -240,7 +241,7 @@ def test_a_yaw_needs_the_gauge_and_the_contact_model():
 
 
 def test_yaw_limit_is_where_the_margin_ends():
-    question = Question.of(WITH_GAUGE, at(50), **sure(speed=1e-6))
+    question = Question.in_one_posture(WITH_GAUGE, at(50), **sure(speed=1e-6))
     limit = yaw_limit(question, question.flight)
     before, after = margins_of(question, question.flight, limit + np.array([-0.01, 0.01]))[..., 0].T
     assert (before > 0).all()
@@ -259,7 +260,9 @@ def test_a_tall_narrow_robot_tips_sideways():
         com_height=0.3,
         track=Track(flat_length=2.0, front_radius=0.1, rear_radius=0.1, gauge=0.3),
     )
-    question = Question.of(narrow, at(45, p=0.15, steps=20), friction=2.0, theta_d=0.0, theta_M=0.0)
+    question = Question.in_one_posture(
+        narrow, at(45, p=0.15, steps=20), friction=2.0, theta_d=0.0, theta_M=0.0
+    )
     flight = question.flight
     _, _, sideways = margins_of(question, flight, np.array([math.radians(30)]))[:, 0]
     assert sideways[0] == pytest.approx(0.0, abs=1e-12)

@@ -62,7 +62,7 @@ def test_a_fall_is_no_go_with_its_place():
 
 
 def test_the_end_over_which_it_falls_is_the_downhill_one_whichever_leads():
-    question = Question.of(robot(), STEEP, friction=3.0, facing="tail-first")
+    question = Question.in_one_posture(robot(), STEEP, friction=3.0, facing="tail-first")
     assert judge(question.changed(model="physics")).each[0].mode.key == "tip_downhill"
 
 
@@ -77,7 +77,7 @@ def test_too_little_friction_is_no_go_and_a_range_caution():
 
 
 def test_where_both_ends_of_a_range_fail_by_another_mode_it_is_no_go():
-    question = Question.of(robot(), STEEP, friction=(0.5, 3.0))
+    question = Question.in_one_posture(robot(), STEEP, friction=(0.5, 3.0))
     found = dynamic.judge(question)
     assert {one.mode.key for one in found.each} == {"slides_down", "tip_downhill"}
     concluded = conclude(question, found)
@@ -178,7 +178,7 @@ def test_the_command():
 
 
 def test_its_findings_are_samples_like_those_of_the_others():
-    found = dynamic.judge(Question.of(robot(), STEEP, friction=3.0))
+    found = dynamic.judge(Question.in_one_posture(robot(), STEEP, friction=3.0))
     (one,) = found.each
     assert one.fails().all()
     assert one.fails(best=True).all()

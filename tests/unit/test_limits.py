@@ -4,9 +4,10 @@ import math
 
 import pytest
 
-from kaidan import Robot, Stairs, assess
+from kaidan import Robot, Stairs
 from kaidan.assessment.limits import limits
 from kaidan.question import Question
+from one_posture import assess
 
 FLIGHT = Stairs(name="flight", rise=0.174, going=0.27, steps=8)
 TRACK = {"flat_length": 0.52, "front_radius": 0.085, "rear_radius": 0.085}
@@ -18,7 +19,7 @@ LONG = Robot(
 
 
 def of(robot, **manner):
-    return limits(Question.of(robot, FLIGHT, friction=1.5, **manner))
+    return limits(Question.in_one_posture(robot, FLIGHT, friction=1.5, **manner))
 
 
 def test_a_short_robot_is_told_its_length_and_its_centroid():
@@ -60,7 +61,9 @@ def test_who_is_long_enough_has_none_and_tail_first_is_the_other_end():
 
 def test_no_centroid_is_far_enough_forward_for_a_riser_that_is_too_high():
     tall = Stairs(name="tall", rise=0.5, going=0.6, steps=4)
-    (riser,) = (each for each in limits(Question.of(SHORT, tall)) if each.figure == "rise")
+    (riser,) = (
+        each for each in limits(Question.in_one_posture(SHORT, tall)) if each.figure == "rise"
+    )
     assert riser.needs_m is None
     assert "would)" not in str(assess(SHORT, tall, friction=2.0)).split("riser")[1]
 

@@ -16,6 +16,7 @@ from kaidan.robot import Robot
 from kaidan.terrain.stairs import Stairs
 from kaidan.verbs.measure_robot import RobotMeasurement, measure_robot
 from kaidan.verbs.measure_stairs import StairsMeasurement, measure_stairs
+from one_posture import assess
 
 ROUNDING = 1e-9
 L, C_L, C_N, MASS = 0.62, 0.28, 0.15, 26.0
@@ -304,7 +305,7 @@ def test_the_friction_that_is_advised_is_enough_with_what_the_tape_leaves_open()
         completed(blank_toml(Robot, name="x", title="t"), robot.figures, origin="x"), origin="x"
     )
     for friction in (None, "0.7..1.0"):
-        change = kaidan.assess(sheet, flight, friction=friction).what_would_help[0]
+        change = assess(sheet, flight, friction=friction).what_would_help[0]
         enough = float(change.change.split("friction of ")[1].split()[0])
         assert change.verdict == "go"
-        assert kaidan.assess(sheet, flight, friction=enough).verdict == "go"
+        assert assess(sheet, flight, friction=enough).verdict == "go"

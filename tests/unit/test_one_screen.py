@@ -21,7 +21,8 @@ CASES = {
     "CAUTION by friction": ["absolem", "ibc", "--flippers", "flat", "--surface", "concrete-dry"],
     "CAUTION, no friction stated": ["absolem", "ada", "--flippers", "flat"],
     "CAUTION until weighed": ["taurob-tracker", "ibc", "--friction", "1.2"],
-    "NO-GO": ["absolem", "ibc"],
+    "CAUTION by friction, planned": ["absolem", "ibc", "--surface", "concrete-dry"],
+    "NO-GO": ["absolem", "ibc", "--flippers", "stowed"],
     "NO-GO of a robot that nobody weighed": [
         "quince", "--angle", "70deg", "--nosing-spacing", "200mm", "--friction", "1",
     ],

@@ -145,7 +145,7 @@ def test_an_arm_that_moves_the_centroid_ahead_is_used():
         }
     )
     stairs = Stairs(rise=0.1, going=0.2, steps=6)
-    without = kaidan.assess(bare, stairs, friction=1.5)
+    without = kaidan.assess(bare, stairs, friction=1.5, flippers="stowed")
     found = best(bare, stairs, friction=1.5, facing="nose-first")
     assert "arm-out" in found.plan.flippers
     assert found.margin_deg > without.margin_deg
@@ -221,7 +221,7 @@ def test_the_whole_flight_does_not_lower_its_verdict():
 
 def test_shortened_flights_keep_what_is_odd():
     odd = Stairs(rise=0.12, going=0.2, steps=40, first_rise=0.1, last_rise=0.13)
-    short = shortened(Question.of(FRONT_PAIR, odd)).terrain
+    short = shortened(Question.in_one_posture(FRONT_PAIR, odd)).terrain
     assert 5 <= short.steps < 12
     assert (short.step_rises[0], short.step_rises[-1]) == (0.1, 0.13)
 
@@ -234,3 +234,35 @@ def test_a_plan_of_the_search_is_judged_by_the_policy_alone():
     assert all(isinstance(each, PostureChange) for each in plan.changes)
     assert isinstance(plan.posture, Posture)
     assert judge(plan).basis.question == plan
+
+
+def test_without_a_posture_the_best_is_found():
+    found = kaidan.assess("absolem", STAIRS, friction=0.9)
+    assert found == best()
+    assert kaidan.traverse("absolem", STAIRS, friction=0.9).question == found.question
+
+
+def test_of_two_ways_that_fail_the_one_that_arrives_comes_first():
+    """Tail first Marmotte falls at the first riser; nose first it rocks, too near a fall."""
+    found = kaidan.assess("marmotte", "ibc", friction=1.0)
+    assert (found.verdict, found.question.facing) == ("no-go", "nose-first")
+    assert found.contact.grades.arrested
+    assert "Tail first was tried too and is no better." in found.notes
+    assert "posture" not in str(found)
+
+
+def test_a_robot_without_flippers_has_nothing_to_lay_out():
+    found = kaidan.assess("kenaf", "ibc", friction=1.0, model="closed-form", direction="down")
+    assert (found.plan.bare, found.plan.holds_within_deg) == (True, None)
+    assert "flippers" not in found.details().split("Notes")[0]
+
+
+def test_one_posture_throughout_is_the_better_of_stowed_and_flat():
+    at_a_yaw = kaidan.assess("absolem", STAIRS, friction=1.2, yaw=0.1)
+    closed = kaidan.assess("absolem", STAIRS, friction=1.2, model="closed-form")
+    for found in (at_a_yaw, closed):
+        assert found.question.flippers in ("flat", "stowed", "stowed,flat", "flat,stowed")
+        assert found.plan.holds_within_deg is None
+        assert any(note.startswith("Flippers stowed and flat were tried;") for note in found.notes)
+    trial = Question.of("absolem", STAIRS, friction=1.2, model="physics")
+    assert (trial.best_of, trial.flippers) == ((), "stowed")

@@ -91,17 +91,19 @@ def test_reflected_twice_is_the_same():
 def test_a_question_is_the_same_after_json(given):
     if given == {"covariance": None}:
         given = {"covariance": Profile.of_stairs(doubted(rise=3e-3)).covariance.tolist()}
-    question = Question.of("kenaf", Profile.from_dict({"points": POINTS.tolist()} | given))
+    question = Question.in_one_posture(
+        "kenaf", Profile.from_dict({"points": POINTS.tolist()} | given)
+    )
     assert question.steps_uncertain
     assert Question.model_validate_json(question.model_dump_json()) == question
-    spelled = Question.of("kenaf", FLIGHT, uncertainty="rise=3mm,going=2mm")
+    spelled = Question.in_one_posture("kenaf", FLIGHT, uncertainty="rise=3mm,going=2mm")
     assert spelled.terrain.uncertainty == StairsUncertainty(rise=3e-3, going=2e-3)
     assert Question.model_validate_json(spelled.model_dump_json()) == spelled
 
 
 def test_steps_of_any_terrain_take_a_doubt():
     for terrain in (FLIGHT, (FLIGHT, FLIGHT), Profile.of_points(POINTS)):
-        question = Question.of("kenaf", terrain, uncertainty={"rise": 3e-3})
+        question = Question.in_one_posture("kenaf", terrain, uncertainty={"rise": 3e-3})
         assert question.uncertain
         assert question.profile.covariance[1, 1] == pytest.approx(9e-6)
         assert not any(question.spread)
@@ -150,7 +152,9 @@ def test_a_falling_profile_takes_no_doubt():
     down = POINTS[::-1] * [-1.0, 1.0]
     bump = np.vstack([down, [(1.0, 0.0), (1.0, 0.1), (2.0, 0.1)]])
     with pytest.raises(InputError) as refused:
-        Question.of("kenaf", Profile.of_points(bump, sigma=(1e-3, 1e-3)), direction="down")
+        Question.in_one_posture(
+            "kenaf", Profile.of_points(bump, sigma=(1e-3, 1e-3)), direction="down"
+        )
     assert str(refused.value) == (
         "profile: it falls from left to right: give the points, and the doubt of the nosings, the "
         "other way round"

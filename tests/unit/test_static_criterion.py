@@ -127,7 +127,9 @@ def test_no_flight_says_nothing():
 def test_going_down_what_is_over_the_upper_landing_enters():
     """The energy margin of landing below is not that of nosings lost above."""
     up, down = (
-        traverse_of(Question.of("kenaf", Stairs.inclined(angle=0.7, nosing_spacing=0.15), **way))
+        traverse_of(
+            Question.in_one_posture("kenaf", Stairs.inclined(angle=0.7, nosing_spacing=0.15), **way)
+        )
         for way in ({"direction": "up"}, {"direction": "down", "facing": "tail-first"})
     )
     over = {each.phase: each.energy_margin for each in up.phases}[Phase.LAND]
@@ -141,7 +143,7 @@ def test_a_step_longer_than_the_flat_in_a_chain_of_flights_is_judged_as_alone():
     short = Stairs.inclined(angle=math.radians(35.0), nosing_spacing=0.15, steps=8)
     long = Stairs.inclined(angle=math.radians(15.0), nosing_spacing=0.50, steps=6)
     alone, *chains = (
-        traverse_of(Question.of(kenaf, each, friction=2.0)).downhill_margin
+        traverse_of(Question.in_one_posture(kenaf, each, friction=2.0)).downhill_margin
         for each in (long, (short, long), (long, short))
     )
     # both from a bisection to 0.1 deg

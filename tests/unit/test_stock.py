@@ -6,12 +6,13 @@ import math
 import numpy as np
 import pytest
 
-from kaidan import InputError, Question, Robot, Stairs, assess
+from kaidan import InputError, Question, Robot, Stairs
 from kaidan.assessment.verdict import conclude
 from kaidan.models import judge
 from kaidan.studies.stock.answer import StockStudy
 from kaidan.studies.stock.flights import Stock
 from kaidan.studies.stock.study import longest, stock_study
+from one_posture import assess
 
 CLOSED = {"model": "closed-form", "friction": (0.8, 1.0)}
 

@@ -9,11 +9,12 @@ from functools import partial
 import pytest
 
 import kaidan
+import one_posture
 from closed_form_cases import ANGLE, BARE, GRIP, G, flight, robot
 from kaidan import InputError, Profile, Stairs, Surface
 from kaidan.robot import FlipperPair, Track, Uncertainty
 
-assess = partial(kaidan.assess, model="support-polygon")
+assess = partial(one_posture.assess, model="support-polygon")
 GAUGED = robot(track={"flat_length": 0.5, "gauge": 0.3})
 
 

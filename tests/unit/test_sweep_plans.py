@@ -79,6 +79,16 @@ def test_chunks_keep_together_what_shares_a_traverse():
     assert Plan.of(CLOSED | {"flippers": "best", "risk": np.full(1000, 0.1)}).chunk_size <= 100
 
 
+def test_chunks_of_searched_cells_are_small():
+    """A search takes a third of a second, and it is what is done where no posture is stated."""
+    many = {**CLOSED, "com_height": np.linspace(0.05, 0.3, 20_000), "model": "contact"}
+    many.pop("flippers", None)
+    assert Plan.of(many).chunk_size == 100
+    assert Plan.of(many | {"flippers": ["flat", "best"]}).chunk_size == 100
+    assert Plan.of(many | {"flippers": "stowed"}).chunk_size > 100
+    assert Plan.of(many | {"model": "closed-form"}).chunk_size > 100
+
+
 @pytest.mark.parametrize(
     ("name", "kind", "unit"),
     [("friction", "number", "1"), ("rise", "length", "m"), ("robot", None, ""),

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-import kaidan
 from kaidan import InputError, Robot, Stairs, Surface
 from kaidan.models.quasi_static import traverse_of
 from kaidan.models.traction import grousers_of, supply
@@ -11,6 +10,7 @@ from kaidan.modes import Phase
 from kaidan.question import Question
 from kaidan.robot import Track
 from kaidan.surface import Friction
+from one_posture import assess
 
 LONG = {"name": "long", "com_from_front": 0.5, "com_height": 0.12, "mass": 40.0}
 TRACK = {"flat_length": 1.0, "front_radius": 0.15, "rear_radius": 0.1}
@@ -24,7 +24,7 @@ def robot(**track):
 
 
 def asked(friction=0.6, **track):
-    return kaidan.assess(robot(**track), FLIGHT, friction=friction)
+    return assess(robot(**track), FLIGHT, friction=friction)
 
 
 @pytest.mark.parametrize(
@@ -92,11 +92,11 @@ def test_a_weak_grouser_counts_for_nothing():
 
 
 def test_worst_and_best_case_bracket_what_is_stated():
-    question = Question.of(robot(belt="grousers"), FLIGHT, friction=0.55)
+    question = Question.in_one_posture(robot(belt="grousers"), FLIGHT, friction=0.55)
     found = traverse_of(question)
     loose = [supply(question, found, question.robot.track, best=best) for best in (False, True)]
     assert loose[0].margin <= loose[1].margin
-    exact = Question.of(robot(**GROUSERS, **HARD), FLIGHT, friction=0.55)
+    exact = Question.in_one_posture(robot(**GROUSERS, **HARD), FLIGHT, friction=0.55)
     one = supply(exact, found, exact.robot.track)
     assert loose[0].margin <= one.margin + 1e-9
     hard, soft = grousers_of(exact, exact.robot.track, best=False)
@@ -107,7 +107,7 @@ def test_worst_and_best_case_bracket_what_is_stated():
 
 def test_more_grouser_never_holds_less():
     margins = []
-    question = Question.of(robot(), FLIGHT, friction=0.5)
+    question = Question.in_one_posture(robot(), FLIGHT, friction=0.5)
     found = traverse_of(question)
     for height in (0.0, 0.004, 0.008, 0.012, 0.016):
         track = Track(**TRACK | HARD, grouser_height=height, grouser_spacing=0.06)
@@ -116,7 +116,7 @@ def test_more_grouser_never_holds_less():
 
 
 def test_going_down_the_same_flight_holds_too():
-    answer = kaidan.assess(
+    answer = assess(
         robot(**GROUSERS, **HARD), FLIGHT, friction=0.55, direction="down"
     )  # fmt: skip
     assert answer.findings["slides_down"].holds is True
@@ -126,19 +126,19 @@ def test_going_down_the_same_flight_holds_too():
 def test_frictions_of_nosings_treads_and_faces_apart():
     general = {"friction_low": 0.9, "friction_high": 0.9}
     same = Surface(**general, risers=Friction(low=0.9, high=0.9))
-    plain = kaidan.assess(robot(), FLIGHT, friction=0.9)
-    apart = kaidan.assess(robot(), FLIGHT, surface=same)
+    plain = assess(robot(), FLIGHT, friction=0.9)
+    apart = assess(robot(), FLIGHT, surface=same)
     assert apart.findings["slides_down"].margin == pytest.approx(
         plain.findings["slides_down"].margin, abs=1e-4
     )
     slippery = Surface(**general, nosings=Friction(low=0.3, high=0.4))
-    answer = kaidan.assess(robot(), FLIGHT, surface=slippery)
+    answer = assess(robot(), FLIGHT, surface=slippery)
     assert answer.friction == (0.3, 0.4)
     assert answer.findings["slides_down"].margin_best < 0
 
 
 def test_without_a_friction_the_answer_says_what_grousers_would_make_of_it():
-    answer = kaidan.assess(robot(), FLIGHT)
+    answer = assess(robot(), FLIGHT)
     usual = answer.traction.usual_required_friction
     assert usual < answer.required_friction - 0.02
     assert f"({usual:.2f} with grousers of 10 mm every 40 mm)" in str(answer)
@@ -147,7 +147,7 @@ def test_without_a_friction_the_answer_says_what_grousers_would_make_of_it():
 
 def test_at_a_yaw_grousers_do_not_count():
     given = {"gauge": 0.4, **GROUSERS, **HARD}
-    answer = kaidan.assess(robot(**given), FLIGHT, friction=0.55, yaw="5deg")
+    answer = assess(robot(**given), FLIGHT, friction=0.55, yaw="5deg")
     assert answer.findings["slides_down"].holds is False
     assert "At a yaw grousers do not count: friction alone is judged." in answer.notes
 
@@ -156,7 +156,7 @@ def test_at_a_yaw_grousers_do_not_count():
 def test_from_the_floor_grousers_pass_a_riser_up_to_about_r_h_and_half_a_spacing(first, passes):
     # R + h + s/2 = 0.19
     flight = FLIGHT.model_copy(update={"first_rise": first})
-    question = Question.of(robot(**GROUSERS, **HARD), flight, friction=0.55)
+    question = Question.in_one_posture(robot(**GROUSERS, **HARD), flight, friction=0.55)
     found = traverse_of(question)
     smooth, held = (
         supply(question, found, track, phase=Phase.ENTER).required

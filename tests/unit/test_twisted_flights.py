@@ -8,6 +8,7 @@ import pytest
 import kaidan
 from kaidan import InputError, Robot, Stairs
 from kaidan.readers.flight import FlightEstimate
+from one_posture import assess
 
 MANNER = {"friction": 2.0, "theta_d": 0.0, "theta_M": 0.0}
 BOX = Robot(
@@ -18,7 +19,7 @@ STEPS = {"rises": (0.15,) * 12, "goings": (0.3,) * 11}
 
 
 def answer(**across):
-    return kaidan.assess(BOX, Stairs(**STEPS, **across), **MANNER)
+    return assess(BOX, Stairs(**STEPS, **across), **MANNER)
 
 
 def test_even_nosings_are_judged_in_the_plane():
@@ -46,7 +47,7 @@ def test_a_roll_that_tips_it_is_no_go():
     for height, verdict in ((0.5, True), (0.6, False)):
         tall = BOX.model_copy(update={"com_height": height})
         flight = Stairs(rises=(0.05,) * 12, goings=(0.3,) * 11, cross_slopes=(0.3473,))
-        found = kaidan.assess(tall, flight, **MANNER)
+        found = assess(tall, flight, **MANNER)
         assert (found.findings["twist"].margin > 0) is verdict
     assert found.verdict == "no-go"
     assert found.governs == "twist"
@@ -56,21 +57,21 @@ def test_a_roll_that_tips_it_is_no_go():
 def test_a_yaw_on_steps_that_differ():
     rises = (0.15, 0.16, 0.14) * 4
     flight = Stairs(rises=rises, goings=(0.3,) * 11)
-    found = kaidan.assess(BOX, flight, yaw="10deg", **MANNER)
+    found = assess(BOX, flight, yaw="10deg", **MANNER)
     assert found.findings["twist"].margin > 0
-    straight = kaidan.assess(BOX, flight, **MANNER)
+    straight = assess(BOX, flight, **MANNER)
     assert "twist" not in straight.findings
 
 
 def test_without_a_gauge_roll_is_said_to_be_open():
     narrow = BOX.model_copy(update={"track": BOX.track.model_copy(update={"gauge": None})})
-    found = kaidan.assess(narrow, Stairs(**STEPS, cross_slopes=(0.05,)), **MANNER)
+    found = assess(narrow, Stairs(**STEPS, cross_slopes=(0.05,)), **MANNER)
     assert "twist" not in found.findings
     assert any(note.endswith("is not known: roll is not judged.") for note in found.notes)
 
 
 def test_a_robot_longer_than_the_flight_is_said_to_be_open():
-    found = kaidan.assess(BOX, Stairs(rises=(0.15,) * 3, goings=(0.3,) * 2, skews=(0.1,)), **MANNER)
+    found = assess(BOX, Stairs(rises=(0.15,) * 3, goings=(0.3,) * 2, skews=(0.1,)), **MANNER)
     assert "twist" not in found.findings
     assert any("nowhere do both tracks have two of them" in note for note in found.notes)
 

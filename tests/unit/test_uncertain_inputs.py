@@ -25,7 +25,7 @@ def asked(sigma=SIGMA, **manner):
     ))}  # fmt: skip
     flight = Stairs.inclined(angle=THETA, nosing_spacing=P).model_dump()
     flight |= {"uncertainty": {"angle": sigma[3], "nosing_spacing": sigma[4]}}
-    return Question.of(
+    return Question.in_one_posture(
         Robot.model_validate(robot),
         Stairs.model_validate(flight),
         surface=Surface.of_friction(MU, sigma[5]),
@@ -138,7 +138,7 @@ def test_spread_of_steps_of_many_kinds_takes_the_worst_step(monkeypatch):
         for angle, p in ((45, 0.13), (35, 0.17))
     )
     robot = Robot.model_validate(KENAF | {"uncertainty": {"com_from_front": 0.005}})
-    question = Question.of(robot, steep, friction=1.0)
+    question = Question.in_one_posture(robot, steep, friction=1.0)
     traverse = traverse_of(question)
     both = samples.Draws(
         **{name: np.full((1, 1), v) for name, v in (
@@ -181,7 +181,7 @@ def test_where_the_criterion_says_nothing_there_is_no_spread_of_it():
     """A kerb: no nosing is lost with the whole flat on a flight."""
     kerb = Profile.of_points([(-2, 0), (0, 0), (0, 0.1), (2, 0.1)])
     robot = Robot.model_validate(KENAF | {"uncertainty": {"com_from_front": 0.005}})
-    question = Question.of(robot, kerb, friction=1.0)
+    question = Question.in_one_posture(robot, kerb, friction=1.0)
     found = spread(question, traverse_of(question))
     assert len(found.tip_downhill) == 2048
     assert not any(np.any(each) for each in found[:-1])

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import pytest
 
-from kaidan import assess, catalog, compare, sweep, traverse
+from kaidan import catalog, compare, sweep, traverse
 from kaidan.assessment import Assessment
 from kaidan.assessment.verdict import conclude
 from kaidan.errors import InputError
@@ -15,6 +15,7 @@ from kaidan.models.unweighed import HEIGHTS, PLACES
 from kaidan.question import Question
 from kaidan.robot import CentroidRange, Robot
 from kaidan.terrain.stairs import Stairs
+from one_posture import assess
 
 TRACK = {"flat_length": 0.8, "front_radius": 0.1, "rear_radius": 0.1}
 RANGE = {"from_front": (0.24, 0.48), "height": ("100mm", "240mm")}
@@ -138,11 +139,13 @@ def test_without_friction_nothing_is_go():
 
 @pytest.mark.parametrize("model", ["closed-form", "contact"])
 def test_an_override_takes_the_place_of_the_range(model):
-    question = Question.of(robot(), FLIGHT, friction=1.2, model=model, override="com_height=100mm")
+    question = Question.in_one_posture(
+        robot(), FLIGHT, friction=1.2, model=model, override="com_height=100mm"
+    )
     assert question.robot.com_range == CentroidRange(from_front=(0.24, 0.48), height=(0.1, 0.1))
     assert conclude(question, judge(question)).verdict == "caution"
     both = "com_height=100mm,com_from_front=350mm"
-    question = Question.of(robot(), FLIGHT, friction=1.2, model=model, override=both)
+    question = Question.in_one_posture(robot(), FLIGHT, friction=1.2, model=model, override=both)
     assert question.robot.com_range is None
     assert conclude(question, judge(question)).verdict == "go"
 

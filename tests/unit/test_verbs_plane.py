@@ -96,7 +96,7 @@ def test_allowances_shift_the_dotted_limits_by_their_angle():
 def test_limits_agree_with_assess():
     stairs, asked = flight(44, 0.2), {"friction": 1.2, "direction": "down"}
     found = d_a_plane(Question.of("kenaf", stairs, **asked))
-    answer = assess("kenaf", stairs, model="closed-form", **asked).closed_form
+    answer = assess("kenaf", stairs, model="closed-form", facing="nose-first", **asked).closed_form
     assert found.a_S == pytest.approx(answer.a_slides_down, abs=1e-12)
     assert found.a_slides_up == pytest.approx(answer.a_slides_up, abs=1e-12)
     assert found.min_a_r0 == pytest.approx(answer.a_tip_downhill, abs=1e-12)

@@ -30,7 +30,7 @@ STAIRS = Stairs(**SHAPE)
 
 
 def question(robot=ONE_PAIR, stairs=STAIRS, **manner):
-    return Question.of(robot, stairs, **({"friction": 1.5} | manner))
+    return Question.in_one_posture(robot, stairs, **({"friction": 1.5} | manner))
 
 
 @pytest.fixture(scope="module")

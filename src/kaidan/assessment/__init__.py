@@ -140,6 +140,7 @@ def judged(
     """Answer to a question from what a model found; see `answer_to`."""
     from kaidan.assessment.advice import what_would_help
     from kaidan.assessment.measuring import to_measure
+    from kaidan.text import plan as plan_text
     from kaidan.text import verdicts
 
     conclusion = conclude(question, found)
@@ -151,7 +152,10 @@ def judged(
         conclusion,
         plan=plan_of(question, found, search),
         reason=verdicts.reason(question, found, conclusion),
-        notes=verdicts.notes(question, found, conclusion),
+        notes=(
+            *verdicts.notes(question, found, conclusion),
+            *(() if search is None else plan_text.notes(question, search.ends)),
+        ),
         what_would_help=what_would_help(
             question, found, conclusion, measure, searched=search is not None
         )

@@ -55,6 +55,12 @@ class PlanShown(Part):
     tried: int | None
     """Drives of a phase with which it was found; null where it was stated."""
 
+    @property
+    def bare(self) -> bool:
+        """Whether there is nothing to lay out: neither flippers nor states of arm or payload."""
+        first, *others = self.steps
+        return not others and not {first.front_deg, first.rear_deg, first.state} - {None}
+
 
 def plan_of(question: Question, found: Findings, search: "Found | None") -> PlanShown | None:
     """Plan of an answer; None where one posture was stated.
@@ -71,13 +77,14 @@ def plan_of(question: Question, found: Findings, search: "Found | None") -> Plan
     if search is None and not question.changes:
         return None
     moves = getattr(getattr(found.basis, "traverse", None), "moves", ())
-    holds = None if search is None else search.holds_within
+    laid = {each for one in question.postures.values() for each in (one.front, one.rear)}
+    tried_off = search is not None and question.plannable and laid != {None}
     return PlanShown(
         facing=question.facing,
         flippers=question.flippers,
         steps=tuple(steps_of(question, moves)),
         found=search is not None,
-        holds_within_deg=_degrees(holds),
+        holds_within_deg=_degrees(search.holds_within) if search and tried_off else None,
         tried=None if search is None else search.tried,
     )
 

@@ -31,6 +31,10 @@ FINALISTS = 3
 """Plans that are driven in one go and judged: the best one at its angles too."""
 
 
+Standing = tuple[int, bool, int, float]
+"""Order of plans that were judged; larger is better."""
+
+
 class Judged(NamedTuple):
     """A plan driven in one go, at its angles or off them."""
 
@@ -39,10 +43,12 @@ class Judged(NamedTuple):
     conclusion: Conclusion
     drop: float
     """Largest rotation [deg]."""
+    arrives: bool
+    """Whether it gets to the end, whatever the verdict."""
 
     @property
-    def merit(self) -> tuple[int, int, float]:
-        """Verdict, what fails, margin less what drop and changes cost; larger is better."""
+    def merit(self) -> Standing:
+        """Verdict, whether it arrives, what fails, margin less what drop and changes cost."""
         margin = math.degrees(self.conclusion.margin)
         falls = self.conclusion.governs in {mode.key for mode in FALLS}
         if math.isnan(margin) or (falls and self.conclusion.verdict is Verdict.NO_GO):
@@ -52,6 +58,7 @@ class Judged(NamedTuple):
         cost += cost_of(self.question.robot, list(self.question.postures.values()))
         return (
             -self.conclusion.verdict.rank,
+            self.arrives,
             -len(self.conclusion.doubts),
             round(margin - cost, 6),
         )
@@ -70,6 +77,8 @@ class Found(NamedTuple):
     """Drives of a phase."""
     short: Question
     """On which it searched: a long uniform flight repeats itself."""
+    ends: tuple[Facing, ...]
+    """Ends that were tried first: the other one only where the nose is no GO."""
 
     @property
     def holds_within(self) -> float:
@@ -96,7 +105,7 @@ def found_of(question: Question, limits: tuple[float, float] = LIMITS) -> Found:
     facings: tuple[Facing, ...] = (stated.facing,)
     if "facing" in question.best_of:
         facings = ("nose-first", "tail-first")
-    if stated.model != CONTACT.name or stated.yaw:
+    if not stated.plannable:
         return _fixed(stated, facings)
     short = shortened(stated)
     plans: list[_Off] = []
@@ -107,10 +116,13 @@ def found_of(question: Question, limits: tuple[float, float] = LIMITS) -> Found:
         tried += len(search.scores.known)
         if plans[-1].sturdy and plans[-1].judged.conclusion.verdict is Verdict.GO:
             break
-    return _on_the_whole(stated, sorted(plans, key=lambda each: each.worst, reverse=True), tried)
+    ranked = sorted(plans, key=lambda each: each.worst, reverse=True)
+    return _on_the_whole(stated, ranked, tried, facings[: len(plans)])
 
 
-def _on_the_whole(stated: Question, plans: Sequence["_Off"], tried: int) -> Found:
+def _on_the_whole(
+    stated: Question, plans: Sequence["_Off"], tried: int, ends: tuple[Facing, ...]
+) -> Found:
     """First of some plans whose verdict the whole terrain, pose by pose, does not lower."""
     each = []
     for plan in plans:
@@ -119,14 +131,14 @@ def _on_the_whole(stated: Question, plans: Sequence["_Off"], tried: int) -> Foun
         if each[-1][0].merit[0] >= plan.judged.merit[0]:
             break
     whole, plan = max(each, key=lambda one: one[0].merit[0])
-    return Found(whole.question, whole.findings, plan.sturdy, tried, plan.judged.question)
+    return Found(whole.question, whole.findings, plan.sturdy, tried, plan.judged.question, ends)
 
 
 class _Off(NamedTuple):
     """A plan judged at its angles and off them."""
 
     judged: Judged
-    worst: tuple[int, int, float]
+    worst: Standing
     """Merit with the worst verdict off its angles."""
 
     @property
@@ -163,7 +175,7 @@ def _best_off(search: Search, hopes: Sequence[Hope], count: int) -> list[Plan]:
     return [plan for *_, plan in best]
 
 
-def _worst_off(plan: Judged, beaten: tuple[int, int, float] | None) -> tuple[int, int, float]:
+def _worst_off(plan: Judged, beaten: Standing | None) -> Standing:
     """Merit with the worst verdict off its angles; no more than what is beaten is looked for."""
     worst = plan.merit
     for off in off_angles(plan.question):
@@ -173,7 +185,7 @@ def _worst_off(plan: Judged, beaten: tuple[int, int, float] | None) -> tuple[int
     return worst
 
 
-def _fixed(question: Question, facings: Sequence[Facing]) -> Found:
+def _fixed(question: Question, facings: tuple[Facing, ...]) -> Found:
     """Best of the words for postures, for a model that judges one posture throughout."""
     known = list(words(question.robot))
     each = [
@@ -182,7 +194,7 @@ def _fixed(question: Question, facings: Sequence[Facing]) -> Found:
         for posture in known
     ]
     best = max(each, key=lambda one: one.merit)
-    return Found(best.question, judge(best.question), True, len(each), question)
+    return Found(best.question, judge(best.question), True, len(each), question, facings)
 
 
 def _judged(question: Question) -> Judged:
@@ -197,7 +209,8 @@ def judged_of(question: Question, found: Findings) -> Judged:
         driven = found.basis.traverse
         traverses = [driven] if isinstance(driven, Traverse) else [p.traverse for p in driven.parts]
     drop = max((_drop(each) for each in traverses), default=0.0)
-    return Judged(question, found, conclude(question, found), drop)
+    arrives = all(each.arrived for each in traverses)
+    return Judged(question, found, conclude(question, found), drop, arrives)
 
 
 def judge_coarsely(question: Question) -> Findings:

@@ -25,7 +25,10 @@ def register(app: typer.Typer) -> None:
     app.command("agree")(agree)
 
 
-@question(without=("points", "theta_d", "theta_m", "uncertainty", "yaw", "risk", "accept", "model"))
+@question(
+    without=("points", "theta_d", "theta_m", "uncertainty", "yaw", "risk", "accept", "model"),
+    flippers="stowed",
+)
 def agree(
     requested: "Question",
     begin: Begin = "flight",

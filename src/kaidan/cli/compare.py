@@ -20,8 +20,8 @@ StairsNames = Annotated[
 FlippersWhere = Annotated[
     str | None,
     typer.Option(
-        help="As in assess; flat lays them in line with the track where there are some [best, a "
-        "plan for each pair; flat where the model is another]."
+        help="As in assess; flat lays them in line with the track where there are some [best, for "
+        "each pair]."
     ),
 ]
 

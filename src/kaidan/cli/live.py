@@ -67,7 +67,7 @@ def live(
 
     if len(places) != 2:
         raise InputError("write ROBOT STAIRS SAMPLES")
-    requested = Question.of(
+    requested = Question.in_one_posture(
         robot,
         places[0],
         direction=direction,

@@ -111,7 +111,7 @@ def monitor(
         nosing_spacing=nosing_spacing,
         steps=steps,
     )
-    requested = Question.of(
+    requested = Question.in_one_posture(
         robot,
         flight,
         direction=direction,

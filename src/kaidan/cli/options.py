@@ -84,10 +84,11 @@ Facing = Annotated[
     typer.Option(help="nose-first or tail-first [nose-first; with best flippers the better one]."),
 ]
 Flippers = Annotated[
-    str,
+    str | None,
     typer.Option(
         help="stowed, flat (in line with the track), the angles of front and rear: 20deg,-5deg, "
-        "a plan by phase: flat/land:-60deg,-20deg, or best, which finds one."
+        "a plan by phase: flat/land:-60deg,-20deg, or best, which finds one, also without this "
+        "option where the command judges plans."
     ),
 ]
 PayloadText = Annotated[

@@ -140,6 +140,7 @@ _trial = shared(
     _spec,
     without=("theta_d", "theta_m", "uncertainty", "risk", "accept", "model"),
     speed="0.1m/s",
+    flippers="stowed",
 )
 """Decorator of a command whose first argument is a `TrialSpec`."""
 

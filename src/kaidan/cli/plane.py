@@ -25,7 +25,7 @@ def register(app: typer.Typer) -> None:
     app.command("plane")(plane)
 
 
-@question(without=("points", "uncertainty", "yaw", "risk", "accept", "model"))
+@question(without=("points", "uncertainty", "yaw", "risk", "accept", "model"), flippers="stowed")
 def plane(
     requested: "Question",
     accelerate: Accelerate = False,

@@ -20,7 +20,7 @@ def register(app: typer.Typer) -> None:
     app.command("posture")(posture)
 
 
-@question(without=("yaw", "model", "facing"))
+@question(without=("yaw", "model", "facing"), flippers="stowed")
 def posture(
     requested: "Question",
     limits: Limits = "-75deg..90deg",

@@ -28,7 +28,7 @@ def question_options(
     speed: options.Speed = None,
     direction: options.Direction = None,
     facing: options.Facing = None,
-    flippers: options.Flippers = "stowed",
+    flippers: options.Flippers = None,
     payload: options.PayloadText = None,
     theta_d: options.ThetaD = None,
     theta_m: options.ThetaM = None,

@@ -22,7 +22,7 @@ def register(app: typer.Typer) -> None:
     app.command("sensitivity")(sensitivity)
 
 
-@question()
+@question(flippers="stowed")
 def sensitivity(
     requested: "Question",
     samples: Samples = 256,

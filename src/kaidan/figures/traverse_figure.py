@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from kaidan.figures import style as look
 from kaidan.figures import traverse_side, traverse_strips
 from kaidan.modes import Verdict
+from kaidan.text import plan
 from kaidan.text.words import subject
 
 if TYPE_CHECKING:
@@ -106,4 +107,7 @@ def _heads(found: "TraverseReport") -> list[str]:
     answer, a = found.assessment, found.question.acceleration
     speed = f", $a$ = {look.signed(a)} m/s² up the stairs" if a else ""
     first = f"{look.named(subject(found.question), 90)}{speed}: {Verdict(answer.verdict).label}"
-    return [first, *textwrap.wrap(look.named(answer.reason, 200), 112)]
+    said = [answer.reason]
+    if answer.plan is not None and plan.line(answer.plan):
+        said.append(f"Posture: {plan.line(answer.plan)}")
+    return [first, *(row for each in said for row in textwrap.wrap(look.named(each, 200), 112))]

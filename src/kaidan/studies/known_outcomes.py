@@ -140,7 +140,7 @@ def _flights(entry: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def _pair(entry: Mapping[str, Any], stairs: Stairs) -> Pair:
-    question = Question.of(entry["robot"], stairs, **entry["manner"])
+    question = Question.in_one_posture(entry["robot"], stairs, **entry["manner"])
     conclusion = conclude(question, judge(question))
     flight = question.flight
     assert flight is not None

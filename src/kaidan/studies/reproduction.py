@@ -274,7 +274,7 @@ def columns(rows: Sequence[Row]) -> dict[str, list[Any]]:
 
 def _case(p: float, theta_s: float, **options: Any) -> Question:
     stairs = Stairs.inclined(angle=theta_s, nosing_spacing=p)
-    return Question.of(kenaf(), stairs, theta_d=0.0, theta_M=0.0, **options)
+    return Question.in_one_posture(kenaf(), stairs, theta_d=0.0, theta_M=0.0, **options)
 
 
 def fig_7() -> Plane:

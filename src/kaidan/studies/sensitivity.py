@@ -129,7 +129,7 @@ def sensitivity(
     Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018, estimators; Herman & Usher 2017,
     doi:10.21105/joss.00097, SALib.
     """
-    question = Question.ask(robot, stairs, **manner)
+    question = Question.in_one_posture(robot, stairs, **manner)
     if samples < 8 or samples & (samples - 1):
         raise InputError(f"samples = {samples} is not a power of two from 8 on")
     drawn, left_out = _inputs(question)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from pydantic import BaseModel
 
 from kaidan.errors import InputError
+from kaidan.modes import CONTACT
 from kaidan.spelling import BEST
 from kaidan.sweeps.parameters import UNDRIVEN, parameter, settled
 from kaidan.terrain.profile import Profile
@@ -179,8 +180,12 @@ class Plan:
     @property
     def chunk_size(self) -> int:
         """Cells of a chunk: the same for the same plan, so that it can be resumed."""
-        flippers = (self.base.get("flippers"), *_values(self.parameters.get("flippers")))
-        most = SEARCHED if BEST in [each for each in flippers if isinstance(each, str)] else STATED
+        flippers = self._all("flippers")
+        searched = not flippers or any(
+            each is None or (isinstance(each, str) and each.strip() == BEST) for each in flippers
+        )
+        plans = searched and CONTACT.name in (self._all("model") or (CONTACT.name,))
+        most = SEARCHED if plans else STATED
         size = min(most, max(1, math.ceil(self.different / CHUNKS)))
         alike = math.prod(
             len(self.rows[dim][0])
@@ -189,6 +194,12 @@ class Plan:
         )
         whole = math.ceil(size / alike) * alike
         return whole if whole <= most else size
+
+    def _all(self, name: str) -> tuple[Any, ...]:
+        """Values that a parameter has; none where nobody gives any."""
+        if name in self.base:
+            return (self.base[name],)
+        return self.parameters[name].values if name in self.parameters else ()
 
     @property
     def chunks(self) -> range:
@@ -236,10 +247,6 @@ class Plan:
 def _plain_rows(one: tuple[Any, ...], other: tuple[Any, ...]) -> bool:
     """Whether one of two dimensions as long as each other has no labels but numbers of rows."""
     return tuple(range(len(one))) in (one, other)
-
-
-def _values(given: Given | None) -> tuple[Any, ...]:
-    return () if given is None else given.values
 
 
 def _axes(name: str, value: Any) -> tuple[Given, dict[str, tuple[Any, ...]]] | None:

@@ -5,6 +5,9 @@ closed form: the margins against tipping are the same, required friction and tra
 and every other finding can only lower a verdict. So a margin of the closed form that is not
 positive excludes a GO, whatever entering and landing come to. The contrary does not hold: a GO, and
 whether it is a CAUTION or a NO-GO, is for the contact model.
+
+Where the end that leads is to be found, both have to be excluded. Where the flippers' posture is,
+nothing is: pressed down or raised they touch what the closed form knows nothing of.
 """
 
 import math
@@ -17,7 +20,7 @@ from kaidan.mechanics.plane import contact_count
 from kaidan.models.closed_form import gap_below
 from kaidan.models.drive_limits import steepest_for_drive
 from kaidan.modes import CONTACT, DRIVE, SLIDES_DOWN, SLIDES_UP, TIPS, Acceptance
-from kaidan.question import Question
+from kaidan.question import FACINGS, Question
 from kaidan.sweeps.pairs import verdicts
 from kaidan.terrain.stairs import Stairs
 
@@ -38,8 +41,8 @@ def applies(question: Question) -> bool:
     Returns
     -------
     bool
-        True for the contact model on a uniform flight, straight on, one stated posture, every
-        input exact or a range, no rotation accepted.
+        True for the contact model on a uniform flight, straight on, one posture and one end that
+        leads, every input exact or a range, no rotation accepted.
     """
     flight = question.terrain
     if not isinstance(flight, Stairs) or flight.rise is None or question.model != CONTACT.name:
@@ -62,10 +65,26 @@ def excluded(questions: Sequence[Question | InputError]) -> list[str | None]:
     questions : sequence of Question or InputError
         One that was refused is not excluded.
     """
+    ways = [_ways(one) if isinstance(one, Question) else () for one in questions]
+    judged = iter(_excluded([way for each in ways for way in each]))
+    found: list[str | None] = []
+    for each in ways:
+        keys = [next(judged) for _ in each]
+        found.append(keys[0] if keys and None not in keys else None)
+    return found
+
+
+def _ways(question: Question) -> tuple[Question, ...]:
+    """Question as it may be driven: the one that is stated, or with either end first."""
+    if question.best_of != ("facing",):
+        return (question,)
+    return tuple(question.changed(best_of=(), facing=facing) for facing in FACINGS)
+
+
+def _excluded(questions: Sequence[Question]) -> list[str | None]:
+    """Failure mode that excludes a GO, of each question; None: it does not."""
     found: list[str | None] = [None] * len(questions)
-    each = [
-        (k, one) for k, one in enumerate(questions) if isinstance(one, Question) and applies(one)
-    ]
+    each = [(k, one) for k, one in enumerate(questions) if applies(one)]
     if not each:
         return found
     inputs = np.array([_inputs(one) for _, one in each]).T

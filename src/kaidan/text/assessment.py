@@ -3,12 +3,12 @@
 from typing import TYPE_CHECKING
 
 from kaidan.modes import FAILURE_MODES, Verdict
-from kaidan.text import dynamic, limits, measuring, traction
+from kaidan.text import dynamic, limits, measuring, plan, traction
 from kaidan.text.unweighed import rows, thresholds
+from kaidan.text.words import subject
 
 if TYPE_CHECKING:
     from kaidan.assessment.answer import Assessment, Change, FindingShown
-    from kaidan.assessment.plan import PlanShown
     from kaidan.models.closed_form_figures import ClosedFormFigures
     from kaidan.models.contact_figures import ContactFigures, RotationFigures
 
@@ -20,8 +20,8 @@ LINES = 8
 def text(answer: "Assessment") -> str:
     """Answer on one screen: the verdict, why, what to do, what decides, what is not known."""
     lines = [headline(answer), f"  {answer.reason}"]
-    if answer.plan is not None and answer.plan.flippers != "stowed":
-        lines.append(_row("posture", posture(answer.plan)))
+    if answer.plan is not None and plan.line(answer.plan):
+        lines.append(_row("posture", plan.line(answer.plan)))
     if answer.centroid is not None:
         lines.append(_row("weighed", thresholds(answer.centroid)))
     if answer.what_would_help:
@@ -47,16 +47,6 @@ def text(answer: "Assessment") -> str:
     return "\n".join(lines[:LINES])
 
 
-def posture(plan: "PlanShown") -> str:
-    """Plan in one line: the posture at the start, and each change."""
-    return "; ".join(
-        step.flippers
-        if step.before_step is None
-        else f"before step {step.before_step} {step.flippers}"
-        for step in plan.steps
-    )
-
-
 def advice(answer: "Assessment") -> str:
     """What to do first, in one line; empty where nothing helps, or need not."""
     if not answer.what_would_help:
@@ -73,12 +63,7 @@ def short(answer: "Assessment") -> str:
 
 def headline(answer: "Assessment") -> str:
     """Verdict, and for whom on what."""
-    question = answer.question
-    names = " ".join(f"{question.robot.name} on {question.terrain_name}".split())
-    return (
-        f"{Verdict(answer.verdict).label}  {names}, {question.direction} "
-        f"{question.facing.replace('-', ' ')}"
-    )
+    return f"{Verdict(answer.verdict).label}  {subject(answer.question)}"
 
 
 def _hardest(answer: "Assessment") -> str:
@@ -115,7 +100,7 @@ def details(answer: "Assessment") -> str:
     question = answer.question
     lines = [headline(answer), f"  {answer.reason}"]
     if answer.plan is not None:
-        lines += ["", "  What to do", *(f"    {line}" for line in plan_lines(answer.plan))]
+        lines += ["", "  What to do", *(f"    {line}" for line in plan.lines(answer.plan))]
     if answer.what_would_help:
         lines += ["", "  What would help"]
         lines += [f"    {change_line(change, answer)}" for change in answer.what_would_help]
@@ -160,21 +145,6 @@ def details(answer: "Assessment") -> str:
     if answer.notes:
         lines += ["", "  Notes", *(f"    {note}" for note in answer.notes)]
     return "\n".join(lines)
-
-
-def plan_lines(plan: "PlanShown") -> "list[str]":
-    """Plan as a list of what to do."""
-    lines = [f"Go {plan.facing.replace('-', ' ')}, flippers {plan.steps[0].flippers}"]
-    for step in plan.steps[1:]:
-        line = f"Stop with the centroid before step {step.before_step}: flippers {step.flippers}"
-        if step.turn_deg is not None:
-            time = "time not known" if step.time_s is None else f"{step.time_s:.1f} s"
-            torque = "" if step.torque_Nm is None else f", {step.torque_Nm:.0f} N m"
-            line += f" ({step.turn_deg:.0f} deg, {time}{torque})"
-        lines.append(line)
-    if plan.holds_within_deg:
-        lines.append(f"The verdict holds within {plan.holds_within_deg:.0f} deg of these angles")
-    return lines
 
 
 def _row(name: str, value: str) -> str:

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-from kaidan.modes import FAILURE_MODES, Undecided, Verdict
+from kaidan.modes import CONTACT, FAILURE_MODES, Undecided, Verdict
 from kaidan.text.tables import screen_width, table
 from kaidan.text.words import heading_of
 
@@ -44,7 +44,10 @@ def conditions(found: "Comparison") -> str:
     if found.acceleration:
         speed = f"{found.acceleration:g} m/s2 up the stairs"
     if found.planned:
-        speed += ", each with the best plan of its flippers"
+        what = (
+            "plan of its flippers" if found.model == CONTACT.name else "of stowed and flat flippers"
+        )
+        speed += f", each with the best {what}"
     ground = found.surface or "friction not stated"
     model = "contact model, from landing to landing"
     if found.model == "closed-form":

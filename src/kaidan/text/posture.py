@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from kaidan.modes import Verdict
-from kaidan.text.assessment import plan_lines
+from kaidan.text import plan
 
 if TYPE_CHECKING:
     from kaidan.models.contact_figures import PhaseFigures
@@ -28,7 +28,7 @@ def text(answer: "PostureAnswer") -> str:
             f"            ask again with --facing {after.facing} --flippers={after.flippers}",
             "",
             "  What to do",
-            *(f"    {line}" for line in plan_lines(answer.plan)),
+            *(f"    {line}" for line in plan.lines(answer.plan)),
         ]
     lines += ["", "  By phase", *(_phase(each) for each in answer.phases)]
     notes = _notes(answer)

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from kaidan.modes import Verdict
+from kaidan.text import plan
 from kaidan.text.event_log import lines_of
 from kaidan.text.tables import fixed, table
 from kaidan.text.words import subject
@@ -29,6 +30,8 @@ def text(found: "TraverseReport") -> str:
         f"{Verdict(answer.verdict).label}  {subject(found.question)}",
         f"  {answer.reason}",
     ]
+    if answer.plan is not None and plan.line(answer.plan):
+        lines += ["", "  What to do", *(f"    {line}" for line in plan.lines(answer.plan))]
     if answer.contact is not None:
         lines += ["", *(f"  {line}" for line in grade_lines(answer.contact.grades))]
         lines += ["", table([_phase(each) for each in answer.contact.phases], _PHASES)]

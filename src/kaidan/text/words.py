@@ -26,4 +26,9 @@ def heading(answer: _Goes) -> str:
 
 def heading_of(direction: str, facing: str) -> str:
     """The same of a direction and a facing."""
-    return f"{direction} {facing.replace('-', ' ')}"
+    return f"{direction} {end_first(facing)}"
+
+
+def end_first(facing: str) -> str:
+    """Which end leads: "nose first"."""
+    return facing.replace("-", " ")

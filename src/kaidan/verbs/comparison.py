@@ -9,11 +9,11 @@ from kaidan.answer import Answer, Part
 from kaidan.assessment import with_plan
 from kaidan.assessment.verdict import conclude
 from kaidan.errors import InputError
-from kaidan.modes import CONTACT, Direction, Facing, Verdict
+from kaidan.modes import Direction, Facing, Verdict
 from kaidan.progress import progress
 from kaidan.question import Question
 from kaidan.robot import Robot
-from kaidan.spelling import BEST, sheet_of
+from kaidan.spelling import sheet_of
 from kaidan.terrain.stairs import Stairs
 
 
@@ -63,7 +63,7 @@ class Comparison(Answer):
     facing: Facing | None
     """Which end leads; null where each cell has its own, as it was found."""
     planned: bool
-    """Whether a plan was found for each cell."""
+    """Whether the flippers' best posture was found for each cell."""
     acceleration: float
     """Up the stairs [m/s^2]."""
     surface: str | None
@@ -109,9 +109,8 @@ def compare(
     stairs : sequence of Stairs, str or path, optional
         Stairs; all of the catalogue without them.
     flippers : Posture or {"best", "flat", "stowed"}, optional
-        Posture of the flippers. Without one the best: the contact model finds a plan for each pair,
-        which end leads too where *facing* is not stated; any other model has them flat, in line
-        with the track where there are some.
+        Posture of the flippers, flat where there are some. Without one the best for each pair,
+        which end leads too where *facing* is not stated.
     **manner
         As in `kaidan.assess`.
 
@@ -140,9 +139,6 @@ def compare(
     flights = [
         sheet_of(each, Stairs) for each in (catalog.names("stairs") if stairs is None else stairs)
     ]
-    if flippers is None:
-        plans = manner.get("model", CONTACT.name) == CONTACT.name and not manner.get("yaw")
-        flippers = BEST if plans else "flat"
     questions = [
         Question.of(robot, flight, flippers=laid(robot, flippers), **manner)
         for flight in flights
@@ -155,7 +151,7 @@ def compare(
         model=first.model,
         direction=first.direction if len(directions) == 1 else None,
         facing=None if "facing" in first.best_of else first.facing,
-        planned=bool(first.best_of),
+        planned=any("flippers" in each.best_of for each in questions),
         acceleration=first.acceleration,
         surface=first.surface.name if first.surface else None,
         robots=[robot.name for robot in known],

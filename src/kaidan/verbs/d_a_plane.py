@@ -147,7 +147,7 @@ def plane(robot: Any, stairs: Any = None, *, accelerate: bool = False, **manner:
     ----------
     Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Figs. 3 and 7, Eqs. (14)-(18).
     """
-    return d_a_plane(Question.ask(robot, stairs, **manner), accelerate=accelerate)
+    return d_a_plane(Question.in_one_posture(robot, stairs, **manner), accelerate=accelerate)
 
 
 def d_a_plane(question: Question, *, accelerate: bool = False) -> Plane:

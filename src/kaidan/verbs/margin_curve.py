@@ -167,7 +167,7 @@ def question_of(robot: Any, **manner: Any) -> Question:
     sheet = sheet_of(robot, Robot)
     spacing = max(0.03, sheet.track.flat_length / 4)
     flight = Stairs.inclined(angle=math.pi / 4, nosing_spacing=spacing, steps=1000)
-    return Question.of(sheet, flight, **manner)
+    return Question.in_one_posture(sheet, flight, **manner)
 
 
 def spacings(

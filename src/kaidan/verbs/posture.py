@@ -98,8 +98,8 @@ def posture(
     """
     if facing is not None:
         manner["facing"] = facing
-    question = Question.ask(robot, stairs, **manner)
-    if question.best_of:
+    question = Question.in_one_posture(robot, stairs, **manner)
+    if "flippers" in question.best_of:
         raise InputError("posture: state the posture to compare with: stowed, flat or angles")
     if question.yaw:
         raise InputError("posture: leave the yaw out; the flippers are judged straight on")

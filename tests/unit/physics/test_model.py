@@ -189,7 +189,7 @@ def test_the_line_of_the_nosings_is_that_of_the_steepest_flight(direction):
     gentle, steep = (
         Stairs(rise=rise, going=0.3, steps=4, upper_landing=1.5) for rise in (0.1, 0.2)
     )
-    question = Question.of(robot(), (gentle, steep), direction=direction)
+    question = Question.in_one_posture(robot(), (gentle, steep), direction=direction)
     course = course_of(TrialSpec(question=question, begin="landing"))
     assert abs(course.slope) == pytest.approx(steep.angle)
     assert course.down == (direction == "down")

@@ -113,7 +113,7 @@ def test_too_smooth_it_runs_away_downhill():
 
 def test_a_rotation_on_the_path_is_no_sliding():
     # it rotates by 14 degrees at each nosing, and loses 0.15 m each time
-    question = Question.of("superdroid-hd2", "ibc", friction=1.0, speed=0.3)
+    question = Question.in_one_posture("superdroid-hd2", "ibc", friction=1.0, speed=0.3)
     trial = TrialSpec(question=question, nosings=4)
     assert run(trial).outcome is Outcome.CLIMBED
 
@@ -212,19 +212,19 @@ def test_acceleration_needs_its_own_traction():
 def test_from_landing_to_landing():
     stairs = Stairs(rise=0.1, going=0.2, steps=4)
     for direction in ("up", "down"):
-        question = Question.of(robot(), stairs, direction=direction, friction=1.0)
+        question = Question.in_one_posture(robot(), stairs, direction=direction, friction=1.0)
         result = run(TrialSpec(question=question, begin="landing"))
         assert result.outcome is Outcome.CLIMBED, direction
 
 
 def test_several_flights_from_landing_to_landing():
     stairs = Stairs(rise=0.1, going=0.2, steps=3, upper_landing=1.2)
-    question = Question.of(robot(), (stairs, stairs), friction=1.0)
+    question = Question.in_one_posture(robot(), (stairs, stairs), friction=1.0)
     assert run(TrialSpec(question=question, begin="landing")).outcome is Outcome.CLIMBED
 
 
 def test_where_it_fails_is_told_by_phase_and_step():
-    question = Question.of("absolem", "ibc", friction=1.0)
+    question = Question.in_one_posture("absolem", "ibc", friction=1.0)
     result = run(TrialSpec(question=question, begin="landing"))
     assert result.outcome is Outcome.FELL_BACKWARD
     assert (result.phase, result.step) == (Phase.ENTER, 1)
@@ -233,7 +233,7 @@ def test_where_it_fails_is_told_by_phase_and_step():
 def test_flippers_decide():
     stairs = Stairs(rise=0.178, going=0.279)
     flat, stowed = (
-        Question.of("absolem", stairs, friction=1.0, speed=0.4, flippers=flippers)
+        Question.in_one_posture("absolem", stairs, friction=1.0, speed=0.4, flippers=flippers)
         for flippers in ("flat", "stowed")
     )
     assert run(TrialSpec(question=flat)).outcome is Outcome.CLIMBED
@@ -241,7 +241,7 @@ def test_flippers_decide():
 
 
 def test_what_takes_too_long_to_simulate_is_refused():
-    long = Question.of(robot(), Stairs(rise=0.1, going=0.2, steps=400), speed=0.01)
+    long = Question.in_one_posture(robot(), Stairs(rise=0.1, going=0.2, steps=400), speed=0.01)
     with pytest.raises(InputError) as refused:
         run(TrialSpec(question=long, begin="landing"))
     assert str(refused.value) == "trial: it takes 2.5 h at 0.01 m/s; at most 1 h is simulated"
@@ -250,7 +250,7 @@ def test_what_takes_too_long_to_simulate_is_refused():
 def test_a_terrain_of_too_many_boxes_is_refused():
     x = np.linspace(0.0, 6.0, 6001)
     rough = np.floor(x / 0.3) * 0.15 + 1e-3 * np.sin(7000 * x)
-    question = Question.of(robot(), Profile.of_points(np.column_stack([x, rough])))
+    question = Question.in_one_posture(robot(), Profile.of_points(np.column_stack([x, rough])))
     with pytest.raises(InputError, match="boxes, more than 5000: cut or thin it"):
         run(TrialSpec(question=question, begin="landing"))
 

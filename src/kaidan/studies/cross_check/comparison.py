@@ -77,7 +77,7 @@ def agree(
     ----------
     Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eqs. (19)-(23), for the closed form.
     """
-    question = Question.ask(robot, stairs, **manner)
+    question = Question.in_one_posture(robot, stairs, **manner)
     put = common(question)
     result = run(trial_of(put, begin))
     traverse = flight_traverse(put)

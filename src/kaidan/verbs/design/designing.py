@@ -64,7 +64,8 @@ def design(
     scheduler, workers, progress
         Of the map, see `kaidan.sweep`.
     **manner
-        Everything else of a question, see `kaidan.Question.of`.
+        Everything else of a question, see `kaidan.Question.of`; the flippers are stowed unless
+        stated.
 
     Returns
     -------
@@ -87,7 +88,7 @@ def design(
     """
     if goal not in GOALS:
         raise InputError(f"goal = {goal!r} is not known; known: {', '.join(GOALS)}")
-    values = {"robot": settled("robot", robot), **manner}
+    values = {"robot": settled("robot", robot), "flippers": "stowed", **manner}
     if manner.get("payload") is not None:
         values["payload"] = settled("payload", manner["payload"])
     each = stairs if isinstance(stairs, list) else [stairs]

@@ -71,7 +71,7 @@ def monitor(
     >>> answer.alarms, round(answer.lowest_margin_deg, 1)
     (1, 5.8)
     """
-    question = Question.ask(robot, stairs, **manner)
+    question = Question.in_one_posture(robot, stairs, **manner)
     watch = Monitor.of(question, limits=limits, strict=strict)
     with ExitStack() as files:
         if isinstance(samples, str | os.PathLike):

@@ -1,0 +1,64 @@
+"""A plan in words: which end leads, how the flippers lie and where they change, what was tried."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from kaidan.modes import MODELS
+from kaidan.text.words import end_first
+
+if TYPE_CHECKING:
+    from kaidan.assessment.plan import PlanShown
+    from kaidan.question import Question
+
+
+def line(plan: "PlanShown") -> str:
+    """Plan in one line: the tail if that leads, posture at the start, each change; or nothing.
+
+    A robot without flippers and states, nose first, has nothing to do.
+    """
+    postures = "; ".join(
+        step.flippers
+        if step.before_step is None
+        else f"before step {step.before_step} {step.flippers}"
+        for step in plan.steps
+    )
+    tail = end_first(plan.facing) if plan.found and plan.facing == "tail-first" else ""
+    return "; ".join(filter(None, (tail, "" if plan.bare else postures)))
+
+
+def lines(plan: "PlanShown") -> list[str]:
+    """Plan as a list of what to do."""
+    start = "" if plan.bare else f", flippers {plan.steps[0].flippers}"
+    each = [f"Go {end_first(plan.facing)}{start}"]
+    for step in plan.steps[1:]:
+        said = f"Stop with the centroid before step {step.before_step}: flippers {step.flippers}"
+        if step.turn_deg is not None:
+            time = "time not known" if step.time_s is None else f"{step.time_s:.1f} s"
+            torque = "" if step.torque_Nm is None else f", {step.torque_Nm:.0f} N m"
+            said += f" ({step.turn_deg:.0f} deg, {time}{torque})"
+        each.append(said)
+    if plan.holds_within_deg:
+        each.append(f"The verdict holds within {plan.holds_within_deg:.0f} deg of these angles")
+    return each
+
+
+def notes(question: "Question", ends: Sequence[str]) -> tuple[str, ...]:
+    """What was tried to find a plan, where that is less than people may take it for.
+
+    Parameters
+    ----------
+    question : Question
+        With the plan.
+    ends : sequence of str
+        Ends that were tried first.
+    """
+    each = []
+    if question.robot.flippers() and not question.plannable:
+        where = "at a yaw" if question.yaw else f"by the {MODELS[question.model].label}"
+        each.append(
+            f"Flippers stowed and flat were tried; {where} no angles are, and none changes on the "
+            "way."
+        )
+    others = [end for end in ends if end != question.facing]
+    each += [f"{end_first(end).capitalize()} was tried too and is no better." for end in others]
+    return tuple(each)
