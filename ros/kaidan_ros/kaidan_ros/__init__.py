@@ -1,0 +1,1 @@
+"""kaidan as a node of ROS 2: `node` speaks ROS, `climb` does not."""
