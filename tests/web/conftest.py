@@ -4,6 +4,7 @@ import os
 import shutil
 import threading
 import time
+from pathlib import Path
 
 import pytest
 
@@ -102,3 +103,9 @@ def opened(chromium, server, viewport):
     context.close()
     assert faults == []
     assert elsewhere == []
+
+
+def pictures():
+    """Folder into which journeys put pictures of what they see; None: nobody asked for them."""
+    place = os.environ.get("KAIDAN_PICTURES")
+    return Path(place) if place else None
