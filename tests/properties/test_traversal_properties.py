@@ -57,8 +57,7 @@ def same(one, two, tolerance, sampled=None):
         if mine is not None:
             assert mine.margin == pytest.approx(theirs.margin, abs=1e-9)
     for name in ("downhill_margin", "uphill_margin") if sampled else ():
-        # beyond 45 deg it decides nothing which of the last nosings is seen to carry
-        mine, theirs = (np.minimum(getattr(each, name), math.radians(45.0)) for each in (one, two))
+        mine, theirs = getattr(one, name), getattr(two, name)
         assert mine == pytest.approx(theirs, abs=sampled, nan_ok=True)
     a, b = one.path.largest_inclination(), two.path.largest_inclination()
     if one.arrived:
@@ -96,8 +95,8 @@ def test_scale(robot, flight, k):
             flat_length=outline.stance.flat_length * k, com_height=outline.stance.com_height * k
         ),
     )
-    # rad: contacts count within 1e-9 m; what poses add to the tilts is in test_extremes
-    same(driven(profile, outline), driven(larger, big, step=k * STEP), 1e-5)
+    # rad: contacts count within 1e-9 m
+    same(driven(profile, outline), driven(larger, big, step=k * STEP), 1e-5, sampled=1e-4)
 
 
 @SETTINGS

@@ -188,7 +188,7 @@ def test_the_path_stands_upright_as_the_nose_climbs_a_riser():
 
 def test_samples_hold_the_path_and_what_lies_between():
     found = driven(Stairs(rise=0.12, going=0.3, steps=5), sharp())
-    samples = samples_of(found.path, found.phase_of_pose, 0.0, whole=True)
+    samples = samples_of(found.path, found.phase_of_pose, 0.0)
     count = len(found.path.poses)
     assert (samples.row[:count] == np.arange(count)).all()
     assert len(samples.row) == len(samples.friction) == len(samples.traction) > count

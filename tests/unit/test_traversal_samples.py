@@ -6,10 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from kaidan.modes import Phase
 from kaidan.traversal.samples import (
-    MOST_PEAKS,
-    _highest_of_three,
     _turns_steadily,
     _upright,
     corners,
@@ -38,68 +35,6 @@ def path(count, **columns):
     return SimpleNamespace(
         poses=poses, s=poses.s, margins=SimpleNamespace(required_friction=friction)
     )
-
-
-def phases(text):
-    """e, t, l: a phase for each pose."""
-    of = {each.value[0]: each.value for each in Phase}
-    return np.array([of[letter] for letter in text])
-
-
-def peaks(friction, text=None, **columns):
-    found = path(len(friction), friction=friction, **columns)
-    return _highest_of_three(found, phases(text or "t" * len(friction))).tolist()
-
-
-def test_a_peak_is_the_highest_of_three():
-    assert peaks([1, 2, 3, 2, 1]) == [2]
-    assert peaks([1, 3, 3, 1]) == [1, 2]  # between two alike
-    assert peaks([3, 2, 1]) == peaks([1, 2, 3]) == []
-    assert peaks([1, 1.00001, 1]) == []  # promises nothing worth it
-
-
-def test_a_peak_must_promise_more_than_the_largest_of_its_phase():
-    """It promises a quarter of what it stands above its lower neighbour: here 2.85 + 0.69."""
-    low = [3.5, 0.1, 2.85, 0.2, 3.5]
-    assert peaks(low) == [2]
-    assert peaks([3.6, *low[1:]]) == []
-    # another phase has its own largest
-    assert peaks([10, 9, 1, 2, 1], "eettt") == [3]
-    assert peaks([1, 2, 1, 9, 10], "tttll") == [1]
-    assert peaks([1, 2, 9, 10, 11], "tteee") == []
-
-
-def test_no_peak_over_an_exchange_or_where_nothing_holds():
-    friction = [1, 2, 3, 2, 1]
-    assert peaks(friction, leg=[0, 0, 0, 1, 1]) == []
-    assert peaks(friction, leg=[0, 0, 1, 1, 1]) == []
-    assert peaks(friction, leg=[0, 1, 1, 1, 2]) == [2]
-    assert peaks(friction, s=[0, 1, 2, 2, 3]) == []
-    inf = math.inf
-    for at in range(5):
-        assert peaks([*friction[:at], inf, *friction[at + 1 :]]) == []
-    assert peaks([inf, 2, 3, 2, inf], "etttl") == [2]
-    assert peaks([1, inf, 3, 2, 1], "eettt") == peaks([1, 2, 3, inf, 1], "tttll") == []
-
-
-def test_the_most_promising_of_many():
-    friction = np.zeros(20)
-    friction[1:14:2] = [5.0, 5.1, 5.6, 5.2, 5.5, 5.3, 5.4]
-    found = peaks(friction)
-    assert found == [5, 9, 13, 11]
-    assert len(found) == MOST_PEAKS
-
-
-def test_what_slides_as_it_lands_is_not_the_largest():
-    """The trailing contact beyond the flat, the path falling: its friction is told apart."""
-    friction = [1, 2, 1, 9, 10]
-    beyond = {
-        "rear_lean": [0.0] * 3 + [0.6] * 2,
-        "path_direction": [-0.5] * 5,
-    }
-    assert peaks(friction, "lllll", **beyond) == [1]
-    assert peaks(friction, "ttttt", **beyond) == []
-    assert peaks(friction, "lllll") == []
 
 
 def test_the_trailing_end_leaves_an_edge():

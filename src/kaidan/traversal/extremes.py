@@ -86,10 +86,10 @@ def phase_extremes(
 ) -> tuple[PhaseExtremes, ...]:
     """Extreme figures of each phase that the traverse has, in their order."""
     rotated = _chain_angles(path, room)
-    samples = samples_of(path, phase, acceleration, whole=whole)
+    samples = samples_of(path, phase, acceleration)
     seen = samples.path
     assert seen.margins is not None
-    places = seen.poses.front_point[:, 0]
+    places, own = seen.poses.front_point[:, 0], len(path.poses)
     top = over_the_top(seen, profile, descending, room)
     closed, comes_back = _closed(path, phase), _comes_back(path)
     # of a pose between two phases the other one judges
@@ -144,11 +144,11 @@ def phase_extremes(
                     (angle for at, angle in rotated if phase[at] == name.value), default=0.0
                 ),
                 tilt_downhill=min(
-                    _rock(seen, downhill_rows, side, profile, descending, acceleration),
+                    _rock(seen, downhill_rows, side, profile, descending, acceleration, own),
                     _rotated(path, phase, name, side, profile, descending, whole),
                 ),
                 tilt_uphill=min(
-                    _rock(seen, uphill_rows, -side, profile, descending, acceleration),
+                    _rock(seen, uphill_rows, -side, profile, descending, acceleration, own),
                     _rotated(path, phase, name, -side, profile, descending, whole),
                 ),
                 belly_touches=bool(of.belly_touches.any()),
@@ -248,10 +248,10 @@ def rises_about_stays(criterion: Criterion, descending: bool) -> tuple[Rise, ...
 
 def _rock(
     path: contact.Path, rows: NDArray[np.int64], side: float, profile: Profile, descending: bool,
-    acceleration: float,
+    acceleration: float, own: int,
 ) -> tuple[float, int]:  # fmt: skip
     """Least tilt at which some poses rotate to one side [rad], and the step."""
-    tilt, row = first_rock(path, rows, side, acceleration=acceleration)
+    tilt, row = first_rock(path, rows, side, own=own, acceleration=acceleration)
     if row < 0:
         return tilt, 0
     return tilt, step_at(profile, float(path.poses.front_point[row, 0]), descending)

@@ -87,7 +87,12 @@ def _straight_pieces(path: contact.Path) -> NDArray[np.int64]:
     if margins is not None:
         contacts, outermost = margins.contacts, margins.outermost
         changes = (outermost[1:] != outermost[:-1]).any(axis=1)
-        pieces &= changes | (contacts[1:] != contacts[:-1])
+        changes |= contacts[1:] != contacts[:-1]
+        # a nosing counts as a contact a little before it comes under the flat: maybe one pose early
+        near = changes.copy()
+        near[1:] |= changes[:-1]
+        near[:-1] |= changes[1:]
+        pieces &= near
     return np.flatnonzero(pieces)
 
 

@@ -18,6 +18,9 @@ from numpy.typing import NDArray
 
 from kaidan import contact
 from kaidan.modes import Phase
+from kaidan.traversal.peaks import peaks_between
+
+Array = NDArray[np.float64]
 
 LARGEST = math.radians(30.0)
 """Largest tilt to a fall that is looked for [rad]: stairs are hardly steeper."""
@@ -28,6 +31,8 @@ _AT_ONCE = 8
 _PLACE = 1e-6
 """To which the place is found where a nosing is left [m]."""
 _TIE = 1e-9
+_WITHIN = 1e-5
+"""Share of the least tilt to which it is found between poses [1]."""
 
 
 class Rock(NamedTuple):
@@ -52,14 +57,14 @@ class Fall(NamedTuple):
 
 
 def first_rock(
-    path: contact.Path, rows: NDArray[np.int64], side: float, *, acceleration: float = 0.0
+    path: contact.Path, rows: NDArray[np.int64], side: float, *, own: int, acceleration: float = 0.0
 ) -> Rock:
     """Least tilt of gravity at which some poses rotate by more than rocking, to one side.
 
     Of nosings under a flat those too carry that it only rests on after rocking. While it rests on
     them it is steeper by that much, so the rocking is subtracted; or they do not count. Where the
     flat leaves such a nosing nothing closes or opens, so that no pose may stand there: the place is
-    halved out between two.
+    halved out between two. So is the place of a least tilt.
 
     Parameters
     ----------
@@ -69,11 +74,47 @@ def first_rock(
         Which poses.
     side : {1.0, -1.0}
         Back or front.
+    own : int
+        Poses at the head of the path that follow one another; the rest lie between two of them.
     acceleration : float
         Along the path [m/s^2].
     """
     if len(rows) == 0:
         return Rock(math.inf, -1)
+    tilts = _tilts(path, rows, side)
+    along = rows < own
+    dips, before = _dips(path, rows[along], tilts.alone[along], side, acceleration)
+    if dips:
+        between = contact.joined(dips)
+        more = _tilts(between, np.arange(len(between.poses)), side)
+        tilts = _Tilts(*(np.append(one, two) for one, two in zip(tilts, more, strict=True)))
+        rows = np.append(rows, before)
+    alone, tilt, rocking = tilts
+    lost, row = _lost_between(path, rows[alone < tilt.min()], rows[rows < own], side, acceleration)
+    if lost < tilt.min():
+        tilt = np.append(tilt, lost)
+        alone, rocking = np.append(alone, lost), np.append(rocking, 0.0)
+        rows = np.append(rows, row)
+    least = float(tilt.min())
+    rocked = least - float(rocking[alone < least].max(initial=0.0))
+    lowest = float(alone.min())
+    if rocked > lowest:
+        return Rock(rocked, int(rows[np.flatnonzero(tilt <= least + _TIE)[0]]))
+    return Rock(lowest, int(rows[np.flatnonzero(alone <= lowest + _TIE)[0]]))
+
+
+class _Tilts(NamedTuple):
+    """Tilts of gravity at which poses rotate to one side [rad]."""
+
+    alone: Array
+    """At all."""
+    tilt: Array
+    """By more than rocking; infinite where it is not the least."""
+    rocking: Array
+    """What it rocks before."""
+
+
+def _tilts(path: contact.Path, rows: NDArray[np.int64], side: float) -> _Tilts:
     alone = path.tilts(rows, side, tolerance=0.0).tilt
     order = np.argsort(alone, kind="stable")
     tilt, rocking = np.full(len(rows), np.inf), np.zeros(len(rows))
@@ -83,16 +124,23 @@ def first_rock(
         done += len(some)
         found = path.tilts(rows[some], side)
         tilt[some], rocking[some] = found.tilt, found.rocking
-    lost, row = _lost_between(path, rows[alone < tilt.min()], rows, side, acceleration)
-    if lost < tilt.min():
-        tilt = np.append(tilt, lost)
-        alone, rocking = np.append(alone, lost), np.append(rocking, 0.0)
-        rows = np.append(rows, row)
-    least = float(tilt.min())
-    rocked = least - float(rocking[alone < least].max(initial=0.0))
-    if rocked > alone[order[0]]:
-        return Rock(rocked, int(rows[np.flatnonzero(tilt <= least + _TIE)[0]]))
-    return Rock(float(alone[order[0]]), int(rows[np.flatnonzero(alone <= alone.min() + _TIE)[0]]))
+    return _Tilts(alone, tilt, rocking)
+
+
+def _dips(
+    path: contact.Path, rows: NDArray[np.int64], alone: Array, side: float, acceleration: float
+) -> tuple[list[contact.Path], NDArray[np.int64]]:
+    """Poses between two at which the tilt may be the least, and the row before each."""
+    values = np.full(len(path.poses), -np.inf)
+    values[rows] = -alone
+    return peaks_between(
+        path,
+        values,
+        np.where(np.isfinite(values), 0, -1),
+        _WITHIN,
+        lambda between: -between.tilts(np.arange(len(between.poses)), side, tolerance=0.0).tilt,
+        acceleration=acceleration,
+    )
 
 
 def _lost_between(
@@ -111,7 +159,7 @@ def _lost_between(
     rocking : ndarray of int
         Poses at which some may be rocked onto.
     rows : ndarray of int
-        Poses that count.
+        Poses that count, each followed by the next of the path.
     """
     onto = rocking[path.tilts(rocking, side).rocking > 0.0]
     begin = np.unique(np.concatenate([onto - 1, onto]))

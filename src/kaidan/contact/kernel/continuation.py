@@ -26,6 +26,14 @@ ARM = 0.3
 CLOSED = 2e-13
 
 
+def distance(x: float, z: float, phi: float, x1: float, z1: float, phi1: float) -> float:
+    """Distance between two poses [m]."""
+    d_x = x1 - x
+    d_z = z1 - z
+    d_w = ARM * (phi1 - phi)
+    return math.sqrt(d_x * d_x + d_z * d_z + d_w * d_w)
+
+
 def tangent(
     ground: GroundTable,
     body: BodyTable,
@@ -154,10 +162,7 @@ def stepped(
             if not good:
                 break
     if good:
-        d_x = x1 - x
-        d_z = z1 - z
-        d_w = ARM * (phi1 - phi)
-        moved = math.sqrt(d_x * d_x + d_z * d_z + d_w * d_w)
+        moved = distance(x, z, phi, x1, z1, phi1)
         if u_x * t_x + u_z * t_z + u_w * t_w < 0.0:
             u_x = -u_x
             u_z = -u_z

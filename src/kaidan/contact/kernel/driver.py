@@ -25,6 +25,9 @@ from kaidan.contact.tables import BodyTable, EventTable, GroundTable, PoseTable,
 
 #: Steps that lead nowhere before the robot counts as stuck.
 IDLE = 20
+#: Inclination at which it has fallen, and how nearly a step is cut there [rad].
+UPRIGHT = 0.5 * math.pi
+NEARLY = 1e-4
 #: Times that the robot may be settled again.
 FAILURES = 50
 
@@ -116,6 +119,14 @@ def drive(
                     ground, body, rear, front, x, z, phi, t_x, t_z, t_w, ds * part, thinnest,
                     a, g, kappa_g, hint,
                 )  # fmt: skip
+        if what == Advance.NOTHING and abs(phi1) > UPRIGHT:
+            # it is driven upright: cut there, linear in the step
+            part = (UPRIGHT - abs(phi)) / (abs(phi1) - abs(phi))
+            what, x1, z1, phi1, u_x, u_z, u_w, r1, f1, hint, ds = advance(
+                ground, body, rear, front, x, z, phi, t_x, t_z, t_w, ds * part, thinnest,
+                a, g, kappa_g, hint,
+            )  # fmt: skip
+            ends = x1 >= x_end and x < x_end
         if what == Advance.NOT_CONVERGED:
             failures += 1
             found, nudge, z, phi, rear, front, t_x, t_z, t_w = settled_again(
@@ -128,13 +139,13 @@ def drive(
             write_event(events, n_event, Event.RESETTLED, path, x, z, phi, rear, front, n_pose - 1)
             n_event += 1
             continue
-        n_pose = record_renamings(
-            ground, body, poses, n_pose, path, x, z, phi, t_x, t_z, t_w, rear, front, r1, f1, ds,
-            leg,
+        n_pose, moved = record_renamings(
+            ground, body, poses, n_pose, path, x, z, phi, t_x, t_z, t_w, rear, front, r1, f1,
+            x1, z1, phi1, ds, leg,
         )  # fmt: skip
         x, z, phi = x1, z1, phi1
         t_x, t_z, t_w, rear, front = u_x, u_z, u_w, r1, f1
-        path += ds
+        path += moved
         if ends and (what == Advance.NOTHING or x >= x_end - 1e-9):
             record_pose(
                 ground, body, poses, n_pose, path, x, z, phi, rear, front, t_x, t_z, t_w, leg
@@ -153,12 +164,13 @@ def drive(
             if idle > IDLE:
                 write_event(events, n_event, Event.STUCK, path, x, z, phi, rear, front, n_pose - 1)
                 return Status.STUCK, n_pose, n_event + 1, n_rotation
-        if what != Advance.NOTHING or path - poses[n_pose - 1, POSE_S] > 0.7 * step:
+        upright = abs(phi) > UPRIGHT - NEARLY
+        if upright or what != Advance.NOTHING or path - poses[n_pose - 1, POSE_S] > 0.7 * step:
             record_pose(
                 ground, body, poses, n_pose, path, x, z, phi, rear, front, t_x, t_z, t_w, leg
             )
             n_pose += 1
-        if abs(phi) > 0.5 * math.pi:
+        if upright:
             status, code = end_of_fall(RotationOutcome.PAST_VERTICAL, phi)
             write_event(events, n_event, code, path, x, z, phi, rear, front, n_pose - 1)
             return status, n_pose, n_event + 1, n_rotation

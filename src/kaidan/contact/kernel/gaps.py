@@ -327,8 +327,13 @@ def on_flat(
     ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
 ) -> bool:
     """Whether a feature is a vertex under the straight underside of its part."""
-    if feature & KIND_MASK != VERTEX:
-        return False
+    return feature & KIND_MASK == VERTEX and flat_room(ground, body, feature, x, z, c, s) >= 0.0
+
+
+def flat_room(
+    ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
+) -> float:
+    """How far a vertex under a part is from the nearer end of its flat [m]; negative: beyond it."""
     part = (feature >> PART_BITS) & PART_MASK
     k = feature >> POINT_BITS
     d_x = ground[k, X] - x
@@ -338,4 +343,4 @@ def on_flat(
     along = a_x * body[part, E_X] + a_z * body[part, E_Z]
     below = body[part, SIDE] * (a_x * body[part, E_Z] - a_z * body[part, E_X])
     w = along * body[part, COSINE] - below * body[part, SINE]
-    return bool(0.0 <= w <= body[part, FLAT])
+    return float(min(w, body[part, FLAT] - w))

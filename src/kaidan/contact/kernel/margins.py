@@ -40,6 +40,7 @@ from kaidan.contact.columns import (
     FRONT_T,
     FRONT_X,
     FRONT_Z,
+    NO_FEATURE,
     OUTER_FRONT,
     OUTER_REAR,
     POSE_FRONT,
@@ -59,6 +60,7 @@ from kaidan.contact.columns import (
     STEEPEST,
     TILT,
     TRACTION,
+    WITHOUT,
     ZMP,
     X,
     Z,
@@ -238,6 +240,7 @@ def margins_at(
     margins[row, ENERGY] = math.nan
     margins[row, ENERGY_SIDE] = math.nan
     margins[row, BOUNDED] = 0.0
+    margins[row, WITHOUT] = NO_FEATURE
 
 
 @entry
@@ -326,6 +329,7 @@ def margins_without(
                     found[kept, column] = found[k, column]
                 kept += 1
         margins_at(poses, row, a, g, found, kept, margins)
+        margins[row, WITHOUT] = without[row]
 
 
 @entry
@@ -405,5 +409,6 @@ def flow_tilts(
         row = rows[k]
         found[k, CARRIED_TO], found[k, ROCKS_BY], hint = carrying_tilt(
             ground, body, int(margins[row, column]), poses[row, POSE_X], poses[row, POSE_Z],
-            poses[row, POSE_PHI], side, margins[row, TILT], tolerance, hint,
+            poses[row, POSE_PHI], side, margins[row, TILT], tolerance,
+            int(margins[row, WITHOUT]), hint,
         )  # fmt: skip

@@ -9,7 +9,8 @@ r"""Where a contact takes another name along a line of poses: the path bends, no
            |
            | face                  |
 
-Normals and forces are continuous there, their changes are not.
+Normals and forces are continuous there, their changes are not. So it is where a corner comes from
+under an end onto the flat, or leaves it.
 """
 
 from __future__ import annotations
@@ -40,8 +41,8 @@ from kaidan.contact.columns import (
     Z,
 )
 from kaidan.contact.entries import entry
-from kaidan.contact.kernel.continuation import ARM, stepped, tangent
-from kaidan.contact.kernel.gaps import FAR, gap, on_flat
+from kaidan.contact.kernel.continuation import ARM, distance, stepped, tangent
+from kaidan.contact.kernel.gaps import FAR, flat_room, gap, on_flat
 from kaidan.contact.kernel.recording import record_pose
 from kaidan.contact.tables import BodyTable, FloatRow, GroundTable, IntArray, PoseTable
 
@@ -50,19 +51,24 @@ PLACE = 1e-9
 
 
 def name_room(
-    ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
-) -> float:
-    """How far a contact may run on before it takes another name [m]; negative: it has run past."""
+    ground: GroundTable, body: BodyTable, feature: int, flat: bool,
+    x: float, z: float, c: float, s: float,
+) -> float:  # fmt: skip
+    """How far a contact may run on before it takes another name, or leaves or meets the flat [m].
+
+    Negative: it has run past. ``flat`` tells whether it was a vertex on the flat.
+    """
     kind = feature & KIND_MASK
     part = (feature >> PART_BITS) & PART_MASK
     k = feature >> POINT_BITS
     if kind == VERTEX:
-        if on_flat(ground, body, feature, x, z, c, s):
-            return FAR
+        on = flat_room(ground, body, feature, x, z, c, s)
+        if flat:
+            return on
         _, n_x, n_z, _, _ = gap(ground, body, feature, x, z, c, s)
         # the normal leans from that of the one segment to that of the other
         behind = n_x * ground[k - 1, U_X] + n_z * ground[k - 1, U_Z]
-        return float(min(behind, -(n_x * ground[k, U_X] + n_z * ground[k, U_Z])))
+        return float(min(-on, behind, -(n_x * ground[k, U_X] + n_z * ground[k, U_Z])))
     j = DISC * (kind - 1)
     to_x = x + c * body[part, j + DISC_X] - s * body[part, j + DISC_Z] - ground[k, X]
     to_z = z + s * body[part, j + DISC_X] + c * body[part, j + DISC_Z] - ground[k, Z]
@@ -89,6 +95,8 @@ def renaming(
     ds: float,
 ) -> float:
     """Arclength within a step at which a contact takes another name [m]: `PLACE` beyond it."""
+    rear_on = on_flat(ground, body, rear, x, z, math.cos(phi), math.sin(phi))
+    front_on = on_flat(ground, body, front, x, z, math.cos(phi), math.sin(phi))
     lo = 0.0
     hi = ds
     weight0 = ds
@@ -105,10 +113,15 @@ def renaming(
         if not good:
             break
         room = min(
-            name_room(ground, body, rear, x1, z1, c, s),
-            name_room(ground, body, front, x1, z1, c, s),
+            name_room(ground, body, rear, rear_on, x1, z1, c, s),
+            name_room(ground, body, front, front_on, x1, z1, c, s),
         )
-        if new_rear == rear and new_front == front:
+        if (
+            new_rear == rear
+            and new_front == front
+            and on_flat(ground, body, rear, x1, z1, c, s) == rear_on
+            and on_flat(ground, body, front, x1, z1, c, s) == front_on
+        ):
             lo = mid
             weight0 = max(min(room, ds), 1e-12)
             weight1 *= 0.5
@@ -135,34 +148,57 @@ def record_renamings(
     front: int,
     new_rear: int,
     new_front: int,
+    x1: float,
+    z1: float,
+    phi1: float,
     ds: float,
     leg: int,
-) -> int:
-    """Write the poses within a step at which a contact takes another name.
+) -> tuple[int, float]:
+    """Write the poses within a step at which a contact takes another name, or passes a flat's end.
+
+    Parameters
+    ----------
+    x1, z1, phi1
+        The pose at the end of the step.
 
     Returns
     -------
-    poses written in all
+    poses written in all, and how far it is from pose to pose over the step [m]
     """
+    c1 = math.cos(phi1)
+    s1 = math.sin(phi1)
     left = ds
+    length = 0.0
     for _ in range(4):
-        if (rear == new_rear and front == new_front) or n_pose >= poses.shape[0] - 2:
+        if n_pose >= poses.shape[0] - 2:
+            break
+        c = math.cos(phi)
+        s = math.sin(phi)
+        if (
+            rear == new_rear
+            and front == new_front
+            and on_flat(ground, body, rear, x, z, c, s)
+            == on_flat(ground, body, rear, x1, z1, c1, s1)
+            and on_flat(ground, body, front, x, z, c, s)
+            == on_flat(ground, body, front, x1, z1, c1, s1)
+        ):
             break
         cut = renaming(ground, body, rear, front, x, z, phi, t_x, t_z, t_w, left)
         if cut > left - 2.0 * PLACE:  # the pose at the end of the step is it
             break
-        good, x, z, phi, _, _, t_x, t_z, t_w, rear, front = stepped(
+        good, x2, z2, phi2, _, _, u_x, u_z, u_w, rear2, front2 = stepped(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, cut
         )
         if not good:
             break
         left -= cut
+        length += distance(x, z, phi, x2, z2, phi2)
+        x, z, phi, t_x, t_z, t_w, rear, front = x2, z2, phi2, u_x, u_z, u_w, rear2, front2
         record_pose(
-            ground, body, poses, n_pose, path + ds - left, x, z, phi, rear, front, t_x, t_z, t_w,
-            leg,
-        )  # fmt: skip
+            ground, body, poses, n_pose, path + length, x, z, phi, rear, front, t_x, t_z, t_w, leg
+        )
         n_pose += 1
-    return n_pose
+    return n_pose, length + distance(x, z, phi, x1, z1, phi1)
 
 
 @entry
@@ -210,7 +246,7 @@ def poses_between(
                 ground, body, rear, front, x, z, phi, t_x, t_z, t_w, min(step, left)
             )
             if good:
-                left -= min(step, left)
+                left -= distance(x, z, phi, x1, z1, phi1)
                 x, z, phi, t_x, t_z, t_w = x1, z1, phi1, u_x, u_z, u_w
                 rear = new_rear
                 front = new_front

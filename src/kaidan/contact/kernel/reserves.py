@@ -137,11 +137,11 @@ def lean(
 
 def next_under_flat(
     ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float,
-    sense: float, end: float, hint: int,
+    sense: float, end: float, without: int, hint: int,
 ) -> tuple[int, float, int]:  # fmt: skip
     """First vertex that comes under a flat within a rotation of ``end`` about a vertex.
 
-    Ends of the parts are passed over: they may touch before, or never.
+    Ends of the parts are passed over: they may touch before, or never. So is the point ``without``.
 
     Returns
     -------
@@ -175,7 +175,7 @@ def next_under_flat(
         hint = k
         new_hint = min(new_hint, k)
         while k < ground.shape[0] - 1 and ground[k, X] <= right:
-            if ground[k, CONVEX] == 1.0 and k != at_k:
+            if ground[k, CONVEX] == 1.0 and k != at_k and k != without:
                 v_x = ground[k, X] - o_x
                 v_z = ground[k, Z] - o_z
                 angle = crossing_angle(
@@ -196,7 +196,7 @@ def next_under_flat(
 
 def carrying_tilt(
     ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float,
-    sense: float, kappa: float, tolerance: float, hint: int,
+    sense: float, kappa: float, tolerance: float, without: int, hint: int,
 ) -> tuple[float, float, int]:  # fmt: skip
     """Tilt of gravity beyond which a pose rotates by more than rocking.
 
@@ -211,6 +211,9 @@ def carrying_tilt(
         +1 nose up, -1 nose down.
     tolerance
         Rotation that is rocking [rad].
+    without
+        Point of the ground that does not count, or -1: the flat is about to reach it, or has left
+        it.
 
     Returns
     -------
@@ -227,7 +230,7 @@ def carrying_tilt(
         if pivot & KIND_MASK == VERTEX:
             limit = math.inf
             closed, angle, hint = next_under_flat(
-                ground, body, pivot, x, z, phi, sense, tolerance - total, hint
+                ground, body, pivot, x, z, phi, sense, tolerance - total, without, hint
             )
         else:
             limit = foot_limit(ground, body, pivot, x, z, phi, sense)
