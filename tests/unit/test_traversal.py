@@ -146,7 +146,7 @@ def test_what_comes_off_lies_beyond_the_flat():
     assert not (off & lies_flat).any()
     assert leans[lies_flat] == pytest.approx(-path.inclination[lies_flat], abs=1e-9)
     going_down = np.sin(path.poses.path_direction) < 0
-    beyond = ~lies_flat & (leans > np.maximum(-path.inclination, 0) + 1e-6)
+    beyond = ~lies_flat & (leans > np.maximum(-path.inclination, 0) + 1e-9)
     assert (off == (beyond & going_down)).all()
     assert off.sum() > 10
 

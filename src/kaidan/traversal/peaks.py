@@ -53,6 +53,17 @@ class _Ways(NamedTuple):
     promise: Array
     """How high the figure may be in between."""
 
+    def those(self, some: Rows | NDArray[np.bool_]) -> "_Ways":
+        return _Ways(self.row[some], self.s[:, some], self.height[:, some], self.promise[some])
+
+    def and_those(self, others: "_Ways") -> "_Ways":
+        return _Ways(
+            np.append(self.row, others.row),
+            np.hstack([self.s, others.s]),
+            np.hstack([self.height, others.height]),
+            np.append(self.promise, others.promise),
+        )
+
 
 def leads_on(path: contact.Path) -> NDArray[np.bool_]:
     """Whether the path leads on from each pose to the next along one line of poses."""
@@ -102,12 +113,12 @@ def peaks_between(
     for _ in range(ROUNDS):
         of = group[pool.row]
         open_ = pool.promise > (largest + _LEAST + tolerance * np.abs(largest))[of]
-        pool = _once(_Ways(*(each[..., open_] for each in pool)), group)
+        pool = _once(pool.those(open_), group)
         if len(pool.row) == 0:
             break
         of = group[pool.row]
         chosen = np.concatenate([np.flatnonzero(of == each)[:AT_ONCE] for each in np.unique(of)])
-        cut = _Ways(*(each[..., chosen] for each in pool))
+        cut = pool.those(chosen)
         ends = path.s[cut.row], path.s[cut.row + 1]
         shares = np.linspace(0.0, 1.0, PIECES + 1)[:, None]
         s = cut.s[1] + shares * (cut.s[2] - cut.s[1])
@@ -122,13 +133,8 @@ def peaks_between(
         s = np.vstack([cut.s[:1], s, cut.s[3:]])
         about = (np.arange(PIECES) + 1 + _FOUR).ravel()
         four = s[about].reshape(4, -1), height[about].reshape(4, -1)
-        kept = np.ones(len(pool.row), dtype=np.bool_)
-        kept[chosen] = False
-        new_ways = _Ways(np.tile(cut.row, PIECES), *four, promise(*four))
-        pool = _Ways(
-            *(np.concatenate([one[..., kept], two], axis=-1)
-              for one, two in zip(pool, new_ways, strict=True))
-        )  # fmt: skip
+        pieces = _Ways(np.tile(cut.row, PIECES), *four, promise(*four))
+        pool = pool.those(np.delete(np.arange(len(pool.row)), chosen)).and_those(pieces)
     return found, np.concatenate(rows)
 
 
@@ -176,7 +182,8 @@ def promise(s: Array, height: Array) -> Array:
     before, after = np.isnan(height[0]), np.isnan(height[3])
     higher = height[1:3].max(axis=0)
     meet = np.where(before, from_ahead, np.where(after, from_behind, meet))
-    return np.maximum(higher, np.where(before & after, higher + NEAR * np.abs(higher), meet))
+    may = np.where(before & after, higher + NEAR * np.abs(higher), meet)
+    return np.asarray(np.maximum(higher, may))
 
 
 def _once(pool: _Ways, group: Rows) -> _Ways:
@@ -184,4 +191,4 @@ def _once(pool: _Ways, group: Rows) -> _Ways:
     kinds = np.vstack([group[pool.row], pool.promise, pool.height[1:3]])
     _, once = np.unique(np.round(kinds, _ALIKE), axis=1, return_index=True)
     once = once[np.argsort(-pool.promise[once], kind="stable")]
-    return _Ways(*(each[..., once] for each in pool))
+    return pool.those(once)

@@ -153,13 +153,14 @@ def _along_ends(path: contact.Path) -> NDArray[np.bool_]:
     There the belt gives way at it up to some height and then no more: two kinks of the friction,
     which may be nearer to one another than the poses.
     """
-    poses, moves = path.poses, np.zeros(len(path.poses) - 1, dtype=np.bool_)
+    poses, on = path.poses, leads_on(path)
+    moves = np.zeros_like(on)
     for features, normal in ((poses.rear, poses.rear_normal), (poses.front, poses.front_normal)):
         corner = contact.FeatureTable.of(features).kind == contact.FeatureKind.VERTEX
         on_body = np.arctan2(normal[:, 0], normal[:, 1]) + poses.inclination
         turns = np.abs(np.diff(on_body)) > _ALIKE
         moves |= turns & (corner[1:] | corner[:-1])
-    return np.asarray(moves & leads_on(path))
+    return np.asarray(moves & on)
 
 
 def _upright(path: contact.Path) -> tuple[Rows, Array]:
