@@ -55,6 +55,8 @@ from kaidan.contact.tables import BodyTable, Four, GroundTable, Pose
 #: A pivot this close to an end disc [m] lies on it: five times the gap at which a rotation ends.
 #: One that lies farther off closes with the segment sqrt(2 off / R) later, at a gap of zero.
 SAME_ARC = 1e-11
+#: Points that the flat meets within this angle of one another [rad] lie in line.
+IN_LINE = 1e-10
 
 
 def out_of_reach(
@@ -87,7 +89,11 @@ def vertex_closing(
     v_z = ground[k, Z] - o_z
     even = v_x * n_x + v_z * n_z
     at = crossing_angle(flat_level, even, sense * (v_z * n_x - v_x * n_z), ce, se, PENETRATED)
-    if at < best:
+    tie = 0.0
+    if which != NO_FEATURE and which & KIND_MASK == VERTEX:
+        # of points in line the outermost: they come in the order of x
+        tie = -sense * IN_LINE
+    if at < best + tie:
         c = math.cos(at)
         s = sense * math.sin(at)
         y_x, y_z = carried(ground, body, pivot, x, z, c0, s0, sense * at, c, s)
