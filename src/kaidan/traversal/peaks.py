@@ -3,7 +3,7 @@ r"""Peaks of a figure between the poses of a path: which may be the largest, and
 ::
 
              x          <- between two poses it is no higher than where the lines through their
-           .' '.           neighbours meet
+           .' '.           outer poses meet
          o       o
        .'         '.
       o             o      o  a pose of the path
@@ -31,7 +31,7 @@ ROUNDS = 8
 PIECES = 8
 """Pieces into which each is cut."""
 NEAR = 0.05
-"""Share of a figure by which it may be higher where its neighbours do not tell [1]."""
+"""Share of a figure by which it may be higher where no line tells [1]."""
 ONE_PLACE = 1e-8
 """Distance of poses that stand at one place, where several contacts are exchanged [m]."""
 _LEAST = 1e-6
@@ -96,7 +96,7 @@ def peaks_between(
     figure : callable
         The figure at the poses of another path.
     narrow : ndarray of bool, optional
-        Whether the way from each pose to the next may hide a peak that its neighbours do not show.
+        Whether the way from each pose to the next may hide a peak that no line tells of.
     acceleration : float
         Along the path [m/s^2].
 
