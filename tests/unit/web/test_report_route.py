@@ -5,14 +5,16 @@ import pytest
 import kaidan
 from kaidan.documents import report_bytes
 
-BODY = {"robot": "kenaf", "stairs": "ibc", "friction": 0.8}
+BODY = {"robot": "kenaf", "stairs": "ibc", "friction": 0.8, "flippers": "stowed"}
 
 
 @pytest.mark.parametrize("form", ["html", "pdf"])
 def test_a_report_is_the_file_of_the_command(client, form):
     answer = client.post("/api/report", json=BODY | {"format": form})
     assert answer.status_code == 200
-    assert answer.content == report_bytes(kaidan.report("kenaf", "ibc", friction=0.8), form)
+    assert answer.content == report_bytes(
+        kaidan.report("kenaf", "ibc", friction=0.8, flippers="stowed"), form
+    )
     assert answer.headers["content-type"].split(";")[0].endswith(form)
     assert answer.headers["content-disposition"] == f'inline; filename="kaidan-report.{form}"'
     assert "script-src" not in answer.headers["content-security-policy"]
