@@ -54,6 +54,16 @@ def test_known_stairs_are_found_by_every_sensor(sensor, pose):
     assert ahead @ heading > math.cos(math.radians(3.5))  # the tilt of the frame, and 1.5 deg
 
 
+@pytest.mark.parametrize("far", [1e3, 1e7, 1e15])
+def test_stray_points_far_away_change_nothing(far):
+    truth = scenes.regular(7, 0.17, 0.28)
+    seen = scenes.seen(scenes.with_stairs(truth), np.random.default_rng(3), away=1.5)
+    seen.xyz[::5000] = far
+    assert the_flight(interpreter.found(cloud(seen), Hints())).regular.spacing == pytest.approx(
+        truth.spacing, abs=0.005
+    )
+
+
 def test_what_of_the_floor_was_seen_is_not_how_long_it_is():
     """A camera at the foot sees half a metre of it and stands on the rest."""
     truth = scenes.regular(7, 0.17, 0.28)

@@ -112,6 +112,8 @@ def _units(points: Points, xyz: Array) -> list[Known]:
 
 
 def _with_unit(points: Points, xyz: Array, unit: Known, metres: float, hints: Hints) -> _Try:
+    # stray points far away would make rasters of any size
+    xyz = xyz[np.abs(xyz - np.median(xyz, axis=0)).max(axis=1, initial=0.0) < EXTENTS[1]]
     eye = None
     if points.viewpoint is not None and (
         points.grid is not None or hints.viewpoint is not None or points.viewpoint.any()
