@@ -1,0 +1,19 @@
+"""CONTRIBUTING shows the house as it is."""
+
+import re
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_every_floor_is_in_the_table():
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    layers = settings["tool"]["importlinter"]["contracts"][0]["layers"]
+    floors = {name for layer in layers for name in layer.split(" | ")} - {"__main__"}
+    lines = (ROOT / "CONTRIBUTING.md").read_text().splitlines()
+    cells = [line.split("|")[1] for line in lines if line.startswith("| `")]
+    told = {name.rstrip("/") for cell in cells for name in re.findall("`([^`]+)`", cell)}
+    assert floors <= told, "a floor of pyproject.toml that CONTRIBUTING does not name"
+    folders = {name for name in told if not name.startswith("tests/")}
+    assert folders <= floors, "a floor that is no more"
