@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.errors import InputError, MissingExtraError
+from kaidan.errors import InputError, MissingExtraError, short, shown
 
 FORMATS = (".mp4", ".gif")
 FRAMES_PER_SECOND = 25
@@ -38,8 +38,8 @@ def film_format(path: Path, what: str) -> str:
     """
     suffix = path.suffix.lower()
     if suffix not in FORMATS:
-        found = f"unknown suffix {path.suffix!r}" if path.suffix else "no suffix"
-        raise InputError(f"{what} {str(path)!r}: {found}; known: {', '.join(FORMATS)}")
+        found = f"unknown suffix {shown(path.suffix)}" if path.suffix else "no suffix"
+        raise InputError(f"{what} {short(path)!r}: {found}; known: {', '.join(FORMATS)}")
     if suffix == ".mp4" and not (find_spec("imageio") and find_spec("imageio_ffmpeg")):
         raise MissingExtraError("a film as .mp4", "video")
     return suffix

@@ -165,6 +165,8 @@ def test_spot_checks_say_how_single_steps_differ():
     ("given", "text"),
     [
         ({"risers": 2}, "risers = 2 is not a whole number within 3 to 10000"),
+        ({"risers": "9" * 5000},
+         f"risers = '{'9' * 56}... is not a whole number within 3 to 10000"),
         (
             {"rises": ["195mm"]},
             "rise check of 195 mm is 25 mm off the 170 mm of the total rise and the number of "

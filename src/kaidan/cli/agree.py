@@ -43,16 +43,16 @@ def agree(
 
     Exit code: 0 all within their bands, 1 not, 2 bad input.
     """
-    from kaidan.errors import InputError
+    from kaidan.errors import InputError, shown
     from kaidan.studies import cross_check
     from kaidan.units import parse
 
     pictures = output.checked(figure)
     if begin not in ("flight", "landing"):
-        raise InputError(f"--begin {begin!r} is not known; known: flight, landing")
+        raise InputError(f"--begin {shown(begin)} is not known; known: flight, landing")
     width = math.degrees(parse(resolution, "angle", option="--resolution"))
     if not 0.01 <= width <= 5.0:
-        raise InputError(f"--resolution {resolution!r} is not within 0.01 to 5 deg")
+        raise InputError(f"--resolution {shown(resolution)} is not within 0.01 to 5 deg")
     found = cross_check.agree(requested, begin=begin, resolution=width)  # type: ignore[arg-type]
 
     def draw() -> "output.Figure":

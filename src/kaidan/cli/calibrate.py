@@ -75,7 +75,7 @@ def compliance(
 
     Exit code: 0 done, whatever is reproduced; 2 bad input.
     """
-    from kaidan.errors import InputError
+    from kaidan.errors import InputError, shown
     from kaidan.studies.calibration import fitting
 
     stiff = _list(stiffness, "stiffness", "--stiffness")
@@ -83,7 +83,7 @@ def compliance(
     grounds = [text.strip() for text in ground.split(",")]
     for text in grounds:
         if text not in fitting.GROUND:
-            raise InputError(f"--ground {text!r} is not known; known: steps, noses")
+            raise InputError(f"--ground {shown(text)} is not known; known: steps, noses")
     from kaidan.robot import Robot
 
     sheet = Robot.named(robot)
@@ -191,14 +191,14 @@ def effects(
     Exit code: 0 done, 2 bad input.
     """
     from kaidan import files
-    from kaidan.errors import InputError
+    from kaidan.errors import InputError, shown
     from kaidan.studies.calibration.effects import effects as found_by
     from kaidan.units import parse
 
     pictures = output.checked(figure, csv)
     parts = about.split(",")
     if len(parts) != 3:
-        raise InputError(f"--about {about!r}: write HEIGHT,SPACING,STIFFNESS")
+        raise InputError(f"--about {shown(about)}: write HEIGHT,SPACING,STIFFNESS")
     kinds = ("length", "length", "stiffness")
     base = [
         round(parse(text.strip(), kind, option="--about"), 9)
@@ -315,10 +315,10 @@ def _list(text: str, kind: str, option: str) -> list[float]:
 def _step(text: str) -> float:
     import math
 
-    from kaidan.errors import InputError
+    from kaidan.errors import InputError, shown
     from kaidan.units import parse
 
     step = math.degrees(parse(text, "angle", option="--step"))
     if not 0.1 <= step <= 5.0:
-        raise InputError(f"--step {text!r} is not within 0.1 to 5 deg")
+        raise InputError(f"--step {shown(text)} is not within 0.1 to 5 deg")
     return step

@@ -152,7 +152,7 @@ def stairs_of(
     steps: int | None,
 ) -> "Stairs":
     """Stairs from a name or from the shape given by options; exactly one of the three ways."""
-    from kaidan.errors import InputError
+    from kaidan.errors import InputError, shown
     from kaidan.spelling import sheet_of
     from kaidan.terrain.stairs import Stairs
     from kaidan.units import parse
@@ -179,7 +179,7 @@ def stairs_of(
         assert nosing_spacing is not None
         slope = parse(angle, "angle", option="--angle")
         if not 0 < slope < 1.5533:
-            raise InputError(f"--angle {angle!r} is not within 0 to 89 deg")
+            raise InputError(f"--angle {shown(angle)} is not within 0 to 89 deg")
         return Stairs.inclined(
             angle=slope,
             nosing_spacing=parse(nosing_spacing, "length", option="--nosing-spacing"),

@@ -154,11 +154,11 @@ def export(spec: "TrialSpec", file: ModelFile) -> None:
     and a yielding belt is rigid there.
     """
     from kaidan import files
-    from kaidan.errors import InputError
+    from kaidan.errors import InputError, short
     from kaidan.physics import mjcf
 
     if file.suffix.lower() != ".xml":
-        raise InputError(f"model {str(file)!r}: a file of MuJoCo ends in .xml")
+        raise InputError(f"model {short(file)!r}: a file of MuJoCo ends in .xml")
     files.write_all({file: mjcf(spec)})
     typer.echo(f"wrote {file}")
 
@@ -181,7 +181,7 @@ def trial(
 
     Exit code: 0 climbed, 1 not, 2 bad input, 3 the simulation diverged.
     """
-    from kaidan.errors import InputError
+    from kaidan.errors import InputError, short
     from kaidan.films import film_format
     from kaidan.physics import record, trial_files
 
@@ -193,7 +193,7 @@ def trial(
     write_log = None if log is None else trial_files.log_writer(log)
     film = None if video is None else film_format(video, "video")
     if picture is not None and picture.suffix.lower() != ".png":
-        raise InputError(f"picture {str(picture)!r}: a picture ends in .png")
+        raise InputError(f"picture {short(picture)!r}: a picture ends in .png")
     found = record(spec)
     contents: output.Contents = {}
     if log is not None and write_log is not None:
@@ -229,12 +229,12 @@ def track_model(
     shoes: int | None = None,
 ) -> "TrackModel":
     """Model of the track from the options that go with its kind."""
-    from kaidan.errors import InputError
+    from kaidan.errors import InputError, shown
     from kaidan.physics import KINDS
     from kaidan.units import parse
 
     if kind not in KINDS:
-        raise InputError(f"--track {kind!r} is not a model; known: {', '.join(KINDS)}")
+        raise InputError(f"--track {shown(kind)} is not a model; known: {', '.join(KINDS)}")
     given: dict[str, Any] = {}
     for option, field, text, what in (
         ("--stiffness", "stiffness", stiffness, "stiffness"),

@@ -28,7 +28,7 @@ def register(app: typer.Typer) -> None:
 def reproduce(out: Folder = None, formats: Formats = None, as_json: options.AsJson = False) -> None:
     """Reproduce the paper: what its text prints, what kaidan computes, and the difference."""
     from kaidan import files
-    from kaidan.errors import InputError
+    from kaidan.errors import InputError, shown
     from kaidan.studies import reproduction
 
     if formats and out is None:
@@ -38,7 +38,9 @@ def reproduce(out: Folder = None, formats: Formats = None, as_json: options.AsJs
 
         for form in formats or ():
             if form not in FORMATS:
-                raise InputError(f"--format {form!r} is not known; known: {', '.join(FORMATS)}")
+                raise InputError(
+                    f"--format {shown(form)} is not known; known: {', '.join(FORMATS)}"
+                )
     found = reproduction.reproduce()
     contents: output.Contents = {}
     if out is not None:

@@ -73,7 +73,7 @@ def _values(name: str, text: str, option: str) -> list[Any]:
 
 def _numbers(word: str, kind: str, option: str) -> list[Any]:
     """One value, one range, or evenly spaced values of LOW..HIGH/COUNT."""
-    from kaidan.errors import InputError
+    from kaidan.errors import InputError, shown
     from kaidan.units import parse, parse_range
 
     ends, slash, count = word.rpartition("/")
@@ -81,7 +81,8 @@ def _numbers(word: str, kind: str, option: str) -> list[Any]:
         low, high = parse_range(ends, kind, option=option)
         if not count.strip().isdigit() or not 2 <= int(count) <= _MOST_VALUES:
             raise InputError(
-                f"{option} {word!r}: write LOW..HIGH/COUNT with a count of 2 to {_MOST_VALUES:,}"
+                f"{option} {shown(word)}: write LOW..HIGH/COUNT with a count of 2 to "
+                f"{_MOST_VALUES:,}"
             )
         last = int(count) - 1
         spaced = [low + (high - low) * k / last for k in range(last + 1)]

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from kaidan.errors import InputError
+from kaidan.errors import InputError, short, shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -26,8 +26,8 @@ def document_format(path: Path) -> str:
     suffix = path.suffix.lower().removeprefix(".")
     if suffix not in FORMATS:
         known = ", ".join(f".{name}" for name in FORMATS)
-        what = f"unknown suffix {path.suffix!r}" if path.suffix else "no suffix"
-        raise InputError(f"report {str(path)!r}: {what}; known: {known}")
+        what = f"unknown suffix {shown(path.suffix)}" if path.suffix else "no suffix"
+        raise InputError(f"report {short(path)!r}: {what}; known: {known}")
     return suffix
 
 
@@ -67,7 +67,7 @@ def report_bytes(found: "Report", form: str) -> bytes:
         return pages(
             document(found), {key: figure_bytes(each, "png") for key, each in _figures(found)}
         )
-    raise InputError(f"report: format {form!r} is not known; known: {', '.join(FORMATS)}")
+    raise InputError(f"report: format {shown(form)} is not known; known: {', '.join(FORMATS)}")
 
 
 def _figures(found: "Report") -> "Iterator[tuple[str, Figure]]":

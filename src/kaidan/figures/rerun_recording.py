@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.errors import InputError, needed
+from kaidan.errors import InputError, needed, short
 from kaidan.figures import side_view
 from kaidan.figures.style import Array
 
@@ -53,7 +53,7 @@ def recording_file(path: Path) -> Path:
         ``kaidan[rerun]`` is not installed.
     """
     if path.suffix.lower() != SUFFIX:
-        raise InputError(f"--rerun {str(path)!r}: a recording of Rerun ends in {SUFFIX}")
+        raise InputError(f"--rerun {short(path)!r}: a recording of Rerun ends in {SUFFIX}")
     needed("rerun", "a recording of Rerun", "rerun")
     return path
 

@@ -4,7 +4,7 @@ import io
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from kaidan.errors import InputError
+from kaidan.errors import InputError, short, shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -31,8 +31,8 @@ def figure_format(path: Path) -> str:
     suffix = path.suffix.lower().removeprefix(".")
     if suffix not in FORMATS:
         known = ", ".join(f".{name}" for name in FORMATS)
-        what = f"unknown suffix {path.suffix!r}" if path.suffix else "no suffix"
-        raise InputError(f"figure {str(path)!r}: {what}; known: {known}")
+        what = f"unknown suffix {shown(path.suffix)}" if path.suffix else "no suffix"
+        raise InputError(f"figure {short(path)!r}: {what}; known: {known}")
     return suffix
 
 

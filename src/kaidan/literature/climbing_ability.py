@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from kaidan.errors import InputError
+from kaidan.errors import InputError, shown
 from kaidan.literature.entering import Ends, ends_of, first_step, start_friction
 from kaidan.mechanics.drive import drive_force
 from kaidan.mechanics.margin import (
@@ -106,7 +106,7 @@ class ClimbingAbility:
         for condition in self.conditions:
             if condition.name == name:
                 return condition
-        raise InputError(f"condition {str(name)!r} is not known; known: {', '.join(Name)}")
+        raise InputError(f"condition {shown(str(name))} is not known; known: {', '.join(Name)}")
 
 
 def climbing_conditions(

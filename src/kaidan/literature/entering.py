@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from kaidan.errors import InputError
+from kaidan.errors import InputError, shown
 from kaidan.mechanics import Number
 from kaidan.mechanics.transitions import (
     best_inclination,
@@ -232,7 +232,7 @@ def ends_of(robot: Robot, stance: Stance, facing: str = "nose-first") -> Ends:
         Another facing.
     """
     if facing not in ("nose-first", "tail-first"):
-        raise InputError(f"facing = {facing!r} is not known; known: nose-first, tail-first")
+        raise InputError(f"facing = {shown(facing)} is not known; known: nose-first, tail-first")
     L, C_L = stance.flat_length, stance.com_from_front
     longer = {
         "front": stance.front_extension > 0,

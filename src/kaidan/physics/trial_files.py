@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from kaidan import files
-from kaidan.errors import InputError, MissingExtraError, needed
+from kaidan.errors import InputError, MissingExtraError, needed, short, shown
 from kaidan.films import film_bytes
 from kaidan.physics.outcome import TrialLog
 
@@ -27,8 +27,8 @@ def log_writer(path: Path) -> Callable[[TrialLog], bytes]:
     """
     suffix = path.suffix.lower()
     if suffix not in LOGS:
-        found = f"unknown suffix {path.suffix!r}" if path.suffix else "no suffix"
-        raise InputError(f"log {str(path)!r}: {found}; known: {', '.join(LOGS)}")
+        found = f"unknown suffix {shown(path.suffix)}" if path.suffix else "no suffix"
+        raise InputError(f"log {short(path)!r}: {found}; known: {', '.join(LOGS)}")
     if suffix == ".csv":
         return lambda log: files.csv_text(log.table()).encode("ascii")
     if find_spec("pyarrow") is None:

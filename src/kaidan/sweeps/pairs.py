@@ -114,7 +114,7 @@ def verdicts(
     if engine == "auto":
         engine = "compiled" if compiled.available() else "numpy"
     if engine not in ("numpy", "compiled"):
-        raise InputError(f"engine = {engine!r} is not known; known: auto, numpy, compiled")
+        raise InputError(f"engine = {shown(engine)} is not known; known: auto, numpy, compiled")
     kernel = _compiled_kernel() if engine == "compiled" else _numpy_kernel
     step = _CHUNK[engine]
     flat_in = [_chunks(array, shape, step) for array in arrays.values()]

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from kaidan.errors import InputError, needed
+from kaidan.errors import InputError, needed, shown
 from kaidan.mechanics.plane import contact_count
 from kaidan.mechanics.verdict import Judged
 from kaidan.models.closed_form import MODES, gap_below
@@ -121,7 +121,7 @@ def formula_table(
     unknown = set(parameters) - set(PARAMETERS)
     if unknown:
         raise InputError(
-            f"unknown parameter {sorted(unknown)[0]!r}; known: {', '.join(PARAMETERS)}"
+            f"unknown parameter {shown(sorted(unknown)[0])}; known: {', '.join(PARAMETERS)}"
         )
     given = {name: _labelled(name, value) for name, value in parameters.items()}
     if surface is not None and "friction" in given:

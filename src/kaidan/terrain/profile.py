@@ -14,7 +14,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kaidan.errors import InputError
+from kaidan.errors import InputError, shown
 from kaidan.terrain.doubt import (
     common_doubts,
     covariance_as_stated,
@@ -184,7 +184,7 @@ class Profile:
         """
         extra = set(table) - {"name", "points", "overhangs", "open_risers", "sigma", "covariance"}
         if extra:
-            raise InputError(f"profile: {sorted(extra)[0]!r} is not a known field")
+            raise InputError(f"profile: {shown(sorted(extra)[0])} is not a known field")
         made = cls.of_points(
             table["points"],
             name=str(table.get("name", "profile")),

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from kaidan import catalog
 from kaidan.allowance import AllowanceShown
 from kaidan.answer import Answer, Part
-from kaidan.errors import InputError
+from kaidan.errors import InputError, shown
 from kaidan.mechanics.margin import theta_s_inf, theta_s_sup, theta_s_sup_corrected
 from kaidan.mechanics.plane import contact_count, two_contacts_remain
 from kaidan.models.closed_form import judge
@@ -198,7 +198,7 @@ def spacings(
 def _spacing(stated: float | str, option: str) -> float:
     value, other = range_of(stated, "length", option=option)
     if value != other or not SPACINGS[0] <= value <= SPACINGS[1]:
-        raise InputError(f"{option} {stated!r} is not within 10mm to 5m")
+        raise InputError(f"{option} {shown(stated)} is not within 10mm to 5m")
     return value
 
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import Any, ClassVar, Literal
 
 from kaidan.answer import Answer
-from kaidan.errors import InputError
+from kaidan.errors import InputError, shown
 from kaidan.mechanics.weighing import (
     combined_uncertainty,
     local_angle_deviation,
@@ -195,7 +195,7 @@ def measure_stairs(
 
 def _count(risers: Any) -> int:
     if isinstance(risers, bool) or not isinstance(risers, int) or not 3 <= risers <= 10_000:
-        raise InputError(f"risers = {risers!r} is not a whole number within 3 to 10000")
+        raise InputError(f"risers = {shown(risers)} is not a whole number within 3 to 10000")
     return risers
 
 

@@ -5,7 +5,7 @@ from os import PathLike, fspath
 from typing import Any, ClassVar
 
 from kaidan.answer import Answer, Part
-from kaidan.errors import InputError, short
+from kaidan.errors import InputError, short, shown
 from kaidan.modes import Verdict
 from kaidan.override import paths_of
 from kaidan.progress import working
@@ -210,7 +210,7 @@ def _numbers(name: str, given: Any, count: int) -> tuple[float, ...] | None:
     except (TypeError, ValueError):
         values = ()
     if len(values) != count:
-        raise InputError(f"{name} = {given!r} is not {count} numbers with commas between them")
+        raise InputError(f"{name} = {shown(given)} is not {count} numbers with commas between them")
     return values
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from kaidan.errors import InputError
+from kaidan.errors import InputError, shown
 from kaidan.modes import CONTACT, Verdict
 from kaidan.sweeps.parameters import question_of, settled
 from kaidan.sweeps.plan import Plan
@@ -87,7 +87,7 @@ def design(
     ('go', 0.0656)
     """
     if goal not in GOALS:
-        raise InputError(f"goal = {goal!r} is not known; known: {', '.join(GOALS)}")
+        raise InputError(f"goal = {shown(goal)} is not known; known: {', '.join(GOALS)}")
     values = {"robot": settled("robot", robot), "flippers": "stowed", **manner}
     if manner.get("payload") is not None:
         values["payload"] = settled("payload", manner["payload"])

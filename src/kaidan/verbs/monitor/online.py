@@ -7,7 +7,7 @@ from typing import Literal, Self
 
 import numpy as np
 
-from kaidan.errors import InputError
+from kaidan.errors import InputError, shown
 from kaidan.literature.tipover import Motion, Outlook
 from kaidan.mechanics.loads import zero_moment_point
 from kaidan.mechanics.measures import zero_moment_margin
@@ -90,7 +90,7 @@ class Monitor:
         strict: bool = False,
     ) -> None:
         if nose not in ("up", "down"):
-            raise InputError(f"nose = {nose!r} is not known; known: up, down")
+            raise InputError(f"nose = {shown(nose)} is not known; known: up, down")
         stance = robot.stance(posture, payload)
         self.strict = strict
         self._alarm = Alarm(AlarmLimits() if limits is None else limits)
