@@ -112,7 +112,7 @@ def found_of(question: Question, limits: tuple[float, float] = LIMITS) -> Found:
     tried = 0
     for facing in facings:
         search = Search(short, facing, limits)
-        plans.append(_sturdiest(search))
+        plans.append(_sturdiest(search, plans[-1].worst if plans else None))
         tried += len(search.scores.known)
         if plans[-1].sturdy and plans[-1].judged.conclusion.verdict is Verdict.GO:
             break
@@ -126,8 +126,9 @@ def _on_the_whole(
     """First of some plans whose verdict the whole terrain, pose by pose, does not lower."""
     each = []
     for plan in plans:
+        tested = plan if plan.tested else plan.judged_off()
         question = plan.judged.question.changed(terrain=stated.terrain)
-        each.append((judged_of(question, judge(question)), plan))
+        each.append((judged_of(question, judge(question)), tested))
         if each[-1][0].merit[0] >= plan.judged.merit[0]:
             break
     whole, plan = max(each, key=lambda one: one[0].merit[0])
@@ -139,15 +140,25 @@ class _Off(NamedTuple):
 
     judged: Judged
     worst: Standing
-    """Merit with the worst verdict off its angles."""
+    """Merit with the worst verdict off its angles, or with a better one where it is not tested."""
+    tested: bool
+    """Whether every way off its angles was judged that may be the worst."""
 
     @property
     def sturdy(self) -> bool:
+        """Whether its verdict holds off its angles."""
         return self.worst == self.judged.merit
 
+    def judged_off(self) -> "_Off":
+        """The same, tested."""
+        return _judged_off(self.judged, None)
 
-def _sturdiest(search: Search) -> _Off:
-    """Best plan of a search: the most promising off their angles, judged in one go."""
+
+def _sturdiest(search: Search, beaten: Standing | None) -> _Off:
+    """Best plan of a search: the most promising off their angles, judged in one go.
+
+    Of plans that are no better than what is beaten it is any.
+    """
     hopes = search.hopes()
     first = max(hopes, key=lambda hope: hope.merit)
     chosen = dict.fromkeys([*_best_off(search, hopes, FINALISTS - 1), first.plan])
@@ -155,11 +166,12 @@ def _sturdiest(search: Search) -> _Off:
     finalists.sort(key=lambda each: each.merit, reverse=True)
     best: _Off | None = None
     for each in finalists:
-        worst = _worst_off(each, None if best is None else best.worst)
-        if best is None or worst > best.worst:
-            best = _Off(each, worst)
+        found = _judged_off(each, beaten)
+        if best is None or found.worst > best.worst:
+            best = found
         if best.sturdy:
             break
+        beaten = best.worst if beaten is None else max(beaten, best.worst)
     assert best is not None
     return best
 
@@ -175,14 +187,16 @@ def _best_off(search: Search, hopes: Sequence[Hope], count: int) -> list[Plan]:
     return [plan for *_, plan in best]
 
 
-def _worst_off(plan: Judged, beaten: Standing | None) -> Standing:
-    """Merit with the worst verdict off its angles; no more than what is beaten is looked for."""
+def _judged_off(plan: Judged, beaten: Standing | None) -> _Off:
+    """A plan judged off its angles, as long as its verdict may be better than what is beaten."""
     worst = plan.merit
     for off in off_angles(plan.question):
         if beaten is not None and worst <= beaten:
-            break
+            return _Off(plan, worst, tested=False)
         worst = (min(worst[0], _judged(off).merit[0]), *plan.merit[1:])
-    return worst
+        if worst != plan.merit and worst[0] <= -Verdict.NO_GO.rank:
+            break
+    return _Off(plan, worst, tested=True)
 
 
 def _fixed(question: Question, facings: tuple[Facing, ...]) -> Found:

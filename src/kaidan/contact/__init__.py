@@ -38,7 +38,7 @@ from kaidan.contact.switch import (
     without_native,
 )
 from kaidan.contact.tables import body_table, ground_table, mirror
-from kaidan.contact.traversing import STEP, plain_seconds, traverse, traverse_many
+from kaidan.contact.traversing import STEP, arrives, plain_seconds, traverse, traverse_many
 
 __all__ = [
     "BELLY",
@@ -71,6 +71,7 @@ __all__ = [
     "Summaries",
     "Tilts",
     "TouchingHeights",
+    "arrives",
     "body_table",
     "ground_table",
     "joined",

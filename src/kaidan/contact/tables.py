@@ -79,6 +79,8 @@ COLLINEAR = 1e-11
 #: Discs are never sharper than this [m]: a rounding of a millimetre, drawn inside the part so that
 #: its flat stays where it is, gives every contact a normal.
 SHARPEST = 1e-3
+#: What a part may be.
+KINDS = frozenset(float(kind) for kind in PartKind)
 #: How far the first and last segments are continued [m].
 BEYOND = 30.0
 
@@ -205,7 +207,7 @@ def body_table(parts: ArrayLike, kinds: ArrayLike | None = None) -> FloatArray:
     if (rows[:, [R1, R2]] < 0).any():
         raise ValueError("parts: radii must not be negative")
     kind = np.zeros(len(rows)) if kinds is None else np.array(kinds, dtype=np.float64)
-    if kind.shape != (len(rows),) or not np.isin(kind, tuple(PartKind)).all():
+    if kind.shape != (len(rows),) or not KINDS.issuperset(kind.tolist()):
         raise ValueError("kinds: one of 0 (track), 1 (flipper), 2 (belly) for each part")
     table = np.zeros((len(rows), BODY_COLUMNS))
     for row, (x1, z1, r1, x2, z2, r2) in enumerate(rows.tolist()):

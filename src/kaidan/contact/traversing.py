@@ -132,6 +132,36 @@ def traverse(
     )
 
 
+def arrives(
+    terrain: ArrayLike,
+    parts: ArrayLike,
+    x_start: float,
+    x_end: float,
+    *,
+    kinds: ArrayLike | None = None,
+    inclination: float = 0.0,
+    acceleration: float = 0.0,
+    tilt: float = 0.0,
+    gyration: float = 0.2,
+    step: float = STEP,
+) -> bool:
+    """Whether the robot gets from one place to another; parameters as for :func:`traverse`.
+
+    Examples
+    --------
+    >>> floor, robot = [[-4, 0], [4, 0]], [[-0.3, 0, 0.06, 0.2, 0, 0.06]]
+    >>> [arrives(floor, robot, 0.0, 0.5, tilt=tilt) for tilt in (0.0, 1.4)]
+    [True, False]
+    """
+    ground, body = ground_of(terrain), body_of(parts, kinds)
+    status, *_ = kernel().drive(
+        ground, body, x_start, x_end, inclination, step, acceleration,
+        STANDARD_GRAVITY * math.cos(tilt), math.tan(tilt), gyration,
+        *path_scratch(most_poses(x_end - x_start, step, len(ground))),
+    )  # fmt: skip
+    return bool(status == Status.OK)
+
+
 def traverse_many(
     terrains: Sequence[ArrayLike],
     robots: Sequence[ArrayLike],

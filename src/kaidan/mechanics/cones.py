@@ -79,12 +79,14 @@ def cone_margin(
         for forces, alpha, phi in ((first, alpha_1, phi_1), (second, alpha_2, phi_2))
         for side in (1.0, -1.0)
     ]
+    # a row an edge
+    bounds = [np.stack(np.broadcast_arrays(*each, d)[:4]) for each in zip(*edges, strict=True)]
     high = np.minimum(phi_1, phi_2) + 0.0 * d
     low = np.maximum(phi_1, phi_2) - 0.5 * np.pi + 1e-3 + 0.0 * d
-    never = ~_holds(edges, np.tan(low))
+    never = ~_holds(bounds, np.tan(low))
     for _ in range(18):
         middle = 0.5 * (low + high)
-        holds = _holds(edges, np.tan(middle))
+        holds = _holds(bounds, np.tan(middle))
         low, high = np.where(holds, middle, low), np.where(holds, high, middle)
     return np.where(never, -np.inf, low)
 
@@ -107,16 +109,12 @@ def _edge(
     )
 
 
-def _holds(edges: list[tuple[Number, ...]], t: Number) -> Number:
+def _holds(bounds: list[Number], t: Number) -> Number:
     """Whether some inner force keeps both forces within cones narrower by arctan(t)."""
-    least: Number = -np.inf
-    most: Number = np.inf
-    possible: Number = True
-    for a, b, c, d in edges:
-        constant, slope = a - b * t, c - d * t
-        flat = np.abs(slope) < 1e-12
-        bound = -constant / np.where(flat, 1.0, slope)
-        possible = possible & (~flat | (constant >= 0.0))
-        least = np.where((slope > 0.0) & ~flat, np.maximum(least, bound), least)
-        most = np.where((slope < 0.0) & ~flat, np.minimum(most, bound), most)
-    return possible & (least <= most)
+    a, b, c, d = bounds
+    constant, slope = a - b * t, c - d * t
+    flat = np.abs(slope) < 1e-12
+    bound = -constant / np.where(flat, 1.0, slope)
+    least = np.where(~flat & (slope > 0.0), bound, -np.inf).max(axis=0)
+    most = np.where(~flat & (slope < 0.0), bound, np.inf).min(axis=0)
+    return (~flat | (constant >= 0.0)).all(axis=0) & (least <= most)

@@ -7,7 +7,7 @@ drives towards +x; going down, the profile is reflected so that the path still l
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from kaidan.mechanics.rearing import rear_length_margin
 from kaidan.outline import Outline
 from kaidan.terrain.profile import Profile
 from kaidan.traversal.driving import criterion_of as criterion_of
-from kaidan.traversal.driving import drive, refuse_too_long, span, whole_of
+from kaidan.traversal.driving import refuse_too_long, span, way, whole_of
 from kaidan.traversal.events import TraverseEvent as TraverseEvent
 from kaidan.traversal.events import traverse_events
 from kaidan.traversal.extremes import PhaseExtremes as PhaseExtremes
@@ -133,20 +133,23 @@ class Traverse:
 
     def _fall(self, *, downhill: bool) -> Fall:
         back = 1.0 if downhill is not self.descending else -1.0
-        fallen = self.path
+        there = way(self.profile, self.outline, self.start, self.until)
+        manner: dict[str, Any] = {"acceleration": self.acceleration, "step": self.step}
+        falls_at = 0.0
 
         def survives(tilt: float) -> bool:
-            nonlocal fallen
-            path = self.path if tilt == 0.0 else drive(
-                self.profile, self.outline, self.start, self.until,
-                acceleration=self.acceleration, tilt=back * tilt, step=self.step,
-                with_margins=False,
-            )  # fmt: skip
-            if path.status is not contact.Status.OK and self.arrived:
-                fallen = path
-            return path.status is contact.Status.OK
+            nonlocal falls_at
+            if tilt == 0.0:
+                return self.arrived
+            if contact.arrives(**there, **manner, tilt=back * tilt):
+                return True
+            falls_at = back * tilt
+            return False
 
         tilt = largest_survived(survives)
+        fallen = self.path
+        if self.arrived and falls_at:
+            fallen = contact.traverse(**there, **manner, tilt=falls_at, with_margins=False)
         if len(fallen.poses) == 0:
             return Fall(tilt, Phase.ENTER, 0)
         phase = phases_of(fallen, self.profile, self.descending, self.outline.stance.flat_length)
@@ -322,10 +325,9 @@ def traverse(
     if start is not None or until is not None:
         criterion = criterion.within(*((-x_end, -x_start) if driven.falls else (x_start, x_end)))
     refuse_too_long(driven, body, (x_start, x_end), step)
-    path = drive(
-        driven, body, start, until,
-        acceleration=along, step=step, with_margins=with_margins,
-        with_energy=with_energy,
+    path = contact.traverse(
+        **way(driven, body, start, until), acceleration=along, step=step,
+        with_margins=with_margins, with_energy=with_energy,
     )  # fmt: skip
     room = body.stance.flat_length
     phase = phases_of(path, driven, descending, room)

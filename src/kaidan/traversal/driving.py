@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from kaidan import contact
 from kaidan.errors import InputError
 from kaidan.outline import Outline
 from kaidan.terrain.profile import Profile
-from kaidan.traversal.phases import uneven_span
+from kaidan.traversal.phases import REMEMBERED, uneven_span
 from kaidan.traversal.static_criterion import Criterion, Tread, static_criterion
 
 Array = NDArray[np.float64]
@@ -40,28 +41,29 @@ def span(
 def ground_for(driven: Profile, bodies: Sequence[Outline]) -> Array:
     """Points of a profile whose landings are as long as these bodies take [m]."""
     # whole metres: one ground for most bodies
-    clear = max(math.ceil(sum(body.reach) + 1.0) for body in bodies)
+    return _lengthened(driven, max(math.ceil(sum(body.reach) + 1.0) for body in bodies))
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _lengthened(driven: Profile, clear: int) -> Array:
     ends = driven.points[[0, -1]] + np.array([[-clear, 0.0], [clear, 0.0]])
     return np.vstack([ends[0], driven.points, ends[1]])
 
 
-def drive(
-    driven: Profile,
-    body: Outline,
-    start: contact.Placement | None,
-    until: float | None,
-    **manner: Any,
-) -> contact.Path:
-    """Path over a profile whose landings are as long as it takes, or over a part of it."""
-    return contact.traverse(
-        ground_for(driven, [body]),
-        body.parts,
-        *span(driven, body, start, until),
-        kinds=body.kinds,
-        inclination=0.0 if start is None else start.inclination,
-        gyration=body.gyration,
-        **manner,
-    )
+def way(
+    driven: Profile, body: Outline, start: contact.Placement | None, until: float | None
+) -> dict[str, Any]:
+    """Arguments of `kaidan.contact.traverse` for a robot's way over a profile."""
+    x_start, x_end = span(driven, body, start, until)
+    return {
+        "terrain": ground_for(driven, [body]),
+        "parts": body.parts,
+        "kinds": body.kinds,
+        "x_start": x_start,
+        "x_end": x_end,
+        "inclination": 0.0 if start is None else start.inclination,
+        "gyration": body.gyration,
+    }
 
 
 def criterion_of(driven: Profile, body: Outline, along: float) -> tuple[Tread, Criterion]:

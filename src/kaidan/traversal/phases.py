@@ -1,6 +1,7 @@
 """Parts of a traverse: entering, traversing, landing, and the numbers of its steps."""
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,11 +12,14 @@ from kaidan.terrain.profile import Profile
 
 Array = NDArray[np.float64]
 
+REMEMBERED = 16
+"""Profiles of which spans and the like are remembered: one is driven again and again."""
 _ON = 1e-6
 _LEVEL = 1e-9
 """Height by which points of level ground may differ [m]: rounding."""
 
 
+@lru_cache(maxsize=REMEMBERED)
 def uneven_span(profile: Profile) -> tuple[float, float]:
     """Where the level ground before ends and the level ground behind begins: all that is driven.
 

@@ -115,6 +115,8 @@ def _tips(
     driven: Profile, part: Part, ends: tuple[float, float], along: float
 ) -> tuple[float, float]:
     """Least margins of the criterion downhill and uphill [rad]."""
+    if part.outline.stance.tips_below:
+        return math.inf, math.inf
     tread, criterion = criterion_of(driven, part.outline, along)
     if not whole_of(tread, criterion, part.outline):
         return math.inf, math.inf
