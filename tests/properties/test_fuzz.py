@@ -344,7 +344,7 @@ def fuzz(seeds, folder, monkeypatch):
             codes += run_it(seed, folder) != 2
     # not everything is refused at the door
     assert answered > len(seeds) / 20
-    assert codes > len(seeds) / 100
+    assert codes > len(seeds) / 150  # many commands ask for files of their own
 
 
 def test_random_calls_end_in_an_answer_or_in_one_line(tmp_path, monkeypatch):
