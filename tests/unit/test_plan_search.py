@@ -8,7 +8,14 @@ import pytest
 
 import kaidan
 from kaidan.assessment.answer import Assessment
-from kaidan.assessment.plan_search import LIMITS, TOLERANCE, found_of, off_angles, shortened
+from kaidan.assessment.plan_search import (
+    LIMITS,
+    TOLERANCE,
+    found_of,
+    holds_off_its_angles,
+    off_angles,
+    shortened,
+)
 from kaidan.errors import InputError
 from kaidan.models import judge
 from kaidan.modes import Verdict
@@ -266,3 +273,16 @@ def test_one_posture_throughout_is_the_better_of_stowed_and_flat():
         assert any(note.startswith("Flippers stowed and flat were tried;") for note in found.notes)
     trial = Question.of("absolem", STAIRS, friction=1.2, model="physics")
     assert (trial.best_of, trial.flippers) == ((), "stowed")
+
+
+def test_advice_about_a_plan_that_was_found_holds_off_its_angles():
+    """With grousers Absolem's plan is GO at its angles and not 2 degrees off: none is promised."""
+    answer = kaidan.assess("absolem", "ibc", surface="concrete-dry")
+    (help_, *_) = answer.what_would_help
+    assert (help_.change, help_.verdict) == ("Belts with grousers of 10 mm every 40 mm", "caution")
+    belts = {"belt": "grousers", "grouser_height": 0.010, "grouser_spacing": 0.040}
+    robot = answer.question.robot
+    robot = robot.model_copy(update={"track": robot.track.model_copy(update=belts)})
+    planned = answer.question.changed(robot=robot)
+    assert kaidan.assess(planned).verdict == "go"
+    assert not holds_off_its_angles(planned, Verdict.GO)

@@ -98,6 +98,8 @@ def what_would_help(
             then = conclude(changed, judge(changed, known=known))
         except InputError:  # a posture or a place of the centroid that the robot cannot have
             continue
+        if searched and then.verdict is Verdict.GO and changed.plannable:
+            then = _off_its_angles(changed, then)
         if _is_better(then, conclusion):
             better.append((then, change))
     better.sort(key=lambda each: _rank(each[0]))
@@ -109,6 +111,14 @@ def what_would_help(
         )
         for then, change in better
     )
+
+
+def _off_its_angles(question: Question, then: Conclusion) -> Conclusion:
+    """Conclusion of the plan that was found, with the verdict that it has off its angles."""
+    from kaidan.assessment.plan_search import holds_off_its_angles
+
+    sturdy = holds_off_its_angles(question, Verdict.GO)
+    return then if sturdy else then._replace(verdict=Verdict.CAUTION)
 
 
 def _number(margin: float) -> float:

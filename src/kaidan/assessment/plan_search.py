@@ -176,6 +176,11 @@ def _sturdiest(search: Search, beaten: Standing | None) -> _Off:
     return best
 
 
+def holds_off_its_angles(question: Question, verdict: Verdict) -> bool:
+    """Whether a plan has no worse verdict where its flippers are `TOLERANCE` off its angles."""
+    return all(_judged(off).conclusion.verdict.rank <= verdict.rank for off in off_angles(question))
+
+
 def _best_off(search: Search, hopes: Sequence[Hope], count: int) -> list[Plan]:
     """Plans of the largest merit off their angles, which is never larger than at them."""
     best: list[tuple[Merit, Merit, Plan]] = []
