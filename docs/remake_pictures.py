@@ -10,7 +10,7 @@ from pathlib import Path
 
 STATIC = Path(__file__).parent / "_static"
 PICTURES = {
-    "no-go.png": "traverse absolem ibc --friction 1.0 --side",
+    "no-go.png": "traverse absolem ibc --flippers stowed --friction 1.0 --side",
     "go.png": "traverse absolem ibc --friction 1.0 --flippers=22deg,flat --side",
     "dimensions.svg": "robots kenaf --figure",
     "weighing.svg": "measure robot --figure",

@@ -184,7 +184,7 @@ class Grid(Sheet):
 
     Examples
     --------
-    >>> question = Question.of("kenaf", Stairs.inclined(angle=0.9, nosing_spacing=0.15))
+    >>> question = Question.in_one_posture("kenaf", Stairs.inclined(angle=0.9, nosing_spacing=0.15))
     >>> surfaces = tuple(Surface.of_friction(mu) for mu in (0.8, 2.0))
     >>> axes = (("question.surface", surfaces), ("question.robot.com_height", (0.07, 0.1)))
     >>> grid = Grid(base=TrialSpec(question=question), axes=axes)

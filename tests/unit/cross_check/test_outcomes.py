@@ -19,7 +19,7 @@ from kaidan.terrain.stairs import Stairs
 from physics_cases import robot
 
 QUESTION = common(
-    Question.of(robot(), Stairs.inclined(angle=0.7, nosing_spacing=0.15), friction=1.0)
+    Question.in_one_posture(robot(), Stairs.inclined(angle=0.7, nosing_spacing=0.15), friction=1.0)
 )
 
 
