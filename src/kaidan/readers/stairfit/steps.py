@@ -50,6 +50,9 @@ OUT_OF_LEVEL = math.tan(math.radians(3.0))
 ODD_UNSEEN = 0.25
 """Largest difference of the last riser from the others, as a share of them, where its face was not
 seen [1]: what lies higher is something that stands on the landing."""
+LANDING_ACROSS = 0.6
+"""Least width of a landing with a riser of its own, over that of the flight [1]: a box on it is
+narrower."""
 FLOOR_SEEN = 15
 """Points from which a floor counts as seen."""
 
@@ -139,7 +142,9 @@ def steps_of(
     for axis in (0, 1):
         _fill(number, found[:, axis], sigma[:, axis], measured[:, axis])
     floor, floor_sigma, run_up = _floor(line, found[0], s, t, z, noise, tight)
-    found, sigma, measured, landing = _last_riser(found, sigma, measured, line, s, z, noise, tight)
+    found, sigma, measured, landing = _last_riser(
+        found, sigma, measured, line, s, t, z, noise, tight
+    )
     away = found - eye
     ranges = np.hypot(*away.T)
     ray = away / np.maximum(ranges, 1e-6)[:, None]
@@ -320,8 +325,8 @@ def _floor(
 
 
 def _last_riser(
-    found: Array, sigma: Array, measured: NDArray[np.bool_], line: StairLine, s: Array, z: Array,
-    noise: float, tight: float,
+    found: Array, sigma: Array, measured: NDArray[np.bool_], line: StairLine, s: Array, t: Array,
+    z: Array, noise: float, tight: float,
 ) -> tuple[Array, Array, NDArray[np.bool_], float]:  # fmt: skip
     """Nosings with that of the landing, whose riser may be another one, and the landing's length.
 
@@ -339,7 +344,9 @@ def _last_riser(
         return found, sigma, measured, math.nan
     on = above & (np.abs(z - height) < tight)
     reach = _reach(s[on] - last[0] - g)
-    if reach < 0.1 + 0.5 * g or count < 0.5 * above.sum():
+    across = float(np.ptp(np.percentile(t[on], [2, 98]))) if on.any() else 0.0
+    narrow = across < LANDING_ACROSS * float(np.ptp(np.percentile(t, [2, 98])))
+    if reach < 0.1 + 0.5 * g or count < 0.5 * above.sum() or narrow:
         return found, sigma, measured, math.nan
     face = (np.abs(s - last[0] - g) < max(2 * tight, 0.04)) & (z > last[1] + 0.1 * r)
     face &= z < height - 0.1 * r
