@@ -239,7 +239,7 @@ def live_question(body: Mapping[str, Any]) -> Question:
         if name not in values:
             raise InputError(f"live: no {name}: give a name of the catalogue or a sheet")
     keywords = made(values)
-    return Question.of(keywords.pop("robot"), keywords.pop("stairs"), **keywords)
+    return Question.in_one_posture(keywords.pop("robot"), keywords.pop("stairs"), **keywords)
 
 
 def samples_of_file(file: str, body: Mapping[str, Any]) -> dict[str, Any]:

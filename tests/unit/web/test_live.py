@@ -8,6 +8,7 @@ import kaidan
 from climbs import SLOPE, climb, csv_of, recording
 from kaidan import Stairs
 from kaidan.cli import run
+from kaidan.web.asking import live_question
 
 BODY = {"robot": "kenaf", "stairs": {"angle": SLOPE, "nosing_spacing": 0.150}}
 ROWS = [{**row._asdict(), "acceleration": 0.0} for row in climb()]
@@ -134,3 +135,9 @@ def test_the_sender_brings_a_file_to_the_page(client, tmp_path, capsys):
     assert "--to 'nowhere' is no address" in capsys.readouterr().err
     assert run(["live", "kenaf", "ibc", str(file), "--to", "http://127.0.0.1:1/"]) == 2
     assert "no answer" in capsys.readouterr().err
+
+
+def test_a_robot_without_stated_flippers_is_watched_stowed():
+    """As the monitor of the command line takes it: no plan is looked for."""
+    question = live_question({"robot": "absolem", "stairs": "ibc"})
+    assert (question.flippers, question.best_of) == ("stowed", ())
