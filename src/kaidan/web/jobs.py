@@ -42,6 +42,7 @@ class Jobs:
         return self
 
     async def __aexit__(self, *ended: object) -> None:
+        self._known.clear()  # the table has those that wait: none begins any more
         for task in tuple(self._running.values()):
             task.cancel()
             with suppress(asyncio.CancelledError):
