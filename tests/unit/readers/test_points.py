@@ -64,6 +64,12 @@ def test_stray_points_far_away_change_nothing(far):
     )
 
 
+def test_points_strewn_over_a_country_are_no_stairs():
+    xyz = np.random.default_rng(0).uniform(-1e6, 1e6, (500, 3))
+    seen = Points(xyz, cloud(scenes.Seen(xyz, None, None, None)).provenance)
+    assert interpreter.found(seen, Hints()).refusals[0].why == "none"
+
+
 def test_what_of_the_floor_was_seen_is_not_how_long_it_is():
     """A camera at the foot sees half a metre of it and stands on the rest."""
     truth = scenes.regular(7, 0.17, 0.28)

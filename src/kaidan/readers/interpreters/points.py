@@ -46,6 +46,8 @@ NOISY, WIDE = 0.008, 0.18
 """Scatter from which patches are made larger, and their side then [m]."""
 LOWEST_CEILING = 1.2
 """Height above the nosings from which something is a ceiling and no handrail [m]."""
+FEWEST_POINTS = 20
+"""Points without which nothing is looked for."""
 SURVEYED = ("las", "e57")
 """Formats of instruments that level themselves."""
 
@@ -114,6 +116,10 @@ def _units(points: Points, xyz: Array) -> list[Known]:
 def _with_unit(points: Points, xyz: Array, unit: Known, metres: float, hints: Hints) -> _Try:
     # stray points far away would make rasters of any size
     xyz = xyz[np.abs(xyz - np.median(xyz, axis=0)).max(axis=1, initial=0.0) < EXTENTS[1]]
+    if len(xyz) < FEWEST_POINTS:
+        known = points.provenance.up or Known("+z", "assumed")
+        nowhere = replace(points.provenance, unit=unit, up=known)
+        return _Try((), (), 0.0, nowhere, np.eye(3))
     eye = None
     if points.viewpoint is not None and (
         points.grid is not None or hints.viewpoint is not None or points.viewpoint.any()
