@@ -11,10 +11,26 @@ from pathlib import Path
 from typing import IO, Any
 
 from kaidan.answer import plain
-from kaidan.errors import InputError, short
+from kaidan.errors import InputError, short, shown
 
 PASSING = ".kaidan-"
 """How the name of a file begins that is not whole yet."""
+
+
+def format_of(path: Path, formats: tuple[str, ...], what: str) -> str:
+    """Format that the suffix of a file asks for.
+
+    Raises
+    ------
+    InputError
+        Another suffix than the formats, or none.
+    """
+    suffix = path.suffix.lower().removeprefix(".")
+    if suffix not in formats:
+        known = ", ".join(f".{name}" for name in formats)
+        has = f"unknown suffix {shown(path.suffix)}" if path.suffix else "no suffix"
+        raise InputError(f"{what} {short(path)!r}: {has}; known: {known}")
+    return suffix
 
 
 def json_text(value: Any) -> str:

@@ -4,7 +4,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from kaidan.errors import InputError, short, shown
+from kaidan.errors import InputError, shown
+from kaidan.files import format_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -23,12 +24,7 @@ def document_format(path: Path) -> str:
     InputError
         Another suffix, or none.
     """
-    suffix = path.suffix.lower().removeprefix(".")
-    if suffix not in FORMATS:
-        known = ", ".join(f".{name}" for name in FORMATS)
-        what = f"unknown suffix {shown(path.suffix)}" if path.suffix else "no suffix"
-        raise InputError(f"report {short(path)!r}: {what}; known: {known}")
-    return suffix
+    return format_of(path, FORMATS, "report")
 
 
 def report_bytes(found: "Report", form: str) -> bytes:

@@ -4,7 +4,7 @@ import io
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from kaidan.errors import InputError, short, shown
+from kaidan.files import format_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -28,12 +28,7 @@ def figure_format(path: Path) -> str:
     InputError
         Another suffix, or none.
     """
-    suffix = path.suffix.lower().removeprefix(".")
-    if suffix not in FORMATS:
-        known = ", ".join(f".{name}" for name in FORMATS)
-        what = f"unknown suffix {shown(path.suffix)}" if path.suffix else "no suffix"
-        raise InputError(f"figure {short(path)!r}: {what}; known: {known}")
-    return suffix
+    return format_of(path, FORMATS, "figure")
 
 
 def figure_bytes(figure: "Figure", form: str) -> bytes:
