@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 import kaidan
 from kaidan.cli import app
 from kaidan.modes import FAILURE_MODES
+from kaidan.text import assessment as text
 from kaidan.text.assessment import LINES
 
 CASES = {
@@ -85,3 +86,11 @@ def test_the_margin_ranks_stairs(robot):
     margins = [cell.margin_deg for cell in cells]
     assert all(then <= first + 1e-6 for first, then in pairwise(margins))  # 1e-6: the root search
     assert margins[-1] < margins[0] - 5
+
+
+def test_no_line_names_a_step_that_nobody_knows():
+    # what a belly lies on has a phase and no step
+    answer = kaidan.assess("marv", "ibc", friction=0.8)
+    assert answer.phase == "land"
+    assert answer.step is None
+    assert "None" not in text.short(answer) + text.text(answer) + text.details(answer)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from kaidan.modes import FAILURE_MODES, Verdict
 from kaidan.text import dynamic, limits, measuring, plan, traction
 from kaidan.text.unweighed import rows, thresholds
-from kaidan.text.words import subject
+from kaidan.text.words import place, subject
 
 if TYPE_CHECKING:
     from kaidan.assessment.answer import Assessment, Change, FindingShown
@@ -57,8 +57,7 @@ def advice(answer: "Assessment") -> str:
 def short(answer: "Assessment") -> str:
     """Answer in one line: the verdict, for whom, its margin and what decides."""
     margin = "" if answer.margin_deg is None else f"  {answer.margin_deg:+.1f} deg"
-    place = "" if answer.phase is None else f" ({answer.phase}, step {answer.step})"
-    return f"{headline(answer)}{margin}  {answer.governs}{place}"
+    return f"{headline(answer)}{margin}  {answer.governs}{place(answer.phase, answer.step)}"
 
 
 def headline(answer: "Assessment") -> str:
@@ -69,7 +68,7 @@ def headline(answer: "Assessment") -> str:
 def _hardest(answer: "Assessment") -> str:
     """Phase in which most friction is required."""
     if answer.traction is not None and answer.traction.phase is not None:
-        return f" ({answer.traction.phase}, step {answer.traction.step})"
+        return place(answer.traction.phase, answer.traction.step)
     phases = () if answer.contact is None else answer.contact.phases
     if not phases:
         return ""
@@ -77,7 +76,7 @@ def _hardest(answer: "Assessment") -> str:
         phases, key=lambda each: float("inf") if each.required_friction is None
         else each.required_friction,
     )  # fmt: skip
-    return f" ({hardest.phase}, step {hardest.required_friction_step})"
+    return place(hardest.phase, hardest.required_friction_step)
 
 
 def unknown_line(answer: "Assessment") -> str:
@@ -225,16 +224,16 @@ def friction_line(answer: "Assessment") -> str:
 def _finding(one: "FindingShown") -> str:
     if one.holds is None:
         return f"not known ({one.label})"
-    place = "" if one.phase is None else f", {one.phase}"
-    place += "" if one.step is None else f" step {one.step}"
+    where = "" if one.phase is None else f", {one.phase}"
+    where += "" if one.step is None else f" step {one.step}"
     if one.margin is None:
-        return f"{'holds' if one.holds else 'fails'} ({one.label}{place})"
+        return f"{'holds' if one.holds else 'fails'} ({one.label}{where})"
     digits = 1 if one.unit in ("deg", "m/s") else 2
     value = f"{one.margin:+.{digits}f} {one.unit}"
     if one.margin_best is not None and abs(one.margin_best - one.margin) > 0.5 * 10**-digits:
         value += f", at best {one.margin_best:+.{digits}f}"
     chance = "" if one.probability is None else f", fails with probability {one.probability:.3f}"
-    return f"{value} ({one.label}{place}{chance})"
+    return f"{value} ({one.label}{where}{chance})"
 
 
 def _contact(figures: "ContactFigures") -> list[str]:
@@ -270,7 +269,7 @@ def _contact(figures: "ContactFigures") -> list[str]:
         if some:
             lines.append(_row(name, _rotations(some)))
     falls = [each for each in figures.rotations if not each.arrested]
-    lines += [_row("falls", f"over ({each.phase}, step {each.step})") for each in falls]
+    lines += [_row("falls", f"over{place(each.phase, each.step)}") for each in falls]
     return lines
 
 
@@ -279,7 +278,7 @@ def _rotations(some: "list[RotationFigures]") -> str:
     largest = max(some, key=lambda each: abs(each.angle_deg))
     often = "" if len(some) == 1 else f"{len(some)} times, at most "
     return (
-        f"{often}by {abs(largest.angle_deg):.1f} deg ({largest.phase}, step {largest.step}), the "
+        f"{often}by {abs(largest.angle_deg):.1f} deg{place(largest.phase, largest.step)}, the "
         f"centroid drops {largest.drop_mm:.0f} mm, the end hits at "
         f"{largest.impact_speed or 0.0:.1f} m/s"
     )

@@ -13,6 +13,7 @@ from kaidan.text.assessment import (
 )
 from kaidan.text.document import Block, Facts, Heading, Paragraph, Picture, Points, Table, Verdict
 from kaidan.text.tables import fixed
+from kaidan.text.words import place
 
 if TYPE_CHECKING:
     from kaidan.models.contact_figures import RotationFigures
@@ -107,9 +108,9 @@ def watch(mission: "Mission") -> list[str]:
         one = answer.findings.get(key)
         if one is None or key not in FAILURE_MODES:
             continue
-        place = _place(one.phase, one.step)
+        where = place(one.phase, one.step)
         margin = "" if one.margin is None else f": {fixed(one.margin, 1, '+')} {one.unit}"
-        said.append(f"In doubt: {one.label}{place}{margin}.")
+        said.append(f"In doubt: {one.label}{where}{margin}.")
     if answer.friction is None:
         said.append("Nobody stated the friction: try the tracks on the first riser before you go.")
     return said or ["Nothing in particular: no failure mode is in doubt, and nothing rotates."]
@@ -120,18 +121,12 @@ def _size(each: "RotationFigures") -> float:
 
 
 def _rotates(each: "RotationFigures") -> str:
-    place = _place(each.phase, each.step)
+    where = place(each.phase, each.step)
     if not each.arrested:
-        return f"It falls over{place}."
+        return f"It falls over{where}."
     does = "drops" if each.obliged else "rotates"
     speed = "" if each.impact_speed is None else f", its end hits at {each.impact_speed:.1f} m/s"
-    return f"It {does} by {abs(each.angle_deg):.0f} deg{place}{speed}."
-
-
-def _place(phase: str | None, step: int | None) -> str:
-    if phase is None:
-        return ""
-    return f" ({phase})" if step is None else f" ({phase}, step {step})"
+    return f"It {does} by {abs(each.angle_deg):.0f} deg{where}{speed}."
 
 
 def stop(mission: "Mission") -> list[str]:

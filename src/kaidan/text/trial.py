@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from kaidan.text.words import subject
+from kaidan.text.words import place, subject
 
 if TYPE_CHECKING:
     from kaidan.physics import TrialResult
@@ -29,7 +29,7 @@ def text(result: "TrialResult") -> str:
         ("time", f"{result.time_s:.2f} s"),
         ("made with", f"{_engine(result)}, seed {spec.seed}"),
     )  # fmt: skip
-    head = f"{ended(result).upper()}{place(result)}  {subject(question)}"
+    head = f"{ended(result).upper()}{place(result.phase, result.step)}  {subject(question)}"
     return "\n".join([head, *(f"  {name:<18} {value}" for name, value in rows)])
 
 
@@ -41,10 +41,3 @@ def _engine(result: "TrialResult") -> str:
 def ended(result: "TrialResult") -> str:
     """How a trial ended: "fell backward"."""
     return result.outcome.value.replace("_", " ")
-
-
-def place(result: "TrialResult") -> str:
-    """Where it fell, slid or was given up, in brackets; empty if it did not."""
-    if result.phase is None:
-        return ""
-    return f" ({result.phase.value}, step {result.step})"

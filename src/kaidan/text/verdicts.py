@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from kaidan.modes import FAILURE_MODES, MODELS, SUPPLIES, Undecided, Verdict
 from kaidan.text import dynamic, traction, unweighed
+from kaidan.text.words import place
 
 if TYPE_CHECKING:
     from kaidan.assessment.verdict import Conclusion
@@ -21,7 +22,7 @@ def reason(question: "Question", found: "Findings", conclusion: "Conclusion") ->
     many = _part(found, "failure_interval")
     if many is not None and many.draws > 1 and conclusion.governs != Undecided.FRICTION_UNKNOWN:
         mode = FAILURE_MODES.get(conclusion.governs)
-        happens = None if mode is None else f"{mode.label}{place(conclusion)}"
+        happens = None if mode is None else f"{mode.label}{_place(conclusion)}"
         return dynamic.of_many(many, happens)
     if conclusion.governs == Undecided.FRICTION_UNKNOWN:
         return _friction(question, found, conclusion, "none is stated")
@@ -31,29 +32,25 @@ def reason(question: "Question", found: "Findings", conclusion: "Conclusion") ->
     if conclusion.verdict is Verdict.GO:
         return (
             f"It holds with {math.degrees(conclusion.margin):.1f} deg to spare; nearest is "
-            f"{mode.label}{place(conclusion)}."
+            f"{mode.label}{_place(conclusion)}."
         )
     finding = found.of(mode)
     if finding is not None and finding.margin(question.risk) > 0:
         return (
             f"With a probability of {(conclusion.samples <= 0).mean():.2g}, more than the accepted "
             f"{question.risk:g}, it fails in one way or another; nearest is "
-            f"{mode.label}{place(conclusion)}."
+            f"{mode.label}{_place(conclusion)}."
         )
     say = _SAYINGS.get(mode.key)
     said = None if say is None or finding is None else say(question, found, conclusion, finding)
     if said is not None:
         return said
     fails = "fails" if conclusion.verdict is Verdict.NO_GO else "may fail"
-    return f"It {fails} by {mode.label}{place(conclusion)}."
+    return f"It {fails} by {mode.label}{_place(conclusion)}."
 
 
-def place(conclusion: "Conclusion") -> str:
-    """Where it shows, in brackets."""
-    if conclusion.phase is None:
-        return ""
-    step = "" if conclusion.step is None else f", step {conclusion.step}"
-    return f" ({conclusion.phase.value}{step})"
+def _place(conclusion: "Conclusion") -> str:
+    return place(conclusion.phase, conclusion.step)
 
 
 def _friction(question: "Question", found: "Findings", conclusion: "Conclusion", known: str) -> str:
@@ -66,7 +63,7 @@ def _friction(question: "Question", found: "Findings", conclusion: "Conclusion",
         required = f"{traction.required(held, f'{needed:.2f} is required')}, "
     decides = FAILURE_MODES.get(conclusion.governs) in (None, *SUPPLIES)
     does = "decides" if decides else "is in doubt too"
-    return f"Friction {does}{place(conclusion)}: {required}{known}."
+    return f"Friction {does}{_place(conclusion)}: {required}{known}."
 
 
 def _slides(
@@ -74,7 +71,7 @@ def _slides(
 ) -> str:
     trials = _figure(found, "trials")
     if trials is not None:
-        return dynamic.sliding(trials, place(conclusion))
+        return dynamic.sliding(trials, _place(conclusion))
     low, high = question.friction
     stated = f"{low:.2f}" if low == high else f"{low:.2f} to {high:.2f}"
     return _friction(question, found, conclusion, f"{stated} is stated")
@@ -90,16 +87,16 @@ def _tips(
     if best > 0:
         return (
             f"The margin against tipping {label} is {margin:+.1f} to {best:+.1f} deg, by the "
-            f"ranges of what is not measured{place(conclusion)}."
+            f"ranges of what is not measured{_place(conclusion)}."
         )
     if math.isnan(best):
-        return f"It may fall {label}{place(conclusion)}, by its friction."
+        return f"It may fall {label}{_place(conclusion)}, by its friction."
     if finding.failing is Verdict.NO_GO:
         if margin <= -90:
-            return f"It falls {label}{place(conclusion)}."
+            return f"It falls {label}{_place(conclusion)}."
         grades = _figure(found, "grades")
         does = "falls" if grades is not None and grades.largest_rotation_deg >= 90 else "tips"
-        return f"It {does} {label}, {-margin:.1f} deg beyond the limit{place(conclusion)}."
+        return f"It {does} {label}, {-margin:.1f} deg beyond the limit{_place(conclusion)}."
     if _figure(found, "area") == "E":
         return (
             f"It holds only while the acceleration follows the position (area E); at a constant "
@@ -110,7 +107,7 @@ def _tips(
         return _arrested(rotation, found, conclusion)
     return (
         f"It arrives, but by the criterion it tips {label}, {-margin:.1f} deg beyond the "
-        f"limit{place(conclusion)}{_to_fall(found)}."
+        f"limit{_place(conclusion)}{_to_fall(found)}."
     )
 
 
@@ -136,7 +133,7 @@ def _arrested(rotation: float, found: "Findings", conclusion: "Conclusion") -> s
     digits = 1 if rotation >= 0.1 else 2
     return (
         f"It rocks by {rotation:.{digits}f} deg until the next contact arrests it"
-        f"{place(conclusion)}{_to_fall(found)}."
+        f"{_place(conclusion)}{_to_fall(found)}."
     )
 
 
@@ -159,9 +156,9 @@ def _falls(
     if tilt is None:  # of several traverses the worst
         tilt = math.degrees(finding.margin(question.risk) + question.reserve)
     if tilt <= 0:
-        return f"It falls {label}{place(conclusion)}."
+        return f"It falls {label}{_place(conclusion)}."
     return (
-        f"It rocks, and is {tilt:.1f} deg from falling {label}{place(conclusion)}: expect a fall, "
+        f"It rocks, and is {tilt:.1f} deg from falling {label}{_place(conclusion)}: expect a fall, "
         f"because {math.degrees(question.reserve):.1f} deg of reserve must be kept."
     )
 
@@ -174,7 +171,7 @@ def _rotates(
         return _arrested(rotation, found, conclusion)
     more = -finding.mode.shown(finding.margin(question.risk))
     return (
-        f"Uneven nosings may rock it by {more:.1f} deg more than tracks yield{place(conclusion)}"
+        f"Uneven nosings may rock it by {more:.1f} deg more than tracks yield{_place(conclusion)}"
         f"{_to_fall(found)}."
     )
 
@@ -183,10 +180,10 @@ def _momentum(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
     if finding.margin(question.risk, best=True) <= 0:
-        return f"The momentum of its rotation topples it{place(conclusion)}."
+        return f"The momentum of its rotation topples it{_place(conclusion)}."
     return (
         f"Only the impact that ends its rotation takes enough momentum to hold it"
-        f"{place(conclusion)}."
+        f"{_place(conclusion)}."
     )
 
 
@@ -196,7 +193,7 @@ def _impact(
     tolerated = question.robot.tolerated_impact
     speed = tolerated - finding.margin(question.risk)
     return (
-        f"It drops and hits at {speed:.1f} m/s{place(conclusion)}; {tolerated:.1f} m/s are "
+        f"It drops and hits at {speed:.1f} m/s{_place(conclusion)}; {tolerated:.1f} m/s are "
         "tolerated."
     )
 
@@ -211,14 +208,14 @@ def _energy(
     of_slip = f", {slip:.2f} mm of it of a slip back onto its grousers" if slip else ""
     return (
         f"The energy margin of {margin:.2f} mm is below the kinetic-energy height of "
-        f"{height:.2f} mm{of_slip}: the robot may rock{place(conclusion)}."
+        f"{height:.2f} mm{of_slip}: the robot may rock{_place(conclusion)}."
     )
 
 
 def _belly(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
-    return f"It rests on its belly in places{place(conclusion)}, where the tracks may lose grip."
+    return f"It rests on its belly in places{_place(conclusion)}, where the tracks may lose grip."
 
 
 def _room(
@@ -247,22 +244,22 @@ def _drive(
 def _stuck(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
-    return f"It gets stuck, wedged against a face or rocking on the spot{place(conclusion)}."
+    return f"It gets stuck, wedged against a face or rocking on the spot{_place(conclusion)}."
 
 
 def _changes(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
     if finding.failing is Verdict.NO_GO:
-        return f"It does not stand while its flippers move{place(conclusion)}."
-    return f"It rocks from one pose to another while its flippers move{place(conclusion)}."
+        return f"It does not stand while its flippers move{_place(conclusion)}."
+    return f"It rocks from one pose to another while its flippers move{_place(conclusion)}."
 
 
 def _torque(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
     missing = -finding.margin(question.risk)
-    return f"Its flippers lack {missing:.1f} N m to move under their load{place(conclusion)}."
+    return f"Its flippers lack {missing:.1f} N m to move under their load{_place(conclusion)}."
 
 
 def _tolerance(

@@ -32,3 +32,10 @@ def heading_of(direction: str, facing: str) -> str:
 def end_first(facing: str) -> str:
     """Which end leads: "nose first"."""
     return facing.replace("-", " ")
+
+
+def place(phase: str | None, step: int | None) -> str:
+    """Where on the way, in brackets after a blank: " (enter, step 2)"; empty where nobody knows."""
+    if phase is None:
+        return ""
+    return f" ({phase})" if step is None else f" ({phase}, step {step})"
