@@ -13,7 +13,7 @@ from kaidan.contact.codes import (
     RotationOutcome,
     Status,
 )
-from kaidan.contact.contacts import Contact, PairForces, pair_forces, spring_loads
+from kaidan.contact.contacts import Contact, PairForces, cone_margins, pair_forces, spring_loads
 from kaidan.contact.heights import TouchingHeights, touching_heights
 from kaidan.contact.margin_records import Job, Margins, Summaries, Tilts
 from kaidan.contact.path import Path, joined
@@ -73,6 +73,7 @@ __all__ = [
     "TouchingHeights",
     "arrives",
     "body_table",
+    "cone_margins",
     "ground_table",
     "joined",
     "kernel_in_use",

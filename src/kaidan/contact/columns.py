@@ -99,3 +99,11 @@ ZONE_COLUMNS = 4
 # Poses settled one by one: found, height [m], inclination [rad], the two features.
 SETTLED_FOUND, SETTLED_Z, SETTLED_PHI, SETTLED_REAR, SETTLED_FRONT = range(5)
 SETTLED_COLUMNS = 5
+
+# Two contacts and their friction cones: place of each from the centroid [m], tilt of its normal and
+# angle of friction [rad]; sum of their forces [N/kg].
+(
+    CONE_1_X, CONE_1_Z, CONE_1_ALPHA, CONE_1_PHI, CONE_2_X, CONE_2_Z, CONE_2_ALPHA, CONE_2_PHI,
+    CONE_W_X, CONE_W_Z,
+) = range(10)  # fmt: skip
+CONE_COLUMNS = 10

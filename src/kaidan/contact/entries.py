@@ -25,6 +25,7 @@ KERNEL_MODULES = (
     "contact_changes",
     "driver",
     "forces",
+    "cones",
     "margins",
     "standing",
     "rating",

@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from kaidan.contact.codes import PartKind
 from kaidan.contact.columns import (
     BODY_COLUMNS,
+    CONE_COLUMNS,
     CONTACT_COLUMNS,
     CONVEX,
     DISC,
@@ -68,6 +69,7 @@ SummaryTable = Annotated[FloatArray, SUMMARY_COLUMNS]
 RatingTable = Annotated[FloatArray, RATING_COLUMNS]
 PointTable = Annotated[FloatArray, POINT_COLUMNS]
 ZoneTable = Annotated[FloatArray, ZONE_COLUMNS]
+ConeTable = Annotated[FloatArray, CONE_COLUMNS]
 SettledTable = Annotated[FloatArray, SETTLED_COLUMNS]
 #: Numbers that belong together, in the kernel: four, or x, z, cosine, sine and a point.
 Four = tuple[float, float, float, float]

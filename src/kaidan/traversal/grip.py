@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 from kaidan import contact
 from kaidan.contact import BELLY, FeatureKind, FeatureTable
 from kaidan.mechanics import STANDARD_GRAVITY
-from kaidan.mechanics.cones import cone_margin
 from kaidan.mechanics.grousers import (
     phases_friction,
     roll_off_length,
@@ -229,13 +228,9 @@ class Grip:
         """Margin of two contacts with their cones, the first so far ahead of its place [m]."""
         at, (w_x, w_z) = self._unlike, self._force
         alpha = at.normal[rows, i]
-        found = cone_margin(
-            x_1=at.x[rows, i] + ahead * np.cos(alpha), z_1=at.z[rows, i] - ahead * np.sin(alpha),
-            alpha_1=one[0], phi_1=one[1],
-            x_2=at.x[rows, j], z_2=at.z[rows, j], alpha_2=other[0], phi_2=other[1],
-            W_x=w_x[rows], W_z=w_z[rows],
-        )  # fmt: skip
-        return np.asarray(found)
+        first = at.x[rows, i] + ahead * np.cos(alpha), at.z[rows, i] - ahead * np.sin(alpha)
+        second = at.x[rows, j], at.z[rows, j]
+        return contact.cone_margins([*first, *one, *second, *other, w_x[rows], w_z[rows]])
 
     def _standing(self, phi: tuple[float, float, float], grousers: Grousers) -> Array:
         """Margin of each pose with a grouser that stands at each of its contacts [rad].
