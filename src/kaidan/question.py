@@ -55,6 +55,11 @@ FASTEST = 30.0
 ROCKING_SPEED = 0.1
 """Speed whose energy the robot is taken to have where none is stated [m/s]: the paper's test
 speed, at which the rig rocked visibly with 0.07 mm of energy margin against 0.51 mm of v^2/2g."""
+FLIPPER_TOLERANCE = 0.03490658503988659
+"""How far off its angles a plan that is found has to hold where nobody says, 2 degrees [rad]: an
+operator sets a flipper by an indicator of whole degrees, and it gives under load."""
+LARGEST_TOLERANCE = 0.2617993877991494
+"""Largest tolerance of the flippers' angles, 15 degrees [rad]."""
 FACINGS = ("nose-first", "tail-first")
 """Ends that may lead."""
 TRACKS = ("smooth-belt", "yielding-belt", "driven-grousers")
@@ -107,6 +112,14 @@ class Question(Sheet):
         default=(),
         description="what is to be found: the flippers' plan, the end that leads; a stated posture "
         "then does not count, the stated end is tried first",
+    )
+    flipper_tolerance: float | None = quantity(
+        "rad",
+        0.0,
+        LARGEST_TOLERANCE,
+        "how far off their angles the flippers may lie without a worse verdict; none: 2 degrees "
+        "where a plan is to be found, else 0",
+        default=None,
     )
     payload: tuple[Payload, ...] = Field(default=(), description="masses fixed to the robot")
     theta_d: Allowance | None = Field(
@@ -198,6 +211,11 @@ class Question(Sheet):
             raise InputError("a trial keeps one posture: state angles, flat or stowed")
         if self.changes and self.yaw:
             raise InputError("a plan of postures is driven straight on: leave the yaw out")
+        if self.flipper_tolerance and not self.plannable:
+            raise InputError(
+                "flipper_tolerance: the contact model alone judges the flippers off their angles, "
+                "straight on; state 0deg"
+            )
         if self.changes and len(self.profile.nosings) == 0:
             raise InputError("a plan of postures needs a nosing to change before")
 
@@ -222,6 +240,7 @@ class Question(Sheet):
         direction: str | None = None,
         facing: str | None = None,
         flippers: Any = None,
+        flipper_tolerance: Any = None,
         payload: Any = (),
         theta_d: Any = None,
         theta_M: Any = None,
@@ -261,6 +280,10 @@ class Question(Sheet):
             "flat/land:-60deg,-20deg"; or "best", as without it: the contact model, straight on,
             finds a plan; at a yaw, and by other models, the better of stowed and flat is found.
             Trials of physics keep one posture: stowed without any.
+        flipper_tolerance : float or str, optional
+            How far off their angles the flippers may lie without a worse verdict [rad]; or "3deg".
+            A flipper that is stowed lies at its stop. Without it 2 degrees where the contact model
+            finds a plan, else 0.
         payload : Payload, str or a sequence of them
             Masses fixed to the robot; as text "5kg@200mm,300mm".
         theta_d, theta_M : float, (low, high), str or None
@@ -322,6 +345,7 @@ class Question(Sheet):
             posture=posture,
             changes=changes,
             best_of=tuple(free) if best else (),
+            flipper_tolerance=_optional("flipper_tolerance", flipper_tolerance, "angle"),
             payload=tuple(payloads_of(payload)),
             theta_d=allowance_of("theta_d", theta_d),
             theta_M=allowance_of("theta_M", theta_M),
@@ -469,6 +493,13 @@ class Question(Sheet):
     def plannable(self) -> bool:
         """Whether angles by phase can be found: by the contact model, straight on."""
         return self.model == CONTACT.name and not self.yaw
+
+    @property
+    def tolerance(self) -> float:
+        """How far off their angles the flippers may lie, as stated or by default [rad]."""
+        if self.flipper_tolerance is not None:
+            return self.flipper_tolerance
+        return FLIPPER_TOLERANCE if "flippers" in self.best_of and self.plannable else 0.0
 
     @property
     def nose_up(self) -> bool:

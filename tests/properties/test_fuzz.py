@@ -68,6 +68,7 @@ MANNER = {
     **{name: name for name in ("friction", "surface", "accept", "model", "override")},
     **dict.fromkeys(("theta_d", "theta_M"), "allowance"),
     "yaw": "angle",
+    "flipper_tolerance": "angle",
     "risk": "number",
     "uncertainty": "uncertainty",
 }

@@ -93,10 +93,9 @@ def with_plan(question: Question, *, limits: tuple[float, float] | None = None) 
         Angles allowed [rad]; those of the search without them.
     """
     planned, search = found_plan(question, limits=limits)
-    if search is None:
-        return WithPlan(planned, judge(planned), None)
-    found = search.findings if search.question is planned else judge(planned)
-    return WithPlan(planned, off_plan(search, found), search)
+    known = search is not None and search.question is planned
+    found = search.findings if search is not None and known else judge(planned)
+    return WithPlan(planned, off_plan(planned, found, search), search)
 
 
 def found_plan(
@@ -119,17 +118,30 @@ def found_plan(
         search = found_of(question, limits or LIMITS)
         return search.question, search
     # the plan of the middle of its range, judged all over it
-    middle = robot.with_centroid(robot.com_from_front, robot.com_height)
-    search = found_of(question.changed(robot=middle), limits or LIMITS)
+    search = found_of(question.changed(robot=robot.middle), limits or LIMITS)
     return search.question.changed(robot=robot), search
 
 
-def off_plan(search: "Found", found: Findings) -> Findings:
-    """Findings of a plan, with one more where its verdict does not hold off its angles."""
-    if search.sturdy:
+def off_plan(question: Question, found: Findings, search: "Found | None" = None) -> Findings:
+    """Findings of a plan, with one more where its verdict does not hold off its angles.
+
+    Parameters
+    ----------
+    question : Question
+        With the plan; its `tolerance` is how far off the angles may be.
+    found : Findings
+        At its angles.
+    search : Found, optional
+        What found the plan, which knows already.
+    """
+    if not question.tolerance:
+        return found
+    from kaidan.assessment.plan_search import holds_off_its_angles
+
+    if holds_off_its_angles(question) if search is None else search.sturdy:
         return found
     off = Finding.certain(
-        POSTURE_TOLERANCE, -math.inf, failing=Verdict.CAUTION, model=search.question.model
+        POSTURE_TOLERANCE, -math.inf, failing=Verdict.CAUTION, model=question.model
     )
     return replace(found, each=(*found.each, off))
 

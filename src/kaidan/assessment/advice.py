@@ -98,7 +98,7 @@ def what_would_help(
             then = conclude(changed, judge(changed, known=known))
         except InputError:  # a posture or a place of the centroid that the robot cannot have
             continue
-        if searched and then.verdict is Verdict.GO and changed.plannable:
+        if then.verdict is Verdict.GO and changed.tolerance:
             then = _off_its_angles(changed, then)
         if _is_better(then, conclusion):
             better.append((then, change))
@@ -114,10 +114,10 @@ def what_would_help(
 
 
 def _off_its_angles(question: Question, then: Conclusion) -> Conclusion:
-    """Conclusion of the plan that was found, with the verdict that it has off its angles."""
+    """Conclusion of a plan, with the verdict that it has off its angles."""
     from kaidan.assessment.plan_search import holds_off_its_angles
 
-    sturdy = holds_off_its_angles(question, Verdict.GO)
+    sturdy = holds_off_its_angles(question)
     return then if sturdy else then._replace(verdict=Verdict.CAUTION)
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from kaidan.answer import Part
 from kaidan.models.contact_figures import PhaseName
 from kaidan.models.findings import Findings
-from kaidan.modes import Facing, Phase
+from kaidan.modes import POSTURE_TOLERANCE, Facing, Phase
 from kaidan.question import Question
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ class PlanShown(Part):
     found: bool
     """Whether the plan was found; else it was stated."""
     holds_within_deg: float | None
-    """How far off its angles the verdict of a found plan holds [deg]; null: it was not tried."""
+    """How far off its angles the verdict holds [deg]; null: it was not tried."""
     tried: int | None
     """Drives of a phase with which it was found; null where it was stated."""
 
@@ -63,7 +63,7 @@ class PlanShown(Part):
 
 
 def plan_of(question: Question, found: Findings, search: "Found | None") -> PlanShown | None:
-    """Plan of an answer; None where one posture was stated.
+    """Plan of an answer; None where one posture was stated, and no tolerance of its angles.
 
     Parameters
     ----------
@@ -74,17 +74,17 @@ def plan_of(question: Question, found: Findings, search: "Found | None") -> Plan
     search : Found, optional
         What a search came upon.
     """
-    if search is None and not question.changes:
+    if search is None and not question.changes and not question.tolerance:
         return None
     moves = getattr(getattr(found.basis, "traverse", None), "moves", ())
     laid = {each for one in question.postures.values() for each in (one.front, one.rear)}
-    tried_off = search is not None and question.plannable and laid != {None}
+    holds = question.tolerance if found.of(POSTURE_TOLERANCE) is None else 0.0
     return PlanShown(
         facing=question.facing,
         flippers=question.flippers,
         steps=tuple(steps_of(question, moves)),
         found=search is not None,
-        holds_within_deg=_degrees(search.holds_within) if search and tried_off else None,
+        holds_within_deg=_degrees(holds) if question.tolerance and laid != {None} else None,
         tried=None if search is None else search.tried,
     )
 

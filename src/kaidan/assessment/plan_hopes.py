@@ -62,7 +62,8 @@ class Search:
         """Most promising plans without a change, with one, and with two."""
         robot, scores = self.question.robot, self.scores
         named = list(words(robot))
-        known = list(dict.fromkeys([*named, *(pressed(robot, each) for each in named)]))
+        low = (pressed(robot, each, self.question.tolerance) for each in named)
+        known = list(dict.fromkeys([*named, *low]))
         self._allowed = {phase: dict.fromkeys(known) for phase in scores.phases}
         scores.work_out((phase, each) for phase in scores.phases for each in known)
         first = {

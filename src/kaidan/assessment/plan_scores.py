@@ -91,7 +91,7 @@ class Scores:
 
     def about(self, posture: Posture) -> tuple[Posture, Posture, Posture]:
         """A posture and those with all its angles up, or down; a plan is judged at the others."""
-        both = off(self.question.robot, posture)
+        both = off(self.question.robot, posture, self.question.tolerance)
         return posture, both[0], both[-1]
 
     def work_out(self, wanted: Iterable[tuple[Phase, Posture]]) -> None:

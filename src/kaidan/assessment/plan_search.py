@@ -13,7 +13,6 @@ from typing import NamedTuple
 from kaidan.assessment.plan_hopes import LIMITS as LIMITS
 from kaidan.assessment.plan_hopes import Hope, Merit, Search
 from kaidan.assessment.plan_scores import ENOUGH
-from kaidan.assessment.plans import TOLERANCE as TOLERANCE
 from kaidan.assessment.plans import Plan, cost_of, cost_of_drop, words
 from kaidan.assessment.plans import off_angles as off_angles
 from kaidan.assessment.verdict import Conclusion, conclude
@@ -21,6 +20,7 @@ from kaidan.models import judge, planned
 from kaidan.models.findings import Findings
 from kaidan.models.quasi_static import Basis, findings_of, traverse_of
 from kaidan.modes import CONTACT, FALLS, Facing, Phase, Verdict
+from kaidan.outline import Outline
 from kaidan.question import Question
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Traverse
@@ -72,18 +72,13 @@ class Found(NamedTuple):
     findings: Findings
     """Of that question."""
     sturdy: bool
-    """Whether its verdict holds within `TOLERANCE` of its angles."""
+    """Whether its verdict holds off its angles by the question's tolerance."""
     tried: int
     """Drives of a phase."""
     short: Question
     """On which it searched: a long uniform flight repeats itself."""
     ends: tuple[Facing, ...]
     """Ends that were tried first: the other one only where the nose is no GO."""
-
-    @property
-    def holds_within(self) -> float:
-        """How far off its angles its verdict holds [rad]: `TOLERANCE`, or not at all."""
-        return TOLERANCE if self.sturdy else 0.0
 
 
 def found_of(question: Question, limits: tuple[float, float] = LIMITS) -> Found:
@@ -101,7 +96,8 @@ def found_of(question: Question, limits: tuple[float, float] = LIMITS) -> Found:
     Found
         Of plans that are alike the one with fewer changes, nose first, flippers stowed.
     """
-    stated = question.changed(best_of=(), changes=())
+    kept = question.tolerance or None
+    stated = question.changed(best_of=(), changes=(), flipper_tolerance=kept)
     facings: tuple[Facing, ...] = (stated.facing,)
     if "facing" in question.best_of:
         facings = ("nose-first", "tail-first")
@@ -176,9 +172,16 @@ def _sturdiest(search: Search, beaten: Standing | None) -> _Off:
     return best
 
 
-def holds_off_its_angles(question: Question, verdict: Verdict) -> bool:
-    """Whether a plan has no worse verdict where its flippers are `TOLERANCE` off its angles."""
-    return all(_judged(off).conclusion.verdict.rank <= verdict.rank for off in off_angles(question))
+def holds_off_its_angles(question: Question) -> bool:
+    """Whether a stated plan has no worse verdict off its angles, judged as the search judges.
+
+    Parameters
+    ----------
+    question : Question
+        Its `tolerance` is how far off they are.
+    """
+    middle = question.changed(robot=question.robot.middle)
+    return _judged_off(_judged(shortened(middle)), None).sturdy
 
 
 def _best_off(search: Search, hopes: Sequence[Hope], count: int) -> list[Plan]:
@@ -253,7 +256,7 @@ def shortened(question: Question) -> Question:
     stairs = question.terrain
     if not isinstance(stairs, Stairs) or stairs.rise is None:
         return question
-    reach = sum(question.outline.reach)
+    reach = sum(Outline.of(question.robot).reach)
     reach += sum(pair.length for pair in question.robot.flippers().values())
     enough = max(5, math.ceil(reach / stairs.nosing_spacing) + 3)
     short = stairs.model_copy(update={"steps": min(stairs.steps, enough)})

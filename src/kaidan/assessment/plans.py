@@ -13,8 +13,6 @@ from kaidan.question import Question
 from kaidan.robot import Posture, PostureChange, Robot
 from kaidan.traversal.moves import angles_of
 
-TOLERANCE = math.radians(2.0)
-"""How far off its angles a plan has to hold [rad]."""
 A_CHANGE = 1.5
 """Margin that a change of posture has to gain [deg]."""
 A_DROP = 0.1
@@ -67,26 +65,26 @@ def words(robot: Robot) -> Iterator[Posture]:
             yield Posture(**dict(zip(pairs, laid, strict=True)), state=state)
 
 
-def pressed(robot: Robot, posture: Posture) -> Posture:
+def pressed(robot: Robot, posture: Posture, tolerance: float) -> Posture:
     """Flat flippers in whole degrees so far below the flat that off their angle they still are.
 
     Above it they hang in the air until the robot rotates onto them.
     """
     angles = {
-        end: math.radians(math.floor(math.degrees(pair.flat_angle - TOLERANCE)))
+        end: math.radians(math.floor(math.degrees(pair.flat_angle - tolerance)))
         for end, pair in robot.flippers().items()
         if getattr(posture, end) == "flat"
     }
     return posture.model_copy(update=angles)
 
 
-def off(robot: Robot, posture: Posture) -> list[Posture]:
+def off(robot: Robot, posture: Posture, tolerance: float) -> list[Posture]:
     """Postures with every angle a tolerance off, both ways; stowed flippers lie at their stop."""
     angles = angles_of(robot, posture)
     return [
         posture.model_copy(
             update={
-                end: angles[end] + sign * TOLERANCE
+                end: angles[end] + sign * tolerance
                 for end, sign in zip(angles, signs, strict=True)
                 if getattr(posture, end) is not None
             }
@@ -96,14 +94,14 @@ def off(robot: Robot, posture: Posture) -> list[Posture]:
 
 
 def off_angles(question: Question) -> Iterator[Question]:
-    """The same with every angle a tolerance off, pairs both ways."""
-    robot = question.robot
+    """The same with every angle its tolerance off, pairs both ways; nothing without a tolerance."""
+    robot, tolerance = question.robot, question.tolerance
     postures = [question.posture, *(each.posture for each in question.changes)]
-    for each in dict.fromkeys(zip(*(off(robot, one) for one in postures), strict=True)):
+    for each in dict.fromkeys(zip(*(off(robot, one, tolerance) for one in postures), strict=True)):
         if each == tuple(postures):
             continue
         changes = tuple(
             one.model_copy(update={"posture": posture})
             for one, posture in zip(question.changes, each[1:], strict=True)
         )
-        yield question.changed(posture=each[0], changes=changes)
+        yield question.changed(posture=each[0], changes=changes, flipper_tolerance=None)

@@ -105,6 +105,10 @@ ThetaD = Annotated[
 ThetaM = Annotated[
     str | None, typer.Option("--theta-m", help="Measured loss from grousers, 1.2deg..2.6deg.")
 ]
+FlipperTolerance = Annotated[
+    str | None,
+    typer.Option(help="How far off their angles the flippers may lie [2deg with best, else 0]."),
+]
 FallReserve = Annotated[
     str | None,
     typer.Option(help="Tilt to the fall that a robot that rocks must keep [8deg]."),

@@ -29,6 +29,7 @@ def question_options(
     direction: options.Direction = None,
     facing: options.Facing = None,
     flippers: options.Flippers = None,
+    flipper_tolerance: options.FlipperTolerance = None,
     payload: options.PayloadText = None,
     theta_d: options.ThetaD = None,
     theta_m: options.ThetaM = None,

@@ -83,12 +83,13 @@ def traverse(
         return traverse_figure(found, poses)
 
     def draw_side() -> "output.Figure":
-        from kaidan.assessment import judged
+        from kaidan.assessment import judged, off_plan
         from kaidan.figures.traverse_figure import side_figure
         from kaidan.models import judge
         from kaidan.text.assessment import advice
 
-        return side_figure(found, advice(judged(asked, judge(asked), search=search)))
+        findings = off_plan(asked, judge(asked), search)
+        return side_figure(found, advice(judged(asked, findings, search=search)))
 
     def draw_map() -> "output.Figure":
         from kaidan.figures.pose_map_figure import pose_map_figure

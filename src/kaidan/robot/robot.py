@@ -194,6 +194,13 @@ class Robot(Sheet):
         return TOLERATED_IMPACT if self.max_impact_speed is None else self.max_impact_speed
 
     @property
+    def middle(self) -> Self:
+        """Same robot with its centroid in the middle of its range."""
+        if self.com_range is None:
+            return self
+        return self.with_centroid(self.com_from_front, self.com_height)
+
+    @property
     def kept_reserve(self) -> float:
         """Tilt to the fall that it must keep where it rocks, as stated or by default [rad]."""
         return FALL_RESERVE if self.fall_reserve is None else self.fall_reserve

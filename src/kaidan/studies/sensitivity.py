@@ -17,7 +17,6 @@ from kaidan.assessment.uncertain_inputs import GROUPS, doubts_of, without
 from kaidan.errors import InputError, MissingExtraError
 from kaidan.modes import Verdict
 from kaidan.question import Question
-from kaidan.robot import Robot
 from kaidan.sweeps.plan import Along, Plan
 from kaidan.sweeps.running import carried_out
 from kaidan.terrain.stairs import Stairs
@@ -219,16 +218,14 @@ def _exact(question: Question) -> dict[str, Any]:
     """Values of the question with no doubt of its own."""
     for group in ("centroid", "length", "stairs"):
         question = without(question, group) or question
-    robot: Robot = question.robot
-    if robot.com_range is not None:
-        robot = robot.with_centroid(robot.com_from_front, robot.com_height)
     ends = {"theta_d": question.allowance_d, "theta_M": question.allowance_M}
     values: dict[str, Any] = {
-        "robot": robot,
+        "robot": question.robot.middle,
         "stairs": question.terrain,
         "direction": question.direction,
         "facing": question.facing,
         "flippers": (question.posture, *question.changes),
+        "flipper_tolerance": question.flipper_tolerance,
         "payload": question.payload,
         "acceleration": question.acceleration,
         "speed": question.speed,

@@ -52,9 +52,7 @@ def judged_row(question: Question, known: Findings | None = None) -> tuple[Row, 
         found = judge(planned, known=None if planned.robot.com_range else known)
     else:
         found = search.findings
-    if search is not None:
-        found = off_plan(search, found)
-    conclusion = conclude(planned, found)
+    conclusion = conclude(planned, off_plan(planned, found, search))
     samples = conclusion.samples
     row: Row = {
         "verdict": conclusion.verdict.rank,

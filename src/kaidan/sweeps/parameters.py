@@ -39,6 +39,7 @@ NUMBERS = {
     "theta_d": "angle",
     "theta_M": "angle",
     "fall_reserve": "angle",
+    "flipper_tolerance": "angle",
     "yaw": "angle",
     "risk": "number",
 }

@@ -38,7 +38,7 @@ def lines(plan: "PlanShown") -> list[str]:
             said += f" ({step.turn_deg:.0f} deg, {time}{torque})"
         each.append(said)
     if plan.holds_within_deg:
-        each.append(f"The verdict holds within {plan.holds_within_deg:.0f} deg of these angles")
+        each.append(f"The verdict holds within {plan.holds_within_deg:.3g} deg of these angles")
     return each
 
 

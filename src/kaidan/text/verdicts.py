@@ -265,7 +265,8 @@ def _torque(
 def _tolerance(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
-    return "It holds at just these angles of the flippers: 2 deg off them the verdict is worse."
+    off = f"{math.degrees(question.tolerance):.3g} deg"
+    return f"It holds at just these angles of the flippers: {off} off them the verdict is worse."
 
 
 def _unweighed(

@@ -52,9 +52,7 @@ def planned_report(
     -------
     TraverseReport
     """
-    findings = planned.findings(question, driven)
-    if search is not None:
-        findings = off_plan(search, findings)
+    findings = off_plan(question, planned.findings(question, driven), search)
     answer = judged(question, findings, advice=False, search=search)
     governing = _governing(driven, answer)
     share = max(most // len(driven.parts), 2)

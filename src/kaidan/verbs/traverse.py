@@ -110,9 +110,7 @@ def traverse_report(
         from kaidan.verbs.planned_report import planned_report
 
         return planned_report(question, passage, most=most, search=search)
-    found = findings_of(question, Basis(question, passage))
-    if search is not None:
-        found = off_plan(search, found)
+    found = off_plan(question, findings_of(question, Basis(question, passage)), search)
     assessment = judged(question, found, advice=False, search=search)
     return report_of(
         question, passage, assessment, governing=governing_row(passage, assessment), most=most

@@ -60,6 +60,7 @@ def _manner(question: Question, assessment: Assessment) -> Iterator[InputRow]:
     yield _row("manner", "facing", "best, to be found" if "facing" in best else question.facing)
     if question.robot.flippers():
         yield _row("manner", "flippers", flippers)
+        yield _row("manner", "off their angles by", human(question.tolerance, unit="rad"))
     yield _row(
         "manner", "acceleration", f"{question.acceleration:g} m/s2 up the stairs", symbol="a"
     )

@@ -10,6 +10,7 @@ const MORE = [
   ["speed", "speed", 0, 2, 0.01, null],
   ["acceleration", "acceleration", -3, 3, 0.05, 0],
   ["yaw", "angle", -Math.PI / 4, Math.PI / 4, Math.PI / 180, 0],
+  ["flipper_tolerance", "angle", 0, Math.PI / 12, Math.PI / 180, null],
   ["payload_mass", "mass", 0, 40, 0.5, 0],
   ["payload_behind", "length", -0.5, 1.5, 0.005, 0],
   ["payload_height", "length", 0, 1.5, 0.005, 0],

@@ -78,7 +78,7 @@ export function bodyOf(robot, stairs) {
   if (Object.keys(state.robotFigures).length > 0) body.override = state.robotFigures;
   if (state.facing) body.facing = state.facing;
   if (state.accept) body.accept = state.accept;
-  for (const name of ["speed", "acceleration", "yaw", "risk"]) {
+  for (const name of ["speed", "acceleration", "yaw", "risk", "flipper_tolerance"]) {
     if (numbers[name] !== undefined) body[name] = numbers[name];
   }
   if (numbers.payload_mass) {
@@ -98,7 +98,7 @@ export function bodyOf(robot, stairs) {
 
 // The closed form takes one posture: a first estimate where the best is still to be found.
 export function quickBody(body) {
-  const { accept: _, yaw: __, ...rest } = body;
+  const { accept: _, yaw: __, flipper_tolerance: ___, ...rest } = body;
   return { ...rest, model: "closed-form", ...(body.flippers === "best" ? { flippers: "flat" } : {}) };
 }
 
@@ -109,6 +109,6 @@ export function marginBody(body) {
 }
 
 export function planeBody(body) {
-  const { accept: _, yaw: __, risk: ___, uncertainty: ____, speed: _____, ...rest } = body;
+  const { accept: _, yaw: __, risk: ___, uncertainty: ____, speed: _____, flipper_tolerance: ______, ...rest } = body;
   return rest.flippers === "best" ? { ...rest, flippers: "flat" } : rest;
 }

@@ -5,7 +5,7 @@ const TEXTS = {
   accept: "", tab: "side",
 };
 const NUMBERS = [
-  "mu_low", "mu_high", "front", "rear", "speed", "acceleration", "yaw", "risk",
+  "mu_low", "mu_high", "front", "rear", "speed", "acceleration", "yaw", "risk", "flipper_tolerance",
   "payload_mass", "payload_behind", "payload_height",
   "u.com_from_front", "u.com_height", "u.angle",
 ];
