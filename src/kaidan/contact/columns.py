@@ -107,3 +107,8 @@ SETTLED_COLUMNS = 5
     CONE_W_X, CONE_W_Z,
 ) = range(10)  # fmt: skip
 CONE_COLUMNS = 10
+
+# Nosings that pass an end of a flat: arclength [m], whether it is reached (1.0) or left, point,
+# part, row of the pose before, share of the way to the next.
+PASSED_S, PASSED_REACHED, PASSED_POINT, PASSED_PART, PASSED_ROW, PASSED_SHARE = range(6)
+PASSED_COLUMNS = 6

@@ -26,6 +26,8 @@ KERNEL_MODULES = (
     "driver",
     "forces",
     "cones",
+    "passings",
+    "slipping",
     "margins",
     "standing",
     "rating",

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kaidan.contact.codes import ROCKING, Feature, PartKind, Status
-from kaidan.contact.columns import ENERGY, POSE_COLUMNS, TILT_COLUMNS
+from kaidan.contact.columns import ENERGY, PASSED_COLUMNS, POSE_COLUMNS, TILT_COLUMNS
 from kaidan.contact.contacts import Contact, contacts_of
 from kaidan.contact.margin_records import Margins, Tilts
 from kaidan.contact.records import Body, Events, Ground, Placement, Poses, RotationRecord, Rotations
@@ -292,6 +292,67 @@ class Path:
             margins, found,
         )  # fmt: skip
         return self._only(poses, margins)
+
+    def passed(self, rows: IntArray, touch: float) -> FloatArray:
+        """Nosings that a flat reaches or leaves on the way from some poses to the next.
+
+        Those of which an event tells are left out.
+
+        Parameters
+        ----------
+        rows
+            The first of each two poses, which lie on one straight piece of the path.
+        touch
+            Gap up to which a nosing lies on a flat [m].
+
+        Returns
+        -------
+        ndarray (k, 6)
+            Arclength [m], 1 where it is reached, point of the ground, part, row before, share of
+            the arclength to the next pose; in this order.
+        """
+        if len(rows) == 0:
+            return np.empty((0, PASSED_COLUMNS))
+        size, count = 0, 2 * len(rows) + 8
+        while count > size:
+            size = count
+            table = np.empty((size, PASSED_COLUMNS))
+            count = kernel().nosings_passed(
+                self.ground.table, self.body.table, self.poses.table, self.events.table, rows,
+                touch, self.reach, table,
+            )  # fmt: skip
+        found = table[:count]
+        return found[np.lexsort(found.T[::-1])]
+
+    def held_while_slipping(
+        self, points: IntArray, standing: FloatArray, friction: FloatArray, *, way: float,
+        ahead: bool,
+    ) -> FloatArray:  # fmt: skip
+        """With how much to spare each pose holds before the robot slips for good [rad].
+
+        Parameters
+        ----------
+        points
+            Shape (n, k): points of the ground at which grousers may stand; -1: none.
+        standing
+            Shape (n, k): margin with a grouser that stands there [rad].
+        friction
+            Shape (n,): margin by friction alone [rad].
+        way
+            Arclength of the slip [m].
+        ahead
+            Whether it slips towards the end of the path, else back.
+
+        Returns
+        -------
+        ndarray (n,)
+        """
+        found = np.empty(len(self.poses))
+        kernel().held_while_slipping(
+            self.poses.table, points.ravel(), standing.ravel(), np.ascontiguousarray(friction),
+            points.shape[1], 1 if ahead else -1, way, found,
+        )  # fmt: skip
+        return found
 
     def _between(self, rows: IntArray, shares: FloatArray) -> FloatArray:
         poses = np.empty((len(rows), POSE_COLUMNS))

@@ -31,6 +31,7 @@ from kaidan.contact.columns import (
     JOB_COLUMNS,
     LENGTH,
     MARGIN_COLUMNS,
+    PASSED_COLUMNS,
     POINT_COLUMNS,
     POSE_COLUMNS,
     R1,
@@ -69,6 +70,7 @@ SummaryTable = Annotated[FloatArray, SUMMARY_COLUMNS]
 RatingTable = Annotated[FloatArray, RATING_COLUMNS]
 PointTable = Annotated[FloatArray, POINT_COLUMNS]
 ZoneTable = Annotated[FloatArray, ZONE_COLUMNS]
+PassedTable = Annotated[FloatArray, PASSED_COLUMNS]
 ConeTable = Annotated[FloatArray, CONE_COLUMNS]
 SettledTable = Annotated[FloatArray, SETTLED_COLUMNS]
 #: Numbers that belong together, in the kernel: four, or x, z, cosine, sine and a point.

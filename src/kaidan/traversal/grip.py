@@ -33,7 +33,7 @@ from kaidan.mechanics.grousers import (
 )
 from kaidan.mechanics.grousers_at_edges import edge_tilt, reach_over_edge, tip_overlap
 from kaidan.terrain.polyline import STEEP
-from kaidan.traversal.nosing_events import BLOCK, TOUCH, along_flat
+from kaidan.traversal.nosing_events import TOUCH, along_flat
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
@@ -42,13 +42,13 @@ NOSING, TREAD, FACE = 0, 1, 2
 """Places of the stairs that a contact stands on; landings and floors are treads."""
 TREAD_DEPTH = 0.040
 """Depth of a tread behind its nosing that grousers stand on [m]: of 20 mm at 30 degrees."""
-MOST_SHIFTS = 1000
-"""Poses that a slip passes at most."""
 MANY = 0.75
 """Share of the phases that counts where four nosings or more are under the belts [1]: fitted with
 `phases_friction` (docs/theory/grousers.md)."""
 ALIKE = 7
 """Digits to which contacts are compared: a tenth of a micrometre."""
+BLOCK = 256
+"""Poses that are looked at together: what lies under them is a short piece of the ground."""
 _NONE = -1
 
 
@@ -149,27 +149,13 @@ class Grip:
         by_friction : ndarray
             What `by_friction` found.
         """
-        standing = self._standing(phi, grousers)
-        own = self.contacts.point
-        best = np.where(own == _NONE, -np.inf, np.maximum(standing, by_friction[:, None]))
-        slips = np.ones(len(best), dtype=np.bool_)
-        s, leg = self.path.s, self.path.poses.leg
-        reach, count = grousers.spacing + contact.STEP, len(best)
-        for shift in range(1, min(count, MOST_SHIFTS)):
-            rows = np.arange(count) + (shift if self.descending else -shift)
-            within = (rows >= 0) & (rows < count)
-            rows = np.clip(rows, 0, count - 1)
-            within &= (np.abs(s - s[rows]) < reach) & (leg == leg[rows])
-            slips &= within
-            if not slips.any():
-                break
-            there = np.full_like(best, -np.inf)
-            for slot in range(own.shape[1]):
-                same = own == self.contacts.point[rows, slot][:, None]
-                there = np.where(same, np.maximum(there, standing[rows, slot][:, None]), there)
-            there = np.maximum(there, by_friction[rows][:, None])
-            best = np.where(slips[:, None], np.minimum(best, there), best)
-        return np.asarray(np.maximum(by_friction, best.max(axis=1)))
+        return self.path.held_while_slipping(
+            self.contacts.point,
+            self._standing(phi, grousers),
+            by_friction,
+            way=grousers.spacing + contact.STEP,
+            ahead=self.descending,
+        )
 
     def at_once(
         self, phi: tuple[float, float, float], grousers: Grousers, by_friction: Array

@@ -11,15 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan import contact
-from kaidan.contact import BELLY, Event, EventRecord, Events, Feature, FeatureKind
+from kaidan.contact import Event, EventRecord, Events, Feature, FeatureKind
 
 Array = NDArray[np.float64]
 
 TOUCH = 1e-7
 """Gap up to which a nosing lies on the flat [m]: ten times what poses are solved to."""
-BLOCK = 256
-"""Pieces of the path that are looked at together: what lies under them is a short piece of the
-ground."""
 STRAIGHT = 1e-9
 """Rotation between two poses above which the kernel has the event [rad]."""
 
@@ -49,13 +46,12 @@ def nosing_events(path: contact.Path) -> Events:
     contact.Events
         Each with the row of the pose before it, and no other feature.
     """
-    rows = _straight_pieces(path)
-    parts = np.flatnonzero(path.body.kind != BELLY).tolist()
-    found: list[_Passing] = []
-    for first in range(0, len(rows), BLOCK):
-        for part in parts:
-            found += _passings(path, rows[first : first + BLOCK], part)
-    found = [each for each in sorted(found) if not _is_reported(path, each)]
+    found = [
+        _Passing(s, bool(reached), int(point), int(part), int(row), share)
+        for s, reached, point, part, row, share in path.passed(
+            _straight_pieces(path), TOUCH
+        ).tolist()
+    ]
     places = path.poses.placements
     events = []
     for each in _once(found):
@@ -96,29 +92,6 @@ def _straight_pieces(path: contact.Path) -> NDArray[np.int64]:
     return np.flatnonzero(pieces)
 
 
-def _passings(path: contact.Path, rows: NDArray[np.int64], part: int) -> list[_Passing]:
-    """Nosings that pass an end of the flat of a part on some pieces of the path."""
-    x, reach = path.x[rows], path.reach
-    ground_x = path.ground.x
-    near = (ground_x > x.min() - reach) & (ground_x < x.max() + reach)
-    points = np.flatnonzero(near & path.ground.convex)
-    length = float(path.body.flat_length[part])
-    w, lies = [], []
-    for ends in (rows, rows + 1):
-        along, gap = along_flat(path, ends, points, part)
-        w.append(along)
-        lies.append((np.abs(gap) < TOUCH) & (along >= 0) & (along <= length))
-    found = []
-    for row, column in np.argwhere(lies[0] != lies[1]):
-        before, after = float(w[0][row, column]), float(w[1][row, column])
-        share = ((0.0 if min(before, after) < 0 else length) - before) / (after - before)
-        at = int(rows[row])
-        s = float(path.s[at] + share * (path.s[at + 1] - path.s[at]))
-        reached = bool(lies[1][row, column])
-        found.append(_Passing(s, reached, int(points[column]), part, at, share))
-    return found
-
-
 def along_flat(
     path: contact.Path,
     rows: NDArray[np.int64],
@@ -140,18 +113,6 @@ def along_flat(
     along = a_x * e_x + a_z * e_z
     below = side * (a_x * e_z - a_z * e_x)
     return along * cosine - below * sine, along * sine + below * cosine - radius
-
-
-def _is_reported(path: contact.Path, passing: _Passing) -> bool:
-    """Whether the kernel tells of that point of the ground within the piece of the path."""
-    begin, end = path.s[passing.row : passing.row + 2]
-    events = path.events
-    for k in np.flatnonzero((events.s >= begin - 1e-9) & (events.s <= end + 1e-9)).tolist():
-        for code in (events[k].feature, events[k].other):
-            feature = Feature.of(code)
-            if code >= 0 and feature.point == passing.point and feature.kind is FeatureKind.VERTEX:
-                return True
-    return False
 
 
 def _once(passings: list[_Passing]) -> list[_Passing]:

@@ -14,7 +14,6 @@ to give way at a nosing: lines bound them as well as an arch, a parabola would n
 """
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,30 +38,15 @@ _LEAST = 1e-6
 _ALIKE = 9
 """Digits after the point to which two ways are one that repeats itself."""
 _FOUR = np.arange(-1, 3)[:, None]
+_SHARES = np.linspace(0.0, 1.0, PIECES + 1)[:, None]
+_ABOUT = (np.arange(PIECES) + 1 + _FOUR).ravel()
+"""Of each piece the place behind, both ends and the place ahead."""
 
 
-class _Ways(NamedTuple):
-    """Ways between two poses, with the poses beside them."""
-
-    row: Rows
-    """Row of the path before each."""
-    s: Array
-    """Pose behind, both ends, pose ahead [m], shape (4, n)."""
-    height: Array
-    """The figure there, shape (4, n); NaN where the path does not lead on to it."""
-    promise: Array
-    """How high the figure may be in between."""
-
-    def those(self, some: Rows | NDArray[np.bool_]) -> "_Ways":
-        return _Ways(self.row[some], self.s[:, some], self.height[:, some], self.promise[some])
-
-    def and_those(self, others: "_Ways") -> "_Ways":
-        return _Ways(
-            np.append(self.row, others.row),
-            np.hstack([self.s, others.s]),
-            np.hstack([self.height, others.height]),
-            np.append(self.promise, others.promise),
-        )
+# Ways between two poses, one a column: row of the path before it; place of the pose behind, of both
+# ends and of the pose ahead [m]; the figure there, NaN where the path does not lead on to it; how
+# high the figure may be in between.
+_ROW, _S, _HEIGHT, _PROMISE = 0, slice(1, 5), slice(5, 9), 9
 
 
 def leads_on(path: contact.Path) -> NDArray[np.bool_]:
@@ -111,36 +95,48 @@ def peaks_between(
     np.maximum.at(largest, group[group >= 0], values[group >= 0])
     pool = _ways_of(path, values, group, narrow)
     for _ in range(ROUNDS):
-        of = group[pool.row]
-        open_ = pool.promise > (largest + _LEAST + tolerance * np.abs(largest))[of]
-        pool = _once(pool.those(open_), group)
-        if len(pool.row) == 0:
+        of = group[_rows(pool)]
+        open_ = pool[_PROMISE] > (largest + _LEAST + tolerance * np.abs(largest))[of]
+        pool = _once(pool[:, open_], of[open_])
+        if pool.shape[1] == 0:
             break
-        of = group[pool.row]
-        chosen = np.concatenate([np.flatnonzero(of == each)[:AT_ONCE] for each in np.unique(of)])
-        cut = pool.those(chosen)
-        ends = path.s[cut.row], path.s[cut.row + 1]
-        shares = np.linspace(0.0, 1.0, PIECES + 1)[:, None]
-        s = cut.s[1] + shares * (cut.s[2] - cut.s[1])
-        row = np.tile(cut.row, PIECES - 1)
+        chosen = _first_of_each(group[_rows(pool)])
+        cut = pool[:, chosen]
+        before, (_, begin, end, _) = _rows(cut), cut[_S]
+        ends = path.s[before], path.s[before + 1]
+        s = begin + _SHARES * (end - begin)
+        row = np.tile(before, PIECES - 1)
         there = (s[1:-1] - ends[0]) / (ends[1] - ends[0])
         new = path.between(row, there.ravel(), acceleration=acceleration)
         found.append(new)
         rows.append(row)
         inside = figure(new).reshape(PIECES - 1, -1)
-        np.maximum.at(largest, group[cut.row], inside.max(axis=0))
-        height = np.vstack([cut.height[:2], inside, cut.height[2:]])
-        s = np.vstack([cut.s[:1], s, cut.s[3:]])
-        about = (np.arange(PIECES) + 1 + _FOUR).ravel()
-        four = s[about].reshape(4, -1), height[about].reshape(4, -1)
-        pieces = _Ways(np.tile(cut.row, PIECES), *four, promise(*four))
-        pool = pool.those(np.delete(np.arange(len(pool.row)), chosen)).and_those(pieces)
+        np.maximum.at(largest, group[before], inside.max(axis=0))
+        height = np.vstack([cut[_HEIGHT][:2], inside, cut[_HEIGHT][2:]])
+        s = np.vstack([cut[_S][:1], s, cut[_S][3:]])
+        four = s[_ABOUT].reshape(4, -1), height[_ABOUT].reshape(4, -1)
+        pieces = _ways(np.tile(before, PIECES), *four, promise(*four))
+        pool = np.hstack([np.delete(pool, chosen, axis=1), pieces])
     return found, np.concatenate(rows)
+
+
+def _ways(row: Rows, s: Array, height: Array, may: Array) -> Array:
+    return np.vstack([row[None], s, height, may[None]])
+
+
+def _rows(ways: Array) -> Rows:
+    return np.asarray(ways[_ROW].astype(np.int64))
+
+
+def _first_of_each(group: Rows) -> Rows:
+    """The first `AT_ONCE` of each group."""
+    each = [np.flatnonzero(group == one)[:AT_ONCE] for one in sorted({*group.tolist()})]
+    return np.concatenate(each)
 
 
 def _ways_of(
     path: contact.Path, values: Array, group: Rows, narrow: NDArray[np.bool_] | None
-) -> _Ways:
+) -> Array:
     """Ways from each pose of a group to the next."""
     on = leads_on(path)
     some = on & (group[:-1] >= 0) & np.isfinite(values[1:]) & np.isfinite(values[:-1])
@@ -155,7 +151,7 @@ def _ways_of(
     if narrow is not None:
         higher = height[1:3].max(axis=0)
         may = np.where(narrow[row], higher + NEAR * np.abs(higher), may)
-    return _Ways(row, s, height, may)
+    return _ways(row, s, height, may)
 
 
 def promise(s: Array, height: Array) -> Array:
@@ -186,9 +182,12 @@ def promise(s: Array, height: Array) -> Array:
     return np.asarray(np.maximum(higher, may))
 
 
-def _once(pool: _Ways, group: Rows) -> _Ways:
+def _once(pool: Array, group: Rows) -> Array:
     """Those that repeat themselves once, the most promising first."""
-    kinds = np.vstack([group[pool.row], pool.promise, pool.height[1:3]])
-    _, once = np.unique(np.round(kinds, _ALIKE), axis=1, return_index=True)
-    once = once[np.argsort(-pool.promise[once], kind="stable")]
-    return pool.those(once)
+    kinds = np.round(np.vstack([group[None], pool[[_PROMISE, 6, 7]]]), _ALIKE)
+    order = np.lexsort(kinds[::-1])
+    ordered = kinds[:, order]
+    new = np.ones(len(order), dtype=np.bool_)
+    new[1:] = (ordered[:, 1:] != ordered[:, :-1]).any(axis=0)
+    once = order[new]
+    return pool[:, once[np.argsort(-pool[_PROMISE, once], kind="stable")]]

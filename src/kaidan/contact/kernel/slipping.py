@@ -1,0 +1,84 @@
+r"""How a robot holds that slips back until a grouser stands: the least on its way, by one nosing.
+
+::
+
+    <---- way ----.     one nosing, with a grouser that comes to stand on it, has to do at every
+    | .  '  belt  |     pose of the slip; or friction
+    ' nosing
+"""
+
+from __future__ import annotations
+
+import math
+
+from kaidan.contact.columns import POSE_LEG, POSE_S
+from kaidan.contact.entries import entry
+from kaidan.contact.tables import FloatRow, IntArray, PoseTable
+
+#: Poses that a slip passes at most.
+MOST_SHIFTS = 1000
+
+
+def held_by(
+    points: IntArray, standing: FloatRow, friction: FloatRow, slots: int, row: int, point: int
+) -> float:
+    """Margin at a pose by friction, or by a grouser that stands at one point of the ground."""
+    most = -math.inf
+    if friction[row] > most:
+        most = friction[row]
+    for slot in range(slots):
+        if points[row * slots + slot] == point and standing[row * slots + slot] > most:
+            most = standing[row * slots + slot]
+    return most
+
+
+@entry
+def held_while_slipping(
+    poses: PoseTable, points: IntArray, standing: FloatRow, friction: FloatRow, slots: int,
+    sense: int, way: float, found: FloatRow,
+) -> None:  # fmt: skip
+    """Work out with how much to spare each pose holds before the robot slips for good.
+
+    Parameters
+    ----------
+    poses
+        Table of :func:`kaidan.contact.kernel.driver.drive`.
+    points
+        Point of the ground of each contact at which a grouser may stand, pose by pose; -1: none.
+    standing
+        Margin with a grouser that stands there [rad].
+    friction
+        Margin of each pose by friction alone [rad].
+    slots
+        Contacts of a pose.
+    sense
+        +1 where the robot slips towards the end of the path, -1 towards its beginning.
+    way
+        Arclength of the slip [m].
+    found
+        To be filled [rad].
+    """
+    count = poses.shape[0]
+    for row in range(count):
+        most = friction[row]
+        for slot in range(slots):
+            point = points[row * slots + slot]
+            if point < 0:
+                continue
+            least = max(friction[row], standing[row * slots + slot])
+            there = row
+            for _ in range(1, min(count, MOST_SHIFTS)):
+                there += sense
+                if (
+                    there < 0
+                    or there >= count
+                    or poses[there, POSE_LEG] != poses[row, POSE_LEG]
+                    or abs(poses[there, POSE_S] - poses[row, POSE_S]) >= way
+                    or not least > most
+                ):
+                    break
+                held = held_by(points, standing, friction, slots, there, point)
+                least = min(least, held)
+            if least > most:
+                most = least
+        found[row] = most
