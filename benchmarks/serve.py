@@ -1,13 +1,17 @@
 """Users of the server on loopback: latency of answers, and memory over thousands of requests.
 
 Each user asks once a second, of so many different questions that a share of them is new; the time
-is from sending to the last byte. Memory is the resident set of the server and of its workers, once
-after a tenth of the requests and once at the end. The server is a process of its own.
+is from sending to the last byte. At a slider a user asks for ten estimates a second, each once the
+one before has come, and for a whole answer when the slider rests; meanwhile somebody searches for
+the best flippers. Memory is the resident set of the server and of its workers, once after a tenth
+of the requests and once at the end. The server is a process of its own. What else the machine did
+is the load at the end, a mean of a minute that has this benchmark in it.
 """
 
 import argparse
 import asyncio
 import itertools
+import os
 import random
 import re
 import subprocess
@@ -31,6 +35,47 @@ def questions(different: int) -> list[dict[str, object]]:
          "friction": round(0.5 + 0.001 * k, 3)}
         for k in range(different)
     ]  # fmt: skip
+
+
+async def slider(client: httpx.AsyncClient, seconds: float, first: int, found: list):
+    """One user at the slider of the centroid's height, who rests every second."""
+    end, k = time.perf_counter() + seconds, 0
+    while time.perf_counter() < end:
+        height = 0.08 + 1e-6 * (first + k)
+        body = {"robot": "absolem", "stairs": "ibc", "surface": "concrete-dry", "flippers": "flat",
+                "override": {"com_height": height}}  # fmt: skip
+        for verb in ("estimate", "assess") if k % 10 == 9 else ("estimate",):
+            began = time.perf_counter()
+            answer = await client.post(f"/api/{verb}", json=body)
+            took = time.perf_counter() - began
+            found.append((verb, took, answer.status_code))
+            await asyncio.sleep(max(0.0, 0.1 - took))
+        k += 1
+
+
+async def searcher(client: httpx.AsyncClient, seconds: float):
+    """Somebody who has the best flippers found, of one question after another."""
+    end, k = time.perf_counter() + seconds, 0
+    while time.perf_counter() < end:
+        body = {"robot": "absolem", "stairs": "ada", "friction": 0.6 + 1e-4 * k}
+        await client.post("/api/assess", json=body)
+        k += 1
+
+
+async def sliders(address: str, users: int, seconds: float) -> dict:
+    """Latencies of estimates while so many users move a slider [ms]."""
+    found: list[tuple[str, float, int]] = []
+    limits = httpx.Limits(max_connections=users + 1)
+    async with httpx.AsyncClient(base_url=address, timeout=60, limits=limits) as client:
+        moving = (slider(client, seconds, 10_000 * k, found) for k in range(users))
+        await asyncio.gather(*moving, searcher(client, seconds))
+    times = np.array([took for verb, took, _ in found if verb == "estimate"]) * 1e3
+    return {
+        "estimates": len(times),
+        "errors": sum(status != 200 for *_, status in found),
+        "p50_ms": float(np.percentile(times, 50)),
+        "p95_ms": float(np.percentile(times, 95)),
+    }
 
 
 async def user(client: httpx.AsyncClient, seconds: float, asked: itertools.cycle, found: list):
@@ -85,7 +130,7 @@ def growth(address: str, pid: int, requests: int) -> dict:
             if k == requests // 10:
                 before = memory(pid)
             if k % 4 == 0:
-                client.post("/api/assess", json={"robot": f"nobody{k}", "stairs": "ibc"})
+                client.post("/api/estimate", json={"robot": f"nobody{k}", "stairs": "ibc"})
             elif k % 4 == 1:
                 client.get("/api/catalogue/robots/absolem")
             else:
@@ -116,16 +161,19 @@ def main(arguments: argparse.Namespace) -> dict[str, float]:
                     load(address, arguments.users, arguments.seconds, arguments.different, warm)
                 )
                 found |= {f"{name}_{key}": value for key, value in each.items()}
+            each = asyncio.run(sliders(address, arguments.sliders, arguments.seconds / 3))
+            found |= {f"slider_{key}": value for key, value in each.items()}
             found |= growth(address, server.pid, arguments.requests)
         finally:
             server.terminate()
             server.wait(20)
-    return found
+    return found | {"load_of_the_machine": os.getloadavg()[0]}
 
 
 if __name__ == "__main__":
     parser = options(argparse.ArgumentParser(description=__doc__))
     parser.add_argument("--users", type=int, default=50)
+    parser.add_argument("--sliders", type=int, default=21)
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--different", type=int, default=300)
     parser.add_argument("--requests", type=int, default=10_000)
@@ -133,5 +181,13 @@ if __name__ == "__main__":
     finish(
         main(arguments),
         arguments,
-        {"new_errors": 0, "again_errors": 0, "again_p95_ms": 80, "server_growth_mb": 8},
+        {
+            "new_errors": 0,
+            "new_p95_ms": 80,
+            "again_errors": 0,
+            "again_p95_ms": 80,
+            "slider_errors": 0,
+            "slider_p95_ms": 100,
+            "server_growth_mb": 8,
+        },
     )

@@ -11,6 +11,10 @@ import httpx
 from kaidan.web.server import listening, server_of
 from kaidan.web.state import State
 
+LONG = {"robot": "absolem", "stairs": "ibc", "flippers": "flat", "friction": 1.0,
+        "com_height": [0.1 + k / 1e5 for k in range(1500)]}  # fmt: skip
+"""A sweep that takes many seconds."""
+
 
 @contextmanager
 def served(*, host="127.0.0.1", token="", workers=1, state=None, **how):

@@ -49,6 +49,12 @@ def outcomes() -> dict[str, Any]:
     return tomllib.loads((_HERE / "outcomes.toml").read_text(encoding="utf-8"))
 
 
+@cache
+def _entry(folder: Folder, stem: str, read: Callable[..., Any]) -> Any:
+    """Sheet of the catalogue; sheets are frozen, so that one serves all."""
+    return read((_HERE / folder / f"{stem}.toml").read_text(encoding="utf-8"), origin=stem)
+
+
 def load(kind: Kind, name: str, read: Callable[..., T]) -> T:
     """Sheet of a catalogue entry, or of a user's TOML file.
 
@@ -78,8 +84,8 @@ def load(kind: Kind, name: str, read: Callable[..., T]) -> T:
     folders: tuple[Folder, ...] = ("robots", "unweighed") if kind == "robots" else (kind,)
     for folder in folders:
         if stem in names(folder):
-            text = (_HERE / folder / f"{stem}.toml").read_text(encoding="utf-8")
-            return read(text, origin=stem)
+            found: T = _entry(folder, stem, read)
+            return found
     if kind == "robots" and stem in gross_robots():
         raise InputError(
             f"{gross_robots()[stem]['title']}: neither length nor centroid is published, so no "

@@ -21,13 +21,14 @@ from kaidan.terrain.stairs import Stairs
 from kaidan.text.page import page_texts
 from kaidan.web import file_routes, job_routes, live_routes, openapi, report_routes
 from kaidan.web.asking import VERBS
-from kaidan.web.bodies import LARGEST_BODY, LARGEST_UPLOAD, json_of, sent
+from kaidan.web.bodies import LARGEST_BODY, LARGEST_UPLOAD, json_of, while_there
 from kaidan.web.job_table import JobTable
 from kaidan.web.jobs import Jobs
 from kaidan.web.remembered import Remembered
 from kaidan.web.sessions import Sessions
 from kaidan.web.state import State
-from kaidan.web.workers import Limits, Workers
+from kaidan.web.urgency import Hands
+from kaidan.web.workers import Limits
 
 STATIC = Path(__file__).parent / "static"
 _FOLDERS: Mapping[str, tuple[catalog.Folder, ...]] = {
@@ -50,12 +51,12 @@ def app_of(state: State, *, workers: int, limits: Limits | None = None) -> FastA
     state : State
         Folder that it keeps; it gives it back when it ends.
     workers : int
-        Processes that answer.
+        Processes that answer quick questions, and as many for those that take longer.
     limits : Limits, optional
         What one question may take.
     """
-    hands = Workers(workers, limits or Limits(), state.passing)
-    jobs = Jobs(JobTable(state.jobs), hands)
+    hands = Hands(workers, limits or Limits(), state.passing)
+    jobs = Jobs(JobTable(state.jobs), hands.thorough)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
@@ -76,9 +77,9 @@ def app_of(state: State, *, workers: int, limits: Limits | None = None) -> FastA
     )
     _add_errors(app)
     _add_catalogue(app)
-    _add_verbs(app, Remembered(hands))
-    report_routes.add(app, hands)
-    file_routes.add(app, hands)
+    _add_verbs(app, Remembered(hands.ask))
+    report_routes.add(app, hands.thorough)
+    file_routes.add(app, hands.thorough)
     job_routes.add(app, jobs, Sessions(state.folder / "key"))
     live_routes.add(app)
     app.openapi = lambda: openapi.described(app)  # type: ignore[method-assign]
@@ -138,7 +139,8 @@ def _add_verbs(app: FastAPI, hands: Remembered) -> None:
     def add(path: str, kind: str, verb: str, summary: str, schema: Any) -> None:
         async def answer(request: Request) -> Response:
             body = await json_of(request)
-            return sent(await hands.ask({"kind": kind, "verb": verb, "body": body}))
+            task = {"kind": kind, "verb": verb, "body": body}
+            return await while_there(request, hands.ask(task))
 
         app.add_api_route(
             path, answer, methods=["POST"], name=path.removeprefix("/api/").replace("/", "_"),

@@ -99,6 +99,20 @@ def sweep_summary(*, go_only: bool = False, **values: Any) -> Answer:
     return summary_of(carried_out(plan, workers=1))
 
 
+def estimate(robot: Any, stairs: Any = None, **manner: Any) -> Answer:
+    """First estimate by the closed form, without advice: what a slider shows while it moves.
+
+    Parameters
+    ----------
+    robot, stairs, **manner
+        As in `kaidan.assess`.
+    """
+    from kaidan.assessment import answer_to
+
+    question = Question.ask(robot, stairs, **{"model": "closed-form", **manner})
+    return answer_to(question, advice=False)
+
+
 def pose_map_of(robot: Any, stairs: Any = None, **manner: Any) -> Answer:
     """Pose map along the traverse of a question, coarse enough for a page.
 
@@ -118,6 +132,7 @@ def pose_map_of(robot: Any, stairs: Any = None, **manner: Any) -> Answer:
 
 VERBS: Mapping[str, Verb] = {
     "assess": Verb("kaidan.assessment:assess", "kaidan.assessment.answer:Assessment"),
+    "estimate": Verb("kaidan.web.asking:estimate", "kaidan.assessment.answer:Assessment"),
     "traverse": Verb(
         "kaidan.verbs.traverse:traverse", "kaidan.verbs.traverse_report:TraverseReport"
     ),

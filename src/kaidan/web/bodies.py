@@ -1,6 +1,8 @@
 """Bodies of requests, as what they hold, and replies as responses."""
 
+import asyncio
 import json
+from collections.abc import Coroutine
 from typing import Any
 
 from fastapi import Request
@@ -17,6 +19,8 @@ LARGEST_UPLOAD = 256 << 20
 """Largest upload [bytes]."""
 FORM = {"max_files": 1, "max_fields": 32, "max_part_size": LARGEST_BODY}
 """What a form may have."""
+_GONE = 499
+"""Status of what nobody reads any more."""
 
 
 def type_of(request: Request) -> str:
@@ -76,6 +80,30 @@ def sent(reply: Reply) -> Response:
     """Response of a reply."""
     headers = {"Retry-After": "1"} if reply.status == 503 else None
     return Response(reply.content, reply.status, headers, "application/json")
+
+
+async def while_there(request: Request, reply: Coroutine[Any, Any, Reply]) -> Response:
+    """Response of a reply that is given up when the client is gone.
+
+    Parameters
+    ----------
+    request : Request
+        Its body was read.
+    reply : coroutine
+    """
+    work, gone = asyncio.ensure_future(reply), asyncio.ensure_future(_gone(request))
+    try:
+        await asyncio.wait({work, gone}, return_when=asyncio.FIRST_COMPLETED)
+        return sent(await work) if work.done() else Response(status_code=_GONE)
+    finally:
+        gone.cancel()
+        work.cancel()
+
+
+async def _gone(request: Request) -> None:
+    """Wait until the client has gone."""
+    while (await request.receive())["type"] != "http.disconnect":
+        pass
 
 
 def _refuse_constant(word: str) -> None:

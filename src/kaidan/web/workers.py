@@ -1,6 +1,8 @@
 """Worker processes: each task in one of them, within a time, and a new one for each that dies."""
 
 import asyncio
+import heapq
+import itertools
 import json
 import os
 import shutil
@@ -14,6 +16,9 @@ from typing import Any, NamedTuple, Self
 
 from kaidan.progress import Follower
 from kaidan.web.worker import LENGTH
+
+_LAST = 10
+"""By how much other processes go before a job."""
 
 
 class Reply(NamedTuple):
@@ -51,7 +56,7 @@ class _Worker:
         """Whether it had no memory left, so that nobody knows what is whole in it."""
 
     @classmethod
-    async def begin(cls, limits: Limits, folder: Path, *, nice: int = 0) -> Self:
+    async def begin(cls, limits: Limits, folder: Path, nice: int) -> Self:
         process = await asyncio.create_subprocess_exec(
             sys.executable, "-m", "kaidan.web.worker", str(limits.memory), str(nice),
             stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
@@ -103,25 +108,41 @@ class Workers:
         What one question may take.
     folder : Path
         Where each has a folder for passing files.
+    nice : int
+        By how much other processes go first; those that let others go first begin with their first
+        question.
+    kept : int
+        How many of them are left for questions of rank 0.
     """
 
-    def __init__(self, count: int, limits: Limits, folder: Path) -> None:
+    def __init__(
+        self, count: int, limits: Limits, folder: Path, *, nice: int = 0, kept: int = 0
+    ) -> None:
         self.count, self.limits, self.folder = count, limits, folder
-        self._idle: asyncio.LifoQueue[_Worker | None] = asyncio.LifoQueue()
+        self.nice, self.kept = nice, kept
+        self._idle: list[_Worker | None] = [None] * count
         self._all: set[_Worker] = set()
-        self._waiting = 0
+        self._line: list[tuple[int, int, asyncio.Future[_Worker | None]]] = []
+        self._numbers = itertools.count()
+        self._under_way: set[asyncio.Task[Reply]] = set()
 
     async def __aenter__(self) -> Self:
-        for _ in range(self.count):
-            self._idle.put_nowait(await self._begin())
+        if not self.nice:
+            self._idle = [await self._begin(self.nice) for _ in range(self.count)]
         return self
 
     async def __aexit__(self, *ended: object) -> None:
+        for *_, turn in self._line:
+            turn.cancel()
         for worker in tuple(self._all):
             await self._drop(worker)
 
-    async def ask(self, task: Mapping[str, Any], *, seconds: float | None = None) -> Reply:
+    async def ask(
+        self, task: Mapping[str, Any], *, seconds: float | None = None, rank: int = 0
+    ) -> Reply:
         """Reply to a task, whatever becomes of its worker.
+
+        Who gives up while the task waits takes it out of the line; one that has begun is ended.
 
         Parameters
         ----------
@@ -129,31 +150,66 @@ class Workers:
             See `kaidan.web.tasks`.
         seconds : float, optional
             Time that it may take [s]; that of the limits without it.
+        rank : int
+            Of those that wait, the lowest goes first.
         """
-        if self._waiting >= self.limits.waiting:
+        if len(self._line) >= self.limits.waiting:
             return refused(503, "busy", "too many questions at once; ask again in a while")
-        self._waiting += 1
-        try:
-            worker = await self._idle.get()
-        finally:
-            self._waiting -= 1
+        worker = await self._free(rank)
+        work = asyncio.create_task(self._asked(worker, task, seconds or self.limits.seconds))
+        self._under_way.add(work)
+        work.add_done_callback(self._under_way.discard)
+        return await asyncio.shield(work)
+
+    async def _asked(
+        self, worker: _Worker | None, task: Mapping[str, Any], seconds: float
+    ) -> Reply:
         whole = False
         try:
             worker = await self._living(worker)
-            reply = await self._within(worker, task, seconds or self.limits.seconds)
+            reply = await self._within(worker, task, seconds)
             fresh = worker.done < self.limits.tasks and not worker.spent
             whole = fresh and worker.process.returncode is None
             return reply
         finally:
             if not whole and worker is not None:
                 await self._drop(worker)
-            self._idle.put_nowait(worker if whole else None)
+            self._release(worker if whole else None)
+
+    async def _free(self, rank: int) -> _Worker | None:
+        """Worker that has nothing to do, as soon as it is this one's turn; None: one may begin."""
+        if len(self._idle) > self._left_by(rank):
+            return self._idle.pop()
+        turn: asyncio.Future[_Worker | None] = asyncio.get_running_loop().create_future()
+        place = (rank, next(self._numbers), turn)
+        heapq.heappush(self._line, place)
+        try:
+            return await turn
+        except asyncio.CancelledError:
+            if place in self._line:
+                self._line.remove(place)
+                heapq.heapify(self._line)
+            elif not turn.cancelled():  # its turn came in the same moment
+                self._release(turn.result())
+            raise
+
+    def _left_by(self, rank: int) -> int:
+        """How many idle workers a question leaves for others."""
+        return self.kept if rank else 0
+
+    def _release(self, worker: _Worker | None) -> None:
+        """Give a worker to who waits for one."""
+        self._idle.append(worker)
+        while self._line and len(self._idle) > self._left_by(self._line[0][0]):
+            turn = heapq.heappop(self._line)[-1]
+            if not turn.cancelled():
+                turn.set_result(self._idle.pop())
 
     async def ask_apart(
         self, task: Mapping[str, Any], *, seconds: float, follower: Follower
     ) -> Reply:
         """Reply to a task by a process of its own, which lets the others go first."""
-        worker = await self._begin(nice=10)
+        worker = await self._begin(_LAST)
         try:
             return await self._within(worker, task, seconds, follower)
         finally:
@@ -183,11 +239,11 @@ class Workers:
             return worker
         if worker is not None:
             await self._drop(worker)
-        return await self._begin()
+        return await self._begin(self.nice)
 
-    async def _begin(self, *, nice: int = 0) -> _Worker:
+    async def _begin(self, nice: int) -> _Worker:
         folder = Path(tempfile.mkdtemp(dir=self.folder))
-        worker = await _Worker.begin(self.limits, folder, nice=nice)
+        worker = await _Worker.begin(self.limits, folder, nice)
         self._all.add(worker)
         return worker
 

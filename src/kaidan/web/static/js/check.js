@@ -20,7 +20,7 @@ const SETTLED = 120; // after the last change of a slider, the whole question is
 
 export function checkView(shell) {
   const lines = {
-    quick: new Latest("assess"), answer: new Latest("assess"), side: new Latest("traverse"),
+    quick: new Latest("estimate"), answer: new Latest("assess"), side: new Latest("traverse"),
     margin: new Latest("margin"), plane: new Latest("plane"), map: new Latest("pose-map"), text: new Latest("text/assess"),
   };
   const current = {

@@ -99,7 +99,7 @@ export function bodyOf(robot, stairs) {
 // The closed form takes one posture: a first estimate where the best is still to be found.
 export function quickBody(body) {
   const { accept: _, yaw: __, flipper_tolerance: ___, ...rest } = body;
-  return { ...rest, model: "closed-form", ...(body.flippers === "best" ? { flippers: "flat" } : {}) };
+  return { ...rest, ...(body.flippers === "best" ? { flippers: "flat" } : {}) };
 }
 
 export function marginBody(body) {

@@ -1,0 +1,155 @@
+"""Quick questions do not wait for long ones, and what nobody waits for leaves the line."""
+
+import asyncio
+import contextlib
+import threading
+import time
+
+import pytest
+
+from kaidan.web.bodies import while_there
+from kaidan.web.remembered import Remembered
+from kaidan.web.urgency import is_quick
+from kaidan.web.workers import Limits, Reply, Workers
+from serving import LONG, served
+
+QUICK = {"robot": "absolem", "stairs": "ibc", "friction": 1.0, "flippers": "stowed"}
+"""A question that is answered at once."""
+
+
+def test_a_quick_question_does_not_wait_for_a_long_one():
+    with served(limits=Limits(seconds=4.0)) as client:
+        done = []
+        asking = threading.Thread(target=lambda: done.append(client.post("/api/sweep", json=LONG)))
+        asking.start()
+        time.sleep(0.2)
+        assert client.post("/api/assess", json=QUICK).status_code == 200
+        assert done == []
+        asking.join()
+
+
+def test_the_estimate_is_the_closed_form_without_advice(client):
+    gentle = {"angle": "30deg", "nosing_spacing": "150mm"}
+    asked = {"robot": "kenaf", "stairs": gentle, "friction": 0.3}
+    found = client.post("/api/estimate", json=asked).json()
+    whole = client.post("/api/assess", json=asked | {"model": "closed-form"}).json()
+    assert found["what_would_help"] == []
+    assert whole["what_would_help"] != []
+    assert found["findings"] == whole["findings"]
+    assert found["verdict"] == whole["verdict"] != "go"
+
+
+@pytest.mark.parametrize(
+    ("verb", "body", "quick"),
+    [
+        ("assess", {"flippers": "flat"}, True),
+        ("assess", {"flippers": ["flat", {}]}, True),
+        ("assess", {}, False),
+        ("assess", {"flippers": "best"}, False),
+        ("assess", {"flippers": "flat", "model": "physics"}, False),
+        ("assess", {"question": {"best_of": [], "model": "contact"}}, True),
+        ("assess", {"question": {"best_of": ["flippers"]}}, False),
+        ("assess", {"question": 7}, False),
+        ("estimate", {}, True),
+        ("margin", {}, True),
+        ("sweep", {"flippers": "flat"}, False),
+    ],
+)
+def test_what_is_quick(verb, body, quick):
+    assert is_quick({"verb": verb, "body": body}) is quick
+
+
+class Counting:
+    """Who answers in a tenth of a second and counts what came, and what was given up."""
+
+    def __init__(self):
+        self.asked, self.given_up = 0, 0
+
+    async def __call__(self, task):
+        self.asked += 1
+        try:
+            await asyncio.sleep(0.1)
+        except asyncio.CancelledError:
+            self.given_up += 1
+            raise
+        return Reply(200, b"{}")
+
+
+def test_the_same_question_at_once_is_judged_once_and_given_up_by_the_last():
+    async def run():
+        hands = Counting()
+        known = Remembered(hands)
+        first, second = (asyncio.create_task(known.ask({"q": 1})) for _ in range(2))
+        await asyncio.sleep(0.01)
+        first.cancel()  # the other one still waits
+        assert (await second).status == 200
+        assert (hands.asked, hands.given_up) == (1, 0)
+        alone = asyncio.create_task(known.ask({"q": 2}))
+        await asyncio.sleep(0.01)
+        alone.cancel()
+        with contextlib.suppress(asyncio.CancelledError):
+            await alone
+        again = await known.ask({"q": 2})
+        assert again.status == 200
+        assert (hands.asked, hands.given_up) == (3, 1)
+
+    asyncio.run(run())
+
+
+def test_one_worker_is_left_for_estimates(tmp_path):
+    async def run():
+        hands = Workers(2, Limits(), tmp_path, nice=1, kept=1)  # begins none by itself
+        first = await hands._free(1)
+        second = asyncio.create_task(hands._free(1))
+        await asyncio.sleep(0)
+        estimate = await hands._free(0)
+        hands._release(estimate)
+        await asyncio.sleep(0)
+        assert not second.done()
+        hands._release(first)
+        assert await second is None
+
+    asyncio.run(run())
+
+
+def test_the_line_goes_by_rank_and_who_gives_up_leaves_it(tmp_path):
+    async def run():
+        order = []
+
+        async def ask(hands, name, rank):
+            await hands.ask({"kind": "ask", "verb": "estimate", "body": {"name": name}}, rank=rank)
+            order.append(name)
+
+        async with Workers(1, Limits(), tmp_path) as hands:
+            line = [
+                asyncio.create_task(ask(hands, name, rank))
+                for name, rank in (("first", 1), ("late", 1), ("gone", 0), ("early", 0))
+            ]
+            await asyncio.sleep(0)
+            line[2].cancel()
+            await asyncio.gather(*line, return_exceptions=True)
+        return order
+
+    assert asyncio.run(run()) == ["first", "early", "late"]
+
+
+class Leaving:
+    """A request whose client leaves after a while."""
+
+    def __init__(self, seconds):
+        self.seconds = seconds
+
+    async def receive(self):
+        await asyncio.sleep(self.seconds)
+        return {"type": "http.disconnect"}
+
+
+@pytest.mark.parametrize(("seconds", "status", "given_up"), [(0.02, 499, 1), (5.0, 200, 0)])
+def test_what_a_client_asked_that_has_gone_is_given_up(seconds, status, given_up):
+    async def run():
+        hands = Counting()
+        found = await while_there(Leaving(seconds), Remembered(hands).ask({"q": 1}))
+        await asyncio.sleep(0.01)
+        return found.status_code, hands.given_up
+
+    assert asyncio.run(run()) == (status, given_up)
