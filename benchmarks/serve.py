@@ -134,7 +134,8 @@ def growth(address: str, pid: int, requests: int) -> dict:
             elif k % 4 == 1:
                 client.get("/api/catalogue/robots/absolem")
             else:
-                new = {"robot": "kenaf", "stairs": "ibc", "friction": next(frictions) / 1e4}
+                new = {"robot": "absolem", "stairs": "ibc", "flippers": "flat",
+                       "friction": next(frictions) / 1e4}  # fmt: skip
                 answer = client.post("/api/assess", json=new | {"model": "closed-form"})
                 remembered += len(answer.content) / 1e6 if before else 0.0
         after = memory(pid)
