@@ -13,7 +13,7 @@ from kaidan.web.bodies import FORM, fields_of, file_of, json_of, object_of, type
 from kaidan.web.file_routes import keep
 from kaidan.web.job_table import Job
 from kaidan.web.jobs import Jobs
-from kaidan.web.long_work import FILES, JOBS, RESULT
+from kaidan.web.long_work import FILES, JOBS, RESULT, TEXT
 from kaidan.web.sessions import COOKIE, HEADER, KEPT, Sessions
 
 
@@ -29,6 +29,12 @@ def add(app: FastAPI, jobs: Jobs, sessions: Sessions) -> None:
         job = None if owner is None else jobs.one(owner, identity)
         if job is None:
             raise HTTPException(404, "no such job")
+        return job
+
+    def done_of(request: Request, identity: str) -> Job:
+        job = job_of(request, identity)
+        if job.state != "done":
+            raise HTTPException(409, f"the job is {job.state}")
         return job
 
     @app.post("/api/jobs", status_code=201, openapi_extra=openapi.job_request())
@@ -67,11 +73,15 @@ def add(app: FastAPI, jobs: Jobs, sessions: Sessions) -> None:
 
     @app.get("/api/jobs/{identity}/result")
     async def result(request: Request, identity: str) -> FileResponse:
-        """What a job came to: the answer, or a film."""
-        job = job_of(request, identity)
-        if job.state != "done":
-            raise HTTPException(409, f"the job is {job.state}")
+        """What a job came to: the answer, a film or a report."""
+        job = done_of(request, identity)
         return FileResponse(jobs.table.files(job) / RESULT, media_type=job.media)
+
+    @app.get("/api/jobs/{identity}/text")
+    async def text(request: Request, identity: str) -> FileResponse:
+        """An answer in the words of the command; of a film or a report nothing."""
+        job = done_of(request, identity)
+        return FileResponse(jobs.table.files(job) / TEXT, media_type="text/plain; charset=utf-8")
 
     @app.get("/api/jobs/{identity}/events")
     async def events(request: Request, identity: str) -> StreamingResponse:

@@ -60,6 +60,7 @@ class Job:
         found = {
             "id": self.id,
             "verb": self.verb,
+            "about": about(self.body),
             "state": self.state,
             "progress": {"what": self.what, "done": self.done, "of": self.of},
             "created": self.created,
@@ -68,6 +69,24 @@ class Job:
             "result": f"/api/jobs/{self.id}/result" if self.state == "done" else None,
         }
         return found
+
+
+def about(body: Mapping[str, Any]) -> str:
+    """Whom a body names, for a list.
+
+    Examples
+    --------
+    >>> about({"robots": ["absolem", {"name": "mine"}], "stairs": "ibc", "friction": 1.0})
+    'absolem, mine / ibc'
+    """
+    found = (_names(body.get(key)) for key in ("robots", "robot", "stairs"))
+    return " / ".join(filter(None, found))[:200]
+
+
+def _names(given: Any) -> str:
+    if isinstance(given, list):
+        return ", ".join(filter(None, map(_names, given)))
+    return str(given.get("name", "")) if isinstance(given, Mapping) else str(given or "")
 
 
 class JobTable:

@@ -1,4 +1,4 @@
-"""What jobs do: any verb, larger sweeps, trials in MuJoCo, films, and files that take long."""
+"""What jobs do: any verb, larger sweeps, trials in MuJoCo, films, reports, files that take long."""
 
 from collections.abc import Mapping
 from inspect import signature
@@ -6,16 +6,26 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from kaidan.answer import Answer
-from kaidan.errors import InputError
-from kaidan.web.asking import VERBS, answered, building_of, made, read_of, refuse_unknown
+from kaidan.errors import InputError, shown
+from kaidan.web.asking import (
+    VERBS,
+    answered,
+    building_of,
+    made,
+    read_of,
+    refuse_unknown,
+    report_of,
+)
 
 FILES = ("read", "building")
 """Jobs that need a file."""
-JOBS = (*VERBS, *FILES, "experiment", "film")
+JOBS = (*VERBS, *FILES, "experiment", "film", "report")
 """What a job may do."""
-STORE, UPLOAD, RESULT = "store", "upload", "result"
+STORE, UPLOAD, RESULT, TEXT = "store", "upload", "result", "text"
 """Names in the folder of a job."""
 _MEDIA = {".mp4": "video/mp4", ".gif": "image/gif"}
+DOCUMENTS = {"html": "text/html; charset=utf-8", "pdf": "application/pdf"}
+"""Types of reports by their formats."""
 
 
 class Result(NamedTuple):
@@ -24,6 +34,8 @@ class Result(NamedTuple):
     media: str
     """Type of its content."""
     content: bytes
+    text: str = ""
+    """The words of the command, where it is an answer."""
 
 
 def result_of(verb: str, body: Mapping[str, Any], folder: Path) -> Result:
@@ -45,6 +57,8 @@ def result_of(verb: str, body: Mapping[str, Any], folder: Path) -> Result:
     """
     if verb == "film":
         return _film(body)
+    if verb == "report":
+        return _report(body)
     answer: Answer
     if verb == "sweep":
         answer = _sweep(body, folder)
@@ -56,7 +70,7 @@ def result_of(verb: str, body: Mapping[str, Any], folder: Path) -> Result:
         answer = building_of(UPLOAD, body)
     else:
         answer = answered(verb, body)
-    return Result("application/json", answer.to_json().encode())
+    return Result("application/json", answer.to_json().encode(), str(answer))
 
 
 def _sweep(body: Mapping[str, Any], folder: Path) -> Answer:
@@ -91,3 +105,25 @@ def _film(body: Mapping[str, Any]) -> Result:
     found = answered("traverse", values)
     assert isinstance(found, TraverseReport)
     return Result(_MEDIA[suffix], film_of(found, suffix))
+
+
+def _report(body: Mapping[str, Any]) -> Result:
+    from kaidan.documents import report_bytes
+
+    values = dict(body)
+    form = document_format(values)
+    return Result(DOCUMENTS[form], report_bytes(report_of(values), form))
+
+
+def document_format(body: dict[str, Any], known: tuple[str, ...] = tuple(DOCUMENTS)) -> str:
+    """Format of a report that a body asks for, taken out of it.
+
+    Raises
+    ------
+    InputError
+        None of those known.
+    """
+    form = body.pop("format", "html")
+    if form not in known:
+        raise InputError(f"report: format {shown(form)} is not known; known: {', '.join(known)}")
+    return str(form)

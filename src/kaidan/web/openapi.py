@@ -49,6 +49,8 @@ class JobShown(BaseModel):
 
     id: str
     verb: str
+    about: str
+    """Robots and stairs of its body, by their names."""
     state: JobState
     progress: ProgressShown
     created: float

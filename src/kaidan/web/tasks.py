@@ -11,7 +11,7 @@ from kaidan.answer import Answer
 from kaidan.errors import KaidanError, MissingExtraError, RefusedError
 from kaidan.files import whole_file
 from kaidan.web.asking import answered, building_of, read_of, report_of, samples_of_file
-from kaidan.web.long_work import RESULT, UPLOAD, result_of
+from kaidan.web.long_work import RESULT, TEXT, UPLOAD, result_of
 from kaidan.web.sheets import sheets_of
 
 Done = tuple[dict[str, Any], bytes]
@@ -105,6 +105,7 @@ def _job(task: Mapping[str, Any]) -> bytes:
         found = result_of(task["verb"], task["body"], folder)
     with whole_file(folder / RESULT, durable=True) as file:
         file.write(found.content)
+    (folder / TEXT).write_text(found.text, encoding="utf-8")
     return json.dumps({"media": found.media}).encode()
 
 

@@ -35,11 +35,22 @@ def begun(client, verb, body):
 def test_a_job_comes_to_what_the_verb_answers(client):
     job = begun(client, "sweep", SWEEP)
     done = ended(client, job)
-    assert done["state"] == "done"
+    assert (done["state"], done["about"]) == ("done", "absolem / ibc")
+    said = client.post("/api/text/sweep", json=SWEEP).json()["text"]
+    assert client.get(f"/api/jobs/{job['id']}/text").text == said
     assert client.get(done["result"]).json() == client.post("/api/sweep", json=SWEEP).json()
     assert [each["id"] for each in client.get("/api/jobs").json()["jobs"]] == [job["id"]]
     assert client.delete(f"/api/jobs/{job['id']}").status_code == 204
     assert client.get("/api/jobs").json() == {"jobs": []}
+
+
+def test_a_report_is_a_job_too(client):
+    body = {"robot": "kenaf", "stairs": "ibc", "friction": 1.0, "format": "html"}
+    done = ended(client, begun(client, "report", body))
+    assert client.get(done["result"]).headers["content-type"] == "text/html; charset=utf-8"
+    assert client.get(done["result"]).text == client.post("/api/report", json=body).text
+    wrong = ended(client, begun(client, "report", body | {"format": "doc"}))
+    assert "known: html, pdf" in wrong["error"]["error"]
 
 
 def test_events_end_with_what_became_of_it(client):

@@ -8,7 +8,7 @@ const FILES = [
   ...[
     "api", "building", "chart", "check", "controls", "dom", "ground", "i18n", "light", "main", "margin", "measure", "plane",
     "posemap", "question", "robot", "saved", "sentences", "sheet", "side", "stairs", "state", "storage",
-    "units", "upload", "verdict",
+    "units", "upload", "verdict", "work",
   ].map((name) => `js/${name}.js`),
   "api/texts", "api/catalogue",
 ];

@@ -42,6 +42,16 @@ export function ask(path, body, signal) {
   });
 }
 
+export async function fetchedText(path) {
+  const response = await fetch(`api/${path}`).catch(() => { throw new Unreachable(); });
+  return response.ok ? response.text() : answered(response);
+}
+
+export async function remove(path) {
+  const response = await fetch(`api/${path}`, { method: "DELETE" }).catch(() => { throw new Unreachable(); });
+  if (!response.ok) await answered(response);
+}
+
 // A file that the server makes of a question.
 export async function fetchedFile(path, body) {
   const response = await fetch(`api/${path}`, {

@@ -12,8 +12,9 @@ import { savedView } from "./saved.js";
 import { change, followAddress, readAddress, state, subscribe } from "./state.js";
 import { prefer, preference } from "./storage.js";
 import { lengths, setLengths } from "./units.js";
+import { workView } from "./work.js";
 
-const VIEWS = { check: checkView, building: buildingView, saved: savedView };
+const VIEWS = { check: checkView, building: buildingView, work: workView, saved: savedView };
 let views = {}, chip = null, status = null, banner = null, sliding = false;
 
 const shell = {
