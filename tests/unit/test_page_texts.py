@@ -15,7 +15,7 @@ SCRIPTS = Path(kaidan.__file__).parent / "web" / "static" / "js"
 # Topics whose names the page makes of an answer's words.
 OPEN = {"advice", "verdict", "mode", "phase", "reason", "figure", "ground", "binds", "stairs"}
 OPEN |= {"side", "chart", "app", "answer", "guide", "saved", "live"}
-OPEN |= {"robot", "measure"}
+OPEN |= {"robot", "measure", "work"}
 
 
 def test_every_text_is_there_in_japanese():
