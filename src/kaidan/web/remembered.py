@@ -13,7 +13,7 @@ MOST = 64 << 20
 """Most that is remembered [bytes]."""
 
 
-class Asked(Protocol):
+class Answering(Protocol):
     """Who answers, as `kaidan.web.urgency.Hands.ask`."""
 
     def __call__(self, task: Mapping[str, Any], /) -> Awaitable[Reply]:
@@ -36,14 +36,14 @@ class Remembered:
 
     Parameters
     ----------
-    asked : callable
+    answer : callable
         Who answers.
     most : int
         Most that is remembered [bytes]; the answer that nobody needed for longest goes first.
     """
 
-    def __init__(self, asked: Asked, most: int = MOST) -> None:
-        self._answer, self._most, self._size = asked, most, 0
+    def __init__(self, answer: Answering, most: int = MOST) -> None:
+        self._answer, self._most, self._size = answer, most, 0
         self._replies: OrderedDict[bytes, Reply] = OrderedDict()
         self._coming: dict[bytes, _Coming] = {}
 
@@ -54,7 +54,7 @@ class Remembered:
             self._replies.move_to_end(key)
             return self._replies[key]
         if key not in self._coming:
-            self._coming[key] = _Coming(asyncio.create_task(self._asked(key, task)), set())
+            self._coming[key] = _Coming(asyncio.create_task(self._answered(key, task)), set())
             self._coming[key].answer.add_done_callback(lambda done: self._forget(key, done))
         coming, me = self._coming[key], object()
         coming.waiting.add(me)
@@ -71,7 +71,7 @@ class Remembered:
         if key in self._coming and self._coming[key].answer is answer:
             del self._coming[key]
 
-    async def _asked(self, key: bytes, task: Mapping[str, Any]) -> Reply:
+    async def _answered(self, key: bytes, task: Mapping[str, Any]) -> Reply:
         reply = await self._answer(task)
         if reply.status == 200:
             self._replies[key] = reply

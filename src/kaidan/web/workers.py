@@ -156,12 +156,12 @@ class Workers:
         if len(self._line) >= self.limits.waiting:
             return refused(503, "busy", "too many questions at once; ask again in a while")
         worker = await self._free(rank)
-        work = asyncio.create_task(self._asked(worker, task, seconds or self.limits.seconds))
+        work = asyncio.create_task(self._answered(worker, task, seconds or self.limits.seconds))
         self._under_way.add(work)
         work.add_done_callback(self._under_way.discard)
         return await asyncio.shield(work)
 
-    async def _asked(
+    async def _answered(
         self, worker: _Worker | None, task: Mapping[str, Any], seconds: float
     ) -> Reply:
         whole = False
