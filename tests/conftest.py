@@ -1,3 +1,4 @@
+import gc
 import os
 import sys
 from pathlib import Path
@@ -7,9 +8,20 @@ from hypothesis import settings
 sys.path.insert(0, str(Path(__file__).parent))
 os.environ.pop("COLUMNS", None)  # tables as wide as they like, whatever screen runs the tests
 
+# what both workers and a hundred processes import is compiled once
+sys.dont_write_bytecode = False
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+
+gc.disable()  # ten thousand tests are being collected, and none of them is garbage
+
 # the same examples in every run, so that a check of main says something of main;
 # HYPOTHESIS_PROFILE=whole takes all of them (tests/properties/test_all_examples.py), random others
 settings.register_profile("same", derandomize=True, deadline=None)
 settings.register_profile("whole", derandomize=True, deadline=None)
 settings.register_profile("random", deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
+
+
+def pytest_collection_finish():
+    gc.freeze()
+    gc.enable()

@@ -1,6 +1,6 @@
 """Answers and sheets of kaidan, found in its sources."""
 
-import ast
+import re
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -8,6 +8,7 @@ from typing import Any
 import kaidan
 
 SOURCE = Path(kaidan.__file__).parent
+CLASS = re.compile(r"^class (\w+)\(([^)]*)\):", re.MULTILINE)
 
 
 def models(*bases: str) -> list[Any]:
@@ -15,9 +16,7 @@ def models(*bases: str) -> list[Any]:
     found = []
     for path in SOURCE.rglob("*.py"):
         module = ".".join(["kaidan", *path.relative_to(SOURCE).with_suffix("").parts])
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.ClassDef) and any(
-                isinstance(base, ast.Name) and base.id in bases for base in node.bases
-            ):
-                found.append(getattr(import_module(module.removesuffix(".__init__")), node.name))
+        for name, named in CLASS.findall(path.read_text(encoding="utf-8")):
+            if {base.strip() for base in named.split(",")} & set(bases):
+                found.append(getattr(import_module(module.removesuffix(".__init__")), name))
     return sorted(found, key=lambda model: str(model.__name__))

@@ -7,17 +7,21 @@
 ``console``
     ``$ `` begins a command of bash, what follows is its output, standard error included. Where
     output is shown it must be that, but for lines that are only ``...``. Without output shown the
-    command must not be refused (exit code 2). All commands of a page run in one empty folder.
+    command must not be refused (exit code 2). All commands of a page run in one empty folder: those
+    of kaidan alone in this process, what needs a shell in one, and the README's, which strangers
+    try first, as they would.
 ``sh``
     a command line that someone else executes; `ELSEWHERE` says who.
 """
 
+import ast
 import contextlib
 import doctest
 import io
 import math
 import os
 import re
+import shlex
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -26,6 +30,8 @@ from typing import NamedTuple
 
 import pytest
 from markdown_it import MarkdownIt
+
+from kaidan.cli import run
 
 ROOT = Path(__file__).parents[2]
 PAGES = sorted(
@@ -98,13 +104,16 @@ NEEDS = {"docs/buildings.md": "ifcopenshell"}
 """Optional packages without which a page is skipped."""
 
 
-LONG_WORK = ("calibration", "campaigns", "design", "experiment", "stock")
+LONG_WORK = [
+    Path(f"docs/{name}.md")
+    for name in ("calibration", "campaigns", "design", "experiment", "stock")
+]
 """Pages whose commands run many trials, or many questions: among the slow tests."""
 
 
 def case(page: Path) -> object:
     """A page as a case of a test."""
-    return pytest.param(page, marks=pytest.mark.slow if page.stem in LONG_WORK else ())
+    return pytest.param(page, marks=pytest.mark.slow if page in LONG_WORK else ())
 
 
 class Fence(NamedTuple):
@@ -182,7 +191,34 @@ def environment() -> dict[str, str]:
     }
 
 
-def run_console(fence: Fence, folder: Path) -> None:
+IMPORTS = ast.Import | ast.ImportFrom
+
+SHELL = re.compile(r"[|<>;&$`*?\\]")
+"""What only a shell understands."""
+
+
+def in_this_process(words: list[str]) -> tuple[int, str]:
+    """Exit code of kaidan's command line, and what it prints."""
+    printed = io.TextIOWrapper(io.BytesIO(), "utf-8", write_through=True)
+    with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
+        code = run(words)
+    return code, printed.buffer.getvalue().decode()
+
+
+def in_a_shell(command: str, folder: Path) -> tuple[int, str]:
+    """Exit code of a command of bash, and what it prints."""
+    done = subprocess.run(
+        ["bash", "-c", command],
+        cwd=folder,
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+    )
+    return done.returncode, done.stdout
+
+
+def run_console(fence: Fence, folder: Path, *, as_processes: bool) -> None:
     code = 0
     for command, shown in commands(fence.text):
         if command == "echo $?":
@@ -190,16 +226,11 @@ def run_console(fence: Fence, folder: Path) -> None:
             code = 0
             continue
         assert code != 2, f"line {fence.line}: the command before {command!r} is refused"
-        done = subprocess.run(
-            ["bash", "-c", command],
-            cwd=folder,
-            env=environment(),
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            encoding="utf-8",
-        )
-        code = done.returncode
-        lines = (line.rstrip() for line in done.stdout.splitlines())
+        if as_processes or SHELL.search(command) or not command.startswith("kaidan "):
+            code, text = in_a_shell(command, folder)
+        else:
+            code, text = in_this_process(shlex.split(command)[1:])
+        lines = (line.rstrip() for line in text.splitlines())
         printed = [line for line in lines if not PROGRESS.match(line)]
         while shown and not shown[-1]:
             shown.pop()
@@ -212,7 +243,7 @@ def run_console(fence: Fence, folder: Path) -> None:
                 + "\n--- printed\n"
                 + "\n".join(printed)
             )
-        assert code in (0, 1, 2, 3), f"line {fence.line}: {command}\n{done.stdout}"
+        assert code in (0, 1, 2, 3), f"line {fence.line}: {command}\n{text}"
     assert code != 2, f"line {fence.line}: the last command is refused, and no echo $? says so"
 
 
@@ -241,13 +272,56 @@ def test_blocks_of_a_page_do_what_they_show(page, tmp_path, monkeypatch):
             with contextlib.redirect_stdout(io.StringIO()):
                 exec(compile(fence.text, f"{page}:{fence.line}", "exec"), names)
         elif fence.language == "console":
-            run_console(fence, tmp_path)
+            run_console(fence, tmp_path, as_processes=page.name == "README.md")
         elif fence.language == "sh":
             for line in fence.text.splitlines():
                 assert line in ELSEWHERE or line in ci_lines(), f"{page}:{fence.line}: {line}"
         else:
             directive = fence.language.startswith("{")
             assert fence.language in SILENT or directive, f"{page}:{fence.line}: {fence.language}"
+
+
+@pytest.mark.parametrize("page", LONG_WORK, ids=str)
+def test_blocks_of_long_work_are_spelled_as_kaidan_reads_them(page):
+    """Every run looks at this much: commands, options and imports exist, their Python compiles."""
+    found = 0
+    for fence in fences(page):
+        where = f"{page}:{fence.line}"
+        if fence.language == "console":
+            lines = [command for command, _ in commands(fence.text)]
+        elif fence.language == "sh":
+            lines = fence.text.replace("\\\n", " ").splitlines()
+        else:
+            lines = []
+        for line in lines:
+            for words in commands_of_kaidan(line):
+                code, text = in_this_process([*words, "--help"])  # options are read before
+                assert code == 0, f"{where}: {line}\n{text}"
+                found += 1
+        if fence.language in ("python", "pycon"):
+            examples = doctest.DocTestParser().get_examples(fence.text)
+            sources = [each.source for each in examples] or [fence.text]
+            for source in sources:
+                compile(source, where, "exec")
+                body = [x for x in ast.parse(source).body if isinstance(x, IMPORTS)]
+                exec(compile(ast.Module(body, []), where, "exec"), {})
+                found += 1
+    assert found
+
+
+def commands_of_kaidan(line: str) -> Iterator[list[str]]:
+    """Words after ``kaidan`` of each of its commands in a line for a shell."""
+    lexer = shlex.shlex(line, posix=True, punctuation_chars="|&;<>")
+    lexer.commenters = "#"
+    lexer.whitespace_split = True
+    words: list[str] = []
+    for word in [*lexer, ";"]:
+        if set(word) <= set("|&;<>"):
+            if "kaidan" in words[:1]:
+                yield words[1:]
+            words = []
+        else:
+            words.append(word)
 
 
 def ci_lines() -> list[str]:

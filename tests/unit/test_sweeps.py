@@ -13,7 +13,7 @@ from kaidan import InputError, Payload, Posture, Robot, Stairs, Surface, stream,
 from kaidan.errors import MissingExtraError
 from kaidan.mechanics.verdict import Judged
 from kaidan.modes import Verdict
-from kaidan.sweeps import compiled, elementary
+from kaidan.sweeps import compiled, elementary, pairs
 from kaidan.sweeps.pairs import CODES, INPUTS
 
 RIG = Robot.named("kenaf").model_copy(update={"theta_d": None, "theta_M": None})
@@ -483,6 +483,22 @@ def test_a_stream_refuses_the_chunk_that_is_wrong():
     next(answers)
     with pytest.raises(InputError, match="angle holds NaN"):
         next(answers)
+
+
+@pytest.mark.skipif(not compiled.available(), reason="needs numba")
+def test_loops_are_compiled_where_it_pays(monkeypatch):
+    """Not for a few pairs, which take microseconds; for many, and for a stream."""
+    made = []
+    monkeypatch.setattr(pairs, "_compiled_kernel", lambda: made.append(1) or pairs._numpy_kernel)
+    verdicts(PAIR)
+    assert not made
+    next(stream([PAIR]))
+    assert len(made) == 1
+    monkeypatch.setattr(pairs, "_WORTH_COMPILING", 5)
+    verdicts(PAIR | {"angle": np.full(4, 0.6)})
+    assert len(made) == 1
+    verdicts(PAIR | {"angle": np.full(5, 0.6)})
+    assert len(made) == 2
 
 
 # Without numba

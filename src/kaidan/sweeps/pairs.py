@@ -40,6 +40,8 @@ _DEFAULTS = {"friction": np.nan} | dict.fromkeys(
 _CHUNK = {"numpy": 3 << 13, "compiled": 1 << 16}
 _HINT = 1 << 24
 """Size of a block that is mapped and freed to make the allocator keep what it gets back [bytes]."""
+_WORTH_COMPILING = 1 << 22
+"""Pairs from which on compiled loops win back the seconds in which numba compiles them."""
 _BLOCK = 1 << 10
 """Pairs that the compiled loops take at once, so that what both read stays in the cache."""
 
@@ -78,7 +80,8 @@ def verdicts(
         Arrays of an earlier answer of the same shape to write into, C-contiguous and apart from
         the inputs.
     engine : {"auto", "numpy", "compiled"}
-        "compiled" needs ``kaidan[fast]``; "auto" takes it if it is there.
+        "compiled" needs ``kaidan[fast]`` and seconds once a process to be made; "auto" takes it
+        for four million pairs and more, if it is there.
     checked : bool
         Whether to refuse inputs without physical meaning (one more pass over them).
 
@@ -112,7 +115,7 @@ def verdicts(
     flat_out = [array.reshape(-1) for array in out]
     size = int(np.prod(shape))
     if engine == "auto":
-        engine = "compiled" if compiled.available() else "numpy"
+        engine = "compiled" if size >= _WORTH_COMPILING and compiled.available() else "numpy"
     if engine not in ("numpy", "compiled"):
         raise InputError(f"engine = {shown(engine)} is not known; known: auto, numpy, compiled")
     kernel = _compiled_kernel() if engine == "compiled" else _numpy_kernel
@@ -150,7 +153,7 @@ def stream(
     chunks : iterable of mappings
         Inputs of `verdicts`, a chunk at a time.
     engine : {"auto", "numpy", "compiled"}
-        See `verdicts`.
+        See `verdicts`; "auto" takes "compiled" if it is there, for a stream is long.
     checked : bool
         See `verdicts`.
 
@@ -159,6 +162,8 @@ def stream(
     Judged
         Answer of each chunk.
     """
+    if engine == "auto" and compiled.available():
+        engine = "compiled"
     out: Judged | None = None
     for inputs in chunks:
         _, shape = _broadcast(inputs)
