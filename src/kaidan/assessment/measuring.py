@@ -179,10 +179,15 @@ def first_order(drawn: Array, values: Array) -> float:
     variance = float(np.var(values))
     if not variance > 0:
         return 0.0
-    slices = np.array_split(values[np.argsort(drawn)], SLICES)
-    sizes = np.array([len(each) for each in slices])
-    means = np.array([each.mean() for each in slices])
-    within = float(np.sum(sizes * [each.var() for each in slices]) / sizes.sum())
+    ordered = values[np.argsort(drawn)]
+    size, longer = divmod(len(values), SLICES)
+    ends = longer * (size + 1)
+    slices = ordered[:ends].reshape(longer, size + 1), ordered[ends:].reshape(-1, size)
+    sizes = np.repeat([size + 1, size], [longer, SLICES - longer])
+    means, variances = (
+        np.concatenate([getattr(each, name)(axis=1) for each in slices]) for name in ("mean", "var")
+    )
+    within = float(np.sum(sizes * variances) / sizes.sum())
     between = float(np.sum(sizes * (means - values.mean()) ** 2) / sizes.sum())
     chance = within * SLICES / len(values)
     return min(max((between - chance) / variance, 0.0), 1.0)

@@ -185,9 +185,7 @@ def _smallest(mode: FailureMode, each: Sequence[Finding]) -> Finding:
     """Finding of a mode with the smallest margin of all parts, the earliest of those alike."""
     some = [one for one in each if one.mode is mode]
     known = [one for one in some if not np.isnan(one.worst).all()] or some
-    first = min(
-        known, key=lambda one: round(float(np.nan_to_num(one.worst, nan=math.inf).min()), 6)
-    )
+    first = min(known, key=lambda one: round(float(np.fmin.reduce(one.worst)), 6))
     severe = any(one.failing is Verdict.NO_GO for one in known)
     return replace(
         first,

@@ -185,15 +185,16 @@ class Traverse:
         nosings = self.profile.nosings
         if self.descending or len(nosings) == 0:
             return None
-        rises = np.unique(np.diff(nosings[:, 1], prepend=self.profile.points[0, 1]).round(12))
-        each = rear_length_margin(
+        each = np.diff(nosings[:, 1], prepend=self.profile.points[0, 1]).round(12)
+        rises = np.array(sorted({*each.tolist()}))
+        margins = rear_length_margin(
             b=self.tread.L - self.tread.C_L,
             h=rises,
             R=self.tread.R_downhill,
             C_N=self.tread.C_N,
         )
-        worst = int(np.argmin(each))
-        return float(each[worst]), float(rises[worst])
+        worst = int(np.argmin(margins))
+        return float(margins[worst]), float(rises[worst])
 
     @property
     def arrived(self) -> bool:

@@ -346,8 +346,11 @@ def _alike(at: _Contacts, force: tuple[Array, Array], required: Array) -> tuple[
     ]
     columns += [at.is_one, at.lift, *(each[:, None] for each in (*force, required))]
     table = np.round(np.nan_to_num(np.hstack(columns), nan=9.0, posinf=9e3), ALIKE)
-    _, first, like = np.unique(table, axis=0, return_index=True, return_inverse=True)
-    return first, like.reshape(-1)
+    numbers: dict[bytes, int] = {}
+    like = np.array([numbers.setdefault(row.tobytes(), len(numbers)) for row in table + 0.0])
+    first = np.full(len(numbers), len(like))
+    np.minimum.at(first, like, np.arange(len(like)))
+    return first, like
 
 
 def _contacts_of(path: contact.Path, descending: bool) -> _Contacts:
@@ -449,14 +452,22 @@ def _under_flats(path: contact.Path) -> tuple[Whole, Whole, Whole]:
             points.append(point[new])
             parts.append(np.full(int(new.sum()), part))
     of_row, of_point = np.concatenate(rows), np.concatenate(points)
-    _, once = np.unique(np.stack([of_row, of_point]), axis=1, return_index=True)
+    order = np.lexsort((of_point, of_row))
+    once = order[_new(of_row[order]) | _new(of_point[order])]
     return of_row[once], of_point[once], np.concatenate(parts)[once]
 
 
 def _number_within(rows: Whole) -> Whole:
     """Number of each among those of the same row; rows ascend."""
-    _, first, counts = np.unique(rows, return_index=True, return_counts=True)
-    return np.asarray(np.arange(len(rows)) - np.repeat(first, counts))
+    numbers = np.arange(len(rows))
+    return np.asarray(numbers - np.maximum.accumulate(np.where(_new(rows), numbers, 0)))
+
+
+def _new(values: Whole) -> NDArray[np.bool_]:
+    """Whether each differs from the one before it."""
+    found = np.ones(len(values), dtype=np.bool_)
+    found[1:] = values[1:] != values[:-1]
+    return found
 
 
 def _treads(ground: contact.Ground, descending: bool) -> Array:

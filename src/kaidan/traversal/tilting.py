@@ -162,8 +162,10 @@ def _lost_between(
         Poses that count, each followed by the next of the path.
     """
     onto = rocking[path.tilts(rocking, side).rocking > 0.0]
-    begin = np.unique(np.concatenate([onto - 1, onto]))
-    begin = begin[np.isin(begin, rows) & np.isin(begin + 1, rows)]
+    counts, beside = np.zeros((2, len(path.poses) + 1), dtype=np.bool_)
+    counts[rows] = True
+    beside[onto], beside[np.maximum(onto - 1, 0)] = True, True
+    begin = np.flatnonzero(beside[:-1] & counts[:-1] & counts[1:])
     along = (path.poses.leg[begin] == path.poses.leg[begin + 1]) & (
         path.s[begin] < path.s[begin + 1]
     )
