@@ -1,36 +1,22 @@
-"""The question: one robot, one terrain, one manner of going, and what the operator accepts.
+"""The question as a sheet: made of what people write, changed, and what follows from it."""
 
-Every verb takes one, every answer carries the one that it answers. `Question.of` makes it of what
-people write, names, numbers and texts with units; the command line passes its texts on to it.
-"""
-
-from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
-from pydantic import Discriminator, Field, Tag, field_validator
 
 from kaidan.allowance import Allowance
-from kaidan.errors import InputError, shown
+from kaidan.errors import InputError
 from kaidan.mechanics.measures import kinetic_energy_height
-from kaidan.modes import (
-    CLOSED_FORM,
-    CONTACT,
-    MODELS,
-    PHYSICS,
-    Acceptance,
-    Direction,
-    Facing,
-    Phase,
-)
-from kaidan.robot import Payload, Posture, PostureChange, Robot, Stance
-from kaidan.sheet import Sheet, model_validator, quantity
+from kaidan.modes import CONTACT, MODELS, PHYSICS, Acceptance, Phase
+from kaidan.question.fields import FACINGS, TRACKS, QuestionFields
+from kaidan.question.refusals import refuse_impossible
+from kaidan.robot import Posture, Stance
+from kaidan.sheet import model_validator
 from kaidan.spelling import (
     BEST,
     JOINT,
     UNCERTAINTIES,
-    Terrain,
     allowance_of,
     doubted,
     doubted_terrain,
@@ -43,37 +29,18 @@ from kaidan.spelling import (
     terrain_of,
     word_of,
 )
-from kaidan.surface import Surface
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 
 if TYPE_CHECKING:
     from kaidan.outline import Outline
 
-FASTEST = 30.0
-"""Fastest speed of a question [m/s]."""
 ROCKING_SPEED = 0.1
 """Speed whose energy the robot is taken to have where none is stated [m/s]: the paper's test
 speed, at which the rig rocked visibly with 0.07 mm of energy margin against 0.51 mm of v^2/2g."""
 FLIPPER_TOLERANCE = 0.03490658503988659
 """How far off its angles a plan that is found has to hold where nobody says, 2 degrees [rad]: an
 operator sets a flipper by an indicator of whole degrees, and it gives under load."""
-LARGEST_TOLERANCE = 0.2617993877991494
-"""Largest tolerance of the flippers' angles, 15 degrees [rad]."""
-FACINGS = ("nose-first", "tail-first")
-"""Ends that may lead."""
-TRACKS = ("smooth-belt", "yielding-belt", "driven-grousers")
-"""Tracks of the physics that a question may name."""
-MOST_TRIALS = 100_000
-"""Most trials of a question to the physics."""
-LARGEST_YAW = 1.3962634015954636
-"""Largest yaw judged, 80 degrees [rad]: beyond it the robot drives along the steps."""
-
-
-def _kind_of_terrain(given: Any) -> str:
-    if isinstance(given, Profile) or (isinstance(given, Mapping) and "points" in given):
-        return "profile"
-    return "flights" if isinstance(given, list | tuple) else "stairs"
 
 
 def _optional(name: str, given: Any, kind: str) -> float | None:
@@ -81,143 +48,13 @@ def _optional(name: str, given: Any, kind: str) -> float | None:
     return None if given is None else quantity_of(name, given, kind)
 
 
-class Question(Sheet):
+class Question(QuestionFields):
     """Can this robot take this terrain, in this manner, with this much risk?"""
-
-    label: ClassVar[str] = "question"
-
-    robot: Robot = Field(description="data sheet of the robot")
-    terrain: Annotated[
-        Annotated[Stairs, Tag("stairs")]
-        | Annotated[tuple[Stairs, ...], Tag("flights")]
-        | Annotated[Profile, Tag("profile")],
-        Discriminator(_kind_of_terrain),
-    ] = Field(description="one flight, several from bottom to top, or a profile of any shape")
-    surface: Surface | None = Field(
-        default=None, description="friction of the tracks; without it no GO can be given"
-    )
-    direction: Direction = Field(default="up", description="which way the robot goes")
-    facing: Facing = Field(default="nose-first", description="which end leads")
-    acceleration: float = quantity(
-        "m/s^2", -9.8, 9.8, "up the stairs, whichever way the robot goes", default=0.0, symbol="a"
-    )
-    speed: float | None = quantity("m/s", 0.0, FASTEST, "speed of the robot", default=None)
-    posture: Posture = Field(
-        default=Posture(), description="angles of the flippers, at the start of a plan"
-    )
-    changes: tuple[PostureChange, ...] = Field(
-        default=(), description="plan: other postures later on, in their order"
-    )
-    best_of: tuple[Literal["flippers", "facing"], ...] = Field(
-        default=(),
-        description="what is to be found: the flippers' plan, the end that leads; a stated posture "
-        "then does not count, the stated end is tried first",
-    )
-    flipper_tolerance: float | None = quantity(
-        "rad",
-        0.0,
-        LARGEST_TOLERANCE,
-        "how far off their angles the flippers may lie without a worse verdict; none: 2 degrees "
-        "where a plan is to be found, else 0",
-        default=None,
-    )
-    payload: tuple[Payload, ...] = Field(default=(), description="masses fixed to the robot")
-    theta_d: Allowance | None = Field(
-        default=None, description="measured inclination from track deformation; none: the sheet's"
-    )
-    theta_M: Allowance | None = Field(
-        default=None, description="measured loss of margin from grousers; none: the sheet's"
-    )
-    fall_reserve: float | None = quantity(
-        "rad",
-        0.0,
-        0.8,
-        "tilt to the fall that a robot that rocks must keep; none: the sheet's, else 8 degrees",
-        default=None,
-    )
-    yaw: float = quantity(
-        "rad",
-        -LARGEST_YAW,
-        LARGEST_YAW,
-        "heading off the line of steepest ascent, to the left positive",
-        default=0.0,
-    )
-    risk: float = quantity("1", 1e-4, 0.5, "probability of failure that is accepted", default=0.01)
-    accept: Acceptance = Field(default=Acceptance.NO_ROTATION, description="what counts as holding")
-    model: str = Field(default=CONTACT.name, description="which model answers")
-    trials: int = Field(
-        default=1,
-        ge=1,
-        le=MOST_TRIALS,
-        description="of the physics, each with inputs of its own where they are uncertain",
-        json_schema_extra={"unit": "trials"},
-    )
-    track: Literal["smooth-belt", "yielding-belt", "driven-grousers"] | None = Field(
-        default=None,
-        description="track of the physics; none: yielding-belt where the sheet says how it "
-        "yields, else smooth-belt",
-    )
-
-    @field_validator("terrain")
-    @classmethod
-    def _one_flight_is_a_flight(cls, terrain: Terrain) -> Terrain:
-        if terrain == ():
-            raise InputError("question: terrain: no flight was given")
-        return terrain[0] if isinstance(terrain, tuple) and len(terrain) == 1 else terrain
 
     @model_validator(mode="after")
     def _possible(self) -> Self:
-        if self.model not in MODELS:
-            raise InputError(
-                f"model = {shown(self.model)} is not known; known: {', '.join(MODELS)}"
-            )
-        for each in self.postures.values():  # refuses what the robot cannot have
-            self.robot.stance(each, self.payload)
-        _ = self.profile  # refuses one that falls to a robot that goes up
-        fastest = self.robot.drive.max_speed
-        if self.speed is not None and fastest is not None and self.speed > fastest:
-            raise InputError(
-                f"speed = {self.speed:g} is not within 0 to {fastest:g} m/s, the most "
-                f"{self.robot.name} can do"
-            )
-        if self.model != PHYSICS.name and (self.trials != 1 or self.track is not None):
-            name = "trials" if self.trials != 1 else "track"
-            raise InputError(f"{name} goes with the physics alone; give model = {PHYSICS.name}")
-        self._possible_plan()
-        if self.yaw:
-            if not isinstance(self.terrain, Stairs):
-                raise InputError(
-                    "a profile lies along the heading already: leave the yaw out"
-                    if isinstance(self.terrain, Profile)
-                    else "several flights are driven straight on: leave the yaw out"
-                )
-            if self.robot.track.gauge is None:
-                raise InputError(
-                    f"robot {self.robot.name!r}: track.gauge is not known, and a yaw needs the "
-                    "distance between the middles of the tracks"
-                )
-            if self.model == CLOSED_FORM.name:
-                raise InputError("the closed form knows no yaw; ask the contact model")
+        refuse_impossible(self)
         return self
-
-    def _possible_plan(self) -> None:
-        """Refuse a plan that cannot be carried out."""
-        before = [each.before for each in self.changes]
-        if before not in ([], ["traverse"], ["land"], ["traverse", "land"]):
-            raise InputError(
-                f"changes of posture before {', '.join(before)}: name each phase once, in order"
-            )
-        if (self.changes or self.best_of) and self.model == PHYSICS.name:
-            raise InputError("a trial keeps one posture: state angles, flat or stowed")
-        if self.changes and self.yaw:
-            raise InputError("a plan of postures is driven straight on: leave the yaw out")
-        if self.flipper_tolerance and not self.plannable:
-            raise InputError(
-                "flipper_tolerance: the contact model alone judges the flippers off their angles, "
-                "straight on; state 0deg"
-            )
-        if self.changes and len(self.profile.nosings) == 0:
-            raise InputError("a plan of postures needs a nosing to change before")
 
     def __eq__(self, other: object) -> bool:
         """Whether all fields are equal, whatever has been worked out from them already."""
@@ -225,7 +62,7 @@ class Question(Sheet):
             return NotImplemented
         return all(getattr(self, name) == getattr(other, name) for name in type(self).model_fields)
 
-    __hash__ = Sheet.__hash__
+    __hash__ = QuestionFields.__hash__
 
     @classmethod
     def of(

@@ -1,0 +1,120 @@
+"""What a question states: its fields, each with its bounds, unit and meaning."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Discriminator, Field, Tag, field_validator
+
+from kaidan.allowance import Allowance
+from kaidan.errors import InputError
+from kaidan.modes import CONTACT, Acceptance, Direction, Facing
+from kaidan.robot import Payload, Posture, PostureChange, Robot
+from kaidan.sheet import Sheet, quantity
+from kaidan.spelling import Terrain
+from kaidan.surface import Surface
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import Stairs
+
+FASTEST = 30.0
+"""Fastest speed of a question [m/s]."""
+LARGEST_TOLERANCE = 0.2617993877991494
+"""Largest tolerance of the flippers' angles, 15 degrees [rad]."""
+FACINGS = ("nose-first", "tail-first")
+"""Ends that may lead."""
+TRACKS = ("smooth-belt", "yielding-belt", "driven-grousers")
+"""Tracks of the physics that a question may name."""
+MOST_TRIALS = 100_000
+"""Most trials of a question to the physics."""
+LARGEST_YAW = 1.3962634015954636
+"""Largest yaw judged, 80 degrees [rad]: beyond it the robot drives along the steps."""
+
+
+def _kind_of_terrain(given: Any) -> str:
+    if isinstance(given, Profile) or (isinstance(given, Mapping) and "points" in given):
+        return "profile"
+    return "flights" if isinstance(given, list | tuple) else "stairs"
+
+
+class QuestionFields(Sheet):
+    """One robot, one terrain, one manner of going, one risk."""
+
+    label: ClassVar[str] = "question"
+
+    robot: Robot = Field(description="data sheet of the robot")
+    terrain: Annotated[
+        Annotated[Stairs, Tag("stairs")]
+        | Annotated[tuple[Stairs, ...], Tag("flights")]
+        | Annotated[Profile, Tag("profile")],
+        Discriminator(_kind_of_terrain),
+    ] = Field(description="one flight, several from bottom to top, or a profile of any shape")
+    surface: Surface | None = Field(
+        default=None, description="friction of the tracks; without it no GO can be given"
+    )
+    direction: Direction = Field(default="up", description="which way the robot goes")
+    facing: Facing = Field(default="nose-first", description="which end leads")
+    acceleration: float = quantity(
+        "m/s^2", -9.8, 9.8, "up the stairs, whichever way the robot goes", default=0.0, symbol="a"
+    )
+    speed: float | None = quantity("m/s", 0.0, FASTEST, "speed of the robot", default=None)
+    posture: Posture = Field(
+        default=Posture(), description="angles of the flippers, at the start of a plan"
+    )
+    changes: tuple[PostureChange, ...] = Field(
+        default=(), description="plan: other postures later on, in their order"
+    )
+    best_of: tuple[Literal["flippers", "facing"], ...] = Field(
+        default=(),
+        description="what is to be found: the flippers' plan, the end that leads; a stated posture "
+        "then does not count, the stated end is tried first",
+    )
+    flipper_tolerance: float | None = quantity(
+        "rad",
+        0.0,
+        LARGEST_TOLERANCE,
+        "how far off their angles the flippers may lie without a worse verdict; none: 2 degrees "
+        "where a plan is to be found, else 0",
+        default=None,
+    )
+    payload: tuple[Payload, ...] = Field(default=(), description="masses fixed to the robot")
+    theta_d: Allowance | None = Field(
+        default=None, description="measured inclination from track deformation; none: the sheet's"
+    )
+    theta_M: Allowance | None = Field(
+        default=None, description="measured loss of margin from grousers; none: the sheet's"
+    )
+    fall_reserve: float | None = quantity(
+        "rad",
+        0.0,
+        0.8,
+        "tilt to the fall that a robot that rocks must keep; none: the sheet's, else 8 degrees",
+        default=None,
+    )
+    yaw: float = quantity(
+        "rad",
+        -LARGEST_YAW,
+        LARGEST_YAW,
+        "heading off the line of steepest ascent, to the left positive",
+        default=0.0,
+    )
+    risk: float = quantity("1", 1e-4, 0.5, "probability of failure that is accepted", default=0.01)
+    accept: Acceptance = Field(default=Acceptance.NO_ROTATION, description="what counts as holding")
+    model: str = Field(default=CONTACT.name, description="which model answers")
+    trials: int = Field(
+        default=1,
+        ge=1,
+        le=MOST_TRIALS,
+        description="of the physics, each with inputs of its own where they are uncertain",
+        json_schema_extra={"unit": "trials"},
+    )
+    track: Literal["smooth-belt", "yielding-belt", "driven-grousers"] | None = Field(
+        default=None,
+        description="track of the physics; none: yielding-belt where the sheet says how it "
+        "yields, else smooth-belt",
+    )
+
+    @field_validator("terrain")
+    @classmethod
+    def _one_flight_is_a_flight(cls, terrain: Terrain) -> Terrain:
+        if terrain == ():
+            raise InputError("question: terrain: no flight was given")
+        return terrain[0] if isinstance(terrain, tuple) and len(terrain) == 1 else terrain
