@@ -1,19 +1,16 @@
-"""Texts of the page: both languages, every word of an answer, every sentence of advice."""
+"""Texts of the page: both languages, every word of an answer."""
 
 import re
 from pathlib import Path
 
-import pytest
-
 import kaidan
 from kaidan.modes import FAILURE_MODES, Phase, Undecided, Verdict
-from kaidan.text import advice, unweighed
 from kaidan.text.page import page_texts
 
 TEXTS = page_texts()
 SCRIPTS = Path(kaidan.__file__).parent / "web" / "static" / "js"
 # Topics whose names the page makes of an answer's words.
-OPEN = {"advice", "verdict", "mode", "phase", "reason", "figure", "ground", "binds", "stairs"}
+OPEN = {"verdict", "mode", "phase", "figure", "ground", "binds", "stairs"}
 OPEN |= {"side", "chart", "app", "answer", "guide", "saved", "live"}
 OPEN |= {"robot", "measure", "work"}
 
@@ -22,7 +19,6 @@ def test_every_text_is_there_in_japanese():
     found = [
         f"{topic}.{name}"
         for topic, texts in TEXTS.items()
-        if topic != "advice"
         for name, text in texts.items()
         if not text.get("ja")
     ]
@@ -34,7 +30,7 @@ def test_both_languages_fill_in_the_same_fields():
         return set(re.findall(r"\{(\w+)\}", text))
 
     for topic, texts in TEXTS.items():
-        for name, text in texts.items() if topic != "advice" else ():
+        for name, text in texts.items():
             if "en" in text:
                 assert fields(text["en"]) == fields(text["ja"]), f"{topic}.{name}"
 
@@ -47,7 +43,6 @@ def test_every_word_of_an_answer_is_known():
 
 def test_what_the_answer_says_in_english_stands_here_in_japanese_alone():
     assert [mode for mode in FAILURE_MODES if "en" in TEXTS["mode"][mode]] == []
-    assert [name for name, text in TEXTS["reason"].items() if "en" in text] == []
 
 
 def test_every_text_that_a_script_names_is_there():
@@ -73,33 +68,3 @@ def test_no_text_is_left_over():
         if f"{topic}.{name}" not in scripts
     ]
     assert unused == []
-
-
-@pytest.mark.parametrize(
-    ("sentence", "contains"),
-    [
-        (advice.STRAIGHT, "真っ直ぐ"),
-        (advice.STEADY, "一定"),
-        (advice.FLAT, "一直線"),
-        (advice.turned_round("up", "tail-first"), "後端"),
-        (advice.turned_round("down", "nose-first"), "前端"),
-        (advice.raised("front", 0.785398), "45°"),
-        (advice.raised("rear", 0.785398), "45°"),
-        (advice.friction(0.92, known=True), "0.92"),
-        (advice.friction(0.92, known=False), "0.92"),
-        (advice.grousers(), "グローサ"),
-        (advice.slower(0.05), "0.05 m/s"),
-        (advice.measured(["theta_d", "theta_M"]), "theta_d and theta_M"),
-        (advice.centroid(0.012, "front", of_payload=None), "12 mm"),
-        (advice.centroid(0.012, "front", of_payload=0.03), "荷物を 30 mm"),
-        (unweighed.weigh(0.2, 0.1), "200 mm"),
-    ],
-)
-def test_every_advice_has_a_sentence_in_japanese(sentence, contains):
-    for each in TEXTS["advice"]:
-        found = re.match(each["en"], sentence)
-        if found:
-            ja = re.sub(r"\{(\d)\}", lambda field, of=found: of[int(field[1])], each["ja"])
-            assert contains in ja
-            return
-    raise AssertionError(f"no Japanese for {sentence!r}")

@@ -6,6 +6,9 @@ import re
 import httpx
 import pytest
 
+from kaidan.text import advice
+from kaidan.text.japanese import japanese
+
 QUESTION = "#/check?robot=absolem&stairs=ibc&surface=concrete-dry&flippers=flat"
 BODY = {
     "robot": "absolem", "stairs": "ibc", "surface": "concrete-dry", "flippers": "flat",
@@ -154,7 +157,7 @@ def test_no_verdict_stands_while_the_next_is_worked_out(desk):
 
 
 @pytest.mark.slow
-def test_japanese_has_the_verdict_why_where_and_what_to_do(desk):
+def test_japanese_has_the_verdict_why_where_and_what_to_do(desk, server):
     desk.goto(QUESTION)
     desk.get_by_text("Settings").click()
     desk.get_by_label("Language").select_option("ja")
@@ -163,6 +166,16 @@ def test_japanese_has_the_verdict_why_where_and_what_to_do(desk):
     assert "進入、1 段目" in desk.inner_text(".reason")
     assert "0.91" in desk.inner_text(".reason")
     assert "摩擦係数 0.92 以上" in desk.inner_text(".do")
+    desk.locator(".notes summary").click()
+    notes = desk.locator(".notes li").all()
+    english = [each for each in notes if each.get_attribute("lang") == "en"]
+    assert len(notes) > 4
+    assert len(english) == 1  # what the robot's sheet says
+    sentences = [advice.FLAT, "It rocks by 1.5 deg until the next contact arrests it.", "It sings."]
+    sentences += httpx.post(server.address + "api/assess", json=BODY, timeout=60).json()["notes"]
+    said = "async all => { const { japanese } = await import('/js/i18n.js'); "
+    said += "return all.map(each => japanese(each)); }"
+    assert desk.evaluate(said, sentences) == [japanese(each) for each in sentences]
 
 
 @pytest.mark.slow

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -36,6 +36,7 @@ Codes = Annotated[
         "--again", metavar="CODE", help="Question of an earlier report's code. May be given again."
     ),
 ]
+Language = Annotated[Literal["en", "ja"], typer.Option(help="Language of the page for the field.")]
 
 
 def register(app: typer.Typer) -> None:
@@ -54,6 +55,7 @@ def report(
     robot: MoreRobots = None,
     again: Codes = None,
     out: OutFiles = None,
+    language: Language = "en",
     as_json: options.AsJson = False,
 ) -> None:
     """Write a document: a page for the field, then inputs, margins, figures and limits.
@@ -73,6 +75,8 @@ def report(
     terrains: list[str | None] = [*stairs] or [None]
     questions = [ask(each, on) for each in robots for on in terrains]
     found = find([*map(coded, again or ()), *questions])
-    contents: output.Contents = {path: report_bytes(found, form) for path, form in formats.items()}
+    contents: output.Contents = {
+        path: report_bytes(found, form, language) for path, form in formats.items()
+    }
     output.put_out(found, contents, as_json=as_json)
     raise typer.Exit(found.exit_code)

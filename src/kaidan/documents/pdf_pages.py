@@ -4,6 +4,7 @@ No date and no random name is in the file, so the same document gives the same b
 """
 
 import io
+import re
 import textwrap
 from collections.abc import Mapping
 from html import escape
@@ -18,6 +19,9 @@ from kaidan.text import document as of
 from kaidan.text.tables import printable
 
 _FACES = {"Sans": "DejaVuSans", "Sans-Bold": "DejaVuSans-Bold", "Mono": "DejaVuSansMono"}
+_JAPANESE = "HeiseiKakuGo-W5"
+"""A typeface that readers of PDF have, or replace; it is not in the file."""
+_KANA_AND_KANJI = re.compile("[\u3000-\u9fff\uff00-\uffef]+")
 _TINTS = {"go": "#e3f4ee", "caution": "#fdf3d7", "no-go": "#fbe6d9", "outside-model": "#ececec"}
 _EDGES = {"go": "#00664b", "caution": "#7a5900", "no-go": "#a33b00", "outside-model": "#444444"}
 _MARGIN = 13.0
@@ -63,16 +67,16 @@ def pages(document: of.Document, pictures: Mapping[str, bytes]) -> bytes:
         title=printable(document.title),
         author="kaidan",
         creator="kaidan",
-        lang="en",
+        lang=document.language,
         invariant=1,
     )
 
     def foot(canvas: Any, template: Any) -> None:
-        canvas.setFont("Sans", 7.5)
+        canvas.setFont("Sans" if document.language == "en" else _JAPANESE, 7.5)
         canvas.drawString(_MARGIN * mm, 10 * mm, printable(document.foot))
         canvas.drawRightString(A4[0] - _MARGIN * mm, 10 * mm, str(template.page))
 
-    setter = _Setter(made.width, made.height, pictures)
+    setter = _Setter(made.width, made.height, pictures, document.language)
     flow = [flowable for part in document.parts for flowable in setter.part(part)]
     made.build(flow, onFirstPage=foot, onLaterPages=foot)
     return buffer.getvalue()
@@ -81,15 +85,18 @@ def pages(document: of.Document, pictures: Mapping[str, bytes]) -> bytes:
 class _Setter:
     """What sets each block, for pages of a width and height [pt]."""
 
-    def __init__(self, width: float, height: float, pictures: Mapping[str, bytes]) -> None:
+    def __init__(
+        self, width: float, height: float, pictures: Mapping[str, bytes], language: str
+    ) -> None:
         from reportlab.lib.styles import ParagraphStyle
 
         self.width, self.height, self.pictures = width, height, pictures
 
         def style(name: str, size: float, **more: Any) -> Any:
             return ParagraphStyle(
-                name, fontName=more.pop("face", "Sans"), fontSize=size, leading=1.28 * size, **more
-            )
+                name, fontName=more.pop("face", "Sans"), fontSize=size, leading=1.28 * size,
+                wordWrap="CJK" if language == "ja" else None, **more,
+            )  # fmt: skip
 
         self.body = style("body", 8.8, spaceAfter=3)
         self.cell = style("cell", 7.6, splitLongWords=1)
@@ -107,12 +114,14 @@ class _Setter:
     def register() -> None:
         """Make the typefaces known."""
         import matplotlib as mpl
+        from reportlab.pdfbase.cidfonts import UnicodeCIDFont
         from reportlab.pdfbase.pdfmetrics import registerFont
         from reportlab.pdfbase.ttfonts import TTFont
 
         folder = Path(mpl.get_data_path()) / "fonts" / "ttf"
         for name, file in _FACES.items():
             registerFont(TTFont(name, str(folder / f"{file}.ttf")))
+        registerFont(UnicodeCIDFont(_JAPANESE))
 
     def part(self, part: "of.Block | of.Sheet") -> list[Any]:
         """Flowables of a part."""
@@ -245,4 +254,5 @@ def _wrapped(lines: tuple[str, ...]) -> list[str]:
 
 
 def _text(text: str) -> str:
-    return escape(printable(text), quote=False)
+    plain = escape(printable(text), quote=False)
+    return _KANA_AND_KANJI.sub(lambda run: f'<font name="{_JAPANESE}">{run[0]}</font>', plain)

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 FORMATS = ("html", "pdf")
 """Formats of documents, by the suffix of the file."""
+LANGUAGES = ("en", "ja")
+"""Languages of the pages for the field."""
 
 
 def document_format(path: Path) -> str:
@@ -27,7 +29,7 @@ def document_format(path: Path) -> str:
     return format_of(path, FORMATS, "report")
 
 
-def report_bytes(found: "Report", form: str) -> bytes:
+def report_bytes(found: "Report", form: str, language: str = "en") -> bytes:
     """Document of a report.
 
     Parameters
@@ -35,6 +37,8 @@ def report_bytes(found: "Report", form: str) -> bytes:
     found : Report
         What `kaidan.report` answers.
     form : {"html", "pdf"}
+    language : {"en", "ja"}
+        Of the pages for the field; appendices are in English.
 
     Returns
     -------
@@ -45,24 +49,29 @@ def report_bytes(found: "Report", form: str) -> bytes:
     Raises
     ------
     InputError
-        Another form.
+        Another form or language.
     MissingExtraError
         ``kaidan[report]`` is not installed.
     """
     from kaidan.figures.saving import figure_bytes
+    from kaidan.text.japanese import in_japanese
     from kaidan.text.report import document
 
+    if language not in LANGUAGES:
+        known = ", ".join(LANGUAGES)
+        raise InputError(f"report: language {shown(language)} is not known; known: {known}")
+    whole = document(found)
+    if language == "ja":
+        whole = in_japanese(whole)
     if form == "html":
         from kaidan.documents.html_page import page
 
         pictures = {key: figure_bytes(each, "svg") for key, each in _figures(found)}
-        return page(document(found), pictures).encode()
+        return page(whole, pictures).encode()
     if form == "pdf":
         from kaidan.documents.pdf_pages import pages
 
-        return pages(
-            document(found), {key: figure_bytes(each, "png") for key, each in _figures(found)}
-        )
+        return pages(whole, {key: figure_bytes(each, "png") for key, each in _figures(found)})
     raise InputError(f"report: format {shown(form)} is not known; known: {', '.join(FORMATS)}")
 
 

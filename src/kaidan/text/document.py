@@ -89,3 +89,5 @@ class Document(NamedTuple):
     parts: tuple[Block | Sheet, ...]
     foot: str
     """At the foot of each page."""
+    language: str = "en"
+    """Of the pages for the field."""

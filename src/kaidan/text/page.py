@@ -8,9 +8,10 @@ from typing import Any
 
 @cache
 def page_texts() -> dict[str, Any]:
-    """Texts by topic and name, each with ``en`` and ``ja``, and the patterns of advice.
+    """Texts by topic and name, each with ``en`` and ``ja``.
 
-    A text without ``en`` is one that the answer itself has in English.
+    A text without ``en`` is one that the answer itself has in English; its sentences are in
+    `kaidan.text.japanese`.
 
     Examples
     --------

@@ -18,6 +18,7 @@ from kaidan.robot import Robot
 from kaidan.sheet import Sheet
 from kaidan.surface import Surface
 from kaidan.terrain.stairs import Stairs
+from kaidan.text.japanese import patterns
 from kaidan.text.page import page_texts
 from kaidan.web import file_routes, job_routes, live_routes, openapi, report_routes
 from kaidan.web.asking import VERBS
@@ -122,8 +123,8 @@ def _add_catalogue(app: FastAPI) -> None:
 
     @app.get("/api/texts")
     async def texts() -> dict[str, Any]:
-        """Texts of the page, in every language that it speaks."""
-        return page_texts()
+        """Texts of the page, in every language that it speaks, and patterns of sentences."""
+        return page_texts() | {"sentences": patterns()}
 
     @app.get("/api/catalogue/{kind}/{name}")
     async def sheet(kind: Literal["robots", "stairs", "surfaces"], name: str) -> Response:

@@ -112,7 +112,8 @@ def _report(body: Mapping[str, Any]) -> Result:
 
     values = dict(body)
     form = document_format(values)
-    return Result(DOCUMENTS[form], report_bytes(report_of(values), form))
+    language = values.pop("language", "en")
+    return Result(DOCUMENTS[form], report_bytes(report_of(values), form, language))
 
 
 def document_format(body: dict[str, Any], known: tuple[str, ...] = tuple(DOCUMENTS)) -> str:

@@ -86,6 +86,7 @@ def written(formats: tuple[str, ...]) -> dict[str, Any]:
     """What the route of reports takes and gives."""
     properties: dict[str, Any] = {name: {} for name in signature(Question.of).parameters}
     properties |= {"robots": {}, "question": {}, "format": {"enum": [*formats, "json"]}}
+    properties["language"] = {"enum": ["en", "ja"]}
     schema = {"type": "object", "properties": properties, "additionalProperties": False}
     return {
         "requestBody": {"required": True, "content": {"application/json": {"schema": schema}}},

@@ -86,12 +86,13 @@ def _samples(task: Mapping[str, Any]) -> bytes:
 
 
 def _report(task: Mapping[str, Any]) -> bytes:
-    form = task["format"]
+    form, body = task["format"], dict(task["body"])
+    language = body.pop("language", "en")
     if form == "json":
-        return _as_json(report_of(task["body"]))
+        return _as_json(report_of(body))
     from kaidan.documents import report_bytes
 
-    return report_bytes(report_of(task["body"]), form)
+    return report_bytes(report_of(body), form, language)
 
 
 def _sheets(task: Mapping[str, Any]) -> bytes:

@@ -3,7 +3,7 @@
 import { Refused, upload } from "./api.js";
 import { button, picker } from "./controls.js";
 import { h, line, replace, s } from "./dom.js";
-import { english, t } from "./i18n.js";
+import { said, t } from "./i18n.js";
 import { symbol } from "./light.js";
 import { catalogue } from "./question.js";
 import { change, clear, packed, state } from "./state.js";
@@ -40,7 +40,7 @@ export function buildingView() {
       answer = await upload("building", file, fields);
       replace(outcome, page(answer));
     } catch (error) {
-      replace(outcome, h("p", { role: "alert", class: "refused" }, error instanceof Refused ? english(error.message) : t("state.offline")));
+      replace(outcome, h("p", { role: "alert", class: "refused" }, error instanceof Refused ? said(error.message) : t("state.offline")));
     }
   }
 
@@ -64,7 +64,7 @@ export function buildingView() {
         h("tbody", {}, found.flights.map((flight, row) => h("tr", {},
           h("th", { scope: "row" }, flight.name || flight.identity, h("div", { class: "quiet" },
             `${flight.storey} · ${flight.steps} × `, figure(flight.rise_m, "length"), " / ", figure(flight.going_m, "length"), ", ", figure(flight.angle_deg, "degrees"))),
-          found.cells.slice(row * wide, (row + 1) * wide).map((cell) => h("td", {}, verdictOf(cell), h("div", {}, english(cell.reason)),
+          found.cells.slice(row * wide, (row + 1) * wide).map((cell) => h("td", {}, verdictOf(cell), h("div", {}, said(cell.reason)),
             button(t("building.open"), () => open(flight, cell), { "aria-label": `${t("building.open")}: ${flight.name}, ${cell.robot}` })))))))),
       plan(found),
       found.ways.length === 0 ? null : [h("h3", {}, t("building.ways", { start: found.start })), ways(found)],
@@ -92,7 +92,7 @@ function ways(found) {
     h("tbody", {}, [...new Set(found.ways.map((way) => way.storey))].map((storey) => h("tr", {}, h("th", { scope: "row" }, storey),
       found.robots.map((name) => {
         const way = found.ways.find((each) => each.storey === storey && each.robot === name);
-        return h("td", {}, way?.verdict ? [verdictOf(way), way.where ? h("div", {}, `${way.where}: `, english(way.reason)) : null] : t("building.no_way"));
+        return h("td", {}, way?.verdict ? [verdictOf(way), way.where ? h("div", {}, `${way.where}: `, said(way.reason)) : null] : t("building.no_way"));
       }))))));
 }
 
@@ -114,5 +114,5 @@ function plan(found) {
 }
 
 function list(heading, entries) {
-  return entries.length === 0 ? null : [h("h3", {}, heading), h("ul", {}, entries.map((each) => english(each, "li")))];
+  return entries.length === 0 ? null : [h("h3", {}, heading), h("ul", {}, entries.map((each) => said(each, "li")))];
 }

@@ -2,7 +2,7 @@
 
 import { Latest, fetchedFile } from "./api.js";
 import { download, h, replace } from "./dom.js";
-import { english, t } from "./i18n.js";
+import { language, said, t } from "./i18n.js";
 import { groundPanel } from "./ground.js";
 import { drawMargin } from "./margin.js";
 import { drawPlane } from "./plane.js";
@@ -28,7 +28,7 @@ export function checkView(shell) {
     async report(format) {
       current.say(t("app.report_making"));
       try {
-        download(await fetchedFile("report", { ...current.body, format }), `kaidan.${format}`);
+        download(await fetchedFile("report", { ...current.body, format, language }), `kaidan.${format}`);
         current.say(t("app.report_made"));
       } catch (error) {
         current.say(error.message || t("state.offline"));
@@ -100,7 +100,7 @@ export function checkView(shell) {
   }
 
   function show(name, error, paint) {
-    if (error) replace(views[name], h("p", { role: "status" }, error.message ? english(error.message) : t("state.offline")));
+    if (error) replace(views[name], h("p", { role: "status" }, error.message ? said(error.message) : t("state.offline")));
     else paint();
   }
 

@@ -3,12 +3,13 @@
 import { h } from "./dom.js";
 
 let texts = {};
-let patterns = [];
+let patterns = {};
 export let language = "en";
 
 export async function loadTexts() {
   const found = await (await fetch("api/texts")).json();
-  patterns = found.advice.map((each) => ({ pattern: new RegExp(each.en), ja: each.ja }));
+  patterns = Object.fromEntries(Object.entries(found.sentences).map(([name, all]) =>
+    [name, all.map(([en, ja, tables]) => ({ en: new RegExp(en), ja, tables }))]));
   texts = found;
 }
 
@@ -28,17 +29,20 @@ export function t(key, values = {}) {
   return text.replace(/\{(\w+)\}/g, (whole, field) => values[field] ?? whole);
 }
 
-// What would help, in the language of the page; null where it is only known in English.
-export function advice(sentence) {
-  if (language === "en") return sentence;
-  for (const { pattern, ja } of patterns) {
-    const found = pattern.exec(sentence);
-    if (found) return ja.replace(/\{(\d)\}/g, (_, index) => found[index] ?? "");
+// A sentence of an answer in Japanese, as kaidan/text/japanese.py; null where it is only known in English.
+export function japanese(text, table = "sentence") {
+  for (const { en, ja, tables } of patterns[table]) {
+    const found = en.exec(text);
+    if (found) {
+      const parts = tables.map((of, index) => (of ? japanese(found[index + 1], of) : null) ?? found[index + 1]);
+      return ja.replace(/\{(\d)\}/g, (_, number) => parts[number - 1]);
+    }
   }
   return null;
 }
 
-// A sentence that the answer has in English alone, marked as such for screen readers.
-export function english(sentence, tag = "span") {
-  return h(tag, { lang: "en" }, sentence);
+// A sentence of an answer in the language of the page, or in English and marked as such.
+export function said(sentence, tag = "span") {
+  const text = language === "ja" ? japanese(sentence) : null;
+  return text === null ? h(tag, { lang: "en" }, sentence) : h(tag, {}, text);
 }

@@ -3,7 +3,7 @@
 import { Refused, ask } from "./api.js";
 import { button } from "./controls.js";
 import { fresh, h, replace } from "./dom.js";
-import { english, t } from "./i18n.js";
+import { said, t } from "./i18n.js";
 import { scaleOf } from "./units.js";
 
 const RADIANS = Math.PI / 180;
@@ -54,7 +54,7 @@ export function guide(kind, use) {
       const found = await ask(verb, body);
       if (kind === "robot" && !found.com_height) throw new Refused(t("measure.no_height"));
       use(sheetOf(found));
-      replace(outcome, h("p", {}, t("measure.done")), h("ul", {}, found.notes.map((note) => english(note, "li"))));
+      replace(outcome, h("p", {}, t("measure.done")), h("ul", {}, found.notes.map((note) => said(note, "li"))));
     } catch (error) {
       replace(outcome, h("p", { role: "alert", class: "refused" }, error instanceof Refused ? error.message : t("state.offline")));
     }

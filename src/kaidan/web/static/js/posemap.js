@@ -2,7 +2,7 @@
 
 import { Chart } from "./chart.js";
 import { h, replace, s } from "./dom.js";
-import { english, t } from "./i18n.js";
+import { said, t } from "./i18n.js";
 import { scaleOf } from "./units.js";
 
 export function drawMap(place, map) {
@@ -41,5 +41,5 @@ function heights(rows) {
 }
 
 export function noMap(place, error) {
-  replace(place, h("p", {}, t("chart.map_none")), error ? english(error, "p") : null);
+  replace(place, h("p", {}, t("chart.map_none")), error ? said(error, "p") : null);
 }

@@ -2,7 +2,7 @@
 
 import { button } from "./controls.js";
 import { fresh, h, line, replace, s } from "./dom.js";
-import { english, t } from "./i18n.js";
+import { said, t } from "./i18n.js";
 import { placeName } from "./sentences.js";
 import { figure, shown } from "./units.js";
 
@@ -202,7 +202,7 @@ export function sideView() {
       drawStrip();
       replace(log, h("ol", {}, found.event_log.map((entry) => h("li", {},
         h("button", { type: "button", class: "link", onclick: () => { stop(); show(frames.findIndex((each) => each.row === entry.row)); } },
-          placeName(entry.phase, entry.step)), " ", english(entry.text)))));
+          placeName(entry.phase, entry.step)), " ", said(entry.text)))));
       show(deciding);
     },
     none(text) {

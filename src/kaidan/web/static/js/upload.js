@@ -3,7 +3,7 @@
 import { Refused, upload } from "./api.js";
 import { button } from "./controls.js";
 import { h, replace } from "./dom.js";
-import { english, t } from "./i18n.js";
+import { said, t } from "./i18n.js";
 
 const MOST = 6; // notes that are shown
 
@@ -14,7 +14,7 @@ export async function readFile(file, kind, place, use) {
   try {
     answer = await upload("sheets", file);
   } catch (error) {
-    const text = error instanceof Refused ? english(error.message) : t("state.offline");
+    const text = error instanceof Refused ? said(error.message) : t("state.offline");
     replace(place, h("p", { role: "alert", class: "refused" }, text));
     return;
   }
@@ -25,7 +25,7 @@ export async function readFile(file, kind, place, use) {
     h("p", { role: "status" }, sheets.length ? t("upload.doubt") : t("upload.nothing")),
     sheets.length > 1 ? h("p", {}, t("upload.choose")) : null,
     sheets.length > 1 ? h("div", { class: "buttons" }, sheets.map((sheet) => button(nameOf(sheet), () => use(sheet)))) : null,
-    doubts.length ? h("ul", {}, doubts.map((each) => english(String(each), "li"))) : null);
+    doubts.length ? h("ul", {}, doubts.map((each) => said(String(each), "li"))) : null);
 }
 
 function nameOf(sheet) {

@@ -2,14 +2,14 @@
 
 import { button } from "./controls.js";
 import { h, replace } from "./dom.js";
-import { english, t } from "./i18n.js";
+import { said, t } from "./i18n.js";
 import { symbol } from "./light.js";
-import { change as changed, modeName, placeName, reason, stated } from "./sentences.js";
+import { modeName, placeName, reason, stated } from "./sentences.js";
 import { KIND_OF_UNIT, figure, shown } from "./units.js";
 
 export function verdictPanel(current) {
   const light = h("div", { class: "light" });
-  const said = h("p", { class: "visually-hidden", "aria-live": "polite", "aria-atomic": "true" });
+  const aloud = h("p", { class: "visually-hidden", "aria-live": "polite", "aria-atomic": "true" });
   const estimate = h("p", { class: "estimate", hidden: true });
   const body = h("div", { class: "said" });
   let spoken = "";
@@ -20,14 +20,14 @@ export function verdictPanel(current) {
     replace(light, symbol(kind, 64), h("div", {}, h("strong", { class: "word" }, word), rest));
     current.chip(kind, word);
     if (word !== spoken && kind !== "working") {
-      said.textContent = `${word}. ${kind in { go: 1, caution: 1, "no-go": 1, "outside-model": 1 } ? current.answer?.reason ?? "" : ""}`;
+      aloud.textContent = `${word}. ${kind in { go: 1, caution: 1, "no-go": 1, "outside-model": 1 } ? current.answer ? said(current.answer.reason).textContent : "" : ""}`;
     }
     if (kind !== "working") spoken = word;
   }
 
   return {
     node: h("section", { class: "answer", id: "answer", tabindex: "-1", "aria-labelledby": "answer-heading" },
-      h("h2", { id: "answer-heading", class: "visually-hidden" }, t("answer.heading")), said, light, estimate, body),
+      h("h2", { id: "answer-heading", class: "visually-hidden" }, t("answer.heading")), aloud, light, estimate, body),
     empty() {
       estimate.hidden = true;
       lit("empty", t("state.empty"), h("p", {}, t("state.empty_todo")));
@@ -51,7 +51,7 @@ export function verdictPanel(current) {
       body.removeAttribute("aria-busy");
       const offline = error.constructor.name === "Unreachable";
       lit(offline ? "offline" : "failed", t(offline ? "state.offline_short" : "state.failed"),
-        h("p", { role: "alert" }, offline ? t("state.offline") : english(error.message)));
+        h("p", { role: "alert" }, offline ? t("state.offline") : said(error.message)));
       replace(body, offline ? button(t("state.again"), () => current.ask(), { class: "main" }) : null);
     },
     show(answer) {
@@ -75,7 +75,7 @@ function toDo(answer) {
     h("li", {}, h("b", {}, step.before_step === null ? t("answer.at_start") : t("answer.before_step", { step: step.before_step })),
       " ", flippersOf(step)))) : null;
   const changes = help.slice(0, 3).map((each) => h("li", {},
-    changed(each.change), " ",
+    said(each.change), " ",
     h("span", { class: `tag is-${each.verdict}` }, symbol(each.verdict, 18), t("answer.then", { verdict: t(`verdict.${each.verdict}`) })),
     each.margin_deg === null ? null : [" ", figure(each.margin_deg, "degrees", { plus: true })]));
   let otherwise = null;
@@ -111,14 +111,14 @@ function numbers(answer) {
 function first(answer) {
   const measure = answer.to_measure.find((each) => each.share > 0.01);
   if (!measure || answer.verdict !== "caution") return null;
-  return h("p", { class: "measure" }, h("b", {}, `${t("answer.measure")}: `), english(measure.what), " ",
+  return h("p", { class: "measure" }, h("b", {}, `${t("answer.measure")}: `), said(measure.what), " ",
     t("answer.measure_share", { share: (100 * measure.share).toFixed(0) }));
 }
 
 function notes(answer) {
   if (answer.notes.length === 0) return null;
   return h("details", { class: "notes" }, h("summary", {}, `${t("answer.notes")} (${answer.notes.length})`),
-    h("ul", {}, answer.notes.map((note) => english(note, "li"))));
+    h("ul", {}, answer.notes.map((note) => said(note, "li"))));
 }
 
 // Every failure mode with its margin, as a table.

@@ -4,7 +4,7 @@
 import { Refused, ask, fetchedText, get, remove, upload } from "./api.js";
 import { button, picker, slider } from "./controls.js";
 import { h, replace } from "./dom.js";
-import { english, has, t } from "./i18n.js";
+import { has, language, said, t } from "./i18n.js";
 import { symbol } from "./light.js";
 import { bodyOf, catalogue, sheetOf } from "./question.js";
 import { change, state } from "./state.js";
@@ -21,10 +21,10 @@ const OWN = ["com_height", "com_from_front"]; // figures that a sheet's override
 export function workView(shell) {
   let kind = "compare", varied = "com_height", format = "pdf", timer = 0, file = null;
   const chosen = new Set(), range = { low: 0.1, high: 0.3, count: 21, trials: 5 };
-  const form = h("div", {}), said = h("p", { role: "alert" }), list = h("ul", { class: "jobs" }), outcome = h("div", { "aria-live": "polite" });
+  const form = h("div", {}), word = h("p", { role: "alert" }), list = h("ul", { class: "jobs" }), outcome = h("div", { "aria-live": "polite" });
   const kinds = picker({ label: t("work.kind"), empty: null, groups: () => [["", KINDS.map((each) => [each, t(`work.${each}`)])]], get: () => kind, set: (value) => { kind = value; fill(); } });
   const node = h("section", { class: "panel work" }, h("h2", {}, t("work.heading")), h("p", {}, t("work.lead")),
-    kinds.node, form, button(t("work.begin"), begin, { class: "main" }), said, h("h3", {}, t("work.list")), list, outcome);
+    kinds.node, form, button(t("work.begin"), begin, { class: "main" }), word, h("h3", {}, t("work.list")), list, outcome);
 
   function number(label, of, name, low, high) {
     const field = slider({ label, kind: of, low, high, get: () => range[name], set: (value) => { range[name] = value; } });
@@ -87,25 +87,25 @@ export function workView(shell) {
       };
     }
     if (kind === "posture") return Object.fromEntries(Object.entries(body).filter(([name]) => name !== "flippers"));
-    return kind === "report" ? { ...body, format } : body;
+    return kind === "report" ? { ...body, format, language } : body;
   }
 
   async function begin() {
     try {
-      if ((kind === "file" && !file) || (kind === "compare" && chosen.size === 0)) return replace(said, t("building.pick"));
+      if ((kind === "file" && !file) || (kind === "compare" && chosen.size === 0)) return replace(word, t("building.pick"));
       if (kind === "file") {
         const building = /\.ifc(zip)?$/i.test(file.name) && chosen.size > 0;
         const body = building ? { robots: [...chosen], ...(state.surface && state.surface !== "own" ? { surface: state.surface } : {}) } : {};
         await upload("jobs", file, [["verb", building ? "building" : "read"], ["body", JSON.stringify(body)]]);
       } else {
         const body = await bodyOfWork();
-        if (!body) return replace(said, t("work.no_question"));
+        if (!body) return replace(word, t("work.no_question"));
         await ask("jobs", { verb: kind, body });
       }
-      replace(said);
+      replace(word);
       look();
     } catch (error) {
-      replace(said, error instanceof Refused ? english(error.message) : t("state.offline"));
+      replace(word, error instanceof Refused ? said(error.message) : t("state.offline"));
     }
   }
 
@@ -127,8 +127,8 @@ export function workView(shell) {
     const { done, of, what } = job.progress;
     const going = job.state === "queued" || job.state === "running";
     return h("li", { "data-job": job.id, "data-state": job.state },
-      h("span", {}, h("b", {}, name), h("span", { class: "quiet" }, ` ${t(`work.${job.state}`)}${going && of ? ` ${done} / ${of}` : ""} `, going && of ? english(what) : null),
-        job.error ? english(job.error.error, "p") : null,
+      h("span", {}, h("b", {}, name), h("span", { class: "quiet" }, ` ${t(`work.${job.state}`)}${going && of ? ` ${done} / ${of}` : ""} `, going && of ? said(what) : null),
+        job.error ? said(job.error.error, "p") : null,
         going ? h("progress", { "aria-label": name, ...(of ? { value: done, max: of } : {}) }) : null),
       job.state === "done" ? button(t("work.show"), () => show(job), { class: "main", "aria-label": `${t("work.show")}: ${name}` }) : null,
       button(t(going ? "work.cancel" : "work.forget"), async () => { await remove(`jobs/${job.id}`); look(); }, { "aria-label": `${t(going ? "work.cancel" : "work.forget")}: ${name}` }));

@@ -1,0 +1,130 @@
+"""Sentences in Japanese: every one that answers say, with the same numbers."""
+
+import re
+
+import pytest
+
+import kaidan
+from kaidan.documents import report_bytes
+from kaidan.errors import InputError
+from kaidan.modes import FAILURE_MODES
+from kaidan.text import advice, unweighed
+from kaidan.text import document as of
+from kaidan.text.japanese import in_japanese, japanese, patterns
+from kaidan.text.report import document
+
+NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?")
+QUESTIONS = [
+    ("absolem", "ibc", {"flippers": "flat", "surface": "concrete-dry"}),
+    ("absolem", "osha-ship", {"flippers": "stowed", "friction": 1.5, "direction": "down"}),
+    ("absolem", "ada", {"flippers": "flat", "yaw": "3deg", "friction": "0.5..1.2"}),
+    ("kenaf", "ibc", {"model": "closed-form", "friction": 0.4}),
+    ("talon", "ada", {"friction": 0.8}),
+]
+
+
+@pytest.fixture(scope="module")
+def found():
+    return kaidan.report("absolem", "ibc", flippers="flat", friction="0.6..1")
+
+
+def numbers(text):
+    """Numbers of a text; those of names, such as p > L/2, aside."""
+    return sorted(NUMBER.findall(text.replace("L/2", "")))
+
+
+def missing(sentences):
+    """Sentences that have no Japanese, or not the same numbers in it."""
+    said = {each: japanese(each) for each in sentences}
+    return {en: ja for en, ja in said.items() if ja is None or numbers(ja) != numbers(en)}
+
+
+def test_both_sides_have_the_same_fields_and_every_field_its_table():
+    for table, all_of_it in patterns().items():
+        for each in all_of_it:
+            used = {int(number) for number in re.findall(r"\{(\d)\}", each.japanese)}
+            assert used == set(range(1, len(each.tables) + 1)), (table, each.english)
+            assert set(each.tables) <= {"", *patterns()}
+
+
+@pytest.mark.parametrize(("robot", "stairs", "manner"), QUESTIONS)
+def test_answers_are_said_in_japanese(robot, stairs, manner):
+    answer = kaidan.assess(robot, stairs, **manner)
+    own = " ".join(answer.question.robot.notes.split())  # the words of the sheet
+    said = [answer.reason, *(each for each in answer.notes if each != own)]
+    said += [each.change for each in answer.what_would_help]
+    assert missing(said) == {}
+
+
+@pytest.mark.parametrize("mode", FAILURE_MODES.values(), ids=FAILURE_MODES)
+def test_a_verdict_by_any_mode_is_said(mode):
+    assert (
+        missing([f"It may fail by {mode.label} (land, step 3).", f"It fails by {mode.label}."])
+        == {}
+    )
+
+
+def test_events_and_the_page_for_the_field_are_said(found):
+    assert missing(each.text for each in found.missions[0].traverse.event_log) == {}
+    whole = document(found)
+    sheet = next(part for part in whole.parts if isinstance(part, of.Sheet))
+    said = [each.text for each in sheet.blocks if isinstance(each, of.Paragraph | of.Heading)]
+    for each in sheet.blocks:
+        if isinstance(each, of.Facts):
+            said += [text for row in each.rows for text in row]
+        if isinstance(each, of.Points):
+            said += each.items
+    said = [text for text in said if re.search(r"[a-z]", text)]
+    assert missing([*said, whole.title, whole.foot]).keys() <= {whole.foot}  # its version is a name
+
+
+def test_appendices_stay_english(found):
+    whole = document(found)
+    turned = in_japanese(whole)
+    assert [each for each in turned.parts if not isinstance(each, of.Sheet)] == [
+        each for each in whole.parts if not isinstance(each, of.Sheet)
+    ]
+
+
+@pytest.mark.parametrize("form", ["html", "pdf"])
+def test_a_report_in_japanese(found, form):
+    pytest.importorskip("reportlab", reason="skipped: ReportLab not installed")
+    made = report_bytes(found, form, "ja")
+    has = {"html": b'<html lang="ja">', "pdf": b"HeiseiKakuGo-W5"}[form]
+    assert has in made
+    assert has not in report_bytes(found, form)
+    if form == "html":
+        assert "摩擦が決め手です(進入、1 段目)。必要 0.91、想定 0.60〜1.00。" in made.decode()
+
+
+def test_another_language_is_refused(found):
+    with pytest.raises(InputError, match="language 'fr' is not known; known: en, ja"):
+        report_bytes(found, "html", "fr")
+
+
+def test_what_has_no_japanese_stays_as_it_is():
+    assert japanese("It sings.") is None
+
+
+@pytest.mark.parametrize(
+    ("sentence", "contains"),
+    [
+        (advice.STRAIGHT, "真っ直ぐ"),
+        (advice.STEADY, "一定"),
+        (advice.FLAT, "一直線"),
+        (advice.turned_round("up", "tail-first"), "後端"),
+        (advice.turned_round("down", "nose-first"), "前端"),
+        (advice.raised("front", 0.785398), "45°"),
+        (advice.raised("rear", 0.785398), "45°"),
+        (advice.friction(0.92, known=True), "0.92"),
+        (advice.friction(0.92, known=False), "0.92"),
+        (advice.grousers(), "グローサ"),
+        (advice.slower(0.05), "0.05 m/s"),
+        (advice.measured(["theta_d", "theta_M"]), "theta_d と theta_M"),
+        (advice.centroid(0.012, "front", of_payload=None), "12 mm"),
+        (advice.centroid(0.012, "front", of_payload=0.03), "荷物を 30 mm"),
+        (unweighed.weigh(0.2, 0.1), "200 mm"),
+    ],
+)
+def test_every_advice_has_a_sentence_in_japanese(sentence, contains):
+    assert contains in japanese(sentence)
