@@ -9,7 +9,8 @@ from kaidan import Question, Robot, Stairs
 from kaidan.assessment.verdict import conclude
 from kaidan.catalog import names
 from kaidan.models import quasi_static
-from kaidan.modes import FALLS, SLIDES_DOWN, SLIDES_UP, TIPS
+from kaidan.modes import DRIVE, FALLS, SLIDES_DOWN, SLIDES_UP, TIPS
+from kaidan.robot import Drive, Track
 from kaidan.traversal import traverse
 from kaidan.traversal.tilting import WITHIN
 from question_cases import random_robot
@@ -18,6 +19,7 @@ LIMITS = {  # degrees: the project's own target; of traction see docs/theory/con
     **dict.fromkeys(TIPS, 0.01),
     **dict.fromkeys((SLIDES_DOWN, SLIDES_UP), 0.012),  # one of 300: risers change by 2 um in all
     **dict.fromkeys(FALLS, math.degrees(WITHIN) + 0.01),  # to the width of its bisection
+    DRIVE: 0.03,  # 2 of 300 beyond 0.01: a nosing 2 um too high meets the front arc before the flat
 }
 FAR = math.radians(45.0)
 """Margin beyond which nothing depends on it: of robots as long as the flight, uphill."""
@@ -78,6 +80,31 @@ def test_a_micrometre_changes_nothing():
 @pytest.mark.slow
 def test_a_micrometre_changes_nothing_of_300_questions():
     check(seed=2, count=300, size=1e-6, limits=LIMITS)
+
+
+def test_what_is_braked_over_a_micrometre_requires_no_drive():
+    """The front meets the landing while the rear contact is a nosing far ahead: for 3 um."""
+    robot = Robot(
+        name="brakes", mass=40.0, com_from_front=0.53, com_height=0.408,
+        drive=Drive(max_traction=441),
+        track=Track(flat_length=1.103, front_radius=0.098, rear_radius=0.107),
+    )  # fmt: skip
+    even = np.full(9, 0.13067), np.full(8, 0.18796)
+    um = np.where(np.arange(9) % 2, 1e-6, -1e-6), 1e-6 * np.array([-1, -1, 0, 0, -1, 1, 0, 0])
+    margins = []
+    for k in (0.0, 1.0):
+        flight = Stairs(
+            rises=tuple((even[0] + k * um[0]).tolist()),
+            goings=tuple((even[1] + k * um[1]).tolist()),
+        )
+        question = Question.in_one_posture(
+            robot, flight, friction=1.0, direction="down", facing="tail-first"
+        )
+        found = quasi_static.judge(question)
+        margins.append(float(found.of(DRIVE).worst[0]))
+    raw = np.abs(found.basis.traverse.path.margins.traction).max() / 9.80665
+    assert raw > found.basis.traverse.phases[1].traction_over_weight + 0.1  # it does brake there
+    assert margins[0] == pytest.approx(margins[1], abs=math.radians(0.1))
 
 
 def test_the_first_rock_does_not_depend_on_where_poses_stand():

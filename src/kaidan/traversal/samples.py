@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from kaidan import contact
 from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.traversal.brief import by_how_long
 from kaidan.traversal.nosing_events import nosing_events
 from kaidan.traversal.peaks import ONE_PLACE, leads_on, peaks_between
 from kaidan.traversal.phases import Phase
@@ -46,7 +47,8 @@ class Samples(NamedTuple):
     friction: Array
     """Required friction [1]; infinite where nothing holds."""
     traction: Array
-    """Tractive force along the path over mass, without its sign [N/kg]."""
+    """Tractive force along the path over mass, without its sign [N/kg]; of a brief braking by how
+    long it lasts."""
     comes_off: NDArray[np.bool_]
     """Whether the trailing end leaves an edge, see `trailing_end_leaves`."""
 
@@ -86,14 +88,15 @@ def samples_of(path: contact.Path, phase: NDArray[np.str_], acceleration: float)
         last[steady] = largest[steady]
     # between two phases stands a pose of both: what follows on it is of the second
     between = np.concatenate([nosings.pose, peaks[1], upright[0]])
+    row = np.concatenate([np.arange(count), between + corners(path)[between]])
     lasts = np.ones(len(traction), dtype=np.bool_)
     lasts[:count] = lasting(path)
     return Samples(
         path=seen,
-        row=np.concatenate([np.arange(count), between + corners(path)[between]]),
+        row=row,
         lasts=lasts,
         friction=_friction(seen),
-        traction=traction,
+        traction=by_how_long(path, traction, row),
         comes_off=trailing_end_leaves(seen),
     )
 

@@ -1,0 +1,98 @@
+"""GO on irregular flights in MuJoCo: no fall, and no rotation beyond the predicted rocking + 1 deg.
+
+The rigid smooth belt, driven over the flight itself, up and down, without allowances: it shares no
+line with the criterion that predicts the rocking, nor with the traverse that predicts the poses.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+pytest.importorskip("mujoco", reason="skipped: mujoco not installed")
+
+from amounts import fast_and_slow
+from kaidan import Question, Robot, Stairs
+from kaidan.assessment.verdict import conclude
+from kaidan.models import quasi_static
+from kaidan.modes import Verdict
+from kaidan.physics import Outcome, SmoothBelt, TrialSpec
+from kaidan.physics.trial import record
+from kaidan.robot import Track
+
+BEYOND = 1.0
+"""What the robot may turn more than is predicted [deg]: the proof's."""
+BESIDE = 0.025
+"""Way by which physics may be ahead of the pose or behind it [m]: what it rocks in takes time."""
+
+
+def drawn_robot(rng):
+    L, R = rng.uniform(0.6, 1.1), rng.uniform(0.06, 0.12)
+    return Robot(
+        name="any",
+        mass=rng.uniform(10.0, 60.0),
+        com_from_front=L * rng.uniform(0.38, 0.58),
+        com_height=L * rng.uniform(0.1, 0.28),
+        track=Track(flat_length=L, front_radius=R, rear_radius=R),
+    )
+
+
+def drawn_flight(rng, L):
+    """Each rise and going by itself up to 1, 3 or 5 mm off."""
+    p, angle = rng.uniform(0.2, 0.45) * L, rng.uniform(0.35, 0.85)
+    n, most = int(L / p) + 8, rng.choice([0.001, 0.003, 0.005])
+    rises = p * math.sin(angle) + rng.uniform(-most, most, n)
+    goings = p * math.cos(angle) + rng.uniform(-most, most, n - 1)
+    return Stairs(
+        rises=tuple(np.maximum(rises, 0.02).tolist()),
+        goings=tuple(np.maximum(goings, 0.03).tolist()),
+    )
+
+
+def gos(seed, count):
+    rng = np.random.default_rng(seed)
+    while count:
+        robot = drawn_robot(rng)
+        question = Question.in_one_posture(
+            robot,
+            drawn_flight(rng, robot.track.flat_length),
+            friction=3.0,
+            direction=str(rng.choice(["up", "down"])),
+            facing=str(rng.choice(["nose-first", "tail-first"])),
+            theta_d=(0, 0),
+            theta_M=(0, 0),
+        )
+        found = quasi_static.judge(question)
+        if conclude(question, found).verdict is Verdict.GO:
+            count -= 1
+            yield question, found.basis.traverse
+
+
+def on_the_flight(found):
+    """Nosings to be passed so that the uphill end stays on the flight."""
+    nosings = found.profile.nosings
+    spacing = float(np.hypot(*np.diff(nosings, axis=0).T).mean())
+    return max(1, len(nosings) - 3 - math.ceil(found.tread.L / spacing))
+
+
+def beyond_the_poses(found, columns):
+    """How far inclinations leave those of the poses about the same place [deg]."""
+    x, inclination = found.path.poses.x, np.degrees(found.path.poses.inclination)
+    most = 0.0
+    for at, inclined in zip(columns["x_m"], columns["inclination_deg"], strict=True):
+        about = inclination[np.abs(x - at) < BESIDE]
+        most = max(most, inclined - about.max(), about.min() - inclined)
+    return most
+
+
+@pytest.mark.parametrize(("seed", "count"), fast_and_slow((1, 3), (2, 200)))
+def test_go_on_irregular_flights_in_mujoco(seed, count):
+    for k, (question, found) in enumerate(gos(seed, count)):
+        spec = TrialSpec(
+            question=question, track=SmoothBelt(), nosings=on_the_flight(found), seed=k
+        )
+        log = record(spec)
+        assert log.result.outcome is Outcome.CLIMBED, spec.model_dump_json()
+        rocking = math.degrees(found.criterion.rocking)
+        assert log.result.largest_extra_deg <= rocking + BEYOND, spec.model_dump_json()
+        assert beyond_the_poses(found, log.columns) <= BEYOND, spec.model_dump_json()
