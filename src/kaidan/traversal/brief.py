@@ -37,6 +37,8 @@ def by_how_long(path: contact.Path, traction: Array, row: NDArray[np.int64]) -> 
         Row of the path of which each is.
     """
     poses = path.poses
+    if len(poses) == 0:
+        return traction
     exchange = (np.diff(poses.s) < ONE_PLACE) | (np.diff(poses.leg) != 0)
     run = np.append(0, np.cumsum(exchange))
     count = int(run[-1]) + 1
