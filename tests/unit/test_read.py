@@ -10,7 +10,7 @@ import kaidan
 from kaidan.cli import run
 from kaidan.errors import InputError, RefusedError
 from kaidan.readers.estimate import Found, LandingEstimate, Refusal, StairsEstimate
-from kaidan.readers.flight import FlightEstimate
+from kaidan.readers.flight import FlightEstimate, independent
 from kaidan.readers.kinds import Known, Points, Provenance
 from kaidan.verbs.read import FileAnswer, joint_angles
 from robot_files import TANK, tank_mjcf, tank_sdf, tank_urdf, urdf_shape
@@ -137,7 +137,7 @@ def flight(steps=5, sigma=0.002):
     across = np.array([-0.5, 0.0, 0.0])
     return FlightEstimate(
         left=middle + across, right=middle - across, heading=math.pi / 2,
-        covariance=np.tile(np.diag([sigma**2, sigma**2]), (steps, 1, 1)),
+        covariance=independent(np.tile(np.diag([sigma**2, sigma**2]), (steps, 1, 1))),
         gravity=math.radians(0.3), scale=0.002, floor=0.0, width=1.0, roughness=0.004,
     )  # fmt: skip
 

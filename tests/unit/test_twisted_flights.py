@@ -7,7 +7,7 @@ import pytest
 
 import kaidan
 from kaidan import InputError, Robot, Stairs
-from kaidan.readers.flight import FlightEstimate
+from kaidan.readers.flight import FlightEstimate, independent
 from one_posture import assess
 
 MANNER = {"friction": 2.0, "theta_d": 0.0, "theta_M": 0.0}
@@ -93,7 +93,7 @@ def test_segments_of_a_file_become_slopes_across_and_skews():
     def sheet(sigma):
         return FlightEstimate(
             left=left, right=right, heading=0.0, gravity=0.0, scale=0.0, floor=0.0,
-            covariance=np.tile(np.eye(2) * sigma**2, (6, 1, 1)),
+            covariance=independent(np.tile(np.eye(2) * sigma**2, (6, 1, 1))),
         ).stairs()  # fmt: skip
 
     assert sheet(0.001).cross_slopes == pytest.approx((math.atan(0.03),) * 6)

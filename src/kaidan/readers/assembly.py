@@ -175,7 +175,7 @@ class _Assembly:
             left=self._placed(frame, left, t_left, levels),
             right=self._placed(frame, right, t_right, levels),
             heading=run.heading,
-            covariance=np.zeros((len(levels), 2, 2)),
+            covariance=np.zeros((len(levels), 2) * 2),
             gravity=0.0,
             scale=0.0,
             floor=base,

@@ -3,9 +3,9 @@
 ::
 
             left            The nosings of a flight are segments, seen on the way up. Along the
-       .-----o-----.        heading lies s, up lies z. Each nosing has a covariance of its own of
-       |    /     /|        (s, z). What all have in common, the doubt of gravity and of scale,
-    z  |   o     o |        stands apart, because it does not average out.
+       .-----o-----.        heading lies s, up lies z. The (s, z) of the nosings have a covariance:
+       |    /     /|        neighbours may err alike. What all have in common, the doubt of gravity
+    z  |   o     o |        and of scale, stands apart, because it does not average out.
     |  |  /     /  |
     | s '-----o----'
     |/      right
@@ -96,7 +96,7 @@ class FlightEstimate:
     heading: float
     """Direction of ascent in the plan, from x towards y [rad]."""
     covariance: Array
-    """Of (s, z) of each nosing apart from the others, shape (m, 2, 2) [m^2]."""
+    """Of s and z of the nosings, what all have in common apart, shape (m, 2, m, 2) [m^2]."""
     gravity: float
     """Standard uncertainty of the tilt of gravity along the heading, common to all [rad]."""
     scale: float
@@ -171,27 +171,34 @@ class FlightEstimate:
         if m < 2:
             return RegularFlight(*(math.nan,) * 6, 0)
         number = np.arange(m, dtype=np.float64)
-        design = np.zeros((m, 2, 4))
-        design[:, 0, 0] = design[:, 1, 1] = 1.0
-        design[:, 0, 2] = design[:, 1, 3] = number
-        weights = np.linalg.inv(
-            self.covariance + (1e-14 if self.covariance.any() else EXACT**2) * np.eye(2)
-        )
-        normal = np.einsum("mik,mij,mjl->kl", design, weights, design)
-        found = np.linalg.inv(normal)
-        line = self.line()
-        fit = found @ np.einsum("mik,mij,mj->k", design, weights, line)
+        design = np.kron(np.column_stack([np.ones(m), number]), np.eye(2))
+        weights = self.weights
+        found = np.linalg.inv(design.T @ weights @ design)
+        line = self.line().ravel()
+        fit = found @ design.T @ weights @ line
         off = line - design @ fit
-        chi2 = float(np.einsum("mi,mij,mj->", off, weights, off))
+        chi2 = float(off @ weights @ off)
         going, rise = float(fit[2]), float(fit[3])
         s_going, s_rise = float(np.sqrt(found[2, 2])), float(np.sqrt(found[3, 3]))
         corr = float(found[2, 3]) / (s_going * s_rise)
         return RegularFlight(rise, going, s_rise, s_going, corr, chi2, 2 * m - 4)
 
     @property
+    def weights(self) -> Array:
+        """Inverse of the covariance in the order of `full_covariance`, shape (2m, 2m) [m^-2]."""
+        least = 1e-14 if self.covariance.any() else EXACT**2
+        size = 2 * len(self)
+        return np.linalg.inv(self.covariance.reshape(size, size) + least * np.eye(size))
+
+    @property
     def is_exact(self) -> bool:
         """Whether it is drawn and not measured, so that nothing of it is in doubt."""
         return not (self.covariance.any() or self.gravity or self.scale or self.step_spread)
+
+    @property
+    def sigmas(self) -> Array:
+        """Standard uncertainties of s and z of each nosing, shape (m, 2) [m]."""
+        return np.asarray(np.sqrt(np.einsum("kiki->ki", self.covariance)))
 
     @property
     def angle_sigma(self) -> float:
@@ -213,9 +220,7 @@ class FlightEstimate:
             first nosing on the floor as the origin [m^2].
         """
         m, line = len(self), self.line()
-        found = np.zeros((2 * m, 2 * m))
-        for k, each in enumerate(self.covariance):
-            found[2 * k : 2 * k + 2, 2 * k : 2 * k + 2] = each
+        found = self.covariance.reshape(2 * m, 2 * m).copy()
         tilted = np.column_stack([-line[:, 1], line[:, 0]]).ravel() * self.gravity
         scaled = line.ravel() * self.scale
         lifted = np.tile([0.0, 1.0], m) * (self.floor_sigma if self.begins else 0.0)
@@ -231,7 +236,9 @@ class FlightEstimate:
         """Standard uncertainty of a single going and of a single rise, root mean square [m]."""
         if len(self) < 2:
             return self.step_spread, self.step_spread
-        pair = (self.covariance[1:] + self.covariance[:-1]).mean(axis=0)
+        each = np.einsum("kikj->kij", self.covariance)
+        both = np.einsum("kikj->kij", self.covariance[1:, :, :-1])
+        pair = (each[1:] + each[:-1] - both - both.swapaxes(1, 2)).mean(axis=0)
         going, rise = np.sqrt(np.diag(pair) + self.step_spread**2).tolist()
         return going, rise
 
@@ -309,7 +316,7 @@ class FlightEstimate:
         if (aside < 0.2).any():
             return {}
         found = {"cross_slopes": way[:, 2] / aside, "skews": way[:, :2] @ along / aside}
-        sigmas = np.sqrt(np.diagonal(self.covariance, axis1=1, axis2=2))  # of s, of z
+        sigmas = self.sigmas
         doubts = {"cross_slopes": 2 * sigmas[:, 1] / aside, "skews": 2 * sigmas[:, 0] / aside}
         return {
             name: tuple(np.arctan(each).tolist())
@@ -365,6 +372,14 @@ class FlightEstimate:
             return np.tile(line, (count, 1, 1))
         unit = np.random.default_rng(seed).standard_normal((covariance.shape[0], count))
         return line + (factor(covariance) @ unit).T.reshape(count, *line.shape)
+
+
+def independent(each: Array) -> Array:
+    """Covariance of nosings that do not err alike, from that of each, shape (m, 2, 2) [m^2]."""
+    m = len(each)
+    found = np.zeros((m, 2, m, 2))
+    found[np.arange(m), :, np.arange(m), :] = each
+    return found
 
 
 def chi2_tail(chi2: float, freedom: int) -> float:

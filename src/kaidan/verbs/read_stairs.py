@@ -135,7 +135,6 @@ def _flight(
 ) -> FlightRead:
     regular = flight.regular
     going, rise = flight.doubt_of_a_step()
-    sigmas = np.sqrt(np.diagonal(flight.covariance, axis1=1, axis2=2))
     return FlightRead(
         steps=len(flight),
         rise_m=regular.rise,
@@ -153,7 +152,7 @@ def _flight(
         width_m=flight.width,
         headroom_m=flight.headroom,
         nosings=tuple(map(tuple, flight.line().tolist())),
-        sigmas=tuple(map(tuple, sigmas.tolist())),
+        sigmas=tuple(map(tuple, flight.sigmas.tolist())),
         residuals=_residuals(flight),
         left=tuple(map(tuple, flight.left[:, :2].tolist())),
         right=tuple(map(tuple, flight.right[:, :2].tolist())),
@@ -170,8 +169,9 @@ def _residuals(flight: FlightEstimate) -> tuple[tuple[float, float], ...]:
         return ()
     step = np.array([flight.regular.going, flight.regular.rise])
     off = flight.line() - np.arange(len(flight))[:, None] * step
-    weights = np.linalg.inv(flight.covariance + 1e-14 * np.eye(2))
-    middle = np.linalg.solve(weights.sum(axis=0), np.einsum("mij,mj->i", weights, off))
+    every = np.tile(np.eye(2), (len(flight), 1))
+    weighted = flight.weights @ every
+    middle = np.linalg.solve(every.T @ weighted, weighted.T @ off.ravel())
     return tuple((float(s), float(z)) for s, z in off - middle)
 
 

@@ -1,5 +1,6 @@
 """Estimates of flights: what follows from nosings with a doubt, by hand and by draws."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 
 from kaidan.errors import InputError
 from kaidan.readers.estimate import LandingEstimate, Refusal, StairsEstimate
-from kaidan.readers.flight import FlightEstimate, chi2_tail
+from kaidan.readers.flight import FlightEstimate, chi2_tail, independent
 from kaidan.readers.kinds import Provenance
 from kaidan.text.refusals import REFUSALS
 
@@ -27,7 +28,7 @@ def flight(
         left=np.column_stack([at + 0.5 * left, z]),
         right=np.column_stack([at - 0.5 * left, z]),
         heading=heading,
-        covariance=np.tile(np.diag(np.square(sigma)), (m, 1, 1)),
+        covariance=independent(np.tile(np.diag(np.square(sigma)), (m, 1, 1))),
         gravity=gravity,
         scale=scale,
         **{"floor": 0.0, **more},
@@ -75,6 +76,21 @@ def test_first_riser_stands_apart_and_is_assumed_where_no_floor_was_seen():
     blind = flight(rises=(0.15, 0.18, 0.18, 0.18), floor=math.nan)
     assert blind.stairs().first_rise is None
     assert blind.line()[0, 1] == pytest.approx(0.18)
+
+
+def test_neighbours_that_err_alike_know_their_distance_better():
+    """By hand: 3 mm each with a correlation of 0.8 leave sqrt(2 * 0.2) * 3 mm of a going."""
+    alike = flight()
+    m = len(alike)
+    covariance = np.zeros((m, 2, m, 2))
+    covariance[:, 0, :, 0] = 9e-6 * np.where(np.eye(m) > 0, 1.0, 0.8)
+    covariance[:, 1, :, 1] = 1e-6 * np.eye(m)
+    found = dataclasses.replace(alike, covariance=covariance)
+    going, rise = found.doubt_of_a_step()
+    assert going == pytest.approx(3e-3 * math.sqrt(0.4))
+    assert rise == pytest.approx(1e-3 * math.sqrt(2.0))
+    # what all have in common, 0.8 of the variance, leaves the slope of the line as it is
+    assert found.regular.going_sigma == pytest.approx(math.sqrt(0.2 * 9e-6 / 17.5), rel=1e-6)
 
 
 def test_gravity_and_scale_do_not_average_out():

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kaidan.readers.flight import FlightEstimate
+from kaidan.readers.flight import FlightEstimate, independent
 from kaidan.readers.kinds import Array, Indices
 from kaidan.readers.stairfit.corridor import rotated
 from kaidan.readers.stairfit.slices import STEP, driven_line, slice_of
@@ -241,7 +241,7 @@ def _flight(
     overhang, open_risers = _faces(segments, value + slope * at.mean())
     return FlightEstimate(
         left=placed(sides[1]), right=placed(sides[0]), heading=heading,
-        covariance=np.tile(np.eye(2) * AS_DRAWN**2, (m, 1, 1)), gravity=0.0, scale=0.0,
+        covariance=independent(np.tile(np.eye(2) * AS_DRAWN**2, (m, 1, 1))), gravity=0.0, scale=0.0,
         floor=math.nan if alone or not len(before) else float(before[-1, 1]),
         floor_sigma=AS_DRAWN, ends=run_out > SHORT * going,
         run_up=run_up, run_out=run_out, room_before=run_up, room_behind=run_out,

@@ -20,6 +20,8 @@ FEWEST_OF_LANE = 3
 """Points that an end needs in its lane."""
 SCARCE = 0.15
 """Share of one sort of points below which ends take their place [1]."""
+INNER_TREAD, INNER_RISER = (0.1, 0.92), (0.1, 0.9)
+"""Parts of a tread and of a riser that lie away from the edges [1]."""
 _LEVEL = 0.02
 """Height of a bin in which it is sought [m]."""
 
@@ -89,6 +91,9 @@ class Assigned:
     """Tread k begins at nosing k, riser k ends at it."""
     tread: NDArray[np.bool_]
     riser: NDArray[np.bool_]
+    inner: NDArray[np.bool_]
+    """Whether it lies away from the edges: near one a point of a riser may pass for one of a tread
+    of the wrong level, and a point of a tread for one of a riser at the wrong place."""
     off: Array
     """Distance above the tread or behind the riser [m]; of others the smaller one."""
 
@@ -103,7 +108,10 @@ def assigned(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) ->
     riser = (np.abs(face) < tolerance) & (np.abs(face) < np.abs(v)) & (v > -r) & (v < r)
     tread = ~riser & (np.abs(v) < tolerance)
     step = np.where(riser & over, k + 1, k)
-    return Assigned(step, tread, riser, np.where(riser, face, v))
+    share = np.where(riser, v / r % 1.0, u / g)
+    low, high = (np.where(riser, *ends) for ends in zip(INNER_RISER, INNER_TREAD, strict=True))
+    inner = (share > low) & (share < high)
+    return Assigned(step, tread, riser, inner, np.where(riser, face, v))
 
 
 def explained_share(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) -> float:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.readers.flight import UNCHECKED
+from kaidan.readers.flight import UNCHECKED, independent
 from kaidan.readers.kinds import Array, Indices
 from kaidan.readers.stairfit.staircase_line import (
     Assigned,
@@ -32,11 +32,12 @@ LANES = (0.05, 0.2)
 """Widths of the lanes in which ends are sought, the second where the first holds too few [m]."""
 FEWEST_LANES = 3
 """Lanes in which an end must be seen."""
-LOCAL = 0.15
-"""Share of the doubt of the range that differs from one nosing to the next [1]: half of that which
-differs from one direction to the next, because a nosing is a mean over its width."""
-FLOOR = 1.2
-"""The same of the floor, over that of a nosing [1]: it is seen at a smaller angle."""
+LOCAL, ALIKE_WITHIN = 0.3, 0.15
+"""Share of the doubt of the range that differs from one direction to the next [1], and the angle
+over which its correlation falls to 1/e [rad]: what calibrating a sensor leaves is smooth."""
+FLOOR = 0.18
+"""Share of the doubt of the range by which the level of the floor is off [1]: less than in one
+direction, because it is a mean over them."""
 SMALLEST = 5e-4
 """Standard uncertainty of a nosing at best [m]: edges are not sharper."""
 STRIP = 0.1
@@ -65,7 +66,7 @@ class Steps:
     at: Array
     """(s, z) of the nosings, shape (m, 2) [m]."""
     covariance: Array
-    """Of each, shape (m, 2, 2) [m^2]."""
+    """Of s and z of all, shape (m, 2, m, 2) [m^2]."""
     measured: NDArray[np.bool_]
     """Whether s and z of each were measured alone, shape (m, 2)."""
     floor: float
@@ -128,11 +129,9 @@ def steps_of(
     regular = line.at(number)
     found, sigma = regular.copy(), np.full(regular.shape, np.nan)
     for row, k in enumerate(number.tolist()):
-        tread = at.tread & (at.step == k)
-        _, u, _ = line.local(s[tread], t[tread], z[tread])
-        inner = (u > 0.1 * line.going) & (u < 0.92 * line.going)
-        riser = at.riser & (at.step == k)
-        level = z[tread][inner]
+        tread = at.tread & at.inner & (at.step == k)
+        riser = at.riser & at.inner & (at.step == k)
+        level = z[tread]
         found[row, 1], sigma[row, 1] = _level(level, noise, top, k, regular[row, 1], riser.sum())
         face = s[riser] - line.skew * t[riser]
         found[row, 0], sigma[row, 0] = _level(face, noise, front, k, regular[row, 0], tread.sum())
@@ -145,16 +144,13 @@ def steps_of(
     found, sigma, measured, landing = _last_riser(
         found, sigma, measured, line, s, t, z, noise, tight
     )
-    away = found - eye
-    ranges = np.hypot(*away.T)
-    ray = away / np.maximum(ranges, 1e-6)[:, None]
-    along = (LOCAL * range_error * ranges)[:, None] * ray
-    covariance = np.einsum("mi,mj->mij", along, along)
-    covariance[:, [0, 1], [0, 1]] += sigma**2 + SMALLEST**2
     rms = float(np.sqrt(np.mean(np.minimum(np.abs(off), tight) ** 2)))
     on = at.tread | at.riser
     width = _width(at.step[on], t[on], line)
-    floor_sigma = math.hypot(floor_sigma, FLOOR * LOCAL * range_error * float(ranges[0]))
+    covariance = independent((sigma**2 + SMALLEST**2)[:, :, None] * np.eye(2))
+    covariance += LOCAL**2 * range_error**2 * smooth_field(found - eye, width[1] - width[0])
+    away = float(np.hypot(*(found[0] - eye)))
+    floor_sigma = math.hypot(floor_sigma, FLOOR * range_error * away)
     return Steps(
         line=line, at=found, covariance=covariance, measured=measured,
         floor=floor, floor_sigma=floor_sigma,
@@ -164,6 +160,36 @@ def steps_of(
         level=_level_share(line, at, s, t, z),
         width=width, angles=nosing_angles(line, s, t, z, width),
     )  # fmt: skip
+
+
+def smooth_field(away: Array, width: float) -> Array:
+    """Covariance of nosings under an error of the range of 1 that varies smoothly with direction.
+
+    The error is correlated by exp(-(angle / a)^2). A nosing is the mean over its width w: with the
+    weights of a normal distribution of the same spread, w / sqrt(12), the integral is
+
+        K_jk = R_j R_k d_j d_k^T exp(-|d_j - d_k|^2 / a^2)
+               / sqrt(1 + (w^2 / R_j^2 + w^2 / R_k^2) / (6 a^2)).
+
+    Parameters
+    ----------
+    away : array, shape (m, 2)
+        (s, z) of the nosings from the sensor [m].
+    width : float
+        Of the flight [m].
+
+    Returns
+    -------
+    array, shape (m, 2, m, 2)
+        [m^2]
+    """
+    ranges = np.maximum(np.hypot(*away.T), 1e-6)
+    ray = away / ranges[:, None]
+    apart = ((ray[:, None] - ray) ** 2).sum(axis=2)
+    wide = (width / ranges) ** 2
+    alike = np.exp(-apart / ALIKE_WITHIN**2)
+    alike /= np.sqrt(1.0 + (wide[:, None] + wide) / (6.0 * ALIKE_WITHIN**2))
+    return np.einsum("ji,jk,kl->jikl", away, alike, away)
 
 
 def _depth(line: StairLine, s: Array, t: Array, z: Array) -> float:
