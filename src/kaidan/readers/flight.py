@@ -188,7 +188,8 @@ class FlightEstimate:
         """Inverse of the covariance in the order of `full_covariance`, shape (2m, 2m) [m^-2]."""
         least = 1e-14 if self.covariance.any() else EXACT**2
         size = 2 * len(self)
-        return np.linalg.inv(self.covariance.reshape(size, size) + least * np.eye(size))
+        covariance = self.covariance.reshape(size, size) + least * np.eye(size)
+        return np.asarray(np.linalg.inv(covariance))
 
     @property
     def is_exact(self) -> bool:

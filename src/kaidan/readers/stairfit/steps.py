@@ -189,7 +189,7 @@ def smooth_field(away: Array, width: float) -> Array:
     wide = (width / ranges) ** 2
     alike = np.exp(-apart / ALIKE_WITHIN**2)
     alike /= np.sqrt(1.0 + (wide[:, None] + wide) / (6.0 * ALIKE_WITHIN**2))
-    return np.einsum("ji,jk,kl->jikl", away, alike, away)
+    return np.asarray(np.einsum("ji,jk,kl->jikl", away, alike, away))
 
 
 def _depth(line: StairLine, s: Array, t: Array, z: Array) -> float:
