@@ -4,7 +4,7 @@
 
             left            The nosings of a flight are segments, seen on the way up. Along the
        .-----o-----.        heading lies s, up lies z. The (s, z) of the nosings have a covariance:
-       |    /     /|        those close together may err alike. What all have in common, the doubt of gravity
+       |    /     /|        near ones may err alike. What all have in common, the doubt of gravity
     z  |   o     o |        and of scale, stands apart, because it does not average out.
     |  |  /     /  |
     | s '-----o----'
