@@ -3,6 +3,7 @@ import os
 import sys
 from pathlib import Path
 
+import pytest
 from hypothesis import settings
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -11,6 +12,9 @@ os.environ.pop("COLUMNS", None)  # tables as wide as they like, whatever screen 
 # what both workers and a hundred processes import is compiled once
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+
+# no matrix here is worth threads that wait for each other, less so where each core has a worker
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 gc.disable()  # ten thousand tests are being collected, and none of them is garbage
 
@@ -25,3 +29,11 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
 def pytest_collection_finish():
     gc.freeze()
     gc.enable()
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """Let whoever is done take over half of what another still has to do."""
+    from xdist.scheduler import WorkStealingScheduling
+
+    return WorkStealingScheduling(config, log)

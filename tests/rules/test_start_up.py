@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from functools import cache
 
 import pytest
 
@@ -22,6 +23,7 @@ print(json.dumps([code, sorted(sys.modules)]), file=sys.stderr)
 ASSESS = ["assess", "absolem", "ibc", "--flippers", "flat", "--surface", "concrete-dry"]
 
 
+@cache
 def imported(code, *words):
     """Exit code and modules of a new process."""
     done = subprocess.run(

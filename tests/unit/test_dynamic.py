@@ -24,8 +24,9 @@ GENTLE = Stairs(rise=0.1, going=0.2, steps=3)
 STEEP = Stairs.inclined(angle=math.radians(65.0), nosing_spacing=0.15, steps=8)
 
 
-def ask(stairs=GENTLE, *, sheet=None, **manner):
-    return kaidan.assess(sheet or robot(), stairs, model="physics", **manner)
+def ask(stairs=GENTLE, *, sheet=None, speed=0.3, **manner):
+    """At three times the paper's speed, which takes a third of the time."""
+    return kaidan.assess(sheet or robot(), stairs, model="physics", speed=speed, **manner)
 
 
 def outcomes(answer):
@@ -52,7 +53,7 @@ def test_without_a_friction_nothing_better_than_friction_unknown():
 
 
 def test_a_fall_is_no_go_with_its_place():
-    answer = ask(STEEP, friction=3.0)
+    answer = ask(STEEP, friction=3.0, speed=None)
     assert (answer.verdict, answer.governs) == ("no-go", "tip_downhill")
     assert answer.reason == f"It falls over its downhill end ({answer.phase}, step {answer.step})."
     found = answer.findings["tip_downhill"]
@@ -105,7 +106,7 @@ def test_several_flights_and_a_profile():
 
 
 def test_a_speed_is_that_of_the_belt():
-    assert ask(friction=1.0).physics.speed_m_s == 0.1
+    assert ask(friction=1.0, speed=None).physics.speed_m_s == 0.1
     fast = ask(friction=1.0, speed=0.3)
     assert fast.physics.speed_m_s == 0.3
     assert fast.physics.trials[0].time_s < 5.0

@@ -145,6 +145,7 @@ def test_the_share_of_a_slope_of_friction_is_that_of_the_normal():
         Stairs(rise=0.05, going=0.1, steps=6),
         friction=0.55,
         uncertainty="friction=0.05",
+        speed=0.3,
         model="physics",
         trials=10,
     )
