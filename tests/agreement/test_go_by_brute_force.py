@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from test_tilted_gravity import brute
 
-from kaidan import Question, Robot, Stairs
+from kaidan import Question, Robot, Stairs, assess
+from kaidan.assessment.plan_search import off_angles
 from kaidan.assessment.verdict import conclude
-from kaidan.models import quasi_static
+from kaidan.models import planned, quasi_static
 from kaidan.modes import Verdict
 from kaidan.robot import Track
 from kaidan.terrain.profile import Profile
@@ -70,8 +71,18 @@ FINER = (2.0, 8.0, 32.0)
 """Refinements, one after the other: what turns as it drives turns less in each smaller drive."""
 
 
-def check(seed, count):
-    for question, found in gos(seed, count):
+def planned_gos(asked):
+    """Parts of the plans that are a GO, at their angles and off them."""
+    for robot, stairs, manner in asked:
+        answer = assess(robot, stairs, **manner)
+        assert answer.verdict == Verdict.GO.value
+        for question in (answer.question, *off_angles(answer.question)):
+            for part in planned.drive(question).parts:
+                yield part.question, part.traverse
+
+
+def check(some):
+    for question, found in some:
         rocking = found.criterion.rocking if found.whole else 0.0
         told = {True: rocking, False: rocking}
         for chain in found.chains:
@@ -88,9 +99,22 @@ def check(seed, count):
 
 
 def test_go_by_brute_force():
-    check(seed=1, count=10)
+    check(gos(seed=1, count=10))
+
+
+def test_planned_go_by_brute_force():
+    check(planned_gos([("absolem", "nist-arena", {"friction": 1.0})]))
+
+
+@pytest.mark.slow
+def test_many_planned_gos_by_brute_force():
+    slopes = {"ibc": 0.8, "uk-general": 0.8, "din-general": 0.9, "uk-utility": 0.9}
+    ways = [{"friction": friction, "direction": way} for friction in (1.0, 1.2)
+            for way in ("up", "down")]  # fmt: skip
+    check(planned_gos([("absolem", stairs, {"friction": mu}) for stairs, mu in slopes.items()]))
+    check(planned_gos([("absolem", "ibc-dwelling", way) for way in ways]))
 
 
 @pytest.mark.slow
 def test_2000_go_by_brute_force():
-    check(seed=2, count=2000)
+    check(gos(seed=2, count=2000))

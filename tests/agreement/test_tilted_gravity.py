@@ -19,12 +19,12 @@ from kaidan.traversal.tilting import LARGEST
 
 
 @numba.njit(cache=True, error_model="numpy")
-def leaning(t, u, length, parts, x, x_end, kappa, finer):
+def leaning(t, u, length, parts, x, phi, x_end, kappa, finer):
     """Outcome (0 arrived, 1 back, -1 front, 9 stuck) and the largest turns in one place [rad].
 
     The first nose up, the second nose down; only those that no drive follows count as one.
     """
-    phi, up, down, factor = 0.0, 0.0, 0.0, finer
+    up, down, factor = 0.0, 0.0, finer
     for _ in range(40_000_000):
         turn = TURN / factor
         x += DRIVE / factor * np.cos(phi)
@@ -64,9 +64,10 @@ def brute(found, tilt, finer=2.0):
     t = np.vstack([points[0] - [20.0, 0.0], points, points[-1] + [20.0, 0.0]])
     d = np.diff(t, axis=0)
     length = np.hypot(d[:, 0], d[:, 1])
-    x, x_end = float(found.path.poses.x[0]), float(found.path.poses.x[-1])
+    poses = found.path.poses
+    x, x_end, phi = float(poses.x[0]), float(poses.x[-1]), float(poses.inclination[0])
     return leaning(
-        t, d / length[:, None], length, found.outline.parts, x, x_end, math.tan(tilt), finer
+        t, d / length[:, None], length, found.outline.parts, x, phi, x_end, math.tan(tilt), finer
     )
 
 

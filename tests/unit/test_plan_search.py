@@ -310,10 +310,10 @@ def test_one_posture_throughout_is_the_better_of_stowed_and_flat():
 
 
 def test_advice_about_a_plan_that_was_found_holds_off_its_angles():
-    """With grousers Absolem's plan is GO at its angles and not 2 degrees off: none is promised."""
+    """With grousers its plan is GO at its angles and not 2 degrees off: another one is promised."""
     answer = kaidan.assess("absolem", "ibc", surface="concrete-dry")
     (help_, *_) = answer.what_would_help
-    assert (help_.change, help_.verdict) == ("Belts with grousers of 10 mm every 40 mm", "caution")
+    assert (help_.change, help_.verdict) == ("Belts with grousers of 10 mm every 40 mm", "go")
     belts = {"belt": "grousers", "grouser_height": 0.010, "grouser_spacing": 0.040}
     robot = answer.question.robot
     robot = robot.model_copy(update={"track": robot.track.model_copy(update=belts)})
@@ -321,3 +321,20 @@ def test_advice_about_a_plan_that_was_found_holds_off_its_angles():
     assert kaidan.assess(planned, flipper_tolerance=0.0).verdict == "go"
     assert kaidan.assess(planned).verdict == "caution"
     assert not holds_off_its_angles(planned)
+    own = kaidan.assess(robot, "ibc", surface="concrete-dry")
+    assert (own.verdict, own.margin_deg) == (help_.verdict, help_.margin_deg)
+
+
+@pytest.mark.parametrize("stairs", ["ibc", "ada"])
+def test_absolem_on_its_grousers_is_go_and_holds_off_its_angles(stairs):
+    """Flat it is GO at the very angle; rear flippers a little below the flat hold 2 degrees off."""
+    sheet = Robot.named("absolem")
+    belts = {"belt": "grousers", "grouser_height": 0.010, "grouser_spacing": 0.040}
+    robot = sheet.model_copy(update={"track": sheet.track.model_copy(update=belts)})
+    answer = kaidan.assess(robot, stairs, surface="concrete-dry")
+    assert (answer.verdict, answer.plan.holds_within_deg) == ("go", 2.0)
+    for each in off_angles(answer.question):
+        assert kaidan.assess(each).verdict == "go"
+    smooth = kaidan.assess(sheet, stairs, surface="concrete-dry")
+    assert smooth.verdict == "caution"
+    assert kaidan.assess(robot, stairs, surface="petg-on-plywood").verdict == "no-go"

@@ -99,7 +99,7 @@ def what_would_help(
         except InputError:  # a posture or a place of the centroid that the robot cannot have
             continue
         if then.verdict is Verdict.GO and changed.tolerance:
-            then = _off_its_angles(changed, then)
+            then = _off_its_angles(changed, then, searched)
         if _is_better(then, conclusion):
             better.append((then, change))
     better.sort(key=lambda each: _rank(each[0]))
@@ -113,12 +113,20 @@ def what_would_help(
     )
 
 
-def _off_its_angles(question: Question, then: Conclusion) -> Conclusion:
-    """Conclusion of a plan, with the verdict that it has off its angles."""
-    from kaidan.assessment.plan_search import holds_off_its_angles
+def _off_its_angles(question: Question, then: Conclusion, searched: bool) -> Conclusion:
+    """Conclusion of a plan, with the verdict that it has off its angles.
 
-    sturdy = holds_off_its_angles(question)
-    return then if sturdy else then._replace(verdict=Verdict.CAUTION)
+    Where it is worse and plans are searched for, that of the plan that the change would have.
+    """
+    from kaidan.assessment.plan_search import found_of, holds_off_its_angles
+
+    if holds_off_its_angles(question):
+        return then
+    if searched and question.robot.com_range is None:
+        own = found_of(question.changed(best_of=("flippers", "facing")))
+        if own.sturdy:
+            return conclude(own.question, own.findings)
+    return then._replace(verdict=Verdict.CAUTION)
 
 
 def _number(margin: float) -> float:

@@ -104,7 +104,7 @@ class Scores:
             if outline is None:
                 self.known[key] = FAILED
             else:
-                drives.append((key, Part(outline, self._starts[key[0]], self._ends[key[0]])))
+                drives.append((key, Part(outline, *self.stretch(key[0]))))
         if not drives:
             return
         rated = rate(
@@ -150,6 +150,10 @@ class Scores:
     def phases(self) -> tuple[Phase, ...]:
         """Phases that may have a posture of their own."""
         return tuple(self._starts)
+
+    def stretch(self, phase: Phase) -> tuple[contact.Placement | None, float | None]:
+        """Where a phase begins, roughly, and where the centroid ends in it [m]."""
+        return self._starts[phase], self._ends[phase]
 
     @cached_property
     def _starts(self) -> dict[Phase, contact.Placement | None]:

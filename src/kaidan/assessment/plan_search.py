@@ -13,6 +13,7 @@ from typing import NamedTuple
 from kaidan.assessment.plan_hopes import LIMITS as LIMITS
 from kaidan.assessment.plan_hopes import Hope, Merit, Search
 from kaidan.assessment.plan_scores import ENOUGH
+from kaidan.assessment.plan_sturdy import FINE, Sturdier
 from kaidan.assessment.plans import Plan, cost_of, cost_of_drop, words
 from kaidan.assessment.plans import off_angles as off_angles
 from kaidan.assessment.verdict import Conclusion, conclude
@@ -25,8 +26,6 @@ from kaidan.question import Question
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Traverse
 
-FINE = 0.02
-"""Arclength between poses while judging [m]; events are located anyway."""
 FINALISTS = 3
 """Plans that are driven in one go and judged: the best one at its angles too."""
 
@@ -156,8 +155,8 @@ def _sturdiest(search: Search, beaten: Standing | None) -> _Off:
     Of plans that are no better than what is beaten it is any.
     """
     hopes = search.hopes()
-    first = max(hopes, key=lambda hope: hope.merit)
-    chosen = dict.fromkeys([*_best_off(search, hopes, FINALISTS - 1), first.plan])
+    hoped = max(hopes, key=lambda hope: hope.merit)
+    chosen = dict.fromkeys([*_best_off(search, hopes, FINALISTS - 1), hoped.plan])
     finalists = [_judged(plan.question(search.question)) for plan in chosen]
     finalists.sort(key=lambda each: each.merit, reverse=True)
     best: _Off | None = None
@@ -169,7 +168,16 @@ def _sturdiest(search: Search, beaten: Standing | None) -> _Off:
             break
         beaten = best.worst if beaten is None else max(beaten, best.worst)
     assert best is not None
-    return best
+    first = finalists[0]
+    if best.worst[0] == -Verdict.GO.rank or first.conclusion.verdict is not Verdict.GO:
+        return best
+    at = first.question.postures
+    plan = Plan(search.scores.facing, tuple((phase, at[phase]) for phase in search.scores.phases))
+    sturdier = Sturdier(search.scores, search.limits).plan(plan)
+    if sturdier is None:
+        return best
+    found = _judged_off(_judged(sturdier.question(search.question)), best.worst)
+    return max(best, found, key=lambda each: each.worst)
 
 
 def holds_off_its_angles(question: Question) -> bool:
