@@ -71,13 +71,22 @@ FINER = (2.0, 8.0, 32.0)
 """Refinements, one after the other: what turns as it drives turns less in each smaller drive."""
 
 
+def on_grousers(name):
+    sheet = Robot.named(name)
+    belts = {"belt": "grousers", "grouser_height": 0.010, "grouser_spacing": 0.040}
+    return sheet.model_copy(update={"track": sheet.track.model_copy(update=belts)})
+
+
 def planned_gos(asked):
-    """Parts of the plans that are a GO, at their angles and off them."""
+    """Parts of the plans that are a GO, at their angles and off them, once they are on the flight.
+
+    Before, the first riser is higher than an end's radius, and the brute force jumps it.
+    """
     for robot, stairs, manner in asked:
         answer = assess(robot, stairs, **manner)
         assert answer.verdict == Verdict.GO.value
         for question in (answer.question, *off_angles(answer.question)):
-            for part in planned.drive(question).parts:
+            for part in planned.drive(question).parts[1:]:
                 yield part.question, part.traverse
 
 
@@ -103,7 +112,7 @@ def test_go_by_brute_force():
 
 
 def test_planned_go_by_brute_force():
-    check(planned_gos([("absolem", "nist-arena", {"friction": 1.0})]))
+    check(planned_gos([(on_grousers("absolem"), "ibc", {"surface": "concrete-dry"})]))
 
 
 @pytest.mark.slow
@@ -111,6 +120,7 @@ def test_many_planned_gos_by_brute_force():
     slopes = {"ibc": 0.8, "uk-general": 0.8, "din-general": 0.9, "uk-utility": 0.9}
     ways = [{"friction": friction, "direction": way} for friction in (1.0, 1.2)
             for way in ("up", "down")]  # fmt: skip
+    check(planned_gos([(on_grousers("marv"), "ibc", {"surface": "concrete-dry"})]))
     check(planned_gos([("absolem", stairs, {"friction": mu}) for stairs, mu in slopes.items()]))
     check(planned_gos([("absolem", "ibc-dwelling", way) for way in ways]))
 

@@ -155,8 +155,8 @@ def _sturdiest(search: Search, beaten: Standing | None) -> _Off:
     Of plans that are no better than what is beaten it is any.
     """
     hopes = search.hopes()
-    hoped = max(hopes, key=lambda hope: hope.merit)
-    chosen = dict.fromkeys([*_best_off(search, hopes, FINALISTS - 1), hoped.plan])
+    dearest = max(hopes, key=lambda hope: hope.merit)
+    chosen = dict.fromkeys([*_best_off(search, hopes, FINALISTS - 1), dearest.plan])
     finalists = [_judged(plan.question(search.question)) for plan in chosen]
     finalists.sort(key=lambda each: each.merit, reverse=True)
     best: _Off | None = None
@@ -169,7 +169,9 @@ def _sturdiest(search: Search, beaten: Standing | None) -> _Off:
         beaten = best.worst if beaten is None else max(beaten, best.worst)
     assert best is not None
     first = finalists[0]
-    if best.worst[0] == -Verdict.GO.rank or first.conclusion.verdict is not Verdict.GO:
+    hoped = first.conclusion.verdict
+    gripping = search.question.robot.track.has_grousers and hoped is Verdict.CAUTION
+    if best.worst[0] == -Verdict.GO.rank or not (hoped is Verdict.GO or gripping):
         return best
     at = first.question.postures
     plan = Plan(search.scores.facing, tuple((phase, at[phase]) for phase in search.scores.phases))

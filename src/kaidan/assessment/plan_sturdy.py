@@ -1,7 +1,7 @@
-"""Postures near a plan's that hold off their angles: for a plan that is GO at its angles alone.
+"""Postures near a plan's that are a GO at their angles and off them, for a plan that is not.
 
-The scores of the search know friction and no grousers, and at its angles alone. Here single phases
-are judged by the verdict policy, at the angles and off them, and the worst of these counts.
+The scores of the search know friction and no grousers. Here single phases are judged by the verdict
+policy, at the angles and off them, and the worst of these counts.
 """
 
 import math
@@ -65,7 +65,7 @@ class Sturdier:
         Parameters
         ----------
         plan : Plan
-            GO at its angles.
+            What the search came upon.
         """
         found = []
         for phase, posture in plan.postures:
