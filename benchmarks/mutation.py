@@ -222,6 +222,7 @@ class Run:
     def __init__(self, chosen: argparse.Namespace) -> None:
         self.paths = [path.resolve() for path in chosen.of]
         self.out, self.only, self.longest = chosen.out, chosen.only, chosen.longest
+        self.sample = chosen.sample
         self.again = None
         if chosen.again is not None:
             self.again = {each.key for each in answers(chosen.again) if each.lives}
@@ -243,7 +244,7 @@ class Run:
         counts: Counter[str] = Counter()
         last: dict[str, int] = {}
         for path in self.paths:
-            for mutant, code in mutants(path):
+            for mutant, code in self._sampled(list(mutants(path))):
                 if mutant.key in done or self.only not in mutant.function:
                     continue
                 if self.again is not None and mutant.key not in self.again:
@@ -264,6 +265,12 @@ class Run:
                           f"{mutant.before}  ->  {mutant.after}", flush=True)  # fmt: skip
         print(dict(counts))
         return True
+
+    def _sampled(self, every: list[tuple[Mutant, CodeType]]) -> list[tuple[Mutant, CodeType]]:
+        """As many mutants as asked for, spread evenly over the file; all if none are asked for."""
+        count = min(self.sample or len(every), len(every))
+        print(f"{count} of {len(every)} mutants", flush=True)
+        return [every[k * len(every) // count] for k in range(count)]
 
     def _baseline(self, items: list[pytest.Item]) -> dict[int, tuple[float, list[list[object]]]]:
         """Time and lines of each test, worked out in a fork so that no cache here is filled."""
@@ -354,6 +361,7 @@ def main() -> None:
     )
     arguments.add_argument("--only", default="", help="functions whose name holds this")
     arguments.add_argument("--again", type=Path, help="only what survives in this file of answers")
+    arguments.add_argument("--sample", type=int, help="only so many mutants of a file [all]")
     arguments.add_argument(
         "--longest", type=float, default=60.0, help="leave out tests that take longer [s]"
     )

@@ -14,7 +14,7 @@ from kaidan.contact.kernel.nearest_feature import nearest
 from kaidan.contact.kernel.rotation import foot_limit, next_pivot, turned
 from kaidan.contact.kernel.settling import settle
 
-FARTHEST = 0.25  # rad: a gap that opens, closes and opens again within one look is not seen
+FARTHEST = 0.5 * math.pi  # rad: as far as any look goes
 OPEN = -1e-9  # m: gaps are closed to 1e-12, coordinates of some metres are rounded
 TERRAINS = [
     steps(0.15, 0.25, 4),
@@ -64,6 +64,33 @@ def test_nothing_closes_sooner_and_there_it_does(seed, terrain):
     for sense, pivot in ((1.0, rear), (-1.0, front)):
         end = min(0.6, foot_limit(ground, body, pivot, x, z, phi, sense))
         checked_closing(ground, body, pivot, x, z, phi, sense, end)
+
+
+@pytest.mark.parametrize("rolls", [True, False])
+def test_a_part_that_falls_past_upright_meets_the_ground_with_its_upper_side(rolls):
+    # hand: a bar of 0.4 on its end's disc of 0.05, ten degrees behind upright, before a step of
+    # 0.2; it falls over ahead, rolling on the floor or about an edge, until its side lies on the
+    # nosing: 0.05 from the line through both centres
+    line = [(-3, 0), (0.2, 0), (0.2, 0.2), (3, 0.2)]
+    if not rolls:
+        line = [(-3, -1), (0, 0), (0.02, -1), (0.2, -1), (0.2, 0.2), (3, 0.2)]
+    ground, body = ground_table(line), body_table([[-0.4, 0.0, 0.05, 0.0, 0.0, 0.05]])
+    nosing = int(np.flatnonzero(ground[:, 1] == 0.2)[0])
+    pivot = 2 if rolls else 64
+    phi = math.radians(-80.0)
+
+    def beside(turn):
+        hub = (0.05 * turn, 0.05) if rolls else (0.05 * math.sin(turn), 0.05 * math.cos(turn))
+        normal = -math.sin(phi - turn), math.cos(phi - turn)
+        return (0.2 - hub[0]) * normal[0] + (0.2 - hub[1]) * normal[1] - 0.05
+
+    lo, hi = 0.0, 1.2
+    for _ in range(60):
+        middle = 0.5 * (lo + hi)
+        lo, hi = (middle, hi) if beside(middle) > 0.0 else (lo, middle)
+    closed, angle, _ = first_closing(ground, body, pivot, 0.0, 0.05, phi, -1.0, 1.5, 0)
+    assert closed == 64 * nosing
+    assert angle == pytest.approx(lo, abs=1e-9)
 
 
 @pytest.mark.parametrize("seed", few_of(400, fast=60))

@@ -14,6 +14,7 @@ from kaidan.contact.kernel.closing import (
     TO_ARC_1,
     TO_ARC_2,
     TO_FLAT,
+    TO_TOP,
     closing_angle,
     crossing_angle,
     on_piece,
@@ -170,7 +171,7 @@ def test_a_disc_wider_than_the_lever_of_its_centroid_never_stands_under_it():
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
-@pytest.mark.parametrize("piece", [TO_FLAT, TO_ARC_1, TO_ARC_2, FROM_DISC_1, FROM_DISC_2])
+@pytest.mark.parametrize("piece", [TO_FLAT, TO_TOP, TO_ARC_1, TO_ARC_2, FROM_DISC_1, FROM_DISC_2])
 def test_a_piece_of_a_gap_and_its_rate(piece, sense):
     x, z, phi, step = 1.8, 1.7, 0.3, 1e-6
     about = complex(1.5, 1.2)
@@ -191,11 +192,12 @@ def test_a_piece_of_a_gap_and_its_rate(piece, sense):
     if piece in (TO_ARC_1, TO_ARC_2):
         k_disc = 1 + piece - TO_ARC_1
         expected = abs(point - disc(k_disc, place.real, place.imag, turn)) - RADIUS[k_disc]
-    elif piece == TO_FLAT:
+    elif piece in (TO_FLAT, TO_TOP):
         a, b = (disc(each, place.real, place.imag, turn) for each in (1, 2))
         axis = b - a
         lean = math.asin((RADIUS[1] - RADIUS[2]) / abs(axis))
-        normal = -1j * axis / abs(axis) * cmath.exp(1j * lean)
+        side = -1 if piece == TO_FLAT else 1  # the other side: its mirror image at the axis
+        normal = side * 1j * axis / abs(axis) * cmath.exp(-side * 1j * lean)
         expected = ((point - a) * normal.conjugate()).real - RADIUS[1]
     else:
         k_disc = 1 + piece - FROM_DISC_1
@@ -250,10 +252,10 @@ def test_where_a_piece_of_a_gap_closes_while_a_disc_rolls(seed):
     # oracle: a fine grid of the turn
     rng = np.random.default_rng(seed)
     k, sense = int(rng.integers(1, 3)), float(rng.choice([-1.0, 1.0]))
-    phi, end = rng.uniform(-0.5, 0.8), rng.uniform(0.05, 0.6)
+    phi, end = rng.uniform(-0.5, 0.8), rng.uniform(0.05, 1.5)
     x, z = on_slope(k, rng.uniform(0.2, 1.4), phi)
     pivot = POINT * SLOPE + PART + k
-    piece = int(rng.integers(0, 5))
+    piece = int(rng.integers(0, 6))
     at = EDGE if piece < FROM_DISC_1 else int(rng.integers(0, len(GROUND) - 1))
     if POINT * at + PART + piece - FROM_DISC_1 + 1 == pivot:
         return
@@ -268,23 +270,63 @@ def test_where_a_piece_of_a_gap_closes_while_a_disc_rolls(seed):
             GROUND, BODY, at, 1, piece, *after, math.cos(turn), math.sin(turn), *foot, sense
         )
 
-    (g0, rate0), (g1, rate1) = piece_at(0.0), piece_at(end)
-    if g0 <= 1e-6:
+    def pose(angle):
+        turn = phi + sense * angle
+        foot = (o_x, o_z) - sense * RADIUS[k] * angle * u
+        after = turned(GROUND, BODY, pivot, x, z, phi, sense * angle)
+        return (*after, math.cos(turn), math.sin(turn), *foot)
+
+    near, far = piece_at(0.0), piece_at(end)
+    if near[0] <= 1e-6:
         return
-    steepest = 1.5 * max(abs(piece_at(each)[1]) for each in np.linspace(0, end, 50)) + 0.1
+    # hand: no centre and no point is farther than this from the disc that rolls
+    bend = 4.0 + 2.0 * RADIUS[k]
     found = closing_angle(
-        GROUND, BODY, at, 1, piece, pivot, x, z, math.cos(phi), math.sin(phi), o_x, o_z, sense, end,
-        g0, rate0, g1, rate1, steepest,
-    )  # fmt: skip
+        GROUND, BODY, at, 1, piece, pivot, pose(0.0), pose(end), sense, end, end, *near, *far, bend
+    )
     grid = np.linspace(0.0, end, 2001)
     values = np.array([piece_at(angle)[0] for angle in grid])
-    closed = np.flatnonzero(values < -PENETRATED)
-    if len(closed) == 0:
+    closes = np.flatnonzero((values[1:] < -PENETRATED) & (values[:-1] >= -PENETRATED)) + 1
+    # of those the first with its foot on the piece
+    closes = [
+        i for i in closes
+        if on_piece(GROUND, BODY, at, 1, piece, *pose(grid[i])[:4])
+        or on_piece(GROUND, BODY, at, 1, piece, *pose(grid[i - 1])[:4])
+    ]  # fmt: skip
+    if not closes:
         assert found == NEVER or values.min() < 1e-6  # between two of the grid
     else:
-        first = closed[0]
-        assert grid[first - 1] <= found <= grid[first] + 1e-9
+        assert grid[closes[0] - 1] <= found <= grid[closes[0]] + 1e-9
         assert piece_at(found)[0] == pytest.approx(-0.5 * PENETRATED, abs=0.51 * PENETRATED)
+
+
+def test_a_gap_that_grows_falls_and_grows_again_closes_in_between():
+    # hand: a disc of 0.1 rolls back by 0.1 m a radian, a point 0.125 below its centre swings ahead
+    # towards a wall; from 0.75 rad before the lowest point (tau = 0) to as much beyond the gap is
+    # W + 0.1 (tau + 0.75) - 0.125 sin tau: it grows up to cos tau = 0.8, falls until tau = 0.6435
+    # by then to W + 0.06435, and grows to W + 0.0648. Open at both ends, closed between them
+    lowest, radius = -0.06455, 0.001
+    wall = -1.2 + radius + lowest
+    ground = ground_table([(-3, -2), (wall, -2), (wall, 2), (wall + 0.01, 0.5), (3, 0.5)])
+    body = body_table([[0.0, 0.0, 0.1, 0.0, -0.125, radius]])
+    floor, face = 3, 1
+
+    def pose(angle):
+        tau = angle - 0.75
+        return -1.2 - 0.1 * angle, 0.6, math.cos(tau), math.sin(tau), -1.2 - 0.1 * angle, 0.5
+
+    where = (ground, body, face, 0, FROM_DISC_2)
+    near, far = (separation(*where, *pose(angle), 1.0) for angle in (0.0, 1.5))
+    assert near[0] > 0.0
+    assert near[1] > 0.0
+    assert far[0] > 0.0
+    assert far[1] > 0.0
+    found = closing_angle(
+        *where, POINT * floor + 1, pose(0.0), pose(1.5), 1.0, 1.5, 1.5, *near, *far, 0.125
+    )
+    tau = found - 0.75
+    assert lowest + 0.1 * found - 0.125 * math.sin(tau) == pytest.approx(0.0, abs=2 * PENETRATED)
+    assert tau < 0.6435
 
 
 def test_a_foot_beyond_the_flat_or_the_segment_is_none():

@@ -1,9 +1,9 @@
 """At which angle of a rotation one smooth piece of a gap closes.
 
-Within one rotation every gap is a sinusoid of the angle (plus a linear term if the pivot rolls),
-piece by piece: vertex to flat, vertex to end disc, end disc to segment. A piece can close within a
-rotation of ``end`` only if it is negative there, or if it falls at the start and grows at the end;
-all others are passed over after one look at both ends.
+Within one rotation every gap is smooth in the angle piece by piece: vertex to flat, vertex to end
+disc, end disc to segment. About a vertex each piece is a sinusoid, solved in closed form. About a
+disc that rolls it has linear terms besides, and may fall, grow and fall again; there a bound on its
+curvature says how far the robot may turn before the piece can close.
 """
 
 from __future__ import annotations
@@ -13,45 +13,52 @@ import math
 from kaidan.contact.columns import (
     COSINE,
     DISC,
-    DISC_1,
     DISC_R,
     DISC_X,
     DISC_Z,
     E_X,
     E_Z,
-    KIND_MASK,
     LENGTH,
     PART,
-    PART_BITS,
-    PART_MASK,
     POINT,
-    POINT_BITS,
     R1,
     SIDE,
     SINE,
     U_X,
     U_Z,
-    VERTEX,
     X1,
     Z1,
     X,
     Z,
 )
 from kaidan.contact.kernel.event_location import PENETRATED
-from kaidan.contact.kernel.gaps import on_flat
+from kaidan.contact.kernel.gaps import is_above, on_flat
 from kaidan.contact.kernel.rotation import NEVER, carried
-from kaidan.contact.tables import BodyTable, GroundTable
+from kaidan.contact.tables import BodyTable, GroundTable, Pose
 
 #: A gap that falls by less than this per radian [m] is one contact under two names, at rest.
 RESTING = 1e-9
 #: A vertex beyond the line of a flat, or a disc below the line of a segment, by more than this [m]
 #: at the start is not on its way to meet it: it has passed beside it.
 BESIDE = 0.01
-#: A piece of a gap that falls at one end of a turn this small and grows at the other is convex in
-#: between [rad]: its curvature changes sign a right angle away from a minimum if nothing rolls.
-CONVEX_WITHIN = 0.4
-#: Smooth pieces of a gap: a vertex to the flat, to the end discs' arcs; end discs to a segment.
-TO_FLAT, TO_ARC_1, TO_ARC_2, FROM_DISC_1, FROM_DISC_2 = range(5)
+#: Step in which a piece that touches, or all but touches, is followed [rad]: with levers of some
+#: metres it sinks by less than `PENETRATED` between two of them.
+FINEST = 1e-6
+#: Smooth pieces of a gap: a vertex to the flat, to its mirror image on the part's other side, to
+#: the end discs' arcs; end discs to a segment.
+TO_FLAT, TO_TOP, TO_ARC_1, TO_ARC_2, FROM_DISC_1, FROM_DISC_2 = range(6)
+
+
+def flat_normal(body: BodyTable, part: int, piece: int, c: float, s: float) -> tuple[float, float]:
+    """Outward normal of a part's flat, or of its mirror image (`TO_TOP`)."""
+    side = body[part, SIDE]
+    if piece == TO_TOP:
+        side = -side
+    e_x = body[part, E_X]
+    e_z = body[part, E_Z] * side
+    b_x = body[part, SINE] * e_x + body[part, COSINE] * e_z
+    b_z = body[part, SINE] * body[part, E_Z] - body[part, COSINE] * e_x * side
+    return c * b_x - s * b_z, s * b_x + c * b_z
 
 
 def separation(
@@ -75,16 +82,8 @@ def separation(
     """
     g_x = ground[k, X]
     g_z = ground[k, Z]
-    if piece == TO_FLAT:
-        e_x = body[part, E_X]
-        e_z = body[part, E_Z]
-        side = body[part, SIDE]
-        sine = body[part, SINE]
-        cosine = body[part, COSINE]
-        b_x = sine * e_x + cosine * (e_z * side)
-        b_z = sine * e_z - cosine * e_x * side
-        n_x = c * b_x - s * b_z
-        n_z = s * b_x + c * b_z
+    if piece <= TO_TOP:
+        n_x, n_z = flat_normal(body, part, piece, c, s)
         d_x = body[part, X1]
         d_z = body[part, Z1]
         v_x = g_x - x - c * d_x + s * d_z
@@ -144,106 +143,72 @@ def crossing_angle(
 
 
 def closing_angle(
-    ground: GroundTable,
-    body: BodyTable,
-    k: int,
-    part: int,
-    piece: int,
-    pivot: int,
-    x: float,
-    z: float,
-    c0: float,
-    s0: float,
-    o_x: float,
-    o_z: float,
-    sense: float,
-    end: float,
-    g0: float,
-    rate0: float,
-    g1: float,
-    rate1: float,
-    steepest: float,
-) -> float:
-    """First angle within ``end`` at which a piece of a gap closes, 1e9 if it does not.
+    ground: GroundTable, body: BodyTable, k: int, part: int, piece: int, pivot: int,
+    start: Pose, finish: Pose, sense: float, end: float, before: float,
+    value: float, rate: float, far: float, far_rate: float, bend: float,
+) -> float:  # fmt: skip
+    """First angle before another at which a piece of a gap closes, 1e9 if it does not.
 
-    For a pivot that rolls. Values and rates at both ends are given, and a bound on the
-    rate. A minimum inside is looked for until it is negative or the bound rules that out; then
-    Newton within the bracket.
+    For a pivot that rolls. From a look at the gap g and its rate g' it stays above the parabola
+    g + g' t - K t^2 / 2, K bounding its curvature: nothing closes before the parabola does, and
+    there the next look is taken, Newton's method from the safe side. If the parabola from the end
+    meets it above zero, nothing closes. A vertex beyond the line of a flat, or a disc below the
+    line of a segment, is followed in the same way until it is back: it has passed beside.
+
+    Parameters
+    ----------
+    start, finish
+        x, z, cosine and sine of the inclination, and the point of the pivot, at both ends of the
+        rotation by ``end``.
+    before
+        Angle at which something else closes [rad].
+    value, rate, far, far_rate
+        Gap [m] and its change [m/rad] at both ends.
+    bend
+        K [m/rad^2]; for an arc, from below only.
     """
-    floor = -0.5 * PENETRATED
-    roll = 0.0
-    if pivot & KIND_MASK != VERTEX:
-        roll = (
-            -sense
-            * body[(pivot >> PART_BITS) & PART_MASK, DISC * ((pivot & KIND_MASK) - DISC_1) + DISC_R]
-        )
-    u_x = ground[pivot >> POINT_BITS, U_X] * roll
-    u_z = ground[pivot >> POINT_BITS, U_Z] * roll
-    lo = 0.0
-    hi = end
-    if g1 >= -PENETRATED:
-        if rate0 >= -RESTING or rate1 <= 0.0:
+    x, z, c0, s0, o_x, o_z = start
+    _, _, _, _, f_x, f_z = finish
+    outside = value > -BESIDE
+    y_x, y_z, c, s = x, z, c0, s0
+    at = 0.0
+    while True:
+        if value > -0.5 * PENETRATED:
+            outside = True
+        elif outside and rate < -RESTING:
+            if on_piece(ground, body, k, part, piece, y_x, y_z, c, s):
+                return at
+            outside = False
+        room = max(value + 0.75 * PENETRATED if outside else -value, 0.25 * PENETRATED)
+        slope = rate if outside else -rate
+        left = before - at
+        if room + left * (slope - 0.5 * bend * left) > 0.0:
             return NEVER
-        if g0 <= floor:
-            return 0.0
-        low = g0
-        high = g1
-        for turn in range(60):
-            if 0.5 * (low + high - steepest * (hi - lo)) > 0.0 or hi - lo < 1e-9:
+        if outside and far >= -PENETRATED:
+            left = end - at
+            meet = far - value - left * (far_rate + 0.5 * bend * left)
+            apart = rate - far_rate - bend * left
+            if meet <= left * apart or meet >= 0.0:
                 return NEVER
-            # near a minimum it is convex: the tangents at both ends meet below it
-            meet = (high - low - rate1 * (hi - lo)) / (rate0 - rate1)
-            if hi - lo < CONVEX_WITHIN and low + rate0 * meet > 0.0:
+            meet /= apart
+            if value + meet * (rate - 0.5 * bend * meet) > -PENETRATED:
                 return NEVER
-            meet = (lo * rate1 - hi * rate0) / (rate1 - rate0)
-            if turn % 3 == 2 or not (lo < meet < hi):
-                meet = 0.5 * (lo + hi)
-            c = math.cos(meet)
-            s = sense * math.sin(meet)
-            x1, z1 = carried(ground, body, pivot, x, z, c0, s0, sense * meet, c, s)
-            value, rate = separation(
-                ground, body, k, part, piece, x1, z1, c0 * c - s0 * s, s0 * c + c0 * s,
-                o_x + meet * u_x, o_z + meet * u_z, sense,
-            )  # fmt: skip
-            if value < -PENETRATED:
-                hi = meet
-                lo = 0.0
-                g1 = value
-                break
-            if rate < 0.0:
-                lo = meet
-                rate0 = rate
-                low = value
-            else:
-                hi = meet
-                rate1 = rate
-                high = value
-        if g1 >= -PENETRATED:
+        root = math.sqrt(slope * slope + 2.0 * bend * room)
+        step = 2.0 * room / (root - slope) if slope < 0.0 else (slope + root) / bend
+        if slope * FINEST > -0.25 * PENETRATED:
+            step = max(step, FINEST)
+        at += step
+        if at >= before:
             return NEVER
-    # secant to begin with, then Newton from the newest point
-    at = hi * (g0 - floor) / (g0 - g1) if g0 > floor else 0.5 * hi
-    for _ in range(60):
         c = math.cos(at)
         s = sense * math.sin(at)
-        x1, z1 = carried(ground, body, pivot, x, z, c0, s0, sense * at, c, s)
+        y_x, y_z = carried(ground, body, pivot, x, z, c0, s0, sense * at, c, s)
+        left = at / end
+        c, s = c0 * c - s0 * s, s0 * c + c0 * s
         value, rate = separation(
-            ground, body, k, part, piece, x1, z1, c0 * c - s0 * s, s0 * c + c0 * s,
-            o_x + at * u_x, o_z + at * u_z, sense,
+            ground, body, k, part, piece, y_x, y_z, c, s,
+            o_x + left * (f_x - o_x), o_z + left * (f_z - o_z), sense,
         )  # fmt: skip
-        value -= floor
-        if value > 0.0:
-            lo = at
-        else:
-            hi = at
-            if value > floor:
-                break
-        if hi - lo < 1e-13:
-            break
-        # aim a hair beyond, so that the bracket closes from the far side
-        at = at - (value - 0.5 * floor) / rate if rate < 0.0 else 0.5 * (lo + hi)
-        if not (lo < at < hi):
-            at = 0.5 * (lo + hi)
-    return hi
 
 
 def on_piece(
@@ -258,7 +223,9 @@ def on_piece(
     s: float,
 ) -> bool:
     """Whether the foot lies on the flat or the segment, not beyond."""
-    if piece == TO_FLAT:
+    if piece <= TO_TOP:
+        if piece == TO_TOP and not is_above(ground, body, part, k, x, c, s, -body[part, R1]):
+            return False
         return on_flat(ground, body, POINT * k + PART * part, x, z, c, s)
     if piece < FROM_DISC_1:
         return True

@@ -6,7 +6,6 @@ import math
 
 from kaidan.contact.columns import (
     CONVEX,
-    COSINE,
     DISC,
     DISC_1,
     DISC_R,
@@ -22,8 +21,6 @@ from kaidan.contact.columns import (
     POINT_BITS,
     R1,
     R2,
-    SIDE,
-    SINE,
     U_X,
     U_Z,
     VERTEX,
@@ -38,16 +35,18 @@ from kaidan.contact.kernel.closing import (
     BESIDE,
     FROM_DISC_1,
     FROM_DISC_2,
-    RESTING,
     TO_ARC_1,
     TO_ARC_2,
+    TO_FLAT,
+    TO_TOP,
     closing_angle,
     crossing_angle,
+    flat_normal,
     on_piece,
     separation,
 )
 from kaidan.contact.kernel.event_location import PENETRATED
-from kaidan.contact.kernel.gaps import gap, on_flat
+from kaidan.contact.kernel.gaps import gap
 from kaidan.contact.kernel.nearest_feature import first_index
 from kaidan.contact.kernel.rotation import carried
 from kaidan.contact.tables import BodyTable, Four, GroundTable, Pose
@@ -73,22 +72,21 @@ def out_of_reach(
     return v_x * q_x + v_z * q_z <= 1e-12 and (lifts or sense * (v_x * q_z - v_z * q_x) > 0.0)
 
 
-def vertex_closing(
-    ground: GroundTable, body: BodyTable, k: int, part: int, pivot: int,
+def flat_closing(
+    ground: GroundTable, body: BodyTable, k: int, part: int, piece: int, pivot: int,
     x: float, z: float, c0: float, s0: float, o_x: float, o_z: float, sense: float,
-    ce: float, se: float,
-    n_x: float, n_z: float, flat_level: float, centres: Four, best: float, which: int,
+    ce: float, se: float, n_x: float, n_z: float, level: float, best: float, which: int,
 ) -> tuple[float, int]:  # fmt: skip
-    """Point k meets the flat or the end discs of a part that turns about (o_x, o_z).
+    """Point k meets a flat of a part that turns about (o_x, o_z).
 
     Returns
     -------
-    angle [rad], feature: those given unless one of these closes before.
+    angle [rad], feature: those given unless it closes before.
     """
     v_x = ground[k, X] - o_x
     v_z = ground[k, Z] - o_z
     even = v_x * n_x + v_z * n_z
-    at = crossing_angle(flat_level, even, sense * (v_z * n_x - v_x * n_z), ce, se, PENETRATED)
+    at = crossing_angle(level, even, sense * (v_z * n_x - v_x * n_z), ce, se, PENETRATED)
     tie = 0.0
     if which != NO_FEATURE and which & KIND_MASK == VERTEX:
         # of points in line the outermost: they come in the order of x
@@ -97,10 +95,24 @@ def vertex_closing(
         c = math.cos(at)
         s = sense * math.sin(at)
         y_x, y_z = carried(ground, body, pivot, x, z, c0, s0, sense * at, c, s)
-        feature = POINT * k + PART * part
-        if on_flat(ground, body, feature, y_x, y_z, c0 * c - s0 * s, s0 * c + c0 * s):
+        if on_piece(ground, body, k, part, piece, y_x, y_z, c0 * c - s0 * s, s0 * c + c0 * s):
             best = at
-            which = feature
+            which = POINT * k + PART * part
+    return best, which
+
+
+def arcs_closing(
+    ground: GroundTable, body: BodyTable, k: int, part: int, o_x: float, o_z: float, sense: float,
+    ce: float, se: float, centres: Four, best: float, which: int,
+) -> tuple[float, int]:  # fmt: skip
+    """Point k meets the end discs of a part that turns about (o_x, o_z).
+
+    Returns
+    -------
+    angle [rad], feature: those given unless one of these closes before.
+    """
+    v_x = ground[k, X] - o_x
+    v_z = ground[k, Z] - o_z
     square = v_x * v_x + v_z * v_z
     a_x, a_z, b_x, b_z = centres
     for disc in range(2):
@@ -191,20 +203,22 @@ def segment_closing(
 
 def rolling_closing(
     ground: GroundTable, body: BodyTable, k: int, part: int, pivot: int, free: bool,
-    start: Pose, finish: Pose, sense: float, end: float, rolled: float,
-    centres: Four, ranges: Four, best: float, which: int,
+    down: bool, top: bool, start: Pose, finish: Pose, sense: float, end: float,
+    moved: Four, levers: Four, turned_to: Four, ranges: Four, best: float, which: int,
 ) -> tuple[float, int]:  # fmt: skip
-    """Point k or segment k meets a part that rolls: no sinusoid, found between two looks.
+    """Point k or segment k meets a part that rolls: no sinusoid.
 
     Parameters
     ----------
-    free
-        Whether the part never meets point k.
+    free, down, top
+        Whether the part never meets point k; whether its flat and its other side can.
     start, finish
         x, z, cosine and sine of the inclination, and the point of the pivot, at both ends of the
         rotation by ``end``.
-    rolled
-        Way that the disc rolls [m].
+    moved
+        Centre of the disc that rolls, its radius, and the way that it rolls.
+    levers, turned_to
+        From it to the centres of the part's discs, at both ends.
 
     Returns
     -------
@@ -212,57 +226,64 @@ def rolling_closing(
     """
     x, z, c0, s0, o_x, o_z = start
     x1, z1, c1, s1, f_x, f_z = finish
-    a_x, a_z, b_x, b_z = centres
+    a_x, a_z, b_x, b_z = levers
+    a1_x, a1_z, b1_x, b1_z = turned_to
     left1, right1, left2, right2 = ranges
+    h_x, h_z, radius, rolled = moved
+    u_x = ground[k, U_X]
+    u_z = ground[k, U_Z]
     here = ground[k, X]
     ahead = ground[k + 1, X]
-    convex = ground[k, CONVEX] == 1.0
-    v_x = here - o_x
-    v_z = ground[k, Z] - o_z
-    reach = math.sqrt(v_x * v_x + v_z * v_z) + rolled
+    free = free or ground[k, CONVEX] == 0.0
+    v_x = here - h_x
+    v_z = ground[k, Z] - h_z
     for piece in range(FROM_DISC_2 + 1):
+        feature = POINT * k + PART * part
         if piece < FROM_DISC_1:
-            if free or not convex:
+            if free or (piece == TO_FLAT and not down) or (piece == TO_TOP and not top):
                 continue
-            if piece == TO_ARC_1 and (here < left1 or here > right1):
-                continue
-            if piece == TO_ARC_2 and (here < left2 or here > right2):
-                continue
-            feature = POINT * k + PART * part
         else:
-            feature = POINT * k + PART * part + DISC_1 + piece - FROM_DISC_1
+            feature += DISC_1 + piece - FROM_DISC_1
             if feature == pivot:
                 continue
-            r_x = a_x - o_x
-            r_z = a_z - o_z
-            if piece == FROM_DISC_1:
-                if ahead < left1 or here > right1:
-                    continue
-            else:
-                if ahead < left2 or here > right2:
-                    continue
-                r_x = b_x - o_x
-                r_z = b_z - o_z
-            reach = math.sqrt(r_x * r_x + r_z * r_z) + rolled
-        g0, rate0 = separation(ground, body, k, part, piece, x, z, c0, s0, o_x, o_z, sense)
-        if g0 > reach * best or g0 < -BESIDE:
+        # curvature: of a disc's distance as its lever, of a flat's as the vertex's, besides twice
+        # the rate at which the disc that rolls moves on
+        bulge = 0.0
+        bulge_1 = 0.0
+        if piece == TO_ARC_1 or piece == FROM_DISC_1:  # noqa: SIM109
+            if here > right1 or (here if piece == TO_ARC_1 else ahead) < left1:
+                continue
+            bend = math.sqrt(a_x * a_x + a_z * a_z)
+            bulge = u_x * a_z - u_z * a_x
+            bulge_1 = u_x * a1_z - u_z * a1_x
+        elif piece > TO_TOP:
+            if here > right2 or (here if piece == TO_ARC_2 else ahead) < left2:
+                continue
+            bend = math.sqrt(b_x * b_x + b_z * b_z)
+            bulge = u_x * b_z - u_z * b_x
+            bulge_1 = u_x * b1_z - u_z * b1_x
+        else:
+            bend = 2.0 * radius + rolled + math.sqrt(v_x * v_x + v_z * v_z)
+        value, rate = separation(ground, body, k, part, piece, x, z, c0, s0, o_x, o_z, sense)
+        if value > 0.0 and value + best * (rate - 0.5 * bend * best) > 0.0:
             continue
-        g1, rate1 = separation(ground, body, k, part, piece, x1, z1, c1, s1, f_x, f_z, sense)
-        if g1 >= -PENETRATED and rate0 >= -RESTING:
+        if value < -BESIDE and TO_TOP < piece < FROM_DISC_1:
             continue
+        far, far_rate = separation(ground, body, k, part, piece, x1, z1, c1, s1, f_x, f_z, sense)
+        if piece >= FROM_DISC_1:
+            if min(bulge, bulge_1) >= 0.0 and far >= -PENETRATED:
+                continue  # concave, and open at the end
+            if max(bulge, bulge_1) <= 0.0:
+                if value <= -BESIDE:
+                    continue  # convex, and on the other side at the start
+                bend = 0.0
         at = closing_angle(
-            ground, body, k, part, piece, pivot, x, z, c0, s0, o_x, o_z, sense, end,
-            g0, rate0, g1, rate1, reach,
+            ground, body, k, part, piece, pivot, start, finish, sense, end, best,
+            value, rate, far, far_rate, bend,
         )  # fmt: skip
         if at < best:
-            c = math.cos(at)
-            s = sense * math.sin(at)
-            y_x, y_z = carried(ground, body, pivot, x, z, c0, s0, sense * at, c, s)
-            y_c = c0 * c - s0 * s
-            y_s = s0 * c + c0 * s
-            if on_piece(ground, body, k, part, piece, y_x, y_z, y_c, y_s):
-                best = at
-                which = feature
+            best = at
+            which = feature
     return best, which
 
 
@@ -296,17 +317,20 @@ def first_closing(
     at_k = pivot >> POINT_BITS
     f_x = o_x
     f_z = o_z
-    rolled = 0.0
+    radius = 0.0
     lifts = False
     if rolls:
-        # the part's other end goes up, away from the segment
-        other = c0 * body[own, E_X] - s0 * body[own, E_Z]
-        away = s0 * body[own, E_X] + c0 * body[own, E_Z]
-        ahead = other * ground[at_k, U_X] + away * ground[at_k, U_Z]
-        lifts = sense * ahead * (1.0 if pivot & KIND_MASK == DISC_1 else -1.0) > 0.0
-        rolled = end * body[own, DISC * ((pivot & KIND_MASK) - DISC_1) + DISC_R]
-        f_x -= sense * rolled * ground[at_k, U_X]
-        f_z -= sense * rolled * ground[at_k, U_Z]
+        # the part's other end goes up, away from the segment, all the way
+        out = sense * (1.0 if pivot & KIND_MASK == DISC_1 else -1.0)
+        along = out * (body[own, E_X] * ground[at_k, U_X] + body[own, E_Z] * ground[at_k, U_Z])
+        up = out * (body[own, E_X] * ground[at_k, U_Z] - body[own, E_Z] * ground[at_k, U_X])
+        lifts = c0 * along + s0 * up > 0.0 and c1 * along + s1 * up > 0.0
+        radius = body[own, DISC * ((pivot & KIND_MASK) - DISC_1) + DISC_R]
+        f_x -= sense * radius * end * ground[at_k, U_X]
+        f_z -= sense * radius * end * ground[at_k, U_Z]
+    h_x = o_x + radius * q_x
+    h_z = o_z + radius * q_z
+    moved = (h_x, h_z, radius, end * radius)
     start = (x, z, c0, s0, o_x, o_z)
     finish = (x1, z1, c1, s1, f_x, f_z)
     bend = 0.125 * end * end
@@ -320,23 +344,28 @@ def first_closing(
         b_x = x + c0 * body[part, X2] - s0 * body[part, Z2]
         b_z = z + s0 * body[part, X2] + c0 * body[part, Z2]
         centres = (a_x, a_z, b_x, b_z)
-        e_x = body[part, E_X]
-        e_z = body[part, E_Z] * body[part, SIDE]
-        n_x = body[part, SINE] * e_x + body[part, COSINE] * e_z
-        e_z = body[part, SINE] * body[part, E_Z] - body[part, COSINE] * e_x * body[part, SIDE]
-        n_z = s0 * n_x + c0 * e_z
-        n_x = c0 * n_x - s0 * e_z
+        # a side that faces up from end to end meets nothing: the ground reaches down
+        n_x, n_z = flat_normal(body, part, TO_FLAT, c0, s0)
+        t_x, t_z = flat_normal(body, part, TO_TOP, c0, s0)
+        down = n_z < 0.0 or n_z * ce + n_x * sense * se < 0.0
+        top = t_z < 0.0 or t_z * ce + t_x * sense * se < 0.0
         flat_level = (o_x - a_x) * n_x + (o_z - a_z) * n_z - body[part, R1]
+        top_level = (o_x - a_x) * t_x + (o_z - a_z) * t_z - body[part, R1]
         # x range swept: chord of each disc's centre, plus the sagitta of its arc
         e_x = x1 + c1 * body[part, X1] - s1 * body[part, Z1]
-        sag = bend * (abs(a_x - o_x) + abs(a_z - o_z)) + body[part, R1]
+        sag = bend * (abs(a_x - h_x) + abs(a_z - h_z)) + body[part, R1]
         left1 = min(a_x, e_x) - sag
         right1 = max(a_x, e_x) + sag
         e_x = x1 + c1 * body[part, X2] - s1 * body[part, Z2]
-        sag = bend * (abs(b_x - o_x) + abs(b_z - o_z)) + body[part, R2]
+        sag = bend * (abs(b_x - h_x) + abs(b_z - h_z)) + body[part, R2]
         left2 = min(b_x, e_x) - sag
         right2 = max(b_x, e_x) + sag
         ranges = (left1, right1, left2, right2)
+        levers = (a_x - h_x, a_z - h_z, b_x - h_x, b_z - h_z)
+        turned_to = (
+            ce * levers[0] - sense * se * levers[1], ce * levers[1] + sense * se * levers[0],
+            ce * levers[2] - sense * se * levers[3], ce * levers[3] + sense * se * levers[2],
+        )  # fmt: skip
         right = max(right1, right2)
         k = first_index(ground, min(left1, left2), hint)
         hint = k
@@ -349,15 +378,24 @@ def first_closing(
                 continue
             if rolls:
                 best, which = rolling_closing(
-                    ground, body, k, part, pivot, free, start, finish, sense, end, rolled,
-                    centres, ranges, best, which,
+                    ground, body, k, part, pivot, free, down, top, start, finish, sense, end,
+                    moved, levers, turned_to, ranges, best, which,
                 )  # fmt: skip
             else:
                 if not free and ground[k, CONVEX] == 1.0 and not (k == at_k and part == own):
-                    best, which = vertex_closing(
-                        ground, body, k, part, pivot, x, z, c0, s0, o_x, o_z, sense, ce, se,
-                        n_x, n_z, flat_level, centres, best, which,
-                    )  # fmt: skip
+                    if down:
+                        best, which = flat_closing(
+                            ground, body, k, part, TO_FLAT, pivot, x, z, c0, s0, o_x, o_z, sense,
+                            ce, se, n_x, n_z, flat_level, best, which,
+                        )  # fmt: skip
+                    if top:
+                        best, which = flat_closing(
+                            ground, body, k, part, TO_TOP, pivot, x, z, c0, s0, o_x, o_z, sense,
+                            ce, se, t_x, t_z, top_level, best, which,
+                        )  # fmt: skip
+                    best, which = arcs_closing(
+                        ground, body, k, part, o_x, o_z, sense, ce, se, centres, best, which
+                    )
                 best, which = segment_closing(
                     ground, body, k, part, pivot, o_x, o_z, sense, ce, se,
                     centres, ranges, best, which,

@@ -342,5 +342,7 @@ def flat_room(
     a_z = c * d_z - s * d_x - body[part, Z1]
     along = a_x * body[part, E_X] + a_z * body[part, E_Z]
     below = body[part, SIDE] * (a_x * body[part, E_Z] - a_z * body[part, E_X])
+    if below < 0.0 and is_above(ground, body, part, k, x, c, s, below):
+        below = -below
     w = along * body[part, COSINE] - below * body[part, SINE]
     return float(min(w, body[part, FLAT] - w))
