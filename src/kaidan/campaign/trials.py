@@ -129,7 +129,8 @@ def physics_version() -> str:
         raise MissingExtraError("the physics model", "physics") from None
     package = Path(__file__).parents[1]
     sources = [*sorted((package / "physics").glob("*.py"))]
-    sources += [package / "outline.py", package / "terrain" / "profile.py"]
+    sources += [package / "outline.py"]
+    sources += [package / "terrain" / name for name in ("profile.py", "flights.py")]
     digest = hashlib.sha256(b"\0".join(source.read_bytes() for source in sources)).hexdigest()
     return f"kaidan {version('kaidan')}, MuJoCo {engine}, models {digest[:12]}"
 

@@ -16,12 +16,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from kaidan.errors import InputError, shown
 from kaidan.terrain.doubt import (
-    common_doubts,
     covariance_as_stated,
     covariance_of_steps,
     doubt_of_a_step,
     factor,
 )
+from kaidan.terrain.flights import line_of_flights
 from kaidan.terrain.polyline import ROUGHNESS, convex_corners, frozen, measured_line, upper_envelope
 from kaidan.terrain.stairs import Stairs, StairsUncertainty
 
@@ -100,30 +100,14 @@ class Profile:
     @lru_cache(maxsize=64)
     def _of_flights(cls, flights: "_Themselves") -> Self:
         """The same, remembered: changed questions have one terrain."""
-        x = z = 0.0
-        points = [(-max(flights[0].lower_landing, 1e-3), 0.0), (0.0, 0.0)]
-        nosings: list[tuple[float, float]] = []
-        sigma: list[tuple[float, float]] = []
-        common: list[Array] = []
-        for flight in flights:
-            treads = (*flight.step_goings, max(flight.upper_landing, 1e-3))
-            sigma += [(0.0, flight.uncertainty.rise)]
-            sigma += [(flight.uncertainty.going, flight.uncertainty.rise)] * (len(treads) - 1)
-            if len(flights) > 1:  # the common doubt of one flight alone goes with its angle
-                common += common_doubts(flight, len(nosings))
-            for rise, tread in zip(flight.step_rises, treads, strict=True):
-                z += rise
-                nosings.append((x, z))
-                points.append((x, z))
-                x += tread
-                points.append((x, z))
+        points, nosings, covariance = line_of_flights(flights)
         return cls(
-            points=frozen(np.array(points)),
-            nosings=frozen(np.array(nosings)),
-            edges=frozen(np.array(nosings)),
+            points=points,
+            nosings=nosings,
+            edges=nosings,
             overhangs=any(flight.nosing_overhang > 0 for flight in flights),
             open_risers=any(flight.open_risers for flight in flights),
-            covariance=covariance_of_steps(np.array(sigma), common),
+            covariance=covariance,
         )
 
     @classmethod
@@ -209,32 +193,9 @@ class Profile:
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> Any:
         """As a field of a sheet: itself, or the table of `to_dict`."""
-        from pydantic_core import core_schema as cs
+        from kaidan.terrain.table import table_schema
 
-        row = cs.list_schema(cs.float_schema(), min_length=2, max_length=2)
-        table = cs.typed_dict_schema(
-            {
-                "name": cs.typed_dict_field(cs.str_schema(), required=False),
-                "points": cs.typed_dict_field(cs.list_schema(row)),
-                "overhangs": cs.typed_dict_field(cs.bool_schema(), required=False),
-                "open_risers": cs.typed_dict_field(cs.bool_schema(), required=False),
-                "sigma": cs.typed_dict_field(cs.list_schema(row), required=False),
-                "covariance": cs.typed_dict_field(
-                    cs.list_schema(cs.list_schema(cs.float_schema())), required=False
-                ),
-            },
-            extra_behavior="forbid",
-        )
-        return cs.json_or_python_schema(
-            json_schema=cs.no_info_after_validator_function(cls.from_dict, table),
-            python_schema=cs.union_schema(
-                [
-                    cs.is_instance_schema(cls),
-                    cs.no_info_after_validator_function(cls.from_dict, table),
-                ]
-            ),
-            serialization=cs.plain_serializer_function_ser_schema(cls.to_dict, return_schema=table),
-        )
+        return table_schema(cls)
 
     def __eq__(self, other: object) -> bool:
         """Whether both are the same terrain under the same name."""
