@@ -1,4 +1,4 @@
-"""Take the pictures of the page that docs/page.md shows anew, in a Chromium of the system.
+"""Take the pictures of pages that the docs show anew, or those named, in a Chromium of the system.
 
 Look at what changes before you commit it; each stays under 100 kB.
 """
@@ -50,12 +50,37 @@ def building(page: Page) -> None:
     page.evaluate("document.querySelector('.storeys').scrollIntoView()")
 
 
+def report(page: Page) -> None:
+    body = {"robot": "absolem", "stairs": "ibc", "surface": "concrete-dry", "flippers": "flat"}
+    made = page.request.post("/api/report", data=body)
+    page.set_content(made.text().replace("color-scheme: light", "color-scheme: only light"))
+
+
+def live(page: Page) -> None:
+    page.goto("live.html")
+    page.wait_for_selector("body[data-ready]")
+    page.locator("#robot").select_option("absolem")
+    page.locator("#stairs").select_option("ibc")
+    page.get_by_role("textbox", name="Flippers").fill("flat")
+    page.get_by_label("Speed of the replay").select_option("5")
+    samples = "\n".join(
+        f"{k / 10},{0.567 + 0.4 * (k / 90) ** 4:.4f},0,0" for k in range(100)
+    ).encode()  # it rears at the end
+    recording = {"name": "climb.csv", "mimeType": "text/csv",
+                 "buffer": b"t,inclination,inclination_rate,acceleration\n" + samples}  # fmt: skip
+    page.get_by_label("Recorded climb (CSV, bag, MCAP)").set_input_files(recording)
+    page.get_by_role("button", name="Replay").click()
+    page.wait_for_selector("#alarm.alarm")
+
+
 SCREENS = {
     "page-desk.png": (desk, 1280, 1600, "en", "light"),
     "page-phone.png": (phone, 390, 760, "en", "contrast"),
     "page-phone-ja.png": (phone, 390, 760, "ja", "light"),
     "page-margin.png": (margin, 1024, 760, "en", "dark"),
     "page-building.png": (building, 1280, 1000, "en", "light"),
+    "report.png": (report, 900, 1220, "en", "light"),
+    "live.png": (live, 820, 900, "en", "light"),
 }
 """What is shown by the file, the size of the screen, the language and the colours."""
 
@@ -72,7 +97,8 @@ def main() -> None:
     try:
         with sync_playwright() as driver:
             browser = driver.chromium.launch(executable_path=place, args=["--no-sandbox"])
-            for name, (show, wide, tall, language, theme) in SCREENS.items():
+            for name in sys.argv[1:] or SCREENS:
+                show, wide, tall, language, theme = SCREENS[name]
                 page = browser.new_context(
                     viewport={"width": wide, "height": tall},
                     base_url=address,

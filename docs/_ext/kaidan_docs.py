@@ -305,6 +305,8 @@ class SheetFields(Written):
                 default = "not stated"
             elif isinstance(field.default, Sheet):
                 default = "all defaults"
+            elif field.default == ():
+                default = "none"
             else:
                 default = code(f"{field.default:.5g}" if unit else field.default or '""')
             rows.append(

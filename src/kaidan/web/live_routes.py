@@ -184,7 +184,7 @@ def add(app: FastAPI) -> None:
         finally:
             channel.watchers.discard(news)
             gone.cancel()
-            with suppress(RuntimeError):
+            with suppress(WebSocketDisconnect, RuntimeError):  # it has gone already
                 await socket.close()
 
 
