@@ -27,8 +27,11 @@ COMMANDS = {
         "closed-form",
     ],
 }
+STATED = ["assess", "absolem-flat", "ibc", "--flippers", "stowed", "--friction", "2"]
+COMMANDS["assess, contact model, posture stated"] = STATED
+COMMANDS["assess, contact model, best posture"] = ["assess", "absolem", "ibc", "--friction", "1.2"]
 WHOLE = {
-    "go": ["assess", "absolem", "ibc", "--flippers", "flat", "--friction", "1.2"],
+    "go": STATED,
     "with advice": ["assess", "absolem", "ibc", "--flippers", "flat", "--surface", "concrete-dry"],
 }
 SOON = 0.6
@@ -50,7 +53,7 @@ def main() -> None:
         seconds(RUN + command)
         ratios = [seconds(RUN + command) / seconds(FLOOR) for _ in range(chosen.runs)]
         figures[f"kaidan {name} / floor"] = statistics.median(ratios)
-    targets = dict.fromkeys(figures, 2.0)
+    targets = dict.fromkeys(figures, 1.5)
     for name, command in WHOLE.items():
         key = f"kaidan assess, contact model, {name} [s]"
         figures[key] = statistics.median(seconds(RUN + command) for _ in range(chosen.runs))

@@ -226,7 +226,9 @@ def _fixed(question: Question, facings: tuple[Facing, ...]) -> Found:
         for posture in known
     ]
     best = max(each, key=lambda one: one.merit)
-    return Found(best.question, judge(best.question), True, len(each), question, facings)
+    coarse = question.model == CONTACT.name
+    found = judge(best.question) if coarse else best.findings
+    return Found(best.question, found, True, len(each), question, facings)
 
 
 def _judged(question: Question) -> Judged:
