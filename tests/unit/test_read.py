@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -174,6 +175,15 @@ def test_a_staircase_with_its_doubt(monkeypatch, hall):
     assert "5 steps, rise 180.0 mm, going 290.0 mm, single steps +- 2.8 mm and 2.8 mm" in text
     assert "unit mm (the one that makes stairs of it), up +z (as the file says)" in text
     assert "clear width 1000.0 mm, scatter 4.0 mm" in text
+
+
+def test_a_flight_that_was_drawn_has_no_doubt_to_tell(monkeypatch, hall):
+    drawn = replace(flight(sigma=0.0), gravity=0.0, scale=0.0, roughness=0.0)
+    reads(monkeypatch, replace(staircase(), flights=(drawn,)))
+    text = str(kaidan.read(hall))
+    assert "5 steps, rise 180.0 mm, going 290.0 mm, as drawn\n" in text
+    assert "31.83 deg, nosing to nosing 341.3 mm\n" in text
+    assert "+-" not in text
 
 
 def test_points_along_the_flight_are_in_metres(monkeypatch, hall):

@@ -105,6 +105,12 @@ def _staircase(staircase: "StaircaseRead") -> list[str]:
 def _flight(flight: "FlightRead", name: str) -> list[str]:
     if flight.rise_m is None or flight.going_m is None:
         lines = [f"  {name:<10}one step of {_mm(flight.nosings[0][1])}"]
+    elif not (flight.rise_sigma_m or flight.going_sigma_m):
+        lines = [
+            f"  {name:<10}{flight.steps} steps, rise {_mm(flight.rise_m)}, going "
+            f"{_mm(flight.going_m)}, as drawn",
+            f"  {'':<10}{flight.angle_deg:.2f} deg, nosing to nosing {_mm(flight.spacing_m)}",
+        ]
     else:
         lines = [
             f"  {name:<10}{flight.steps} steps, rise {_mm(flight.rise_m)}, going "

@@ -22,7 +22,7 @@ import numpy as np
 from kaidan.errors import MissingExtraError, short
 from kaidan.readers.formats import ifc_child
 from kaidan.readers.hints import Hints
-from kaidan.readers.kinds import Bodies, Body, Known, Provenance
+from kaidan.readers.kinds import METRES, Bodies, Body, Known, Provenance
 from kaidan.readers.opening import LARGEST, Source
 
 MOST_SECONDS, SECONDS_A_MB = 60.0, 6.0
@@ -78,12 +78,13 @@ def read(source: Source, hints: Hints, *, around: bool = False) -> Bodies:
     except (ValueError, KeyError, IndexError, TypeError):
         raise source.refuse("no readable building model: the parser's answer is broken") from None
     unit = found.get("unit", 1.0)
+    names = (name for name, length in METRES.items() if math.isclose(length, unit, rel_tol=1e-9))
     provenance = Provenance(
         path=str(source.path),
         digest=source.digest,
         form="ifc",
         element=hints.element,
-        unit=Known(f"{unit:g} m", "file"),
+        unit=Known(next(names, f"{unit:g} m"), "file"),
         up=Known("+z", "format"),
         notes=tuple(notes),
     )
