@@ -108,3 +108,17 @@ def test_700_gos_where_tracks_yield():
 @pytest.mark.slow
 def test_20_gos_with_grousers():
     tried(4, 20, gripping, grousers=True)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_marmotte_has_no_allowance_to_spare(seed):
+    """What `docs/theory/rocking.md` says of its 4 degrees to a fall on the IBC's flight."""
+    ibc = Stairs.named("ibc")
+    ends = []
+    for steeper in (0.0, 2.6, 5.2):
+        angle = ibc.angle + math.radians(steeper)
+        steps = Stairs.inclined(angle=angle, nosing_spacing=ibc.nosing_spacing, steps=8)
+        question = Question.of("marmotte", steps, friction=1.2, speed=0.1, model="physics")
+        ends.append(run(TrialSpec(question=question, begin="landing", seed=seed)).fell)
+    assert ends == [False, False, True]

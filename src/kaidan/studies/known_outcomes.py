@@ -10,8 +10,8 @@ from typing import Any, Literal
 
 from kaidan import catalog
 from kaidan.answer import Answer, Part
+from kaidan.assessment import with_plan
 from kaidan.assessment.verdict import conclude
-from kaidan.models import judge
 from kaidan.modes import Direction, Phase, Verdict
 from kaidan.question import Question
 from kaidan.terrain.stairs import Stairs
@@ -140,8 +140,8 @@ def _flights(entry: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def _pair(entry: Mapping[str, Any], stairs: Stairs) -> Pair:
-    question = Question.in_one_posture(entry["robot"], stairs, **entry["manner"])
-    conclusion = conclude(question, judge(question))
+    question, findings, _ = with_plan(Question.ask(entry["robot"], stairs, **entry["manner"]))
+    conclusion = conclude(question, findings)
     flight = question.flight
     assert flight is not None
     assert question.surface is not None
