@@ -11,8 +11,10 @@ import pytest
 
 from kaidan import Profile, Question, Stairs
 from kaidan.assessment.verdict import conclude
+from kaidan.models.drawn_falls import _changed
 from kaidan.models.quasi_static import judge
-from kaidan.modes import Verdict
+from kaidan.modes import FALL_DOWNHILL, Verdict
+from kaidan.override import overridden
 
 NO_ALLOWANCES = {"theta_d": (0, 0), "theta_M": (0, 0)}
 CASES = {
@@ -29,6 +31,16 @@ PROFILES = {
     "kenaf": ((0.5e-3, 1e-3), CASES["kenaf"]),
     "ozbot": ((4e-3, 5e-3), CASES["ozbot"]),
 }
+
+
+REGULAR = Stairs.inclined(angle="46deg", nosing_spacing="200mm")
+FALLS = {
+    "kenaf": ("kenaf", REGULAR, (3e-3, 3e-3), {"fall_reserve": math.radians(6.7)}),
+    "kenaf, more": ("kenaf", REGULAR, (5e-3, 4e-3), {"fall_reserve": math.radians(6.2)}),
+    "marmotte": ("marmotte", Stairs.named("uk-general"), (4e-3, 4e-3),
+                 {"fall_reserve": math.radians(4.2)}),
+}  # fmt: skip
+"""Robots that rock in nearly every draw, with a reserve that about half of the draws keep."""
 
 
 def in_doubt(robot, flight, sigma, manner):
@@ -78,6 +90,52 @@ def check(question, draw, count):
     p = predicted(question)
     found = brute_force(question, draw, count)
     assert (np.abs(found - p) <= band(p, count)).all(), (p, found)
+
+
+def falls(question):
+    """Shares of samples that have less than the reserve to the fall."""
+    found = judge(question).of(FALL_DOWNHILL)
+    return 0.0 if found is None else float(found.fails().mean())
+
+
+def check_falls(draw, question, count):
+    rng, p = np.random.default_rng(12), falls(question)
+    share = sum(falls(question.changed(terrain=draw(rng))) for _ in range(count)) / count
+    assert abs(share - p) <= band(p, count), (p, share)
+
+
+@pytest.mark.parametrize(("name", "count"), [
+    ("kenaf", 80), *(pytest.param(name, 1000, marks=pytest.mark.slow) for name in FALLS)
+])  # fmt: skip
+def test_probability_of_a_fall(name, count):
+    """Each draw is driven under tilted gravity until it falls, as no sample of the answer is."""
+    robot, flight, sigma, manner = FALLS[name]
+    question = in_doubt(robot, flight, sigma, manner)
+    check_falls(lambda rng: steps_drawn(flight, sigma, rng), question, count)
+
+
+@pytest.mark.slow
+def test_probability_of_a_fall_on_a_profile():
+    robot, flight, _, manner = FALLS["kenaf"]
+    sigma = (3e-3, 3e-3)
+    profile = Profile.of_points(Profile.of_stairs(flight).points, sigma=sigma)
+    question = Question.in_one_posture(robot, profile, friction=3.0, **manner)
+    check_falls(lambda rng: nosings_drawn(flight, sigma, rng), question, 1000)
+
+
+def test_the_robot_of_a_sample_is_that_of_a_sheet_with_its_figures():
+    robot, flight, _, manner = FALLS["kenaf"]
+    sure = Question.in_one_posture(robot, flight, friction=3.0, **manner)
+    body = _changed(sure.outline, 0.02, 0.01, 0.005)
+    L, C_L, C_N = (
+        sure.stance.flat_length, sure.stance.com_from_front, sure.stance.com_height
+    )  # fmt: skip
+    sheet = overridden(
+        sure.robot,
+        {"flat_length": L + 0.02, "com_from_front": C_L + 0.01, "com_height": C_N + 0.005},
+    )
+    own = Question.in_one_posture(sheet, flight, friction=3.0, **manner).outline
+    np.testing.assert_allclose(body.parts, own.parts, atol=1e-12)
 
 
 def check_list(name, count):

@@ -9,8 +9,9 @@ import kaidan
 from kaidan import Assessment, InputError, Profile, Stairs
 from kaidan.assessment.verdict import conclude
 from kaidan.models import dynamic
-from kaidan.models.drawn_trials import drawn, drawn_specs, moved_profile, track_of
+from kaidan.models.drawn_trials import drawn, drawn_specs, track_of
 from kaidan.models.proportion import interval
+from kaidan.models.spread import moved_profile
 from kaidan.modes import Verdict
 from kaidan.physics import Outcome
 from kaidan.question import Question

@@ -15,6 +15,7 @@ import numpy as np
 
 from kaidan.contact import Status
 from kaidan.models import support_polygon
+from kaidan.models.drawn_falls import drawn_falls
 from kaidan.models.findings import Array, Finding
 from kaidan.models.spread import Spread
 from kaidan.models.traction import Supplies
@@ -178,7 +179,9 @@ def _falls(
         fall = found.falls_downhill if downhill else found.falls_uphill
         if phase not in (None, fall.phase):
             continue
-        spare: Array = np.maximum(fall.tilt - question.reserve + samples, -FALL)
+        counts = turns if rocks is None else turns | rocks.fails()
+        drawn = drawn_falls(question, found, samples, counts, downhill=downhill)
+        spare = np.maximum(drawn, -FALL)
         still = (math.inf, math.inf) if rocks is None else (rocks.worst, rocks.best)
         worst, best = (np.where(turns, spare, np.maximum(spare, margin)) for margin in still)
         each.append(

@@ -5,19 +5,17 @@ each trial begins another share of a nosing spacing from the stairs.
 """
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from kaidan.models.samples import unit_draws
-from kaidan.models.spread import changed_nosings
+from kaidan.models.spread import changed_nosings, moved_profile
 from kaidan.override import overridden
 from kaidan.physics import DrivenGrousers, SmoothBelt, TrackModel, TrialSpec, YieldingBelt
 from kaidan.question import Question
 from kaidan.robot import Robot, Uncertainty
 from kaidan.surface import Surface
-from kaidan.terrain.polyline import frozen
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs, StairsUncertainty
 
@@ -137,34 +135,3 @@ def _moved(question: Question, nosings: Array) -> Stairs | Profile:
             uncertainty=StairsUncertainty(),
         )
     return moved_profile(profile, nosings)
-
-
-def moved_profile(profile: Profile, nosings: Array) -> Profile:
-    """Profile with its nosings elsewhere: risers go with them, treads lie as high as theirs.
-
-    Parameters
-    ----------
-    profile : Profile
-    nosings : array, shape (m, 2)
-        New places, in their order [m].
-    """
-    if len(nosings) == 0:
-        return replace(profile, covariance=None)
-    off = nosings - profile.nosings
-
-    def at(points: Array) -> Array:
-        along = np.interp(points[:, 0], profile.nosings[:, 0], off[:, 0])
-        # a point belongs to the last nosing that it does not lie below or before
-        same = np.abs(points[:, None] - profile.nosings[None]).max(axis=2) < 1e-9
-        behind = points[:, None, 0] > profile.nosings[None, :, 0] + 1e-9
-        last = (same | behind).cumsum(axis=1).argmax(axis=1)
-        up = np.where((same | behind).any(axis=1), off[last, 1], 0.0)
-        return np.asarray(points + np.column_stack([along, up]))
-
-    return replace(
-        profile,
-        points=frozen(at(profile.points)),
-        nosings=frozen(nosings),
-        edges=frozen(at(profile.edges)),
-        covariance=None,
-    )

@@ -7,6 +7,7 @@ where single steps are in doubt, the nosings and the robot are drawn and the cri
 draw anew, so that the order of events and the nosings that carry are the draw's own.
 """
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +17,8 @@ from kaidan.models.findings import Array
 from kaidan.models.samples import Draws, draws, nominal, sample_count, unit_draws
 from kaidan.modes import Phase
 from kaidan.question import Question
+from kaidan.terrain.polyline import frozen
+from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Traverse
 from kaidan.traversal.drawn_criterion import Drawn, DrawnTread, drawn_criterion
@@ -77,7 +80,7 @@ def spread(question: Question, traverse: Traverse) -> Spread:
     if not question.uncertain:
         return Spread(*np.zeros((9, 1)))
     count, flight = sample_count(question), question.flight
-    drawn = unit_draws(count)[:_OF_ALL] * np.array(question.spread)[:, None]
+    drawn = drawn_of_all(question)
     angle, friction, exact = drawn[3], drawn[5], np.zeros(count)
     down = up = exact
     if flight is not None:
@@ -104,6 +107,26 @@ def spread(question: Question, traverse: Traverse) -> Spread:
     )
 
 
+def drawn_of_all(question: Question) -> Array:
+    """What the samples change of L, C_L, C_N, angle, nosing spacing and friction, (6, samples)."""
+    unit = unit_draws(sample_count(question))[:_OF_ALL]
+    return np.asarray(unit * np.array(question.spread)[:, None])
+
+
+def nosings_of(profile: Profile, drawn: Array) -> Array:
+    """Nosings of each sample, shape (samples, m, 2) [m].
+
+    Parameters
+    ----------
+    profile : Profile
+    drawn : array, shape (6, samples)
+        Of `drawn_of_all`.
+    """
+    unit = unit_draws(drawn.shape[1], _OF_ALL + 2 * len(profile.nosings))[_OF_ALL:]
+    single = profile.drawn_nosings(unit) - profile.nosings
+    return changed_nosings(profile.nosings, angle=drawn[3], spacing=drawn[4]) + single
+
+
 def _off(drawn: Array, nominal_: Array, otherwise: Array) -> Array:
     """Differences from the nominal value, where both are known."""
     known = np.isfinite(drawn) & np.isfinite(nominal_)
@@ -114,16 +137,13 @@ def _off(drawn: Array, nominal_: Array, otherwise: Array) -> Array:
 def _by_draws(question: Question, traverse: Traverse, drawn: Array) -> tuple[Drawn, Drawn]:
     """What the criterion says of each draw of the nosings and the robot, and of the sheets'."""
     profile, tread = question.profile, traverse.tread
-    unit = unit_draws(drawn.shape[1], _OF_ALL + 2 * len(profile.nosings))[_OF_ALL:]
-    single = profile.drawn_nosings(unit) - profile.nosings
-    L, C_L, C_N, angle, spacing, _ = drawn
+    L, C_L, C_N, *_ = drawn
     on = DrawnTread(
         L=tread.L + L,
         C_L=tread.C_L + (C_L if question.nose_up else L - C_L),
         C_N=np.maximum(tread.C_N + C_N, 1e-4),
     )
     exact = DrawnTread(*(np.array([each]) for each in tread[:3]))
-    whole = changed_nosings(profile.nosings, angle=angle, spacing=spacing)
     found, nominal_ = (
         drawn_criterion(
             profile.nosings,
@@ -133,7 +153,7 @@ def _by_draws(question: Question, traverse: Traverse, drawn: Array) -> tuple[Dra
             acceleration=question.acceleration,
             within=traverse.part,
         )
-        for nosings, each in ((whole + single, on), (profile.nosings[None], exact))
+        for nosings, each in ((nosings_of(profile, drawn), on), (profile.nosings[None], exact))
     )
     return found, nominal_
 
@@ -169,3 +189,34 @@ def changed_nosings(nosings: Array, *, angle: Array, spacing: Array) -> Array:
     still = np.zeros((len(angle), min(len(nosings), 1), 2))
     moved = np.concatenate([still, np.cumsum(moved, axis=1)], axis=1)
     return np.asarray(nosings[:1] + moved)
+
+
+def moved_profile(profile: Profile, nosings: Array) -> Profile:
+    """Profile with its nosings elsewhere: risers go with them, treads lie as high as theirs.
+
+    Parameters
+    ----------
+    profile : Profile
+    nosings : array, shape (m, 2)
+        New places, in their order [m].
+    """
+    if len(nosings) == 0:
+        return replace(profile, covariance=None)
+    off = nosings - profile.nosings
+
+    def at(points: Array) -> Array:
+        along = np.interp(points[:, 0], profile.nosings[:, 0], off[:, 0])
+        # a point belongs to the last nosing that it does not lie below or before
+        same = np.abs(points[:, None] - profile.nosings[None]).max(axis=2) < 1e-9
+        behind = points[:, None, 0] > profile.nosings[None, :, 0] + 1e-9
+        last = (same | behind).cumsum(axis=1).argmax(axis=1)
+        up = np.where((same | behind).any(axis=1), off[last, 1], 0.0)
+        return np.asarray(points + np.column_stack([along, up]))
+
+    return replace(
+        profile,
+        points=frozen(at(profile.points)),
+        nosings=frozen(nosings),
+        edges=frozen(at(profile.edges)),
+        covariance=None,
+    )
