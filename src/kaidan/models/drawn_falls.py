@@ -110,11 +110,14 @@ def drawn_falls(
     foretold = of_line + off[np.arange(len(spare)) % len(off)]
     foretold[some] = tilts - question.reserve
     open_ = np.setdiff1d(rows[np.abs(of_line[rows]) < near], some)
-    if len(open_) > MOST:
-        open_ = open_[np.linspace(0, len(open_) - 1, MOST).round().astype(int)]
-    for k in open_.tolist():
-        side = 1.0 if sample(k).survives(question.reserve) else -1.0
-        foretold[k] = math.copysign(foretold[k], side)
+    open_ = open_[np.argsort(of_line[open_], kind="stable")]
+    count = min(len(open_), MOST)
+    places = np.linspace(0, len(open_) - 1, count).round().astype(int)
+    driven = [1.0 if sample(int(k)).survives(question.reserve) else -1.0 for k in open_[places]]
+    if driven:  # of those between two that are driven each is on the side of the nearer
+        nearest = np.arange(len(open_)) * (count - 1) / max(len(open_) - 1, 1)
+        side = np.array(driven)[nearest.round().astype(int)]
+        foretold[open_] = np.copysign(foretold[open_], side)
     return np.asarray(foretold)
 
 
