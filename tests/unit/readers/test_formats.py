@@ -222,3 +222,13 @@ def test_contradictions(tmp_path, content, text):
     with pytest.raises(InputError, match=text) as refused:
         contents(tmp_path, content)
     assert "\n" not in str(refused.value)
+
+
+def test_blank_lines_among_the_points_are_passed_over(tmp_path):
+    """What numpy says of them would stand beside the answer."""
+    for name, content in (("a.pcd", made.pcd(CLOUD, "ascii")), ("a.ply", made.ply(CLOUD, "ascii"))):
+        lines = content.split(b"\n")
+        path = tmp_path / name
+        path.write_bytes(b"\n".join([*lines[:-3], b"", b"  ", *lines[-3:]]))
+        source = Source.of(path)
+        assert len(contents_of(source, recognised(source), Hints()).xyz) == len(CLOUD)

@@ -108,9 +108,10 @@ def _ascii(source: Source, kind: np.dtype[Any], count: int, at: int) -> dict[str
     with source.opened() as file:
         file.seek(at)
         text = io.TextIOWrapper(file, encoding="ascii", errors="replace")
+        rows = (line for line in text if line.partition("#")[0].strip())
         try:
             found = np.loadtxt(
-                text, usecols=[starts[axis] for axis in "xyz"], ndmin=2, max_rows=count or 1
+                rows, usecols=[starts[axis] for axis in "xyz"], ndmin=2, max_rows=count or 1
             )
         except ValueError as error:
             raise source.refuse(f"points: {str(error).splitlines()[0]}") from None
