@@ -185,6 +185,7 @@ def find(code: CodeType, name: str) -> CodeType:
 
 def live(path: Path) -> dict[str, list[FunctionType]]:
     """Functions of a file that this process holds."""
+    gc.unfreeze()  # what the tests have set aside
     held: dict[str, list[FunctionType]] = {}
     for each in gc.get_objects():
         if isinstance(each, FunctionType) and each.__code__.co_filename == str(path):
@@ -319,6 +320,7 @@ class Run:
         os.dup2(null, 2)
 
     def _try(self, path, mutant, code, items, chosen, usual):
+        held = live(path)[mutant.function]
         read, write = os.pipe()
         child = os.fork()
         if child == 0:
@@ -326,7 +328,7 @@ class Run:
             os.setsid()
             self._quiet()
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-            for each in live(path)[mutant.function]:
+            for each in held:
                 each.__code__ = code.replace(co_freevars=each.__code__.co_freevars)
             at = chosen[0]
 

@@ -15,7 +15,7 @@ CORNERS = np.array([
 ])  # fmt: skip
 POINT, PART = 64, 4
 NOSING_1, NOSING_2, CORNER_2 = 2 * POINT, 4 * POINT, 3 * POINT
-PARTS = [[-0.2, 0, 0.1, 0.2, 0, 0.1], [0.2, 0, 0.1, 0.5, 0, 0.05], [-0.5, 0, 0.1, 0.3, 0, 0.05]]
+PARTS = [[-0.2, 0, 0.1, 0.2, 0, 0.1], [-0.1, 0, 0.1, 0.5, 0, 0.05], [-0.5, 0, 0.1, 0.3, 0, 0.05]]
 
 
 def record(kind, feature=NOSING_1, other=NOSING_2, rotation=None, topples=None):

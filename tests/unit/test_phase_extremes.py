@@ -102,6 +102,15 @@ def test_of_a_kerb_there_is_no_flight():
     assert down[Phase.ENTER].uphill_energy_margin == math.inf
 
 
+def test_of_two_rotations_of_a_phase_the_larger_counts():
+    line = [(-3, 0), (0, 0), (0, 0.05), (0.8, 0.05), (0.8, 0.15), (3.5, 0.15)]
+    run = driven(Profile.of_points(line))
+    low, high = (float(each.angle) for each in run.path.rotations)  # onto either kerb, landing
+    assert 0.1 < low < high - 0.1
+    assert run.phases[-1].phase is Phase.LAND
+    assert run.phases[-1].largest_rotation == high
+
+
 def test_a_nose_pulled_up_a_riser_takes_the_whole_weight():
     """The sole on the ground, the nose at the face: see test_a_riser_higher_than_the_nose."""
     enter = of_phases(kerb(0.1))[Phase.ENTER]
