@@ -15,16 +15,20 @@ UNMEASURED = math.radians(2.6)
 """Largest value of either allowance that the paper measured (150 mm, 56.8 degrees) [rad]."""
 
 
+LARGEST_ALLOWANCE = 0.6
+"""Largest allowance [rad]."""
+Source = Literal["measured", "indentation and sag as measured", "default", "not applicable"]
+"""Where an allowance comes from."""
+
+
 class Allowance(Sheet):
     """An angle that lowers the tipping margin: a range, from the best to the worst case."""
 
     label: ClassVar[str] = "allowance"
 
-    low: float = quantity("rad", 0.0, 0.6, "smallest value")
-    high: float = quantity("rad", 0.0, 0.6, "largest value")
-    source: Literal["measured", "default", "not applicable"] = Field(
-        default="measured", description="where the range comes from"
-    )
+    low: float = quantity("rad", 0.0, LARGEST_ALLOWANCE, "smallest value")
+    high: float = quantity("rad", 0.0, LARGEST_ALLOWANCE, "largest value")
+    source: Source = Field(default="measured", description="where the range comes from")
 
     @model_validator(mode="after")
     def _ordered(self) -> Self:
@@ -83,8 +87,9 @@ class AllowanceShown(Part):
     """Best case [deg]."""
     high_deg: float
     """Worst case, subtracted from `margin_deg` [deg]."""
-    source: Literal["measured", "default", "not applicable"]
-    """"measured", "default" (nobody measured it) or "not applicable"."""
+    source: Source
+    """"measured", "indentation and sag as measured" (what a yielding track costs by mechanics),
+    "default" (nobody measured it) or "not applicable"."""
 
     @classmethod
     def of(cls, allowance: Allowance) -> "AllowanceShown":

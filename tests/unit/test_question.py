@@ -11,7 +11,9 @@ from pydantic import ValidationError
 import kaidan
 from kaidan import InputError, Payload, Posture, Profile, Question, Robot, Stairs, Surface
 from kaidan.allowance import UNMEASURED, Allowance
+from kaidan.mechanics.yielding import yielding_loss
 from kaidan.modes import MODELS, Acceptance
+from kaidan.robot import Track
 
 GAUGED = Robot.model_validate(
     {
@@ -278,6 +280,82 @@ def test_measured_allowances_stand_in_the_robots_sheet():
     assert down.allowance_d == up.allowance_d
     own = Question.of("kenaf", FLIGHT, theta_d=0.0, theta_M=(0.0, 0.01))
     assert (own.allowance_d.high, own.allowance_M.high) == (0.0, 0.01)
+
+
+def yields(radius=0.06, **track):
+    return Robot(
+        name="soft", mass=20.0, com_from_front=0.33, com_height=0.12,
+        track=Track(flat_length=0.75, front_radius=radius, rear_radius=radius, **track),
+    )  # fmt: skip
+
+
+def theta_d(robot, **manner):
+    allowance = Question.in_one_posture(robot, FLIGHT, **{"friction": 1.0} | manner).allowance_d
+    return math.degrees(allowance.low), math.degrees(allowance.high), allowance.source
+
+
+BY_MECHANICS = "indentation and sag as measured"
+
+
+def test_indentation_and_sag_take_the_place_of_the_default():
+    # FLIGHT's nosings lie p apart; the rigid limit is atan((0.42 - p)/0.12); nothing grips
+    p, w_n, w_t = FLIGHT.nosing_spacing, 0.002, 0.003
+    expected = yielding_loss(
+        L=0.75, p=p, C_L=0.33, C_N=0.12, w_n=w_n, w_t=w_t, R=0.06, mu=1.0, speed=0.1, gyration=0.2
+    )
+    low, high, source = theta_d(yields(indentation=w_n, sag=w_t))
+    assert (low, source) == (0.0, BY_MECHANICS)
+    assert high == pytest.approx(math.degrees(expected))
+    assert 0.0 < high < 2.6
+    # the same as stiffnesses of 20 kg
+    stiff = {"stiffness": 20.0 * 9.80665 / w_n, "shear_stiffness": 20.0 * 9.80665 / w_t}
+    assert theta_d(yields(**stiff))[1] == pytest.approx(high)
+    # what grips costs more, and so may what nobody knows: friction, or the ends' shorter radius
+    assert theta_d(yields(indentation=w_n, sag=w_t), friction=None)[1] > high + 4.0
+    assert theta_d(yields(0.005, indentation=w_n, sag=w_t), friction=2.0)[1] > high + 4.0
+    # the robot's other end, and a load that presses as much farther
+    load = Payload(mass=20.0, from_front=0.33, height=0.12)
+    assert theta_d(yields(indentation=w_n, sag=w_t), payload=[load])[1] > 1.5 * high
+
+
+def test_one_of_indentation_and_sag_or_grousers_raise_the_default_and_lower_nothing():
+    default = (0.0, pytest.approx(2.6), "default")
+    assert theta_d(yields()) == default
+    assert theta_d(yields(indentation=0.002)) == default
+    assert theta_d(yields(indentation=0.002, sag=0.003, belt="grousers")) == default
+    soft = theta_d(yields(sag=0.03))
+    assert soft[1] > 2.6
+    assert soft[2] == BY_MECHANICS
+
+
+def test_a_stated_theta_d_counts_as_it_is_and_a_sheets_at_least():
+    soft = {"indentation": 0.006, "sag": 0.02}
+    assert theta_d(yields(**soft), theta_d=0.0) == (0.0, 0.0, "measured")
+    measured = Robot(**dict(yields(**soft)) | {"theta_d": Allowance(low=0.01, high=0.02)})
+    low, high, source = theta_d(measured)
+    assert (low, source) == (pytest.approx(math.degrees(0.01)), BY_MECHANICS)
+    assert high > math.degrees(0.02)
+    little = {"indentation": 0.0002, "sag": 0.0002}
+    measured = Robot(**dict(yields(**little)) | {"theta_d": Allowance(low=0.01, high=0.02)})
+    assert theta_d(measured)[1:] == (pytest.approx(math.degrees(0.02)), "measured")
+
+
+def test_where_not_even_the_rigid_robot_stands_the_default_remains():
+    long = Stairs.inclined(angle=0.4, nosing_spacing=0.45)
+    question = Question.in_one_posture(yields(indentation=0.002, sag=0.003), long, friction=1.0)
+    assert question.allowance_d.source == "default"
+
+
+def test_theta_d_at_other_lengths():
+    robot = yields(indentation=0.002, sag=0.003)
+    question = Question.in_one_posture(robot, FLIGHT, friction=1.0)
+    p = np.array([FLIGHT.nosing_spacing, 0.2, 0.45])
+    found = question.theta_d_at(L=0.75, p=p, C_L=0.33, C_N=0.12)
+    assert found[0] == pytest.approx(question.allowance_d.high)
+    assert 0.0 < found[1] != found[0]
+    assert found[2] == UNMEASURED
+    plain = Question.in_one_posture(yields(), FLIGHT)
+    assert plain.theta_d_at(L=0.75, p=p, C_L=0.33, C_N=0.12) == UNMEASURED
 
 
 def test_the_reserve_is_the_questions_then_the_sheets_then_the_default():

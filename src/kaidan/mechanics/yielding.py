@@ -14,9 +14,14 @@ w_n = W/k and w_t = W/kt, what the whole weight on one nosing would press in and
 
 import numpy as np
 
-from kaidan.mechanics import Number
+from kaidan.mechanics import STANDARD_GRAVITY, Number
 
 _ROUNDS = 80
+OVERSHOOT = 2.0
+"""How far a spring without a damper goes under a load that comes at once, of where it rests."""
+REST = np.radians(8.5)
+"""What a gripping tail costs beyond what is derived [rad]: trials took up to 4.1 degrees on a
+flight, up to 8.5 from landing to landing (docs/theory/yielding.md)."""
 
 
 def theta_d_at_limit(*, eta: Number, p: Number) -> Number:
@@ -123,7 +128,8 @@ def theta_s_sup_yielding(
     w_n : float or array
         Indentation under the whole weight on one nosing, W/k [m].
     drop : float or array
-        Share of w_t = W/kt by which it drops back as the nosing leaves [m]; `drop_at_most`.
+        How far it drops back as the nosing leaves, as a length under the whole weight [m]; no more
+        than w_t = W/kt, twice that if it overshoots.
     R : float or array
         Radius of the downhill end [m].
 
@@ -158,33 +164,104 @@ def theta_s_sup_yielding(
     return (a - theta_d) * np.where(within, 1.0, np.nan)
 
 
-def drop_at_most(*, w_t: Number, contacts: Number) -> Number:
-    """Largest drop, as a length under the whole weight, as a nosing leaves.
+def tail_grips(*, w_n: Number, R: Number, mu: Number) -> Number:
+    """Whether a round end that leaves a nosing can be pulled down round it.
 
-    ``drop = w_t (1 - 1/m)``
+    ``w_n >= R (1 - mu / sqrt(1 + mu^2))``
 
-    Of m contacts that share the pull along the stairs t_0 is the oldest but one, so it bears 1/m of
-    it or more; the rest comes to it.
+    On the end the contact turns by phi. Beyond phi = atan(1/mu) the friction that drives the robot
+    pulls its tail down by more than the nosing pushes it up. The nosing gets so far only if the
+    end, which rises by R (1 - cos(phi)), still presses on it. ``w_n`` is the most by which it does.
 
     Parameters
     ----------
-    w_t : float or array
-        Shear under the whole weight on one nosing, W/kt [m].
-    contacts : int or array
-        Nosings under the flat before the loss, m [1].
+    w_n : float or array
+        Indentation under the whole weight on one nosing [m].
+    R : float or array
+        Radius of the downhill end [m].
+    mu : float or array
+        Static friction [1]; infinite: it grips whatever the radius.
 
     Returns
     -------
-    float or array
-        Length [m].
+    bool or array
 
     Examples
     --------
-    >>> print(drop_at_most(w_t=0.012, contacts=4))
-    0.009
+    >>> [bool(tail_grips(w_n=0.003, R=0.060, mu=mu)) for mu in (1.0, 3.0)]
+    [False, False]
+    >>> [bool(tail_grips(w_n=0.003, R=0.020, mu=mu)) for mu in (1.0, 3.0)]
+    [False, True]
 
     References
     ----------
     Derived (docs/theory/yielding.md).
     """
-    return w_t * (1.0 - 1.0 / contacts)
+    return w_n >= R * (1.0 - np.sin(np.arctan(mu)))
+
+
+def yielding_loss(
+    *,
+    L: Number,
+    p: Number,
+    C_L: Number,
+    C_N: Number,
+    w_n: Number,
+    w_t: Number,
+    R: Number,
+    mu: Number,
+    speed: Number,
+    gyration: Number,
+    g: float = STANDARD_GRAVITY,
+) -> Number:
+    """Margin that a yielding track costs at most, of the rigid formula's: what a verdict subtracts.
+
+    Where the tail does not grip (`tail_grips`) it is the loss with a drop that is final,
+    ``theta_r - theta_s_sup_yielding(drop=w_t)``. Where it does, the drop overshoots, the body
+    turns at up to ``speed / p`` as the nosing leaves, and what is not derived is `REST`:
+    ``theta_r - theta_s_sup_yielding(drop=2 w_t) + tau speed (1/p - C_N/H^2) + REST``,
+    ``tau = sqrt((gyration^2 + H^2) / (g H))``, ``H^2 = (L - p - C_L)^2 + C_N^2``.
+
+    Parameters
+    ----------
+    L, p, C_L, C_N : float or array
+        Flat length, nosing spacing, centroid behind the uphill tip and above the underside [m].
+    w_n, w_t : float or array
+        Indentation and shear under the whole weight on one nosing [m].
+    R : float or array
+        Radius of the downhill end [m].
+    mu : float or array
+        Largest static friction [1].
+    speed : float or array
+        Of the belt [m/s].
+    gyration : float or array
+        Radius of gyration about the lateral axis through the centroid [m].
+    g : float
+        Gravity [m/s^2].
+
+    Returns
+    -------
+    float or array
+        Angle [rad], zero or more; NaN where not even the rigid robot stands on its lowest nosing
+        (``L - p - C_L <= 0``).
+
+    Examples
+    --------
+    >>> kenaf = dict(L=0.470, p=0.150, C_L=0.196, C_N=0.071, gyration=0.15, speed=0.1)
+    >>> print(round(yielding_loss(w_n=0.002, w_t=0.003, R=0.060, mu=2.0, **kenaf) * 180 / np.pi, 1))
+    0.6
+    >>> print(round(yielding_loss(w_n=0.002, w_t=0.003, R=0.010, mu=3.0, **kenaf) * 180 / np.pi, 1))
+    12.8
+
+    References
+    ----------
+    Derived but for `REST` (docs/theory/yielding.md).
+    """
+    rigid = np.arctan2(L - p - C_L, C_N)
+    H = np.hypot(L - p - C_L, C_N)
+    over = np.where(tail_grips(w_n=w_n, R=R, mu=mu), OVERSHOOT, 1.0)
+    sup = theta_s_sup_yielding(L=L, p=p, C_L=C_L, C_N=C_N, w_n=w_n, drop=over * w_t)
+    tau = np.sqrt((gyration**2 + H**2) / (g * H))
+    turning = np.maximum(tau * speed * (1.0 / p - C_N / H**2), 0.0)
+    loss = rigid - sup + np.where(over > 1.0, turning + REST, 0.0)
+    return np.maximum(loss, 0.0) * np.where(L - p - C_L > 0.0, 1.0, np.nan)

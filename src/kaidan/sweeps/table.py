@@ -166,6 +166,16 @@ def formula_table(
 
     arrays = xarray.broadcast(*(xarray.DataArray(value) for value in inputs.values()))
     plain = {name: array.values for name, array in zip(inputs, arrays, strict=True)}
+    if given.get("theta_d") is None:
+        with np.errstate(all="ignore"):  # what cannot be judged is refused below
+            high = base.theta_d_at(
+                L=plain["flat_length"],
+                p=plain["nosing_spacing"],
+                C_L=plain["com_from_uphill"],
+                C_N=plain["com_height"],
+            )
+        plain["theta_d_spare"] = plain["theta_d_spare"] + high - plain["theta_d"]
+        plain["theta_d"] = np.broadcast_to(high, plain["angle"].shape)
     answer = verdicts(plain, engine=engine)
     drive = steepest_for_drive(base, plain["acceleration"]) - plain["angle"]
     answer, drive = _beyond_the_formulas(base, flight, plain, answer, drive)

@@ -243,6 +243,7 @@ def margin_curve(question: Question, p: Array, stairs: Sequence[Stairs] = ()) ->
         sup = inside * theta_s_sup(L=L, p=p, C_L=C_L, C_N=C_N, a=question.acceleration)
         inf = inside * theta_s_inf(p=p, C_L=C_L, C_N=C_N, a=question.acceleration)
     d, M = question.allowance_d, question.allowance_M
+    high = question.theta_d_at(L=L, p=p, C_L=C_L, C_N=C_N)
     return MarginCurve(
         robot=question.robot.name,
         direction=question.direction,
@@ -259,13 +260,13 @@ def margin_curve(question: Question, p: Array, stairs: Sequence[Stairs] = ()) ->
         contacts_n=contact_count(L=L, p=p).astype(int).tolist(),
         margin_angle_deg=np.degrees(sup),
         margin_angle_corrected_low_deg=np.degrees(
-            theta_s_sup_corrected(theta_s_sup=sup, theta_d=d.high, theta_M=M.high)
+            theta_s_sup_corrected(theta_s_sup=sup, theta_d=high, theta_M=M.high)
         ),
         margin_angle_corrected_high_deg=np.degrees(
             theta_s_sup_corrected(theta_s_sup=sup, theta_d=d.low, theta_M=M.low)
         ),
         lower_angle_deg=_positive(inf),
-        lower_angle_corrected_high_deg=_positive(inf + d.high),
+        lower_angle_corrected_high_deg=_positive(inf + high),
         lower_angle_corrected_low_deg=_positive(inf + d.low),
         stairs=[
             StairsShown(
