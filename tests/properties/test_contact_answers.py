@@ -223,9 +223,13 @@ def test_scale(seed, k):
         assert theirs.holds == mine.holds, key
         assert theirs.phase == mine.phase, key
         if mine.margin is not None:
-            # contacts are lost and made within 1 um whatever the size; friction to a thousandth
+            # contacts are lost and made within 1 um, and poses lie 5 mm apart, whatever the size:
+            # friction to a thousandth; a tilt to the fall is found to 0.005 deg, and whether a
+            # tilted robot arrives depends a little on the poses (docs/theory/rocking.md)
             expected = mine.margin * factor[mine.unit]
-            tolerance = 0.03 if key.startswith("slides") else 2e-3 if mine.unit == "mm" else 1e-3
+            tolerances = {"slides": 0.03, "fall": 0.02}
+            least = 2e-3 if mine.unit == "mm" else 1e-3
+            tolerance = tolerances.get(key.partition("_")[0], least)
             assert theirs.margin == pytest.approx(expected, rel=1e-5, abs=tolerance), key
 
 

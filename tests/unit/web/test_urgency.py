@@ -4,6 +4,7 @@ import asyncio
 import contextlib
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -15,6 +16,12 @@ from serving import LONG, served
 
 QUICK = {"robot": "absolem", "stairs": "ibc", "friction": 1.0, "flippers": "stowed"}
 """A question that is answered at once."""
+
+
+def _run(coroutine):
+    # in a thread of its own: a browser that other tests drive leaves its event loop in this one
+    with ThreadPoolExecutor(1) as thread:
+        return thread.submit(asyncio.run, coroutine).result()
 
 
 def test_a_quick_question_does_not_wait_for_a_long_one():
@@ -93,7 +100,7 @@ def test_the_same_question_at_once_is_judged_once_and_given_up_by_the_last():
         assert again.status == 200
         assert (hands.asked, hands.given_up) == (3, 1)
 
-    asyncio.run(run())
+    _run(run())
 
 
 def test_one_worker_is_left_for_estimates(tmp_path):
@@ -109,7 +116,7 @@ def test_one_worker_is_left_for_estimates(tmp_path):
         hands._release(first)
         assert await second is None
 
-    asyncio.run(run())
+    _run(run())
 
 
 def test_the_line_goes_by_rank_and_who_gives_up_leaves_it(tmp_path):
@@ -130,7 +137,7 @@ def test_the_line_goes_by_rank_and_who_gives_up_leaves_it(tmp_path):
             await asyncio.gather(*line, return_exceptions=True)
         return order
 
-    assert asyncio.run(run()) == ["first", "early", "late"]
+    assert _run(run()) == ["first", "early", "late"]
 
 
 class Leaving:
@@ -152,4 +159,4 @@ def test_what_a_client_asked_that_has_gone_is_given_up(seconds, status, given_up
         await asyncio.sleep(0.01)
         return found.status_code, hands.given_up
 
-    assert asyncio.run(run()) == (status, given_up)
+    assert _run(run()) == (status, given_up)
