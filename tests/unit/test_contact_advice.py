@@ -183,3 +183,15 @@ def test_where_tipping_governs_the_centroid_may_be_moved():
     assert [(each.change, each.verdict) for each in answer.what_would_help] == [
         ("Move the centroid 43 mm towards the front", "go")
     ]
+
+
+@pytest.mark.parametrize("model", ["contact", "closed-form"])
+def test_to_measure_what_fails_as_stated_too_is_no_help(model):
+    """3.8 deg beyond the limit as stated, 4.7 at the risk: weighed well it is a NO-GO still."""
+    asked = {"friction": 2.5, **SURE, "uncertainty": "com_from_front=2mm", "model": model}
+    answer = assess(KENAF, at(64), **asked)
+    as_stated = assess(KENAF, at(64), **asked | {"uncertainty": None})
+    assert (answer.verdict, as_stated.verdict) == ("no-go", "no-go")
+    assert as_stated.margin_deg > answer.margin_deg + 0.9
+    assert answer.to_measure[0].what == "centroid"
+    assert not any(each.change.startswith("Weigh") for each in answer.what_would_help)

@@ -303,6 +303,21 @@ def test_it_is_read_back_equal(name, answers):
     assert assess(answer.question) == answer
 
 
+def test_a_robot_that_falls_neither_arrives_nor_is_so_far_from_falling(answers):
+    """Its notes tell the criterion's margin alone; of a fall that no tilt prevents too."""
+    answer = answers["fall_downhill, a fall that the criterion foresees"]
+    limit = 70 - sup(150)
+    assert (
+        f"By the criterion it tips over its downhill end, {limit:.1f} deg beyond the limit "
+        "(traverse, step 1)." in answer.notes
+    )
+    upright = assess(KENAF, "osha-ship", **SURE)
+    assert upright.contact.tilt.to_fall_deg == -90.0
+    for each in (*answer.notes, *upright.notes):
+        assert "arrives" not in each
+        assert "from falling" not in each
+
+
 def test_every_mode_of_the_model_is_among_the_cases():
     governs = {governs for _, (_, governs, _), _, _ in CASES.values()}
     elsewhere = {"stuck", "posture_change", "flipper_torque", "posture_tolerance", "unweighed"}

@@ -57,6 +57,8 @@ class Candidate(NamedTuple):
     change: str
     """What to do, for people."""
     question: Question
+    certain: bool = False
+    """Whether it only makes a doubt certain: help where that settles something."""
 
 
 def what_would_help(
@@ -93,14 +95,14 @@ def what_would_help(
         *_candidates(question, found, conclusion, searched),
         *_known_better(question, measure),
     )
-    for change, changed in candidates:
+    for change, changed, certain in candidates:
         try:
             then = conclude(changed, judge(changed, known=known))
         except InputError:  # a posture or a place of the centroid that the robot cannot have
             continue
         if then.verdict is Verdict.GO and changed.tolerance:
             then = _off_its_angles(changed, then, searched)
-        if _is_better(then, conclusion):
+        if _is_better(then, conclusion) and (not certain or _settles(then, conclusion)):
             better.append((then, change))
     better.sort(key=lambda each: _rank(each[0]))
     return tuple(
@@ -137,6 +139,11 @@ def _is_better(then: Conclusion, now: Conclusion) -> bool:
     if then.verdict is not now.verdict:
         return then.verdict.rank < min(now.verdict.rank, Verdict.NO_GO.rank)
     return then.margin > now.margin + WORTH_TELLING
+
+
+def _settles(then: Conclusion, now: Conclusion) -> bool:
+    """Whether another verdict comes of it, or a margin that holds."""
+    return then.verdict is not now.verdict or now.margin <= 0 < then.margin
 
 
 def _candidates(
@@ -180,7 +187,7 @@ def _known_better(question: Question, measure: Sequence[Measurement]) -> Iterato
         if set(each.inputs) & {*SAMPLED, STEPS}:
             changed = without(question, each.what)
             if changed is not None:
-                yield Candidate(measuring.measure(each.what), changed)
+                yield Candidate(measuring.measure(each.what), changed, certain=True)
             return
 
 

@@ -84,7 +84,8 @@ class TiltFigures(Part):
     [deg]; negative: it does so without tilt. Null where no pose says."""
     to_fall_deg: float | None
     """Towards the end over which it rocks until it falls [deg]; negative: it falls without tilt.
-    30: or beyond. Null: it does not rock, and so was not tilted until it falls."""
+    30: or beyond; -90: 30 off it are not enough. Null: it does not rock, and so was not tilted
+    until it falls."""
     reserve_deg: float
     """Tilt to the fall that it must keep where it rocks [deg]."""
 

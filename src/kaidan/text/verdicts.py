@@ -105,9 +105,11 @@ def _tips(
     rotation = _rotation(found, finding, free=False)
     if rotation > 0:
         return _arrested(rotation, found, conclusion)
+    grades = _figure(found, "grades")
+    arrives = grades is None or grades.arrested
     return (
-        f"It arrives, but by the criterion it tips {label}, {-margin:.1f} deg beyond the "
-        f"limit{_place(conclusion)}{_to_fall(found)}."
+        f"{'It arrives, but by' if arrives else 'By'} the criterion it tips {label}, {-margin:.1f} "
+        f"deg beyond the limit{_place(conclusion)}{_to_fall(found)}."
     )
 
 
@@ -138,9 +140,9 @@ def _arrested(rotation: float, found: "Findings", conclusion: "Conclusion") -> s
 
 
 def _to_fall(found: "Findings") -> str:
-    """How far a robot that rocks is from a fall."""
+    """How far a robot that rocks is from a fall; nothing of one that falls."""
     tilt = _figure(found, "tilt")
-    if tilt is None or tilt.to_fall_deg is None:
+    if tilt is None or tilt.to_fall_deg is None or tilt.to_fall_deg <= 0:
         return ""
     if tilt.to_fall_deg > 29.95:
         return ", more than 30 deg from falling"
