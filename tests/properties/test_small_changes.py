@@ -9,7 +9,7 @@ from kaidan import Question, Robot, Stairs
 from kaidan.assessment.verdict import conclude
 from kaidan.catalog import names
 from kaidan.models import quasi_static
-from kaidan.modes import DRIVE, FALLS, SLIDES_DOWN, SLIDES_UP, TIPS
+from kaidan.modes import DRIVE, FALLS, MOMENTUM, SLIDES_DOWN, SLIDES_UP, TIPS
 from kaidan.robot import Drive, Track
 from kaidan.traversal import traverse
 from kaidan.traversal.tilting import WITHIN
@@ -20,6 +20,7 @@ LIMITS = {  # degrees: the project's own target; of traction see docs/theory/con
     **dict.fromkeys((SLIDES_DOWN, SLIDES_UP), 0.012),  # one of 300: risers change by 2 um in all
     **dict.fromkeys(FALLS, math.degrees(WITHIN) + 0.01),  # to the width of its bisection
     DRIVE: 0.03,  # 2 of 300 beyond 0.01: a nosing 2 um too high meets the front arc before the flat
+    MOMENTUM: math.degrees(4e-4),  # 0.4 mm: one of 300, that comes to rest on another nosing
 }
 FAR = math.radians(45.0)
 """Margin beyond which nothing depends on it: of robots as long as the flight, uphill."""
@@ -80,6 +81,23 @@ def test_a_micrometre_changes_nothing():
 @pytest.mark.slow
 def test_a_micrometre_changes_nothing_of_300_questions():
     check(seed=2, count=300, size=1e-6, limits=LIMITS)
+
+
+def test_a_rotation_that_the_rubber_takes_up_has_no_momentum():
+    """Down 1 um more and less it turns by 0.0002 deg at every other step: only the edge counts."""
+    robot, even = Robot.named("absolem-flat"), Stairs.named("ibc")
+    found = []
+    for um in (0.0, 1e-6):
+        rises = even.rise + um * np.where(np.arange(even.steps) % 2, 1.0, -1.0)
+        flight = Stairs(rises=tuple(rises.tolist()), goings=(even.going,) * (even.steps - 1))
+        question = Question.in_one_posture(robot, flight, friction=1.5, direction="down")
+        found.append(quasi_static.judge(question))
+    one, other = (each.of(MOMENTUM) for each in found)
+    small = [each for each in found[1].basis.traverse.chains if each.angle < math.radians(0.001)]
+    assert small  # they are told, with 21 mm less to climb
+    assert min(each.spare for each in small) < other.worst[0] - 0.02
+    assert other.worst[0] == pytest.approx(one.worst[0], abs=1e-5)
+    assert other.phase is one.phase
 
 
 def test_what_is_braked_over_a_micrometre_requires_no_drive():

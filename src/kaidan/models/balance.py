@@ -36,7 +36,7 @@ from kaidan.modes import (
 from kaidan.question import Question
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Chain, FirstRock, PhaseExtremes, Traverse
-from kaidan.traversal.rotations import ROCKING
+from kaidan.traversal.rotations import ROCKING, TAKEN_UP
 
 FALL = math.pi / 2
 """Margin against a fall that no tilt within reason prevents [rad]."""
@@ -198,9 +198,13 @@ def _over_its_downhill_end(found: Traverse) -> bool:
 
 
 def _hits(question: Question, found: Traverse, chains: list[Chain]) -> list[Finding]:
-    """Rotations that are arrested: how hard they end, and whether momentum topples."""
+    """Rotations that are arrested: how hard they end, and whether momentum topples.
+
+    Those that the rubber takes up have none; the energy margin judges their poses.
+    """
     tolerated = question.robot.tolerated_impact
     each = [_of_smallest(IMPACT, [tolerated - one.impact_speed for one in chains], chains, found)]
+    chains = [each for each in chains if each.angle > TAKEN_UP]
     if chains:
         least = min(one.spare for one in chains)
         worst = next(one for one in chains if one.spare < least + _PLACE)

@@ -28,6 +28,9 @@ from kaidan.traversal.phases import Phase, step_at
 
 ROCKING = contact.ROCKING
 """Rotation beyond the next edge that nothing is made of [rad]."""
+TAKEN_UP = math.radians(0.01)
+"""Rotation that the rubber takes up, so that it begins none [rad]: an end half a metre off moves by
+less than 0.1 mm."""
 _ROUNDING = 1e-8
 """Rotation that is rounding [rad]: of one of 1e-17 rad a mirror would decide what it obliges to."""
 AT_ONCE = 0.01
