@@ -33,7 +33,7 @@ rate = margin_per_centroid_length(
 )
 print(f"{degrees(rate) / 1e3:+.2f} deg per mm")
 
-sigmas = np.linspace(0, 0.020, 21)
+sigmas = np.linspace(0, 0.014, 15)
 answers = [judged(sigma) for sigma in sigmas]
 margins = [answer.margin_deg for answer in answers]
 goes = [answer.verdict == "go" for answer in answers]
@@ -42,21 +42,21 @@ print(f"GO up to a standard uncertainty of {last:.0f} mm")
 
 figure, axes = plt.subplots(figsize=(7, 3.5), layout="constrained")
 axes.plot(1e3 * sigmas, margins, color="black")
+fill = {"go": "black", "caution": "grey", "no-go": "white"}
 for answer, sigma, margin in zip(answers, sigmas, margins, strict=True):
-    filled = "black" if answer.verdict == "go" else "white"
-    axes.plot(1e3 * sigma, margin, "o", color="black", markerfacecolor=filled)
+    axes.plot(1e3 * sigma, margin, "o", color="black", markerfacecolor=fill[answer.verdict])
 axes.axhline(0, color="black", linewidth=0.8)
 axes.set_xlabel("standard uncertainty of the centroid along the track [mm]")
 axes.set_ylabel("margin at a risk of 1 % [°]")
-axes.set_title("filled: GO; open: CAUTION", fontsize=10)
+axes.set_title("filled: GO; grey: CAUTION; open: NO-GO", fontsize=10)
 plt.show()
 
 # %%
-# An open circle is CAUTION and not NO-GO: the allowances were not measured, so the worst case takes
-# them at their largest, and with less of them the robot may hold. With a stated uncertainty every
-# failure mode has a probability, too.
+# A grey circle is CAUTION and not NO-GO: of theta_M the sheet gives a range, the worst case takes its
+# larger end, and with the smaller one the robot holds. With a stated uncertainty every failure mode
+# has a probability, too.
 
-answer = judged(0.015)
+answer = judged(0.012)
 print(
     f"tipping downhill: probability {answer.findings['tip_downhill'].probability:.3f}, worst case"
 )
