@@ -5,6 +5,7 @@ import math
 import pytest
 
 from kaidan import Robot, Stairs
+from kaidan.mechanics.clearance import spin_circle
 from kaidan.outline import Outline, footprint_of
 from kaidan.robot import Posture
 from one_posture import assess
@@ -113,3 +114,24 @@ def test_a_scan_without_the_landing_says_what_nobody_knows():
     answer = asked(head_seen=False)
     assert answer.verdict == asked().verdict == "go"
     assert "whether more steps follow the last one: no landing was seen" in str(answer)
+
+
+@pytest.mark.parametrize(
+    ("flippers", "ends", "spins"), [("stowed", 0.678, True), ("flat", 1.207, False)]
+)
+def test_absolem_cannot_spin_flat_on_a_landing_of_1_2_m(flippers, ends, spins):
+    """Outer faces of the flippers, 2 (0.272 + 0.02491) m apart at any angle; Pythagoras."""
+    absolem = Robot.named("absolem")
+    found = footprint_of(absolem, Outline.of(absolem, Posture.parse(flippers, absolem)))
+    circle = spin_circle(front=found.front, rear=found.rear, w=found.width)
+    assert found.width == pytest.approx(2 * (0.272 + 0.04981 / 2), abs=5e-4)
+    assert circle == pytest.approx(math.hypot(ends, 0.5938), abs=1e-3)
+    assert bool(circle <= 1.2) is spins
+
+
+def test_a_flight_that_its_tracks_alone_would_pass_is_too_narrow_for_absolem():
+    """0.55 m: wider than its tracks (0.494 m), narrower than its flippers (0.594 m)."""
+    flight = FLIGHT.model_copy(update={"width": 0.55})
+    answer = assess("absolem", flight, flippers="flat", friction=2.0)
+    assert (answer.verdict, answer.governs) == ("no-go", "narrow")
+    assert answer.findings["narrow"].margin_best == pytest.approx(550 - 594)

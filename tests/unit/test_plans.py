@@ -17,6 +17,7 @@ from kaidan.outline import Outline
 from kaidan.question import Question
 from kaidan.robot import Posture, PostureChange, Robot, State
 from kaidan.terrain.profile import Profile
+from kaidan.text.assessment import text
 from kaidan.traversal.moves import angles_of, move
 
 ABSOLEM = Robot.named("absolem")
@@ -295,3 +296,30 @@ def test_the_poses_of_a_change_are_those_of_each_posture_alone():
     needed = max(math.atan(each.required_friction) for each in change.poses)
     expected = [math.atan(mu) - needed for mu in (0.6, 1.0)]
     assert standing_margins(asked, change) == pytest.approx(expected, abs=1e-12)
+
+
+@pytest.mark.parametrize("friction", [None, 0.3])
+@pytest.mark.parametrize(
+    ("robot", "flippers", "direction"),
+    [
+        ("absolem", "flat", "down"),
+        ("absolem", "stowed,-13deg/traverse:-48deg,-32deg", "up"),
+        ("marv", "stowed,-13deg/traverse:-48deg,-32deg", "up"),
+    ],
+)
+def test_the_friction_required_has_one_place(robot, flippers, direction, friction):
+    """In the reason, in the row of the friction, and of the phase that requires as much."""
+    answer = kaidan.assess(
+        robot, "ibc", flippers=flippers, friction=friction, direction=direction, surface=None
+    )
+    slides = answer.findings["slides_down"]
+    place = f"({slides.phase}, step {slides.step})"
+    number = f"{answer.required_friction:.2f}"
+    assert f"Friction decides {place}: {number} is required" in answer.reason
+    row = next(line for line in text(answer).splitlines() if line.startswith("  friction"))
+    assert f"{number} required" in row
+    assert place in row
+    assert answer.contact is not None
+    of_phase = next(each for each in answer.contact.phases if each.phase == slides.phase)
+    assert of_phase.required_friction == pytest.approx(answer.required_friction, rel=1e-3)
+    assert of_phase.required_friction_step == slides.step

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Generic, TypeVar, overload
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.answer import Part
-from kaidan.modes import FailureMode, Phase, Verdict
+from kaidan.modes import SLIDES_DOWN, SLIDES_UP, FailureMode, Phase, Verdict
 
 Array = NDArray[np.float64]
 T = TypeVar("T")
@@ -93,6 +93,36 @@ class Findings:
     def of(self, mode: FailureMode) -> Finding | None:
         """Finding of a mode; None where the model has none."""
         return next((each for each in self.each if each.mode is mode), None)
+
+
+_ALIKE = 1e-3
+"""Share of a required friction to which it is found [1]."""
+
+
+def hardest(frictions: Iterable[float]) -> int:
+    """Which of several required frictions is the highest, of those alike the first.
+
+    A phase may begin with the pose that ends another. What is not known (NaN) counts last.
+    """
+    values = np.fromiter(frictions, dtype=float)
+    return int(np.argmax(values >= (1.0 - _ALIKE) * np.fmax.reduce(values)))
+
+
+def sliding_where(most: Sequence[Finding], one: Finding) -> Finding:
+    """Finding of sliding, put where most friction is required; of anything else as it is.
+
+    Parameters
+    ----------
+    most : sequence of Finding
+        Of the part or the place that requires most.
+    one : Finding
+        Of all of them together.
+    """
+    slides = (SLIDES_DOWN, SLIDES_UP)
+    at = next((each for each in most if each.mode in slides), None)
+    if at is None or one.mode not in slides:
+        return one
+    return replace(one, phase=at.phase, step=at.step)
 
 
 def at_risk(values: Array, risk: float) -> float:

@@ -16,7 +16,7 @@ from kaidan import contact
 from kaidan.answer import Part as Figures
 from kaidan.models import traction
 from kaidan.models.contact_figures import ContactFigures, Grades, PhaseFigures, TiltFigures
-from kaidan.models.findings import Finding, Findings, Later, smallest
+from kaidan.models.findings import Finding, Findings, Later, hardest, sliding_where, smallest
 from kaidan.models.quasi_static import Basis, findings_of, profile_of
 from kaidan.models.traction_figures import TractionFigures
 from kaidan.modes import (
@@ -162,14 +162,16 @@ def findings(question: Question, planned: Planned) -> Findings:
     outside = next((each.outside for each in of_parts if each.outside), "")
     if outside:
         return Findings(model=CONTACT.name, outside=outside, basis=basis)
-    each = [one for found in of_parts for one in found.each]
-    each += [one for move_ in planned.moves for one in _of_move(question, move_)]
-    modes = dict.fromkeys(one.mode for one in each)
     needed = [found.required_friction for found in of_parts]
     needed += [one.required_friction for one in planned.moves]
+    of_each = [found.each for found in of_parts]
+    of_each += [_of_move(question, one) for one in planned.moves]
+    each = [one for some in of_each for one in some]
+    modes = dict.fromkeys(one.mode for one in each)
+    most = of_each[hardest(needed)]
     return Findings(
         model=CONTACT.name,
-        each=tuple(_smallest(mode, each) for mode in modes),
+        each=tuple(sliding_where(most, _smallest(mode, each)) for mode in modes),
         required_friction=float(np.fmax.reduce(needed)),
         figures=Later(
             lambda: tuple(_together([each for found in of_parts for each in found.figures]))
@@ -195,7 +197,7 @@ def _smallest(mode: FailureMode, each: Sequence[Finding]) -> Finding:
     )
 
 
-def _of_move(question: Question, each: Move) -> list[Finding]:
+def _of_move(question: Question, each: Move) -> tuple[Finding, ...]:
     """Findings of a change of posture: whether it stands, with what friction, energy, torque."""
     margin = -math.inf if not each.stands or each.rocks > ROCKING else math.inf
     failing = Verdict.CAUTION if each.stands else Verdict.NO_GO
@@ -209,7 +211,7 @@ def _of_move(question: Question, each: Move) -> list[Finding]:
         found += [replace(slides, worst=worst, best=best), energy]
     if not math.isnan(each.spare_torque):
         found.append(certain(FLIPPER_TORQUE, each.spare_torque))
-    return found
+    return tuple(found)
 
 
 def _together(figures: Sequence[Figures]) -> Iterator[Figures]:
@@ -258,12 +260,13 @@ def _together(figures: Sequence[Figures]) -> Iterator[Figures]:
 
 def _phase(some: Sequence[PhaseFigures]) -> PhaseFigures:
     """Extreme figures of a phase that two postures share."""
-    hardest = max(some, key=lambda one: math.inf if one.required_friction is None
-                  else one.required_friction)  # fmt: skip
+    first = some[hardest(
+        math.inf if one.required_friction is None else one.required_friction for one in some
+    )]  # fmt: skip
     weakest = min(some, key=lambda one: math.inf if one.energy_margin_mm is None
                   else one.energy_margin_mm)  # fmt: skip
     slides = [one.slides_below for one in some if one.slides_below is not None]
-    return hardest.model_copy(
+    return first.model_copy(
         update={
             "slides_below": max(slides, default=None),
             "energy_margin_mm": weakest.energy_margin_mm,

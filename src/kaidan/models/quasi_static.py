@@ -18,7 +18,7 @@ from kaidan.models import support_polygon, traction
 from kaidan.models.balance import balance
 from kaidan.models.contact_figures import figures_of
 from kaidan.models.drive_limits import traction_limit
-from kaidan.models.findings import Finding, Findings, Later
+from kaidan.models.findings import Finding, Findings, Later, hardest
 from kaidan.models.spread import Spread, spread
 from kaidan.models.support_polygon import along_heading
 from kaidan.models.traction import Supplies
@@ -48,8 +48,6 @@ FALL = math.pi / 2
 LONG_FLIGHT = 60
 """Risers of a uniform flight that stand for any more: twice the nosings under the longest robot,
 so that every pose recurs and the arrival is like that of the whole flight."""
-_ALIKE = 1e-3
-"""Share of a required friction to which it is found [1]."""
 _SOLVER = (Status.NOT_CONVERGED, Status.TOO_LONG, Status.NO_START)
 _NAME = CONTACT.name
 
@@ -241,12 +239,9 @@ class _Extremes(NamedTuple):
     ) -> "_Extremes":
         if not phases:
             return cls(math.nan, math.nan, None, None)
-        friction = max(each.required_friction for each in phases)
-        # of those that are alike the first: a phase may begin with the pose that ends another
-        alike = friction - _ALIKE * friction if friction < math.inf else math.inf
-        highest = next(each for each in phases if each.required_friction >= alike)
+        highest = phases[hardest(each.required_friction for each in phases)]
         return cls(
-            friction,
+            max(each.required_friction for each in phases),
             max(each.traction_over_weight for each in phases),
             highest.phase,
             highest.required_friction_step,

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kaidan.errors import InputError
-from kaidan.models.findings import Finding, Findings
+from kaidan.models.findings import Finding, Findings, hardest, sliding_where
 from kaidan.modes import FAILURE_MODES, UNWEIGHED, FailureMode, Verdict
 from kaidan.question import Question
 from kaidan.robot import CentroidRange
@@ -58,8 +58,12 @@ def judge_range(question: Question, judge: Judge) -> Findings:
         return replace(placed[0].found, basis=placed)
     best = max(answered, key=lambda each: _merit(each.found, question.risk))
     middle = min(answered, key=lambda each: _off_the_middle(each, question))
+    needed = [each.found.required_friction for each in answered]
+    most = answered[hardest(needed)].found.each
     merged = [
-        one for mode in FAILURE_MODES.values() if (one := _merged(mode, answered, best)) is not None
+        sliding_where(most, one)
+        for mode in FAILURE_MODES.values()
+        if (one := _merged(mode, answered, best)) is not None
     ]
     merged.append(
         Finding(
@@ -73,7 +77,7 @@ def judge_range(question: Question, judge: Judge) -> Findings:
     return replace(
         middle.found,
         each=tuple(merged),
-        required_friction=max(each.found.required_friction for each in answered),
+        required_friction=max(needed),
         notes=(
             text.OF_THE_MIDDLE,
             *((text.OUTSIDE_SOMEWHERE,) if len(answered) < len(placed) else ()),

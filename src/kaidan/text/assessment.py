@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from kaidan.modes import FAILURE_MODES, Verdict
+from kaidan.modes import FAILURE_MODES, SLIDES_DOWN, SLIDES_UP, Verdict
 from kaidan.text import dynamic, limits, measuring, plan, traction
 from kaidan.text.unweighed import rows, thresholds
 from kaidan.text.words import place, subject
@@ -66,17 +66,9 @@ def headline(answer: "Assessment") -> str:
 
 
 def _hardest(answer: "Assessment") -> str:
-    """Phase in which most friction is required."""
-    if answer.traction is not None and answer.traction.phase is not None:
-        return place(answer.traction.phase, answer.traction.step)
-    phases = () if answer.contact is None else answer.contact.phases
-    if not phases:
-        return ""
-    hardest = max(
-        phases, key=lambda each: float("inf") if each.required_friction is None
-        else each.required_friction,
-    )  # fmt: skip
-    return place(hardest.phase, hardest.required_friction_step)
+    """Where most friction is required: where the finding has it, which the reason tells of."""
+    found = (answer.findings.get(mode.key) for mode in (SLIDES_DOWN, SLIDES_UP))
+    return next((place(one.phase, one.step) for one in found if one is not None), "")
 
 
 def unknown_line(answer: "Assessment") -> str:

@@ -58,7 +58,7 @@ def test_headroom_is_that_of_the_highest_corner_above_the_line(theta, beta):
 
 @pytest.mark.parametrize(
     ("length", "w", "circle"),
-    [(0.678, 0.494, 0.84), (1.207, 0.494, 1.30), (0.978, 0.62, 1.16)],
+    [(0.678, 0.594, 0.90), (1.207, 0.594, 1.345), (0.978, 0.62, 1.16)],
     ids=["absolem stowed", "absolem flat", "hd2"],
 )
 def test_circles_of_real_robots(length, w, circle):
@@ -110,16 +110,16 @@ def half_turn(depth, lane=1.0, gap=0.2):
     }, room
 
 
-STOWED, FLAT = Footprint(0.339, 0.339, 0.494), Footprint(0.6035, 0.6035, 0.494)
+STOWED, FLAT = Footprint(0.339, 0.339, 0.594), Footprint(0.6035, 0.6035, 0.594)
 
 
 @pytest.mark.parametrize(
     ("footprint", "depth", "turns"),
-    [(STOWED, 0.9, True), (STOWED, 0.6, False), (FLAT, 1.4, True), (FLAT, 1.2, False)],
-    ids=["stowed 0.9 m", "stowed 0.6 m", "flat 1.4 m", "flat 1.2 m"],
+    [(STOWED, 1.0, True), (STOWED, 0.6, False), (FLAT, 1.4, True), (FLAT, 1.2, False)],
+    ids=["stowed 1.0 m", "stowed 0.6 m", "flat 1.4 m", "flat 1.2 m"],
 )
 def test_absolem_on_a_half_turn_landing(footprint, depth, turns):
-    """Flat it needs 1.30 m; shorter than its stowed length there is no turn at all."""
+    """Flat it needs 1.35 m; shorter than its stowed length there is no turn at all."""
     asked, room = half_turn(depth)
     found = manoeuvre(footprint, **asked)
     assert (found is not None) is turns
