@@ -20,7 +20,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan import contact
-from kaidan.contact import BELLY, FeatureKind, FeatureTable
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.grousers import (
     phases_friction,
@@ -32,24 +31,16 @@ from kaidan.mechanics.grousers import (
     tip_tilt,
 )
 from kaidan.mechanics.grousers_at_edges import edge_tilt, reach_over_edge, tip_overlap
-from kaidan.terrain.polyline import STEEP
-from kaidan.traversal.nosing_events import TOUCH, along_flat
+from kaidan.traversal.pose_contacts import NOSING, NOWHERE, TREAD, PoseContacts, contacts_of
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
 
-NOSING, TREAD, FACE = 0, 1, 2
-"""Places of the stairs that a contact stands on; landings and floors are treads."""
-TREAD_DEPTH = 0.040
-"""Depth of a tread behind its nosing that grousers stand on [m]: of 20 mm at 30 degrees."""
 MANY = 0.75
 """Share of the phases that counts where four nosings or more are under the belts [1]: fitted with
 `phases_friction` (docs/theory/grousers.md)."""
 ALIKE = 7
 """Digits to which contacts are compared: a tenth of a micrometre."""
-BLOCK = 256
-"""Poses that are looked at together: what lies under them is a short piece of the ground."""
-_NONE = -1
 
 
 class Grousers(NamedTuple):
@@ -66,27 +57,6 @@ class Grousers(NamedTuple):
     rigid: bool
     """Whether they are rigid and sharp: of several nosings two carry, and one that has passed a
     nosing rolls off it. Else they share the load, and are worn round."""
-
-
-class _Contacts(NamedTuple):
-    """Contacts of each pose, shape (poses, most contacts); the first two carry it."""
-
-    is_one: NDArray[np.bool_]
-    x: Array
-    """From the centroid [m]."""
-    z: Array
-    normal: Array
-    """Tilt of the normal, towards where the robot drives [rad]."""
-    place: Whole
-    """NOSING, TREAD or FACE."""
-    point: Whole
-    """Point of the ground where a grouser may stand; -1: nowhere."""
-    tread: Array
-    """Tilt of the normal of the tread there [rad]."""
-    curvature: Array
-    """Of the belt at the contact [1/m]."""
-    lift: Array
-    """Of that point above the axle of the end that leans against a face [m]; NaN: no face."""
 
 
 class Grip:
@@ -106,7 +76,7 @@ class Grip:
         assert path.margins is not None
         self.path, self.descending = path, descending
         self._side = -1.0 if descending else 1.0
-        self.contacts = _contacts_of(path, descending)
+        self.contacts = contacts_of(path, descending)
         self.coulomb = np.arctan(path.margins.required_friction)
         """Angle of friction that smooth belts require, the same friction everywhere [rad]."""
         a, g, psi = acceleration, STANDARD_GRAVITY, path.poses.path_direction
@@ -114,7 +84,7 @@ class Grip:
         down = np.hypot(1.0, path.margins.tilt)
         force = (size * path.margins.tilt / down, size / down)
         first, self._like = _alike(self.contacts, force, self.coulomb)
-        self._unlike = _Contacts._make(each[first] for each in self.contacts)
+        self._unlike = PoseContacts._make(each[first] for each in self.contacts)
         self._force = (force[0][first], force[1][first])
         self._required = self.coulomb[first]
         self._known: dict[Grousers, Array] = {}
@@ -167,7 +137,7 @@ class Grip:
         phi, grousers, by_friction
             As for `with_grousers`.
         """
-        standing = np.where(self.contacts.point == _NONE, -np.inf, self._standing(phi, grousers))
+        standing = np.where(self.contacts.point == NOWHERE, -np.inf, self._standing(phi, grousers))
         return np.asarray(np.maximum(by_friction, standing.max(axis=1)))
 
     def slip_heights(self, slip: float, *, mu_k: float) -> Array:
@@ -276,7 +246,7 @@ class Grip:
         upper = side * (at.x[rows, k] - at.x[rows, other]) > 0.0
         ahead = side * np.where(upper, tips.ahead[rows, k], 0.0)
         # the other may stand on the top of a grouser, or roll off a nosing with its edge
-        on_nosing = (at.place[rows, other] == NOSING) & (at.point[rows, other] != _NONE)
+        on_nosing = (at.place[rows, other] == NOSING) & (at.point[rows, other] != NOWHERE)
         apart = np.hypot(at.x[rows, k] - at.x[rows, other], at.z[rows, k] - at.z[rows, other])
         axis = axis - side * np.where(on_nosing, grousers.height / np.maximum(apart, 1e-3), 0.0)
         gamma = np.where(on_nosing, tips.gamma[rows, k], 0.0)
@@ -308,7 +278,7 @@ class Grip:
             over = edge_tilt(overlap=tip_overlap(R=radius, h=h, s=s, lift=lift), r=r)
             low = lift <= reach_over_edge(R=radius, h=h, s=s)
         leant = ~np.isnan(at.lift)
-        may = (at.point != _NONE) & (h > 0.0) & (leans > 0.0)
+        may = (at.point != NOWHERE) & (h > 0.0) & (leans > 0.0)
         may &= np.where(leant, low, (leans < math.pi / 2) & (beta < theta))
         tilt = np.asarray(np.where(leant, over, beta))
         return _Tips(
@@ -335,14 +305,14 @@ class _Tips(NamedTuple):
     """Of the nosing, along the belt [m]."""
 
 
-def _alike(at: _Contacts, force: tuple[Array, Array], required: Array) -> tuple[Whole, Whole]:
+def _alike(at: PoseContacts, force: tuple[Array, Array], required: Array) -> tuple[Whole, Whole]:
     """First rows of poses whose contacts are alike, and for each pose the number of its first.
 
     A regular flight repeats itself; which point of the ground a contact has does not matter.
     """
     columns = [
         np.where(at.is_one, each, 0.0)
-        for each in (at.x, at.z, at.normal, at.place, at.point == _NONE, at.tread, at.curvature)
+        for each in (at.x, at.z, at.normal, at.place, at.point == NOWHERE, at.tread, at.curvature)
     ]
     columns += [at.is_one, at.lift, *(each[:, None] for each in (*force, required))]
     table = np.round(np.nan_to_num(np.hstack(columns), nan=9.0, posinf=9e3), ALIKE)
@@ -351,129 +321,3 @@ def _alike(at: _Contacts, force: tuple[Array, Array], required: Array) -> tuple[
     first = np.full(len(numbers), len(like))
     np.minimum.at(first, like, np.arange(len(like)))
     return first, like
-
-
-def _contacts_of(path: contact.Path, descending: bool) -> _Contacts:
-    """Contacts of each pose: those that carry it first, then nosings under a flat beside them."""
-    poses, count = path.poses, len(path.poses)
-    more_row, more_point, more_part = _under_flats(path)
-    nth = _number_within(more_row)
-    most = 2 + int(nth.max(initial=-1)) + 1
-    shape = (count, most)
-    at = _Contacts(
-        is_one=np.zeros(shape, dtype=np.bool_), x=np.zeros(shape), z=np.zeros(shape),
-        normal=np.zeros(shape), place=np.zeros(shape, dtype=np.int64),
-        point=np.full(shape, _NONE), tread=np.full(shape, np.nan), curvature=np.zeros(shape),
-        lift=np.full(shape, np.nan),
-    )  # fmt: skip
-    carrying = (
-        (poses.rear, poses.rear_point, poses.rear_normal),
-        (poses.front, poses.front_point, poses.front_normal),
-    )
-    for slot, (codes, points, normals) in enumerate(carrying):
-        at.is_one[:, slot] = True
-        at.x[:, slot], at.z[:, slot] = points[:, 0] - path.x, points[:, 1] - path.z
-        at.normal[:, slot] = np.arctan2(normals[:, 0], normals[:, 1])
-        _name(at, slot, path, FeatureTable.of(codes), descending=descending)
-    slots = 2 + nth
-    at.is_one[more_row, slots] = True
-    at.x[more_row, slots] = path.ground.x[more_point] - path.x[more_row]
-    at.z[more_row, slots] = path.ground.z[more_point] - path.z[more_row]
-    flat = _flat_normal(path.parts(more_row, more_part))
-    at.normal[more_row, slots] = flat - path.inclination[more_row]
-    at.point[more_row, slots] = more_point
-    tread = _treads(path.ground, descending)
-    chosen = at.point != _NONE
-    at.tread[chosen] = tread[at.point[chosen]]
-    at.point[np.isnan(at.tread)] = _NONE
-    return at
-
-
-def _name(
-    at: _Contacts, slot: int, path: contact.Path, features: FeatureTable, *, descending: bool
-) -> None:
-    """Place, point and curvature of the contacts in a slot."""
-    ground, rows = path.ground, np.arange(len(path.poses))
-    point, part, kind = features.point, features.part, features.kind
-    corner = kind == FeatureKind.VERTEX
-    second: Whole = (kind == FeatureKind.DISC_2).astype(np.int64)
-    touched = path.parts(rows, part)
-    on = np.flatnonzero(corner)
-    if len(on):
-        w = along_flat(path, on, point[on][:, None], part[on])[0][:, 0]
-        second[on] = (w > 0.0).astype(np.int64)
-        flat = (w >= 0.0) & (w <= touched.flat_length[on])
-        second[on[flat]] = 2
-    discs = touched.discs
-    radius = np.where(second == 1, discs[:, 5], discs[:, 2])
-    at.curvature[:, slot] = np.where(second == 2, 0.0, 1.0 / np.maximum(radius, 1e-3))
-    step_x, step_z = np.diff(ground.x)[point], np.diff(ground.z)[point]
-    steep = np.abs(np.arctan2(step_z, step_x)) > STEEP
-    at.place[:, slot] = np.where(corner, NOSING, np.where(steep, FACE, TREAD))
-    at.point[:, slot] = np.where(corner, point, _NONE)
-    if not descending:  # going down, the belt brings no tips over the edge of a face behind
-        face = np.flatnonzero(~corner & steep & (step_z > 0.0))
-        above = point[face] + 1
-        at.point[face, slot] = above
-        c, s = np.cos(path.inclination[face]), np.sin(path.inclination[face])
-        which = 3 * (second[face] == 1)
-        b_x, b_z = discs[face, which], discs[face, which + 1]
-        at.lift[face, slot] = ground.z[above] - (path.z[face] + s * b_x + c * b_z)
-
-
-def _flat_normal(parts: contact.Body) -> Array:
-    """Tilt of the normal of the flat of each part, from the ground into it, in the body frame."""
-    (e_x, e_z), across = parts.axis.T, parts.cosine * parts.side
-    return np.asarray(np.arctan2(-parts.sine * e_x - across * e_z, across * e_x - parts.sine * e_z))
-
-
-def _under_flats(path: contact.Path) -> tuple[Whole, Whole, Whole]:
-    """Rows, points and parts of all corners under a flat that do not carry their pose."""
-    rear, front = FeatureTable.of(path.poses.rear), FeatureTable.of(path.poses.front)
-    reach = path.reach
-    rows: list[Whole] = []
-    points: list[Whole] = []
-    parts: list[Whole] = []
-    for first in range(0, len(path.poses), BLOCK):
-        some = np.arange(first, min(first + BLOCK, len(path.poses)))
-        x = path.x[some]
-        near = (path.ground.x > x.min() - reach) & (path.ground.x < x.max() + reach)
-        corners = np.flatnonzero(near & path.ground.convex)
-        for part in np.flatnonzero(path.body.kind != BELLY).tolist():
-            w, gap = along_flat(path, some, corners, part)
-            length = path.parts(some, part).flat_length[:, None]
-            on = (np.abs(gap) < TOUCH) & (w >= 0.0) & (w <= length)
-            which, column = np.nonzero(on)
-            row, point = some[which], corners[column]
-            new = np.ones(len(row), dtype=np.bool_)
-            for one in (rear, front):
-                new &= (one.point[row] != point) | (one.kind[row] != FeatureKind.VERTEX)
-            rows.append(row[new])
-            points.append(point[new])
-            parts.append(np.full(int(new.sum()), part))
-    of_row, of_point = np.concatenate(rows), np.concatenate(points)
-    order = np.lexsort((of_point, of_row))
-    once = order[_new(of_row[order]) | _new(of_point[order])]
-    return of_row[once], of_point[once], np.concatenate(parts)[once]
-
-
-def _number_within(rows: Whole) -> Whole:
-    """Number of each among those of the same row; rows ascend."""
-    numbers = np.arange(len(rows))
-    return np.asarray(numbers - np.maximum.accumulate(np.where(_new(rows), numbers, 0)))
-
-
-def _new(values: Whole) -> NDArray[np.bool_]:
-    """Whether each differs from the one before it."""
-    found = np.ones(len(values), dtype=np.bool_)
-    found[1:] = values[1:] != values[:-1]
-    return found
-
-
-def _treads(ground: contact.Ground, descending: bool) -> Array:
-    """Tilt of the normal of the tread uphill of each point of the ground [rad]; NaN: none."""
-    x, z = ground.x, ground.z
-    uphill = -1.0 if descending else 1.0
-    there = np.interp(x + uphill * TREAD_DEPTH, x + 1e-12 * np.arange(len(x)), z)
-    slope = np.arctan2(uphill * (there - z), TREAD_DEPTH)
-    return np.where(np.abs(slope) < STEEP, -slope, np.nan)
