@@ -5,10 +5,11 @@ import math
 import numpy as np
 import pytest
 
+from amounts import fast_and_slow
 from kaidan import Question, Robot, Stairs
 from kaidan.assessment.verdict import conclude
 from kaidan.models import quasi_static
-from kaidan.modes import ENERGY, ROTATION, Verdict
+from kaidan.modes import ENERGY, ROTATION, Phase, Verdict
 from kaidan.traversal.rotations import ROCKING
 
 DIN, IBC = 0.0025, 0.00475
@@ -68,3 +69,44 @@ def test_where_95_mm_are_too_much_the_robot_really_rotates():
             assert failing <= {ROTATION, ENERGY}
             assert turns.max() > ROCKING or failing == {ENERGY}
     assert some >= 3
+
+
+@pytest.mark.parametrize("count", fast_and_slow(12, 200))
+def test_what_turns_by_more_is_no_further_off_the_mean_slope(count):
+    """docs/theory/uneven.md: each turn goes from one side of the mean slope to the other."""
+    for found, concluded in drawn(KENAF, IBC, count):
+        if concluded.verdict is Verdict.GO:
+            continue
+        traverse = found.basis.traverse
+        assert traverse.criterion.rocking > ROCKING
+        on_flight = np.asarray(traverse.phase_of_pose) == Phase.TRAVERSE.value
+        off = traverse.path.poses.inclination[on_flight] - mean_slope(traverse)
+        assert np.abs(off).max() < ROCKING
+
+
+@pytest.mark.slow
+def test_what_turns_by_more_climbs_in_mujoco():
+    pytest.importorskip("mujoco", reason="skipped: mujoco not installed")
+    from kaidan.physics import Outcome, SmoothBelt, TrialSpec
+    from kaidan.physics.trial import record
+
+    tried = 0
+    for seed, (found, concluded) in enumerate(drawn(KENAF, IBC, 200)):
+        if concluded.verdict is Verdict.GO or tried == 60:
+            continue
+        tried += 1
+        traverse = found.basis.traverse
+        nosings = len(traverse.profile.nosings) - 7  # the uphill end stays on the flight
+        result = record(
+            TrialSpec(question=found.basis.question, track=SmoothBelt(), nosings=nosings, seed=seed)
+        ).result
+        on_flight = np.asarray(traverse.phase_of_pose) == Phase.TRAVERSE.value
+        poses = traverse.path.poses.inclination[on_flight] - mean_slope(traverse)
+        assert result.outcome is Outcome.CLIMBED
+        assert result.largest_extra_deg < math.degrees(poses.max()) + 0.25
+    assert tried == 60
+
+
+def mean_slope(traverse):
+    along, up = traverse.profile.nosings[-1] - traverse.profile.nosings[0]
+    return math.atan2(up, along)
