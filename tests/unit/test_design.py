@@ -147,7 +147,7 @@ def test_the_front_gains_with_every_change():
 
 def test_a_better_place_of_the_map_is_taken_over():
     """With so few tries the search alone comes upon no better than the map does."""
-    found = design("absolem", STEEP, grid=31, tries=10,
+    found = design("absolem", STEEP, grid=21, tries=10,
                    free=CENTROID, **CLOSED)  # fmt: skip
     margins = np.array(found.map.margins_deg, dtype=float)
     goes = np.array(found.map.verdicts) == 0

@@ -2,6 +2,7 @@
 
 import math
 import re
+from functools import cache
 from itertools import pairwise
 
 import pytest
@@ -31,15 +32,18 @@ CASES = {
 }  # fmt: skip
 
 
+@cache
 def shown(*words):
-    result = CliRunner().invoke(app, ["assess", *words])
+    """Lines of an answer; several tests look at the same ones."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("sys.argv", ["kaidan", "assess", *words])
+        result = CliRunner().invoke(app, ["assess", *words])
     assert result.exit_code in (0, 1, 3), result.output
     return result.stdout.splitlines()
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_it_fits_one_screen_and_the_verdict_comes_first(case, monkeypatch):
-    monkeypatch.setattr("sys.argv", ["kaidan", "assess", *CASES[case]])
+def test_it_fits_one_screen_and_the_verdict_comes_first(case):
     lines = shown(*CASES[case])
     label = case.partition(" by")[0].partition(",")[0].partition(" until")[0].partition(" of")[0]
     assert lines[0].startswith(f"{label}  ")
@@ -50,14 +54,12 @@ def test_it_fits_one_screen_and_the_verdict_comes_first(case, monkeypatch):
 
 def test_a_picture_is_offered_after_a_no_go_and_the_command_draws_it(monkeypatch, tmp_path):
     words = CASES["NO-GO"]
-    monkeypatch.setattr("sys.argv", ["kaidan", "assess", *words])
     monkeypatch.chdir(tmp_path)
     offered = next(line for line in shown(*words) if line.startswith("  see"))
     command = offered.split()[2:]
     assert command[0] == "traverse"
     assert CliRunner().invoke(app, command).exit_code == 1
     assert (tmp_path / "traverse.png").stat().st_size > 10_000
-    monkeypatch.setattr("sys.argv", ["kaidan", "assess", *CASES["GO"]])
     assert not any(line.startswith("  see") for line in shown(*CASES["GO"]))
 
 
