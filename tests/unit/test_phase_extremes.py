@@ -10,8 +10,9 @@ from kaidan.outline import Outline
 from kaidan.robot import Robot, Track
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
-from kaidan.traversal import Phase, traverse
-from kaidan.traversal.extremes import Rise, _closed, rises_about_stays
+from kaidan.traversal import Phase, extremes, traverse
+from kaidan.traversal.extremes import Rise, _closed, _least_energy, rises_about_stays
+from kaidan.traversal.samples import samples_of
 from kaidan.traversal.static_criterion import Criterion, Loss
 
 G = 9.80665
@@ -100,6 +101,53 @@ def test_of_a_kerb_there_is_no_flight():
     assert down[Phase.LAND].largest_rotation == 0.0
     assert down[Phase.ENTER].energy_margin == math.inf  # over the edge it has to rotate
     assert down[Phase.ENTER].uphill_energy_margin == math.inf
+
+
+@pytest.mark.parametrize("descending", [False, True])
+def test_on_a_ramp_it_tilts_uphill_about_the_tip_of_the_flat(descending):
+    """Gravity has to lean as far uphill as the tip lies from under the centroid."""
+    slope, way = 0.3, 2.0
+    top = (way * math.cos(slope), way * math.sin(slope))
+    ramp = Profile.of_points([(-3, 0), (0, 0), top, (top[0] + 3, top[1])])
+    found = of_phases(ramp, descending=descending)[Phase.TRAVERSE]
+    uphill, downhill = (L - C_L, C_L) if descending else (C_L, L - C_L)
+    by_hand = math.atan2(uphill, C_N) + slope
+    assert found.tilt_uphill == (pytest.approx(by_hand, abs=math.radians(0.01)), 0)
+    by_hand = math.atan2(downhill, C_N) - slope
+    assert found.tilt_downhill == (pytest.approx(by_hand, abs=math.radians(0.01)), 0)
+
+
+def test_where_nothing_holds_the_friction_is_infinite_there(monkeypatch):
+    def nothing_holds(*args):
+        samples = samples_of(*args)
+        friction = samples.friction.copy()
+        friction[samples.row == len(args[0].poses) - 1] = math.inf
+        return samples._replace(friction=friction)
+
+    monkeypatch.setattr(extremes, "samples_of", nothing_holds)
+    land = of_phases(kerb(0.1))[Phase.LAND]
+    assert (land.required_friction, land.required_friction_step) == (math.inf, 1)
+
+
+def test_the_least_energy_is_worked_out_only_where_it_may_be():
+    """Pose k needs k mm about its pivot and along the flow 3.5 mm, but pose 2 needs 2.5 mm."""
+    rise = 1e-3 * np.arange(20.0)
+    asked = []
+
+    def energy(rows):
+        asked.extend(rows.tolist())
+        return np.where(rows == 2, 2.5e-3, 3.5e-3), np.ones(len(rows))
+
+    path = SimpleNamespace(
+        margins=SimpleNamespace(back_rise=rise, front_rise=rise[::-1]),
+        poses=SimpleNamespace(front_point=np.stack([np.arange(20.0), np.zeros(20)], axis=1)),
+        energy=energy,
+    )
+    assert _least_energy(path, np.arange(20), 1.0) == (2.5e-3, 2.0)
+    assert asked == list(range(8))  # from pose 3 on the pivot alone needs more
+    # to the front the last pose needs least about its pivot
+    assert _least_energy(path, np.arange(20), -1.0) == (3.5e-3, 16.0)
+    assert asked[8:] == list(range(19, 11, -1))
 
 
 def test_of_two_rotations_of_a_phase_the_larger_counts():

@@ -8,7 +8,7 @@ import pytest
 
 from kaidan.contact import Feature, Placement
 from kaidan.outline import Outline
-from kaidan.robot import Robot, Track
+from kaidan.robot import Posture, Robot, Track
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Chain, Phase, Rotation, traverse
@@ -83,6 +83,43 @@ def test_over_the_top_edge_by_hand():
         drop * (1 - left), abs=ROUNDING
     )
     assert rotation.spare == pytest.approx(found.path.rotations[0].barrier / G - drop, abs=ROUNDING)
+
+
+def test_a_nosing_a_hair_below_the_flat_counts_as_far_as_a_turn_brings_it_there():
+    """Over the top edge onto three nosings 60 mm apart, the last of them lower by some depth.
+
+    What a turn of 2 mrad would bring to touch counts as touching, what takes 4 mrad not at all.
+    """
+    theta, p = math.radians(30), 0.060
+    flight = inclined(30, p)
+    rate = math.sqrt(2 * G * C_N * (1 - math.cos(theta)) / (KENAF.gyration**2 + C_N**2))
+
+    def speed(depth):
+        rises = [flight.rise] * 8
+        rises[4], rises[5] = rises[4] - depth, rises[5] + depth  # the third below the top
+        goings = (flight.going,) * 7
+        lower = Stairs(rises=tuple(rises), goings=goings)
+        return driven(lower, KENAF, descending=True).rotations[0].impact_speed
+
+    def by_hand(depth):
+        turn = depth * math.cos(theta) / (3 * p)
+        return rate * p * (2 + min(max(2 - turn / 2e-3, 0.0), 1.0))
+
+    for depth in (0.0, 1e-6, 2e-4, 5e-4, 7e-4, 1e-3):
+        assert speed(depth) == pytest.approx(by_hand(depth), rel=5e-3)  # of the depth
+    assert by_hand(0.0) - by_hand(1e-3) > 0.13  # a micrometre changed it by that
+    assert abs(speed(1e-6) - speed(0.0)) < 1e-5
+
+
+def test_an_end_that_all_but_touches_hits_too():
+    """Absolem over the top edge: its flippers' line rests on the second nosing, 3 mm under its
+    track, and the end of the track lies 23 um above the third: twice as far, twice as fast.
+    """
+    stairs = Stairs(rise=0.17, going=0.25, steps=12)
+    flat = Outline.of(Robot.named("absolem"), Posture(front="flat", rear="flat"))
+    run = driven(stairs, flat, descending=True)
+    found, rate = run.rotations[0], run.path.rotations[0].rate_before
+    assert found.impact_speed == pytest.approx(rate * 2 * math.hypot(0.17, 0.25), rel=1e-3)
 
 
 GAP = [(-2, 0), (0, 0), (0, -0.33), (0.72, -0.33), (0.72, 0), (2.72, 0)]

@@ -10,8 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kaidan.contact.codes import ROCKING, Feature, PartKind, Status
-from kaidan.contact.columns import ENERGY, PASSED_COLUMNS, POSE_COLUMNS, TILT_COLUMNS
-from kaidan.contact.contacts import Contact, contacts_of
+from kaidan.contact.columns import (
+    CONTACT_COLUMNS,
+    ENERGY,
+    PASSED_COLUMNS,
+    POSE_COLUMNS,
+    TILT_COLUMNS,
+)
+from kaidan.contact.contacts import MOST, Contact, contacts_of
 from kaidan.contact.margin_records import Margins, Tilts
 from kaidan.contact.records import Body, Events, Ground, Placement, Poses, RotationRecord, Rotations
 from kaidan.contact.switch import kernel
@@ -203,6 +209,20 @@ class Path:
             for code, point, normal in zip(codes, points, normals, strict=True)
         )
         return rear, front
+
+    def impact_speeds(self) -> FloatArray:
+        """Speed at which an end comes down at the end of each rotation [m/s]; NaN: not arrested.
+
+        The rate just before the last impact, from the energy of the fall as a free rotation about
+        the pivot, times how far the contacts lie apart.
+        """
+        table, found = self.rotations.table, np.empty((MOST, CONTACT_COLUMNS))
+        speeds = np.full(len(table), math.nan)
+        for row in np.flatnonzero(self.rotations.arrested).tolist():
+            speeds[row] = kernel().impact_speed(
+                self.ground.table, self.body.table, table, row, found
+            )
+        return speeds
 
     def rotated(self, rotation: RotationRecord, angle: float) -> Placement:
         """Where the body is after a part of a rotation about its first pivot [rad]."""

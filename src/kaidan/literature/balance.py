@@ -36,7 +36,6 @@ from kaidan.mechanics.measures import kinetic_energy_height
 from kaidan.outline import Outline
 from kaidan.terrain.profile import Profile
 from kaidan.traversal import Traverse, traverse
-from kaidan.traversal.rotations import impact_speed
 
 Array = NDArray[np.float64]
 
@@ -317,6 +316,7 @@ def _transitions(found: Traverse, stretches: tuple[Stretch, ...], speed: float) 
     firsts = {each.rows[0]: each.number for each in stretches}
     transitions: list[Transition] = []
     begun = -1
+    speeds = run.impact_speeds().tolist()
     kinds = {
         contact.Event.NOSE_DROPS: Change.NOSE_DROPS,
         contact.Event.TIPS_BACK: Change.TIPS_BACK,
@@ -329,7 +329,7 @@ def _transitions(found: Traverse, stretches: tuple[Stretch, ...], speed: float) 
             begun += 1
             rotation = run.rotations[begun]
             start = next(s.number for s in stretches if s.rows[0] <= row < s.rows[1])
-            transitions.append(_loss(found, rotation, kinds[event], start))
+            transitions.append(_loss(found, rotation, speeds[begun], kinds[event], start))
     return transitions
 
 
@@ -353,7 +353,9 @@ def _continuous(run: contact.Path, end: int, row: int, speed: float) -> Transiti
     )
 
 
-def _loss(found: Traverse, rotation: RotationRecord, change: Change, start: int) -> Transition:
+def _loss(
+    found: Traverse, rotation: RotationRecord, speed: float, change: Change, start: int
+) -> Transition:
     """Balance lost in a rotation."""
     fall = rotation.start.z - rotation.end.z
     topples = rotation.topples_with_momentum
@@ -368,7 +370,7 @@ def _loss(found: Traverse, rotation: RotationRecord, change: Change, start: int)
         fall=fall,
         energy=STANDARD_GRAVITY * fall,
         rate=rotation.rate_before,
-        impact_speed=impact_speed(found.path, rotation),
+        impact_speed=speed,
         topples=topples,
         quality=0.0
         if topples or end is None

@@ -207,7 +207,7 @@ def rotations_of(
     tuple of Rotation
     """
     found = []
-    for record in path.rotations:
+    for record, speed in zip(path.rotations, path.impact_speeds().tolist(), strict=True):
         row = path.row_before(record.s)
         psi = float(path.poses.path_direction[row])
         ahead, up = acceleration * math.cos(psi), STANDARD_GRAVITY + acceleration * math.sin(psi)
@@ -228,7 +228,7 @@ def rotations_of(
                 angle=record.angle,
                 leading_end_down=down,
                 drop=drop,
-                impact_speed=impact_speed(path, record),
+                impact_speed=speed,
                 avoidable=_beyond_the_edge(record, profile, flat_length) if down else record.angle,
                 pivot=record.pivot,
                 arrested_by=arrested_by,
@@ -251,21 +251,6 @@ def together(rotations: Sequence[contact.RotationRecord], flat_length: float) ->
     breaks = [k for k, way in enumerate(driven, 1) if way > AT_ONCE * flat_length]
     ends = [0, *breaks, len(each)]
     return [range(one, two) for one, two in pairwise(ends) if two > one]
-
-
-def impact_speed(path: contact.Path, rotation: contact.RotationRecord) -> float:
-    """Speed at which the end comes down at the end of a rotation [m/s]; NaN: it is not arrested.
-
-    The rate of rotation just before the last impact, from the energy of the fall as a free
-    rotation about the pivot, times how far the contacts lie apart. Of several that meet the ground
-    at once the farthest hits fastest; what it turned on is the outermost on the other side, because
-    those beyond it have opened.
-    """
-    if not rotation.arrested:
-        return math.nan
-    points = np.array([each.point for each in path.contacts_at(rotation.end)])
-    outermost = points[[int(np.argmin(points[:, 0])), int(np.argmax(points[:, 0]))]]
-    return rotation.rate_before * math.dist(*outermost)
 
 
 def _beyond_the_edge(
