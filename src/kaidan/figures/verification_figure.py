@@ -75,7 +75,8 @@ def verification_figure(found: "Verification") -> Figure:
 
 def _track(found: "Verification") -> str:
     stiffness = found.stiffness_N_m
-    return found.track.replace("-", " ") + (f" {stiffness / 1e3:g} kN/m" if stiffness else "")
+    named = found.track.replace("-", " ") + (f" {stiffness / 1e3:.3g} kN/m" if stiffness else "")
+    return named + (" as fitted to the paper's text" if found.track_from == "fit" else "")
 
 
 def _draw_main(axes: Axes, found: "Verification") -> list[Line2D]:
@@ -153,9 +154,11 @@ def _draw_counts(
             "square": sum(count.others.values()),
         }.get(symbol)
         if number is not None:
+            # what came down stands on the right of what went up
+            aside, ha = (4.0, "left") if count.direction == "down" else (-4.0, "right")
             axes.annotate(
-                str(number), (x, count.angle_deg), (4.0, -3.0), textcoords="offset points",
-                color=color,
+                str(number), (x, count.angle_deg), (aside, -3.0), textcoords="offset points",
+                color=color, ha=ha,
             )  # fmt: skip
 
 
@@ -171,7 +174,7 @@ def _draw_corrected(axes: Axes, found: "Verification", aside: float) -> list[Lin
         return []
     return [Line2D([], [], color=look.GREY, marker="D", linestyle="none", markersize=4.0,
                    markerfacecolor="none",
-                   label="Eq. (24) with these trials' own angles: no prediction")]  # fmt: skip
+                   label="Eq. (24) with these trials' own\nangles: no prediction")]  # fmt: skip
 
 
 def _draw_printed(axes: Axes, found: "Verification") -> list[Line2D]:
@@ -218,8 +221,8 @@ def _draw_ranges(axes: Axes, found: "Verification", name: str, label: str) -> No
         if value is not None:
             _bar(axes, x, value, look.BLACK)
     if not any(value is not None for _, value in values):
-        axes.text(0.5, 0.5, "no margin within\nthe slopes tried", transform=axes.transAxes,
-                  ha="center", va="center")  # fmt: skip
+        axes.text(0.97, 0.5, "no margin\nwithin the\nslopes tried", transform=axes.transAxes,
+                  ha="right", va="center")  # fmt: skip
     if found.printed is not None:
         low, high = axes.get_xlim()
         p = found.printed.theta_M_p_mm - 0.06 * (high - low)

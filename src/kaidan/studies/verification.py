@@ -29,6 +29,8 @@ from kaidan.studies.printed import MEASURED, Measured
 
 NO_ANSWER = ("unstable", "crashed", "failed")
 """Outcomes that say nothing about the robot."""
+BELOW_SLIDING = 6.0
+"""Least range of slopes that is tried [deg]."""
 
 
 class Spacing(Part):
@@ -284,7 +286,8 @@ def usual_conditions(
 
     Ascending from 6 degrees below the lower of the two to 5 above the higher one; descending from
     the higher one to 22 above it, since the downward margin lies higher. Without grousers no slope
-    is steeper than the angle of friction, where it slides and a fall says nothing.
+    is steeper than the angle of friction, where it slides and a fall says nothing: where that ends
+    all of it, the last `BELOW_SLIDING` below it are tried.
 
     Raises
     ------
@@ -302,7 +305,8 @@ def usual_conditions(
         if descent:
             ranges.append(("down", max(known), max(known) + 22.0))
         for direction, low, high in ranges:
-            for angle in np.linspace(max(low, 5.0), max(low, min(high, setting.steepest)), 12):
+            top = max(5.0, min(high, setting.steepest))
+            for angle in np.linspace(max(5.0, min(low, top - BELOW_SLIDING)), top, 12):
                 rounded = math.radians(round(2.0 * float(angle)) / 2.0)
                 conditions.append(Condition(nosing_spacing=p, angle=rounded, direction=direction))
     return tuple(dict.fromkeys(conditions))

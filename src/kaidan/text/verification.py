@@ -32,8 +32,8 @@ def text(found: "Verification") -> str:
     """Margins of each spacing, and every condition by its symbol."""
     number = sum(len(count.fell_of_trial) for count in found.counts)
     lines = [
-        f"{found.robot}: {number} trials; {found.track}, {found.speed_m_s:g} m/s, seed "
-        f"{found.seed}",
+        f"{found.robot}: {number} trials; {found.track}, {found.speed_m_s:g} m/s, friction "
+        f"{found.friction:g}, seed {found.seed}",
         *_SAID[found.track_from],
         f"  {found.version}",
         "",

@@ -11,6 +11,7 @@ import jsonschema
 
 import physics_cases
 from kaidan.campaign import TRIALS, Condition, Setting, VerificationTest
+from kaidan.campaign.trials import inputs
 from kaidan.errors import InputError
 from kaidan.figures.verification_figure import verification_figure
 from kaidan.robot import Robot
@@ -28,13 +29,13 @@ DOWN = {56.0: "cc", 58.0: "cc", 60.0: "cf", 62.0: "ff"}
 WORDS = {"c": "climbed", "f": "fell_backward", "s": "start_fall", "l": "slid", "u": "unstable"}
 
 
-def plan_of(up=UP, down=DOWN, robot=None, spacing=0.15):
+def plan_of(up=UP, down=DOWN, robot=None, spacing=0.15, **setting):
     conditions = [
         Condition(nosing_spacing=spacing, angle=math.radians(angle), direction=direction)
         for direction, slopes in (("up", up), ("down", down))
         for angle in slopes
     ]
-    setting = Setting(robot=robot or physics_cases.robot())
+    setting = Setting(robot=robot or physics_cases.robot(), **setting)
     return VerificationTest(setting=setting, conditions=conditions, trials=2)
 
 
@@ -163,16 +164,39 @@ def test_usual_conditions_surround_the_margins():
         assert min(slopes["down"]) > physics_cases.FORMULA[p]
 
 
+def test_nothing_is_tried_where_it_slides():
+    setting = plan_of(friction=1.0).setting
+    conditions = usual_conditions(setting, [0.22], descent=True)
+    # the belt slides from atan(1) = 45 deg on; the contact model's margin at 220 mm is 49 deg
+    assert max(math.degrees(each.angle) for each in conditions) == pytest.approx(44.0, abs=0.5)
+    assert {each.direction for each in conditions} == {"up", "down"}
+
+
+def test_slopes_are_shown_as_they_were_asked_for():
+    # a slope goes through rise and going and comes back 48.00000000244778
+    slopes = (44.0, 46.0, 48.0, 50.0)
+    for spacing in physics_cases.SPACINGS:
+        found = found_of(up=dict.fromkeys(slopes, "cc"), down={}, spacing=spacing)
+        assert found.columns()["angle_deg"] == list(slopes)
+        plan = plan_of(up=dict.fromkeys(slopes, "cc"), down={}, spacing=spacing)
+        shown = [inputs(spec)["angle_deg"] for spec in plan.specs()]
+        assert shown == [slope for slope in slopes for _ in range(2)]
+
+
 @pytest.mark.parametrize("down", [DOWN, {}])
 @pytest.mark.parametrize("robot", [None, Robot.named("kenaf")])
 def test_figure_is_drawn_in_full(down, robot):
     figure = verification_figure(found_of(down=down, robot=robot))
     assert len(figure.axes) == (3 if down else 2)
     figure.canvas.draw()
+    assert figure.legends[0].get_window_extent().x1 <= figure.bbox.x1
     texts = {text.get_text() for text in figure.legends[0].get_texts()}
     assert {"closed form $\\theta_s^{sup}$", "contact model, grade two"} <= texts
     assert any("no prediction" in text for text in texts) == bool(down)
     assert ("printed in the paper: fell / rotated" in texts) == (robot is not None)
+    # how often stands on the outer side of either direction's symbols
+    numbers = {text.get_text(): text.get_ha() for text in figure.axes[0].texts}
+    assert numbers == {"1": "left" if down else "right"}
 
 
 def test_figure_outside_the_closed_form():
