@@ -14,7 +14,7 @@ from test_contact_brute_force import DRIVE, FINEST, NEAR, TURN, touch
 from kaidan import Question, Robot, Stairs
 from kaidan.models.quasi_static import traverse_of
 from kaidan.modes import Phase
-from kaidan.robot import Track
+from kaidan.robot import FlipperPair, Posture, Track
 from kaidan.traversal.tilting import LARGEST
 
 
@@ -120,6 +120,60 @@ def check_rocks(seed, count, gap=True):
         assert back <= math.radians(2.6 + 0.15), math.degrees(back)
         gone += found.falls_downhill.tilt < margin + math.radians(15.0)
     assert gone > 0
+
+
+def kinked(seed, count):
+    """Robots up flights, flippers so little above the flat that they rock onto them."""
+    rng = np.random.default_rng(seed)
+    while count:
+        L, R = rng.uniform(0.35, 0.6), rng.uniform(0.1, 0.13)
+        rise = rng.uniform(0.05, 0.085)
+        flight = Stairs(rise=rise, going=rise / math.tan(rng.uniform(0.35, 0.7)), steps=7)
+        pair = FlipperPair(
+            length=rng.uniform(0.2, 0.35),
+            root_radius=R,
+            tip_radius=rng.uniform(0.06, 0.1),
+            pivot_height=R,
+        )
+        robot = Robot(
+            name="any",
+            mass=30.0,
+            com_from_front=L * rng.uniform(0.35, 0.75),
+            com_height=rng.uniform(0.4, 0.9) * L,
+            track=Track(flat_length=L, front_radius=R, rear_radius=R),
+            front_flippers=pair,
+            rear_flippers=pair,
+        )
+        off = math.radians(rng.choice([0.05, 0.3, 0.6, 1.2, 2.0]))
+        posture = Posture(
+            front=pair.flat_angle + rng.choice([0.0, off]), rear=pair.flat_angle + off
+        )
+        found = traverse_of(Question.in_one_posture(robot, flight, friction=3.0, flippers=posture))
+        if found.arrived and math.radians(1.0) < found.downhill_margin < LARGEST:
+            count -= 1
+            yield found
+
+
+def check_kinked(seed, count):
+    """Short of the margin nothing turns back by more than rocking; some do past the short flat."""
+    gained = 0.0
+    for found in kinked(seed, count):
+        margin = found.downhill_margin
+        outcome, back, _ = brute(found, margin - math.radians(0.1))
+        assert (found.whole, outcome) == (False, 0.0)
+        assert back <= math.radians(2.6 + 0.15), math.degrees(back)
+        short = found.criterion.smallest(downhill=True)
+        gained = max(gained, margin - short.margin if short else 0.0)
+    assert gained > math.radians(10.0)
+
+
+def test_short_of_the_margin_a_robot_does_not_rock_past_flippers_off_the_flat():
+    check_kinked(seed=6, count=5)
+
+
+@pytest.mark.slow
+def test_short_of_the_margin_many_do_not_rock_past_flippers_off_the_flat():
+    check_kinked(seed=7, count=200)
 
 
 def test_the_tilt_to_the_fall():

@@ -55,7 +55,8 @@ def test_who_has_not_weighed_it_states_a_range_or_takes_that_of_known_robots(tmp
 def test_flippers_are_asked_for(tmp_path):
     file = tmp_path / "scout.toml"
     pair = ["y", "300mm", "90mm", "40mm", "90mm", "1.5kg", ""]
-    new("robot", file, *WEIGHED[:9], *pair, "n", "grousers", "12mm", "")
+    done = new("robot", file, *WEIGHED[:9], *pair, "n", "grousers", "12mm", "")
+    assert "front flippers, distance from the pivot to the axle of the tip" in done.stderr
     robot = Robot.named(str(file))
     assert (robot.track.belt, robot.track.grouser_height) == ("grousers", 0.012)
     assert robot.track.grouser_spacing is None
@@ -91,6 +92,11 @@ def test_stairs_and_surfaces_are_asked_for(tmp_path):
             "robot: track: flat_length = 62m is not within 50 mm to 5000 mm",
         ),
         ([*WEIGHED[:-1], "rough"], "robot: track: belt = rough is not one of smooth, grousers"),
+        ([*WEIGHED[:9], "300mm"], "front_flippers: 300mm is neither y nor n"),
+        (
+            [*WEIGHED, "", "12mm"],
+            "'12mm' answers no question: a line for each, an empty one where it is left out",
+        ),
         ([*WEIGHED[:2], ""], "robot: track: flat_length '' is no length; write for example 180mm"),
     ],
 )

@@ -230,3 +230,20 @@ def test_every_nosing_comes_under_the_flat_at_one_tip_and_leaves_it_at_the_other
         numbers[event.kind].append(contact.Feature.of(event.feature).point)
     assert min(len(each) for each in numbers.values()) >= 2
     assert [event.path for event in found.events] == sorted(event.path for event in found.events)
+
+
+def test_flippers_a_little_off_the_flat_carry_all_but_what_it_rocks():
+    robot, flight = Robot.named("absolem"), Profile.of_stairs(Stairs.named("ada"))
+    flat = {end: pair.flat_angle for end, pair in robot.flippers().items()}
+    margins = []
+    for off in (0.02, 0.1, 0.5, 1.0, 2.0):
+        raised = Posture(**flat | {"rear": flat["rear"] + math.radians(off)})
+        found = traverse(flight, Outline.of(robot, raised), step=STEP)
+        assert not found.whole
+        assert math.radians(-60) > found.criterion.smallest(downhill=True).margin  # track alone
+        assert found.downhill_margin < found.falls_downhill.tilt
+        margins.append(math.degrees(found.downhill_margin))
+    # what it rocks counts in full
+    assert np.diff(margins) == pytest.approx([-0.08, -0.4, -0.5, -1.0], abs=0.15)
+    beyond = Posture(**flat | {"rear": flat["rear"] + math.radians(4.0)})
+    assert traverse(flight, Outline.of(robot, beyond), step=STEP).downhill_margin < 0

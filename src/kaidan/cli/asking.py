@@ -64,16 +64,30 @@ def ask(kind: type[Sheet]) -> dict[str, Any]:
                 found |= {path: said for path, said in each.items() if said is not None}
         elif name == "com_from_front":
             found |= _range(answers, kind, found)
+    answers.end()
     return found
 
 
 def _flippers(answers: "_Answers", kind: type[Sheet], name: str) -> dict[str, Any]:
-    said = answers.next(guide.question("", f"{name.replace('_', ' ')}, y or n", low="", high="",
-                                       default="n"), name)  # fmt: skip
-    if said.strip().lower() not in ("y", "yes"):
+    pair = name.replace("_", " ")
+    if not _yes(answers, name, guide.question("", f"{pair}, y or n", low="", high="", default="n")):
         return {}
-    each = {f"{name}.{part}": _one(answers, kind, f"{name}.{part}") for part in _FLIPPERS}
+    paths = [f"{name}.{part}" for part in _FLIPPERS]
+    each = {path: _one(answers, kind, path, lead=f"{pair}, ") for path in paths}
     return {path: value for path, value in each.items() if value is not None}
+
+
+def _yes(answers: "_Answers", name: str, text: str) -> bool:
+    from kaidan.errors import InputError
+
+    while True:
+        said = answers.next(text, name).strip().lower()
+        if said in ("y", "yes", "n", "no", ""):
+            return said.startswith("y")
+        error = InputError(f"{name}: {said} is neither y nor n")
+        if not answers.terminal:
+            raise error
+        typer.echo(str(error), err=True)
 
 
 def _range(answers: "_Answers", kind: type[Sheet], found: dict[str, Any]) -> dict[str, Any]:
@@ -189,6 +203,14 @@ class _Answers:
         if line is None or (self.terminal and not line):
             raise InputError(guide.ended(name))
         return line
+
+    def end(self) -> None:
+        """Refuse what a pipe says beyond the last question: answers that are one off are wrong."""
+        from kaidan.errors import InputError
+
+        more = next((line for line in self._lines if line.strip()), None)
+        if more is not None:
+            raise InputError(guide.too_many(more))
 
 
 def _piped() -> str:

@@ -64,6 +64,11 @@ def ended(name: str) -> str:
     return f"the answers end before {name}; give one a line, an empty line where it is left out"
 
 
+def too_many(said: str) -> str:
+    """The answers are more than the questions."""
+    return f"{said!r} answers no question: a line for each, an empty one where it is left out"
+
+
 def silent(seconds: float) -> str:
     """Nobody answers."""
     return (

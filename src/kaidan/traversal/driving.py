@@ -104,7 +104,22 @@ def tread_of(body: Outline) -> Tread:
 
 def whole_of(tread: Tread, criterion: Criterion, body: Outline) -> bool:
     """Whether one flat carries all along on the flight, so that the criterion judges there."""
-    return criterion.holds is not None and tread.whole and not body.stance.tips_below
+    if criterion.holds is None or not tread.whole or body.stance.tips_below:
+        return False
+    return not _rocks_onto_flippers(body)
+
+
+def _rocks_onto_flippers(body: Outline) -> bool:
+    """Whether by rocking about an end of the flat the robot may come to stand on a flipper.
+
+    The flat ends at a kink there, and what lies beyond it carries as on a low nosing.
+    """
+    stance = body.stance
+    x, z, radius = body.parts[body.kinds == contact.FLIPPER].reshape(-1, 3).T
+    z = z + stance.com_height
+    beyond = np.maximum(x - stance.com_from_front, stance.com_from_front - stance.flat_length - x)
+    lowest = z * math.cos(contact.ROCKING) - beyond * math.sin(contact.ROCKING) - radius
+    return bool(np.any((beyond > 0.0) & (z - radius > IN_LINE) & (lowest <= 0.0)))
 
 
 def refuse_too_long(
