@@ -8,6 +8,7 @@ sys.path.insert(0, str(Path(__file__).parent / "_ext"))
 from kaidan_docs import LatestFigures
 
 import kaidan
+import kaidan.web.app  # before autodoc writes annotations into pydantic's classes: FastAPI fails then
 
 project = "kaidan"
 author = "The kaidan authors"

@@ -85,7 +85,7 @@ class Answer(Part):
     """
 
     text_module: ClassVar[str]
-    """Module of `kaidan.text` whose function ``text`` says it in words."""
+    """Module of ``kaidan.text`` whose function ``text`` says it in words."""
 
     def to_dict(self) -> dict[str, Any]:
         """Everything as dictionaries, lists, texts and numbers."""

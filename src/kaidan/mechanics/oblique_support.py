@@ -37,7 +37,7 @@ def other_offset(*, p: Number, psi: Number, gauge: Number) -> Number:
 
     References
     ----------
-    Derived: on the left track the nosings stand `track_lag` farther ahead.
+    Derived: on the left track the nosings stand `kaidan.mechanics.oblique.track_lag` farther ahead.
     """
     q = oblique_spacing(p=p, psi=psi)
     return q - np.mod(-track_lag(gauge=gauge, psi=psi), q)

@@ -19,7 +19,7 @@ class Refusal:
     """Why something holds no stairs that can be judged: a result, not an error."""
 
     why: str
-    """A word of `kaidan.text.refusals`."""
+    """A word of ``kaidan.text.refusals``."""
     numbers: Mapping[str, float | str]
     """What was measured, by the names that the sentence uses."""
     provenance: Provenance
@@ -80,7 +80,10 @@ class StairsEstimate:
         )
 
     def profile(self, flight: int = 0, *, lateral: float = 0.0) -> Profile:
-        """Terrain of one flight with its landings, see `FlightEstimate.profile`."""
+        """Terrain of one flight with its landings.
+
+        See `kaidan.readers.flight.FlightEstimate.profile`.
+        """
         below, above = self.landings[flight], self.landings[flight + 1]
         return self.flights[flight].profile(
             self.name,

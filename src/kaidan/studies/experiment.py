@@ -112,7 +112,7 @@ def plan_of(
         Of all start offsets and grousers' phases.
     **setting
         Of `kaidan.campaign.Setting.of`: flippers, payload, override, friction, speed, track,
-        ground. Without a track that of `kaidan.studies.calibration.fitted`.
+        ground. Without a track that of `kaidan.studies.calibration.fitted.fitted`.
 
     Raises
     ------

@@ -61,7 +61,7 @@ def is_quick(task: Mapping[str, Any]) -> bool:
     Parameters
     ----------
     task : mapping
-        See `kaidan.web.tasks`.
+        See ``kaidan.web.tasks``.
 
     Examples
     --------

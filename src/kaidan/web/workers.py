@@ -147,7 +147,7 @@ class Workers:
         Parameters
         ----------
         task : mapping
-            See `kaidan.web.tasks`.
+            See ``kaidan.web.tasks``.
         seconds : float, optional
             Time that it may take [s]; that of the limits without it.
         rank : int

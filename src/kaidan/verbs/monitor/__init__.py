@@ -42,7 +42,8 @@ def monitor(
     stairs : Stairs, str or path
         Stairs, or their name in the catalogue, or a TOML file.
     samples : iterable of Sample, str or path
-        Samples in order, or a CSV file or a recording of them (see `open_samples`).
+        Samples in order, or a CSV file or a recording of them (see
+        `kaidan.verbs.monitor.sources.open_samples`).
     limits : AlarmLimits, optional
         When the alarm is raised and cleared.
     strict : bool

@@ -76,7 +76,7 @@ class LiveMonitor:
         )
 
     def answer(self) -> MonitorAnswer:
-        """Answer to all samples so far; see `Monitor.answer`."""
+        """Answer to all samples so far; see `kaidan.verbs.monitor.online.Monitor.answer`."""
         return self._watch.answer()
 
     def again(self) -> Self:

@@ -38,7 +38,7 @@ def code_of(question: Question) -> str:
     Returns
     -------
     str
-        `HEAD`, then capital letters and digits.
+        ``HEAD``, then capital letters and digits.
 
     Examples
     --------
