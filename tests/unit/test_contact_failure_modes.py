@@ -539,6 +539,20 @@ def test_landing_room(room, which):
     assert ("landing_room" in answer.doubts) == (room < 0.6)
 
 
+@pytest.mark.parametrize("direction", ["up", "down"])
+@pytest.mark.parametrize(("end", "other"), [("lower", "upper"), ("upper", "lower")])
+def test_a_door_that_opens_onto_the_landing_takes_its_leaf(end, other, direction):
+    """By hand: 1.40 m less 0.90 m is 0.50 m, Kenaf is 600 mm long; opposite there is room."""
+    sizes = {f"{end}_landing": 1.4, f"{end}_leaf": 0.9, f"{other}_landing": 2.5}
+    answer = assess(KENAF, at(20, p=0.2, **sizes), **SURE, direction=direction)
+    assert answer.findings["landing_room"].margin == pytest.approx(-100, abs=1e-6)
+    assert answer.verdict == "caution"
+    assert "landing_room" in answer.doubts
+    if direction == "up":  # down it rocks too
+        said = "A landing, less the leaf of its door, is 100 mm shorter than the robot."
+        assert answer.reason == said
+
+
 @pytest.mark.parametrize("p", [0.2, 0.24, 0.249999, 0.250001, 0.26, 0.3])
 def test_fewer_than_two_nosings_rock(p):
     """By hand: past p = L/2 one of atan((L - p - C_L)/C_N) and atan((p - C_L)/C_N) is passed."""

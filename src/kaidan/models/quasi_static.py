@@ -13,6 +13,7 @@ from kaidan import contact
 from kaidan.answer import Part
 from kaidan.contact import Status
 from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.mechanics.clearance import run_up_margin
 from kaidan.mechanics.oblique import equivalent_slope_across
 from kaidan.models import support_polygon, traction
 from kaidan.models.balance import balance
@@ -313,7 +314,9 @@ def _obstacles(
         place = belly[0] if belly else None
         each.append(_yes_or_no(HIGH_CENTRING, not belly, Verdict.CAUTION, place, None))
     if phase in (None, Phase.LAND):
-        room = min(found.profile.landings) - sum(found.outline.reach)
+        leaves, length = question.leaves, sum(found.outline.reach)
+        ends = zip(found.profile.landings, leaves[:: -1 if found.descending else 1], strict=True)
+        room = min(float(run_up_margin(depth=d, length=length, leaf=leaf)) for d, leaf in ends)
         each.append(Finding.certain(LANDING_ROOM, room, failing=Verdict.CAUTION, model=_NAME))
     return each
 

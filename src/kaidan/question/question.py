@@ -307,6 +307,12 @@ class Question(QuestionFields):
         return min(widths, default=None), min(heights, default=None)
 
     @property
+    def leaves(self) -> tuple[float, float]:
+        """Leaves of doors that open onto the lower and onto the upper landing [m]; zero: none."""
+        flights = self.flights
+        return (flights[0].lower_leaf, flights[-1].upper_leaf) if flights else (0.0, 0.0)
+
+    @property
     def uneven_across(self) -> bool:
         """Whether the two tracks meet other steps, so that the flight is judged under both."""
         return any(

@@ -52,6 +52,8 @@ SHAPE = {
     "steps": "number",
     "lower_landing": "length",
     "upper_landing": "length",
+    "lower_leaf": "length",
+    "upper_leaf": "length",
     "width": "length",
     "headroom": "length",
 }

@@ -139,6 +139,12 @@ class Stairs(Sheet):
     )
     lower_landing: float = quantity("m", 0.0, 100.0, "length of the lower landing", default=2.0)
     upper_landing: float = quantity("m", 0.0, 100.0, "length of the upper landing", default=2.0)
+    lower_leaf: float = quantity(
+        "m", 0.0, 5.0, "leaf of a door opposite that opens onto the lower landing", default=0.0
+    )
+    upper_leaf: float = quantity(
+        "m", 0.0, 5.0, "leaf of a door opposite that opens onto the upper landing", default=0.0
+    )
     foot_seen: bool = Field(
         default=True, description="whether the level before the first riser is known, so its height"
     )

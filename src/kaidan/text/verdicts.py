@@ -224,6 +224,8 @@ def _room(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
     short = -1e3 * finding.margin(question.risk)
+    if any(question.leaves):
+        return f"A landing, less the leaf of its door, is {short:.0f} mm shorter than the robot."
     return f"A landing is {short:.0f} mm shorter than the robot."
 
 
