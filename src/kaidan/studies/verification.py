@@ -272,11 +272,16 @@ def contact_margin(setting: Setting, p: float) -> float | None:
         return course.profile.points, course.x, course.x + 2.2 * p * math.cos(angle)
 
     parts = Outline.of(setting.robot, setting.posture, setting.payload).parts
-    least, most = 0.0205, 0.595  # rise and going that a sheet of stairs allows [m]
-    low = max(math.radians(2.0), math.asin(least / p), math.acos(min(1.0, 2.4 / p)))
-    high = min(math.radians(85.0), math.acos(least / p), math.asin(min(1.0, most / p)))
+    low, high = _slopes(p)
     found = contact.steepest_flight(flight, parts, low=low, high=high, tolerance=2e-4)
     return None if math.isnan(found) else math.degrees(found)
+
+
+def _slopes(p: float) -> tuple[float, float]:
+    # gentlest and steepest flight of a spacing [rad] that a sheet of stairs allows
+    least, most = 0.0205, 0.595  # rise and going [m]
+    low = max(math.radians(2.0), math.asin(least / p), math.acos(min(1.0, 2.4 / p)))
+    return low, min(math.radians(85.0), math.acos(least / p), math.asin(min(1.0, most / p)))
 
 
 def usual_conditions(
@@ -304,9 +309,11 @@ def usual_conditions(
         ranges = [("up", min(known) - 6.0, max(known) + 5.0)]
         if descent:
             ranges.append(("down", max(known), max(known) + 22.0))
+        least, most = (math.degrees(each) for each in _slopes(p))
+        least, most = max(5.0, math.ceil(2.0 * least) / 2.0), math.floor(2.0 * most) / 2.0
         for direction, low, high in ranges:
-            top = max(5.0, min(high, setting.steepest))
-            for angle in np.linspace(max(5.0, min(low, top - BELOW_SLIDING)), top, 12):
+            top = max(least, min(high, setting.steepest, most))
+            for angle in np.linspace(max(least, min(low, top - BELOW_SLIDING)), top, 12):
                 rounded = math.radians(round(2.0 * float(angle)) / 2.0)
                 conditions.append(Condition(nosing_spacing=p, angle=rounded, direction=direction))
     return tuple(dict.fromkeys(conditions))

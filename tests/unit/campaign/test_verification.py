@@ -172,6 +172,14 @@ def test_nothing_is_tried_where_it_slides():
     assert {each.direction for each in conditions} == {"up", "down"}
 
 
+def test_nothing_is_tried_that_no_sheet_of_stairs_allows():
+    # sliding at 0.4 begins at 21.8 deg; at 200 mm a rise of 20 mm, the least of a sheet, is 5.7 deg
+    setting = Setting(robot=Robot.named("absolem"), friction=0.4)
+    conditions = usual_conditions(setting, [0.2], descent=False)
+    assert min(each.angle for each in conditions) == pytest.approx(math.radians(6.0))
+    assert all(0.2 * math.sin(each.angle) >= 0.02 for each in conditions)
+
+
 def test_slopes_are_shown_as_they_were_asked_for():
     # a slope goes through rise and going and comes back 48.00000000244778
     slopes = (44.0, 46.0, 48.0, 50.0)
