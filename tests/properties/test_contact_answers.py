@@ -224,7 +224,7 @@ def test_scale(seed, k):
         assert theirs.phase == mine.phase, key
         if mine.margin is not None:
             # contacts are lost and made within 1 um, and poses lie 5 mm apart, whatever the size:
-            # friction to a thousandth; a tilt to the fall is found to 0.005 deg, and whether a
+            # friction to a thousandth; a tilt to the fall is found to 0.002 deg, and whether a
             # tilted robot arrives depends a little on the poses (docs/theory/rocking.md)
             expected = mine.margin * factor[mine.unit]
             tolerances = {"slides": 0.03, "fall": 0.02}

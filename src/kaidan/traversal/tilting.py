@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 LARGEST = math.radians(30.0)
 """Largest tilt to a fall that is looked for [rad]: stairs are hardly steeper."""
-WITHIN = math.radians(0.005)
+WITHIN = math.radians(0.002)
 """To which the tilt to a fall is found [rad]."""
 _FIRST = math.radians(4.0)
 _AT_ONCE = 8
