@@ -4,7 +4,6 @@ Lines stand as they are printed. Where a block shows `...`, as many lines are sh
 after it as there were. Look at the difference before you commit it: the output was right once.
 """
 
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -14,7 +13,7 @@ sys.path.insert(0, str(ROOT / "tests" / "docs"))
 
 
 def main() -> None:
-    from test_blocks import commands, environment, fences, matches
+    from test_blocks import commands, fences, in_a_shell, matches
 
     for page in map(Path, sys.argv[1:]):
         page = page.resolve().relative_to(ROOT)
@@ -26,17 +25,10 @@ def main() -> None:
                 for command, shown in commands(fence.text):
                     if command == "echo $?":
                         continue
-                    done = subprocess.run(
-                        ["bash", "-c", command],
-                        cwd=folder,
-                        env=environment(),
-                        stdout=subprocess.PIPE,
-                        stderr=subprocess.STDOUT,
-                        encoding="utf-8",
-                    )
+                    _, said = in_a_shell(command, Path(folder))
                     while shown and not shown[-1]:
                         shown.pop()
-                    printed = [line.rstrip() for line in done.stdout.splitlines()]
+                    printed = [line.rstrip() for line in said.splitlines()]
                     if not shown or matches(shown, printed):
                         continue
                     told = printed

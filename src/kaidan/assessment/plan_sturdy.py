@@ -12,10 +12,9 @@ from kaidan.assessment.plan_scores import ENOUGH, Scores
 from kaidan.assessment.plans import Plan, off, pressed
 from kaidan.assessment.verdict import conclude
 from kaidan.errors import InputError
-from kaidan.models.quasi_static import Basis, findings_of
+from kaidan.models.quasi_static import Basis, driven_over, findings_of
 from kaidan.modes import Phase, Verdict
 from kaidan.robot import Posture
-from kaidan.traversal import traverse
 from kaidan.traversal.moves import angles_of
 
 FINE = 0.02
@@ -134,16 +133,7 @@ class Sturdier:
         except InputError:  # its centroid is outside
             return OUT
         start, until = self.scores.stretch(phase)
-        found = traverse(
-            self.scores.profile,
-            alone.outline,
-            descending=alone.direction == "down",
-            facing=alone.facing,
-            acceleration=alone.acceleration,
-            step=FINE,
-            start=start,
-            until=until,
-        )
+        found = driven_over(self.scores.profile, alone, step=FINE, start=start, until=until)
         conclusion = conclude(alone, findings_of(alone, Basis(alone, found)))
         margin = math.degrees(conclusion.margin)
         return Worth(-conclusion.verdict.rank, -90.0 if math.isnan(margin) else min(margin, ENOUGH))

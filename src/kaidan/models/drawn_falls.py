@@ -98,7 +98,8 @@ def drawn_falls(
     sample = _samples(question, found, downhill)
     # those that rock the most and the least, and as many between
     order = rows[np.argsort(first_rock[rows], kind="stable")]
-    some = order[np.unique(np.linspace(0, len(order) - 1, DRIVEN).round().astype(int))]
+    places = np.linspace(0, len(order) - 1, DRIVEN).round().astype(int)
+    some = order[list(dict.fromkeys(places.tolist()))]
     tilts = np.array([sample(k).falls_at(spare[k] + question.reserve) for k in some.tolist()])
     of_each = _features(question, first_rock)
     line, *_ = np.linalg.lstsq(of_each[some], tilts, rcond=None)

@@ -17,7 +17,7 @@ from kaidan.answer import Part as Figures
 from kaidan.models import traction
 from kaidan.models.contact_figures import ContactFigures, Grades, PhaseFigures, TiltFigures
 from kaidan.models.findings import Finding, Findings, Later, hardest, sliding_where, smallest
-from kaidan.models.quasi_static import Basis, findings_of, profile_of
+from kaidan.models.quasi_static import Basis, driven_over, findings_of, profile_of
 from kaidan.models.traction_figures import TractionFigures
 from kaidan.modes import (
     CONTACT,
@@ -32,7 +32,7 @@ from kaidan.modes import (
 from kaidan.question import Question
 from kaidan.robot import Posture
 from kaidan.terrain.profile import Profile
-from kaidan.traversal import Traverse, traverse
+from kaidan.traversal import Traverse
 from kaidan.traversal.moves import Move, move
 from kaidan.traversal.rotations import ROCKING
 
@@ -106,12 +106,9 @@ def drive(question: Question, *, with_energy: bool = False, step: float = contac
             if not moves[-1].stands:
                 break
             start = moves[-1].end
-        found = traverse(
+        found = driven_over(
             profile,
-            alone.outline,
-            descending=question.direction == "down",
-            facing=question.facing,
-            acceleration=question.acceleration,
+            alone,
             with_energy=with_energy,
             step=step,
             start=start,

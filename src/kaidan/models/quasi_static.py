@@ -101,14 +101,18 @@ def traverse_of(
 ) -> Traverse:
     """Traverse of a question's robot over its terrain, straight up or down."""
     _ = question.robot.weighed
+    return driven_over(profile_of(question), question, with_energy=with_energy, step=step)
+
+
+def driven_over(profile: Profile, question: Question, **how: Any) -> Traverse:
+    """Traverse of a question's robot in its manner of going; `how` as for `traverse`."""
     return traverse(
-        profile_of(question),
+        profile,
         question.outline,
         descending=question.direction == "down",
         facing=question.facing,
         acceleration=question.acceleration,
-        with_energy=with_energy,
-        step=step,
+        **how,
     )
 
 

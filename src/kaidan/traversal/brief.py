@@ -53,7 +53,7 @@ def by_how_long(path: contact.Path, traction: Array, row: NDArray[np.int64]) -> 
     most = np.full(count, -np.inf)
     np.maximum.at(most, at, traction)
     found = traction.copy()
-    for k in np.unique(at[brakes]):
+    for k in np.flatnonzero(np.bincount(at[brakes], minlength=count)):
         after = int(np.searchsorted(long, k))
         base = max(
             traction[last[long[after - 1]]] if after else 0.0,
