@@ -36,6 +36,8 @@ from kaidan.traversal.tilting import largest_survived
 
 _ALIKE = 1e-6
 """Tilt that is rounding [rad]."""
+_BESIDE = math.radians(0.01)
+"""Tilt beyond the largest that is survived, at which it is seen where the robot falls [rad]."""
 
 
 class FirstRock(NamedTuple):
@@ -149,7 +151,11 @@ class Traverse:
         tilt = largest_survived(survives)
         fallen = self.path
         if self.arrived and falls_at:
-            fallen = contact.traverse(**there, **manner, tilt=falls_at, with_margins=False)
+            # of steps that are alike the first: all of them fall a little beyond
+            for beyond in (back * (tilt + _BESIDE), falls_at):
+                fallen = contact.traverse(**there, **manner, tilt=beyond, with_margins=False)
+                if fallen.status is not contact.Status.OK:
+                    break
         if len(fallen.poses) == 0:
             return Fall(tilt, Phase.ENTER, 0)
         phase = phases_of(fallen, self.profile, self.descending, self.outline.stance.flat_length)
