@@ -29,6 +29,7 @@ from kaidan.contact.records import (
     Rotations,
 )
 from kaidan.contact.rest import Settled, resting_height, settle
+from kaidan.contact.slipping import held_while_slipping
 from kaidan.contact.standing import stand_in_turn
 from kaidan.contact.steepest import steepest_flight
 from kaidan.contact.switch import (
@@ -75,6 +76,7 @@ __all__ = [
     "body_table",
     "cone_margins",
     "ground_table",
+    "held_while_slipping",
     "joined",
     "kernel_in_use",
     "mirror",

@@ -344,36 +344,6 @@ class Path:
         found = table[:count]
         return found[np.lexsort(found.T[::-1])]
 
-    def held_while_slipping(
-        self, points: IntArray, standing: FloatArray, friction: FloatArray, *, way: float,
-        ahead: bool,
-    ) -> FloatArray:  # fmt: skip
-        """With how much to spare each pose holds before the robot slips for good [rad].
-
-        Parameters
-        ----------
-        points
-            Shape (n, k): points of the ground at which grousers may stand; -1: none.
-        standing
-            Shape (n, k): margin with a grouser that stands there [rad].
-        friction
-            Shape (n,): margin by friction alone [rad].
-        way
-            Arclength of the slip [m].
-        ahead
-            Whether it slips towards the end of the path, else back.
-
-        Returns
-        -------
-        ndarray (n,)
-        """
-        found = np.empty(len(self.poses))
-        kernel().held_while_slipping(
-            self.poses.table, points.ravel(), standing.ravel(), np.ascontiguousarray(friction),
-            points.shape[1], 1 if ahead else -1, way, found,
-        )  # fmt: skip
-        return found
-
     def _between(self, rows: IntArray, shares: FloatArray) -> FloatArray:
         poses = np.empty((len(rows), POSE_COLUMNS))
         kernel().poses_between(

@@ -73,9 +73,13 @@ ZoneTable = Annotated[FloatArray, ZONE_COLUMNS]
 PassedTable = Annotated[FloatArray, PASSED_COLUMNS]
 ConeTable = Annotated[FloatArray, CONE_COLUMNS]
 SettledTable = Annotated[FloatArray, SETTLED_COLUMNS]
-#: Numbers that belong together, in the kernel: four, or x, z, cosine, sine and a point.
+#: Numbers that belong together, in the kernel: four, or x, z, cosine, sine and a point, or x, z and
+#: inclination, tangent (3) of the line of poses, rear and front contact, or of a part's side
+#: whether it faces down, its normal, and how far the pivot lies beyond its line.
 Four = tuple[float, float, float, float]
 Pose = tuple[float, float, float, float, float, float]
+Held = tuple[float, float, float, float, float, float, int, int]
+Side = tuple[bool, float, float, float]
 
 #: Points closer than this to the line of those beside them are dropped [m]; far below any scan,
 #: far above the rounding of coordinates of some metres.

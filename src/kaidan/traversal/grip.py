@@ -119,7 +119,8 @@ class Grip:
         by_friction : ndarray
             What `by_friction` found.
         """
-        return self.path.held_while_slipping(
+        return contact.held_while_slipping(
+            self.path.poses,
             self.contacts.point,
             self._standing(phi, grousers),
             by_friction,

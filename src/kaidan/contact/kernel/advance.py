@@ -27,7 +27,7 @@ from kaidan.contact.kernel.event_location import PENETRATED, closing_time, quant
 from kaidan.contact.kernel.gaps import relabelled
 from kaidan.contact.kernel.nearest_feature import nearest
 from kaidan.contact.kernel.settling import lever
-from kaidan.contact.tables import BodyTable, GroundTable
+from kaidan.contact.tables import BodyTable, GroundTable, Held
 
 #: Features that close within this of one another [m] close together.
 TOGETHER = 5e-10
@@ -140,47 +140,24 @@ def careful(
     return min(ds, max(0.4 * clear, thinnest, 0.1 * ds))
 
 
-def advance(
-    ground: GroundTable,
-    body: BodyTable,
-    rear: int,
-    front: int,
-    x: float,
-    z: float,
-    phi: float,
-    t_x: float,
-    t_z: float,
-    t_w: float,
-    ds: float,
-    thinnest: float,
-    a: float,
-    g: float,
-    kappa_g: float,
+def clear_step(
+    ground: GroundTable, body: BodyTable, at: Held, ds: float, a: float, g: float, kappa_g: float,
     hint: int,
-) -> tuple[int, float, float, float, float, float, float, int, int, int, float]:
-    """One step along the line of poses, cut short at the first event.
+) -> tuple[bool, Held, int, float, float, float, int, float]:  # fmt: skip
+    """Shorten a step until the corrector finds its end and nothing may have happened on the way.
 
     Returns
     -------
-    outcome
-        An `Advance`, or the feature that has closed.
-    x, z, phi, t_x, t_z, t_w, rear, front
-        The pose reached, its tangent and contacts.
+    found
+    pose
+        At the end of the step.
+    feature, gap
+        The nearest there.
+    behind, ahead
+        How far the contacts lie from effective gravity's line there [m].
     hint, ds
-        For the scan; the step actually taken [m].
     """
-    if OF_RADIUS * thinnest < ds:
-        ds = careful(ground, body, rear, front, x, z, phi, ds, thinnest, hint)
-    good = False
-    third = NO_FEATURE
-    distance = 0.0
-    x1, z1, phi1, u_x, u_z, u_w = x, z, phi, t_x, t_z, t_w
-    c = 1.0
-    s = 0.0
-    r1, f1 = rear, front
-    behind = 0.0
-    ahead = 0.0
-    kappa = 0.0
+    x, z, phi, t_x, t_z, t_w, rear, front = at
     kappa0 = tilt(a, g, kappa_g, t_x, t_z)
     for _ in range(60):
         good, x1, z1, phi1, c, s, u_x, u_z, u_w, r1, f1 = stepped(
@@ -208,53 +185,92 @@ def advance(
                         )
                     )
                 ):  # fmt: skip
-                    break
-            good = False
+                    there = (x1, z1, phi1, u_x, u_z, u_w, r1, f1)
+                    return True, there, third, distance, behind, ahead, hint, ds
         ds *= 0.4
         if ds < 1e-9:
             break
+    return False, at, NO_FEATURE, 0.0, 0.0, 0.0, hint, ds
+
+
+def happened(third: int, distance: float, deep: float, behind: float, ahead: float) -> int:
+    """Return what has happened at a pose: a feature that lies ``deep`` inside, or an `Advance`."""
+    if third >= 0 and distance < -deep:
+        return third
+    if behind <= 0.0:
+        return Advance.OVER_REAR
+    if ahead <= 0.0:
+        return Advance.OVER_FRONT
+    return Advance.NOTHING
+
+
+def named(ground: GroundTable, body: BodyTable, what: int, at: Held) -> int:
+    """Return what has happened; a feature by the name that holds at a pose."""
+    if what < 0:
+        return what
+    return relabelled(ground, body, what, at[0], at[1], math.cos(at[2]), math.sin(at[2]))
+
+
+def advance(
+    ground: GroundTable,
+    body: BodyTable,
+    at: Held,
+    ds: float,
+    thinnest: float,
+    a: float,
+    g: float,
+    kappa_g: float,
+    hint: int,
+) -> tuple[int, Held, int, float]:
+    """One step along the line of poses, cut short at the first event.
+
+    Returns
+    -------
+    outcome
+        An `Advance`, or the feature that has closed.
+    pose
+        Reached, with its tangent and contacts.
+    hint, ds
+        For the scan; the step actually taken [m].
+    """
+    x, z, phi, t_x, t_z, t_w, rear, front = at
+    if OF_RADIUS * thinnest < ds:
+        ds = careful(ground, body, rear, front, x, z, phi, ds, thinnest, hint)
+    good, there, third, distance, behind, ahead, hint, ds = clear_step(
+        ground, body, at, ds, a, g, kappa_g, hint
+    )  # fmt: skip
     if not good:
-        return Advance.NOT_CONVERGED, x, z, phi, t_x, t_z, t_w, rear, front, hint, ds
+        return Advance.NOT_CONVERGED, at, hint, ds
     what: int = Advance.NOTHING
     deep = PENETRATED
-    for again in range(24):
-        if again > 0:
-            kappa = tilt(a, g, kappa_g, u_x, u_z)
-            behind = -lever(ground, body, r1, x1, z1, c, s, kappa)
-            ahead = lever(ground, body, f1, x1, z1, c, s, kappa)
-            third, distance, hint = nearest(ground, body, x1, z1, c, s, r1, f1, 0.0, hint)
-        new: int = Advance.NOTHING
-        if third >= 0 and distance < -deep:
-            new = third
-        elif behind <= 0.0:
-            new = Advance.OVER_REAR
-        elif ahead <= 0.0:
-            new = Advance.OVER_FRONT
+    for _ in range(24):
+        x1, z1, phi1, u_x, u_z, u_w, r1, f1 = there
+        new = happened(third, distance, deep, behind, ahead)
         if new == Advance.NOTHING or new == what:
-            if what >= 0:
-                what = relabelled(ground, body, what, x1, z1, c, s)
-            return what, x1, z1, phi1, u_x, u_z, u_w, r1, f1, hint, ds
+            return named(ground, body, what, there), there, hint, ds
         what = new
         deep = TOGETHER
         value0 = quantity(ground, body, what, rear, front, x, z, phi, tilt(a, g, kappa_g, t_x, t_z))
-        value1 = quantity(ground, body, what, r1, f1, x1, z1, phi1, kappa)
+        value1 = quantity(ground, body, what, r1, f1, x1, z1, phi1, tilt(a, g, kappa_g, u_x, u_z))
         if value0 <= 0.0:
-            if what >= 0:
-                what = relabelled(ground, body, what, x, z, math.cos(phi), math.sin(phi))
-            return what, x, z, phi, t_x, t_z, t_w, rear, front, hint, 0.0
-        found, cut = closing_time(
+            return named(ground, body, what, at), at, hint, 0.0
+        found, ds = closing_time(
             ground, body, what, rear, front, x, z, phi, t_x, t_z, t_w, ds, value0, value1,
             a, g, kappa_g,
         )  # fmt: skip
-        ds = cut
         if found == 2:
             what = Advance.NOTHING
             deep = PENETRATED
         if found == 0 or ds <= 0.0:
-            return Advance.NOT_CONVERGED, x, z, phi, t_x, t_z, t_w, rear, front, hint, ds
+            break
         good, x1, z1, phi1, c, s, u_x, u_z, u_w, r1, f1 = stepped(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, ds
         )
         if not good:
-            return Advance.NOT_CONVERGED, x, z, phi, t_x, t_z, t_w, rear, front, hint, ds
-    return Advance.NOT_CONVERGED, x, z, phi, t_x, t_z, t_w, rear, front, hint, ds
+            break
+        there = (x1, z1, phi1, u_x, u_z, u_w, r1, f1)
+        kappa = tilt(a, g, kappa_g, u_x, u_z)
+        behind = -lever(ground, body, r1, x1, z1, c, s, kappa)
+        ahead = lever(ground, body, f1, x1, z1, c, s, kappa)
+        third, distance, hint = nearest(ground, body, x1, z1, c, s, r1, f1, 0.0, hint)
+    return Advance.NOT_CONVERGED, at, hint, ds

@@ -45,7 +45,8 @@ from kaidan.contact.columns import (
 )
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.driver import drive
-from kaidan.contact.kernel.margins import flow_energy, pose_margins
+from kaidan.contact.kernel.energy_margins import flow_energy
+from kaidan.contact.kernel.margins import pose_margins
 from kaidan.contact.kernel.settling import settle
 from kaidan.contact.tables import (
     BodyTable,

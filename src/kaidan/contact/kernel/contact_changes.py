@@ -5,20 +5,34 @@ from __future__ import annotations
 import math
 
 from kaidan.contact.codes import ROCKING, RotationOutcome
-from kaidan.contact.columns import NO_FEATURE
 from kaidan.contact.kernel.continuation import corrected, gap_rate, tangent
 from kaidan.contact.kernel.gaps import contact_point
 from kaidan.contact.kernel.recording import write_momentum, write_rotation
 from kaidan.contact.kernel.reserves import barrier
 from kaidan.contact.kernel.settling import lever, settle
 from kaidan.contact.kernel.toppling import fall
-from kaidan.contact.tables import BodyTable, GroundTable, RotationTable
+from kaidan.contact.tables import BodyTable, GroundTable, Held, RotationTable
+
+
+def settled(
+    ground: GroundTable, body: BodyTable, x: float, phi: float, kappa: float
+) -> tuple[bool, Held]:
+    """Settle the robot from an inclination, on two contacts.
+
+    Returns
+    -------
+    found, and the pose
+    """
+    found, z, phi, rear, front = settle(ground, body, x, phi, kappa)
+    if not found or rear == front:
+        return False, (x, z, phi, 0.0, 0.0, 0.0, rear, front)
+    t_x, t_z, t_w, size = tangent(ground, body, rear, front, x, z, math.cos(phi), math.sin(phi))
+    return size > 0.0, (x, z, phi, t_x, t_z, t_w, rear, front)
 
 
 def settled_again(
-    ground: GroundTable, body: BodyTable, x: float, z: float, phi: float, kappa: float,
-    t_x: float, t_z: float, t_w: float,
-) -> tuple[bool, float, float, float, int, int, float, float, float]:  # fmt: skip
+    ground: GroundTable, body: BodyTable, at: Held, kappa: float
+) -> tuple[bool, float, Held]:
     """Settle the robot a little farther on, where the corrector has failed.
 
     Returns
@@ -27,42 +41,38 @@ def settled_again(
         Whether that is the same pose to within millimetres, with a path that goes on ahead.
     nudge
         How far farther on [m].
-    z, phi, rear, front, t_x, t_z, t_w
-        The pose, its contacts and its tangent.
+    pose
     """
+    x, z, phi, t_x, t_z, t_w, _, _ = at
     for k in range(4):
         nudge = math.copysign(1e-5 * 10.0**k, t_x)
-        found, z1, phi1, rear, front = settle(ground, body, x + nudge, phi, kappa)
-        if not found or rear == front:
-            continue
-        u_x, u_z, u_w, size = tangent(
-            ground, body, rear, front, x + nudge, z1, math.cos(phi1), math.sin(phi1)
-        )
+        found, there = settled(ground, body, x + nudge, phi, kappa)
+        _, z1, phi1, u_x, u_z, u_w, _, _ = there
         if (
-            size > 0.0
+            found
             and abs(z1 - z) < 5e-3
             and abs(phi1 - phi) < 0.02
             and u_x * t_x + u_z * t_z + u_w * t_w > 0.0
         ):
-            return True, nudge, z1, phi1, rear, front, u_x, u_z, u_w
-    return False, 0.0, z, phi, NO_FEATURE, NO_FEATURE, t_x, t_z, t_w
+            return True, nudge, there
+    return False, 0.0, at
 
 
 def exchanged(
-    ground: GroundTable, body: BodyTable, made: int, rear: int, front: int,
-    x: float, z: float, phi: float, kappa: float, t_x: float, t_z: float, t_w: float,
-) -> tuple[bool, int, int, int, float, float, float, float, float, float]:  # fmt: skip
+    ground: GroundTable, body: BodyTable, made: int, at: Held, kappa: float
+) -> tuple[bool, int, Held]:
     """Replace the contact on the side of the centroid on which another has closed.
 
     Returns
     -------
     good
         Whether the new pair has a line of poses.
-    rear, front, lost
-        Contacts, and the one that opens.
-    x, z, phi, t_x, t_z, t_w
-        The pose, and the tangent along which the lost contact opens.
+    lost
+        The contact that opens.
+    pose
+        With the tangent along which the lost contact opens.
     """
+    x, z, phi, t_x, t_z, t_w, rear, front = at
     c = math.cos(phi)
     s = math.sin(phi)
     lost = front
@@ -76,7 +86,7 @@ def exchanged(
         x, z, phi, c, s = x1, z1, phi1, c1, s1
     u_x, u_z, u_w, size = tangent(ground, body, rear, front, x, z, c, s)
     if size == 0.0:
-        return False, rear, front, lost, x, z, phi, t_x, t_z, t_w
+        return False, lost, at
     opening = gap_rate(ground, body, lost, x, z, c, s, u_x, u_z, u_w)
     if abs(opening) < 1e-4:
         opening = u_x * t_x + u_z * t_z + u_w * t_w
@@ -84,14 +94,12 @@ def exchanged(
         u_x = -u_x
         u_z = -u_z
         u_w = -u_w
-    return True, rear, front, lost, x, z, phi, u_x, u_z, u_w
+    return True, lost, (x, z, phi, u_x, u_z, u_w, rear, front)
 
 
-def onset(
-    ground: GroundTable, body: BodyTable, rear: int, front: int,
-    x: float, z: float, phi: float, kappa: float,
-) -> float:  # fmt: skip
+def onset(ground: GroundTable, body: BodyTable, at: Held, kappa: float) -> float:
     """Sense in which the robot rotates: +1 nose up, -1 nose down, 0 while the contacts hold."""
+    x, z, phi, _, _, _, rear, front = at
     c = math.cos(phi)
     s = math.sin(phi)
     if lever(ground, body, rear, x, z, c, s, kappa) > 0.0:
@@ -129,7 +137,7 @@ def rotate(
     outcome
         A `RotationOutcome`.
     rear, front
-        The two contacts that arrest it.
+        The two contacts that arrest it, if it is arrested.
     x, z, phi, angle
         The pose at the end, and how far it rotated [rad].
     count

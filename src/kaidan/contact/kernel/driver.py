@@ -13,15 +13,22 @@ from kaidan.contact.kernel.contact_changes import (
     exchanged,
     onset,
     rotate,
+    settled,
     settled_again,
 )
 from kaidan.contact.kernel.continuation import tangent, tilt
 from kaidan.contact.kernel.gaps import relabelled
 from kaidan.contact.kernel.recording import record_pose, repeats, write_event
 from kaidan.contact.kernel.renaming import record_renamings
-from kaidan.contact.kernel.settling import settle
 from kaidan.contact.kernel.toppling import same_place
-from kaidan.contact.tables import BodyTable, EventTable, GroundTable, PoseTable, RotationTable
+from kaidan.contact.tables import (
+    BodyTable,
+    EventTable,
+    GroundTable,
+    Held,
+    PoseTable,
+    RotationTable,
+)
 
 #: Steps that lead nowhere before the robot counts as stuck.
 IDLE = 20
@@ -30,6 +37,8 @@ UPRIGHT = 0.5 * math.pi
 NEARLY = 1e-4
 #: Times that the robot may be settled again.
 FAILURES = 50
+#: No status: the drive goes on after a rotation.
+GOES_ON = -1
 
 
 def end_of_fall(outcome: int, sense: float) -> tuple[int, int]:
@@ -41,6 +50,115 @@ def end_of_fall(outcome: int, sense: float) -> tuple[int, int]:
     if outcome == RotationOutcome.ENDLESS:
         return Status.NOT_CONVERGED, Event.STUCK
     return Status.STUCK, Event.STUCK
+
+
+def step_on(
+    ground: GroundTable, body: BodyTable, at: Held, x_end: float, step: float, thinnest: float,
+    a: float, g: float, kappa_g: float, hint: int,
+) -> tuple[int, Held, int, float, bool]:  # fmt: skip
+    """One step, cut where the robot arrives or is driven upright: linear in the step.
+
+    Returns
+    -------
+    outcome, pose, hint, step taken [m]
+        As :func:`kaidan.contact.kernel.advance.advance`.
+    ends
+        Whether it comes to ``x_end``.
+    """
+    what, there, hint, ds = advance(ground, body, at, step, thinnest, a, g, kappa_g, hint)
+    ends = there[0] >= x_end and at[0] < x_end
+    if ends and ds > 1e-9:
+        part = (x_end - at[0]) / (there[0] - at[0])
+        if part < 1.0:
+            what, there, hint, ds = advance(
+                ground, body, at, ds * part, thinnest, a, g, kappa_g, hint
+            )
+    if what == Advance.NOTHING and abs(there[2]) > UPRIGHT:
+        part = (UPRIGHT - abs(at[2])) / (abs(there[2]) - abs(at[2]))
+        what, there, hint, ds = advance(ground, body, at, ds * part, thinnest, a, g, kappa_g, hint)
+        ends = there[0] >= x_end and at[0] < x_end
+    return what, there, hint, ds, ends
+
+
+def exchange(
+    ground: GroundTable, body: BodyTable, made: int, at: Held, kappa: float,
+    path: float, leg: int, poses: PoseTable, n_pose: int, events: EventTable, n_event: int,
+) -> tuple[bool, Held, int, int]:  # fmt: skip
+    """Exchange a contact for another that has closed, and write that down.
+
+    Returns
+    -------
+    good, pose, poses written, events written
+    """
+    good, lost, at = exchanged(ground, body, made, at, kappa)
+    if not good:
+        return False, at, n_pose, n_event
+    x, z, phi, t_x, t_z, t_w, rear, _ = at
+    if same_place(ground, body, made, lost, x, z, phi):
+        # one contact by the name of the part that carries from here on
+        record_pose(ground, body, poses, n_pose - 1, path, at, leg)
+        return True, at, n_pose, n_event
+    # the same pose with its new contacts: the forces jump here
+    record_pose(ground, body, poses, n_pose, path, at, leg)
+    code = Event.TAIL_RESTS if made & KIND_MASK == DISC_1 and made == rear else Event.MADE
+    write_event(events, n_event, code, path, (x, z, phi, t_x, t_z, t_w, made, lost), n_pose)
+    write_event(
+        events, n_event + 1, Event.LOST, path, (x, z, phi, t_x, t_z, t_w, lost, made), n_pose
+    )
+    return True, at, n_pose + 1, n_event + 2
+
+
+def rotate_on(
+    ground: GroundTable, body: BodyTable, at: Held, sense: float, kappa: float,
+    gyration: float, gravity: float, path: float, leg: int, hint: int,
+    poses: PoseTable, n_pose: int, events: EventTable, n_event: int,
+    rotations: RotationTable, n_rotation: int,
+) -> tuple[int, Held, int, int, int, int]:  # fmt: skip
+    """Rotate until two contacts hold the robot again, or it falls; and write that down.
+
+    Parameters
+    ----------
+    leg
+        Line of poses after the rotation.
+
+    Returns
+    -------
+    status
+        `GOES_ON`, or the `Status` with which the drive ends.
+    pose, poses written, events written, rotations written, hint
+    """
+    x, z, phi, t_x, t_z, t_w, rear, front = at
+    pivot = rear if sense > 0.0 else front
+    outcome, new_rear, new_front, x1, z1, phi1, angle, count, hint = rotate(
+        ground, body, pivot, x, z, phi, sense, kappa, gyration, gravity, path,
+        rotations, n_rotation, hint,
+    )  # fmt: skip
+    if count > n_rotation:
+        code: int = Event.TIPS_BACK if sense > 0.0 else Event.NOSE_DROPS
+        about = (x, z, phi, t_x, t_z, t_w, pivot, rear)
+        write_event(events, n_event, code, path, about, n_pose - 1)
+        n_event += 1
+    if outcome != RotationOutcome.ARRESTED:
+        status, code = end_of_fall(outcome, sense)
+        about = (x1, z1, phi1, t_x, t_z, t_w, pivot, NO_FEATURE)
+        write_event(events, n_event, code, path, about, n_pose - 1)
+        return status, about, n_pose, n_event + 1, count, hint
+    c = math.cos(phi1)
+    s = math.sin(phi1)
+    rear = relabelled(ground, body, new_rear, x1, z1, c, s)
+    front = relabelled(ground, body, new_front, x1, z1, c, s)
+    t_x, t_z, t_w, size = tangent(ground, body, rear, front, x1, z1, c, s)
+    at = (x1, z1, phi1, t_x, t_z, t_w, rear, front)
+    if size == 0.0:
+        return Status.NOT_CONVERGED, at, n_pose, n_event, count, hint
+    record_pose(ground, body, poses, n_pose, path, at, leg)
+    if angle > 1e-7:
+        write_event(events, n_event, Event.ARRESTED, path, at, n_pose)
+        n_event += 1
+        if repeats(rotations, count):
+            write_event(events, n_event, Event.STUCK, path, at, n_pose)
+            return Status.STUCK, at, n_pose + 1, n_event + 1, count, hint
+    return GOES_ON, at, n_pose + 1, n_event, count, hint
 
 
 @entry
@@ -87,18 +205,14 @@ def drive(
     """
     # the path at the start is taken to run along the inclination given
     kappa = tilt(a, g, kappa_g, math.cos(phi_start), math.sin(phi_start))
-    found, z, phi, rear, front = settle(ground, body, x_start, phi_start, kappa)
-    if not found or rear == front:
-        return Status.NO_START, 0, 0, 0
-    x = x_start
-    t_x, t_z, t_w, size = tangent(ground, body, rear, front, x, z, math.cos(phi), math.sin(phi))
-    if size == 0.0:
+    good, at = settled(ground, body, x_start, phi_start, kappa)
+    if not good:
         return Status.NO_START, 0, 0, 0
     thinnest = thinnest_radius(body)
     path = 0.0
     leg = 0
     hint = 0
-    record_pose(ground, body, poses, 0, path, x, z, phi, rear, front, t_x, t_z, t_w, leg)
+    record_pose(ground, body, poses, 0, path, at, leg)
     n_pose = 1
     n_event = 0
     n_rotation = 0
@@ -106,142 +220,67 @@ def drive(
     failures = 0
     for _ in range(30 * poses.shape[0]):
         if n_pose >= poses.shape[0] - 2 or n_event >= events.shape[0] - 4:
-            return Status.TOO_LONG, n_pose, n_event, n_rotation
-        what, x1, z1, phi1, u_x, u_z, u_w, r1, f1, hint, ds = advance(
-            ground, body, rear, front, x, z, phi, t_x, t_z, t_w, step, thinnest, a, g, kappa_g, hint
+            break
+        what, there, hint, ds, ends = step_on(
+            ground, body, at, x_end, step, thinnest, a, g, kappa_g, hint
         )
-        ends = x1 >= x_end and x < x_end
-        if ends and ds > 1e-9:
-            # cut at the end, linear in the step: the pose itself stays on the line
-            part = (x_end - x) / (x1 - x)
-            if part < 1.0:
-                what, x1, z1, phi1, u_x, u_z, u_w, r1, f1, hint, ds = advance(
-                    ground, body, rear, front, x, z, phi, t_x, t_z, t_w, ds * part, thinnest,
-                    a, g, kappa_g, hint,
-                )  # fmt: skip
-        if what == Advance.NOTHING and abs(phi1) > UPRIGHT:
-            # it is driven upright: cut there, linear in the step
-            part = (UPRIGHT - abs(phi)) / (abs(phi1) - abs(phi))
-            what, x1, z1, phi1, u_x, u_z, u_w, r1, f1, hint, ds = advance(
-                ground, body, rear, front, x, z, phi, t_x, t_z, t_w, ds * part, thinnest,
-                a, g, kappa_g, hint,
-            )  # fmt: skip
-            ends = x1 >= x_end and x < x_end
         if what == Advance.NOT_CONVERGED:
             failures += 1
-            found, nudge, z, phi, rear, front, t_x, t_z, t_w = settled_again(
-                ground, body, x, z, phi, kappa, t_x, t_z, t_w
-            )
-            if not found or failures > FAILURES:
+            good, nudge, at = settled_again(ground, body, at, kappa)
+            if not good or failures > FAILURES:
                 return Status.NOT_CONVERGED, n_pose, n_event, n_rotation
-            x += nudge
             path += abs(nudge)
-            write_event(events, n_event, Event.RESETTLED, path, x, z, phi, rear, front, n_pose - 1)
+            write_event(events, n_event, Event.RESETTLED, path, at, n_pose - 1)
             n_event += 1
             continue
         n_pose, moved = record_renamings(
-            ground, body, poses, n_pose, path, x, z, phi, t_x, t_z, t_w, rear, front, r1, f1,
-            x1, z1, phi1, ds, leg,
+            ground, body, poses, n_pose, path, at, there, ds, leg
         )  # fmt: skip
-        x, z, phi = x1, z1, phi1
-        t_x, t_z, t_w, rear, front = u_x, u_z, u_w, r1, f1
+        at = there
         path += moved
-        if ends and (what == Advance.NOTHING or x >= x_end - 1e-9):
-            record_pose(
-                ground, body, poses, n_pose, path, x, z, phi, rear, front, t_x, t_z, t_w, leg
-            )
+        if ends and (what == Advance.NOTHING or at[0] >= x_end - 1e-9):
+            record_pose(ground, body, poses, n_pose, path, at, leg)
             n_pose += 1
-            if x >= x_end - 1e-7:
-                write_event(
-                    events, n_event, Event.ARRIVED, path, x, z, phi, rear, front, n_pose - 1
-                )
+            if at[0] >= x_end - 1e-7:
+                write_event(events, n_event, Event.ARRIVED, path, at, n_pose - 1)
                 return Status.OK, n_pose, n_event + 1, n_rotation
             continue
-        if ds > 1e-10:
-            idle = 0
-        else:
-            idle += 1
-            if idle > IDLE:
-                write_event(events, n_event, Event.STUCK, path, x, z, phi, rear, front, n_pose - 1)
-                return Status.STUCK, n_pose, n_event + 1, n_rotation
-        upright = abs(phi) > UPRIGHT - NEARLY
+        idle = 0 if ds > 1e-10 else idle + 1
+        if idle > IDLE:
+            write_event(events, n_event, Event.STUCK, path, at, n_pose - 1)
+            return Status.STUCK, n_pose, n_event + 1, n_rotation
+        upright = abs(at[2]) > UPRIGHT - NEARLY
         if upright or what != Advance.NOTHING or path - poses[n_pose - 1, POSE_S] > 0.7 * step:
-            record_pose(
-                ground, body, poses, n_pose, path, x, z, phi, rear, front, t_x, t_z, t_w, leg
-            )
+            record_pose(ground, body, poses, n_pose, path, at, leg)
             n_pose += 1
         if upright:
-            status, code = end_of_fall(RotationOutcome.PAST_VERTICAL, phi)
-            write_event(events, n_event, code, path, x, z, phi, rear, front, n_pose - 1)
+            status, code = end_of_fall(RotationOutcome.PAST_VERTICAL, at[2])
+            write_event(events, n_event, code, path, at, n_pose - 1)
             return status, n_pose, n_event + 1, n_rotation
         if what == Advance.NOTHING:
             continue
-        kappa = tilt(a, g, kappa_g, t_x, t_z)
+        kappa = tilt(a, g, kappa_g, at[3], at[4])
+        sense = 1.0 if what == Advance.OVER_REAR else -1.0
         if what >= 0:
-            good, rear, front, lost, x, z, phi, t_x, t_z, t_w = exchanged(
-                ground, body, what, rear, front, x, z, phi, kappa, t_x, t_z, t_w
+            good, at, n_pose, n_event = exchange(
+                ground, body, what, at, kappa, path, leg, poses, n_pose, events, n_event
             )
             if not good:
                 return Status.NOT_CONVERGED, n_pose, n_event, n_rotation
-            if same_place(ground, body, what, lost, x, z, phi):
-                # one contact by the name of the part that carries from here on
-                record_pose(
-                    ground, body, poses, n_pose - 1, path, x, z, phi, rear, front, t_x, t_z, t_w,
-                    leg,
-                )  # fmt: skip
-            else:
-                # the same pose with its new contacts: the forces jump here
-                record_pose(
-                    ground, body, poses, n_pose, path, x, z, phi, rear, front, t_x, t_z, t_w, leg
-                )
-                n_pose += 1
-                code = Event.MADE
-                if what & KIND_MASK == DISC_1 and what == rear:
-                    code = Event.TAIL_RESTS
-                write_event(events, n_event, code, path, x, z, phi, what, lost, n_pose - 1)
-                n_event += 1
-                write_event(events, n_event, Event.LOST, path, x, z, phi, lost, what, n_pose - 1)
-                n_event += 1
-            kappa = tilt(a, g, kappa_g, t_x, t_z)
-            sense = onset(ground, body, rear, front, x, z, phi, kappa)
+            kappa = tilt(a, g, kappa_g, at[3], at[4])
+            sense = onset(ground, body, at, kappa)
             if sense == 0.0:
                 continue
-        else:
-            sense = 1.0 if what == Advance.OVER_REAR else -1.0
         if n_rotation >= rotations.shape[0]:
-            return Status.TOO_LONG, n_pose, n_event, n_rotation
-        pivot = rear if sense > 0.0 else front
-        outcome, new_rear, new_front, x1, z1, phi1, angle, count, hint = rotate(
-            ground, body, pivot, x, z, phi, sense, kappa, gyration,
-            effective_gravity(a, g, t_x, t_z), path, rotations, n_rotation, hint,
-        )  # fmt: skip
-        if count > n_rotation:
-            n_rotation = count
-            code = Event.TIPS_BACK if sense > 0.0 else Event.NOSE_DROPS
-            write_event(events, n_event, code, path, x, z, phi, pivot, rear, n_pose - 1)
-            n_event += 1
+            break
         leg += 1
-        x, z, phi = x1, z1, phi1
-        if outcome != RotationOutcome.ARRESTED:
-            status, code = end_of_fall(outcome, sense)
-            write_event(events, n_event, code, path, x, z, phi, pivot, NO_FEATURE, n_pose - 1)
-            return status, n_pose, n_event + 1, n_rotation
-        c = math.cos(phi)
-        s = math.sin(phi)
-        rear = relabelled(ground, body, new_rear, x, z, c, s)
-        front = relabelled(ground, body, new_front, x, z, c, s)
-        t_x, t_z, t_w, size = tangent(ground, body, rear, front, x, z, c, s)
-        if size == 0.0:
-            return Status.NOT_CONVERGED, n_pose, n_event, n_rotation
-        record_pose(ground, body, poses, n_pose, path, x, z, phi, rear, front, t_x, t_z, t_w, leg)
-        n_pose += 1
-        if angle > 1e-7:
-            write_event(events, n_event, Event.ARRESTED, path, x, z, phi, rear, front, n_pose - 1)
-            n_event += 1
-            if repeats(rotations, n_rotation):
-                write_event(events, n_event, Event.STUCK, path, x, z, phi, rear, front, n_pose - 1)
-                return Status.STUCK, n_pose, n_event + 1, n_rotation
-        if x >= x_end:  # the rotation carried it there
-            write_event(events, n_event, Event.ARRIVED, path, x, z, phi, rear, front, n_pose - 1)
+        status, at, n_pose, n_event, n_rotation, hint = rotate_on(
+            ground, body, at, sense, kappa, gyration, effective_gravity(a, g, at[3], at[4]),
+            path, leg, hint, poses, n_pose, events, n_event, rotations, n_rotation,
+        )  # fmt: skip
+        if status != GOES_ON:
+            return status, n_pose, n_event, n_rotation
+        if at[0] >= x_end:  # the rotation carried it there
+            write_event(events, n_event, Event.ARRIVED, path, at, n_pose - 1)
             return Status.OK, n_pose, n_event + 1, n_rotation
     return Status.TOO_LONG, n_pose, n_event, n_rotation

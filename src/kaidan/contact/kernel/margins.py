@@ -12,13 +12,12 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.codes import BELLY, ROCKING
+from kaidan.contact.codes import BELLY
 from kaidan.contact.columns import (
     BACK,
     BACK_RISE,
     BELLY_TOUCHES,
     BOUNDED,
-    CARRIED_TO,
     CONTACT_COLUMNS,
     CONTACT_FEATURE,
     CONTACT_GAP,
@@ -56,7 +55,6 @@ from kaidan.contact.columns import (
     REAR_T,
     REAR_X,
     REAR_Z,
-    ROCKS_BY,
     STEEPEST,
     TILT,
     TRACTION,
@@ -68,7 +66,6 @@ from kaidan.contact.columns import (
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.continuation import gap_rate, tangent
 from kaidan.contact.kernel.forces import contacts_at, two_contact_forces
-from kaidan.contact.kernel.reserves import barrier, carrying_tilt
 from kaidan.contact.tables import (
     BodyTable,
     ContactTable,
@@ -76,7 +73,6 @@ from kaidan.contact.tables import (
     IntArray,
     MarginTable,
     PoseTable,
-    TiltTable,
 )
 
 #: A gap that changes by less than this along a line of poses stays closed [1]: a hundred times the
@@ -136,6 +132,90 @@ def lasting(
     return kept
 
 
+def steepest_normal(
+    poses: PoseTable, row: int, found: ContactTable, many: int
+) -> tuple[float, float]:
+    """Normal of the steepest contact of a pose, its x taken positive."""
+    n_x = abs(poses[row, REAR_N_X])
+    n_z = poses[row, REAR_N_Z]
+    if abs(poses[row, FRONT_N_X]) * n_z > poses[row, FRONT_N_Z] * n_x:
+        n_x = abs(poses[row, FRONT_N_X])
+        n_z = poses[row, FRONT_N_Z]
+    for k in range(many if many > 2 else 0):
+        if abs(found[k, CONTACT_N_X]) * n_z > found[k, CONTACT_N_Z] * n_x:
+            n_x = abs(found[k, CONTACT_N_X])
+            n_z = found[k, CONTACT_N_Z]
+    return n_x, n_z
+
+
+def outer_contacts(
+    poses: PoseTable, row: int, found: ContactTable, many: int, kappa: float, down: float
+) -> tuple[float, float, float, float, float, float]:
+    """Contacts that bound the margins of a pose: of more than two the outermost.
+
+    Returns
+    -------
+    how far behind and how far ahead of the gravity line they lie [m], their points [m]
+    """
+    x = poses[row, POSE_X]
+    z = poses[row, POSE_Z]
+    r_x = poses[row, REAR_X]
+    r_z = poses[row, REAR_Z]
+    f_x = poses[row, FRONT_X]
+    f_z = poses[row, FRONT_Z]
+    back = -(r_x - x + kappa * (z - r_z)) / down
+    front = (f_x - x + kappa * (z - f_z)) / down
+    for k in range(many if many > 2 else 0):
+        ahead = (found[k, CONTACT_X] - x + kappa * (z - found[k, CONTACT_Z])) / down
+        if ahead > front:
+            front = ahead
+            f_x = found[k, CONTACT_X]
+            f_z = found[k, CONTACT_Z]
+        elif -ahead > back:
+            back = -ahead
+            r_x = found[k, CONTACT_X]
+            r_z = found[k, CONTACT_Z]
+    return back, front, r_x, r_z, f_x, f_z
+
+
+def least_forces(
+    poses: PoseTable, row: int, found: ContactTable, many: int, kappa: float, w_x: float, w_z: float
+) -> tuple[float, float, float, float, float]:
+    """Least required friction of any two contacts of a pose, and the forces on these.
+
+    Returns
+    -------
+    mu, N and T of the rear one, N and T of the front one
+    """
+    x = poses[row, POSE_X]
+    z = poses[row, POSE_Z]
+    mu, n1, t1, n2, t2 = two_contact_forces(
+        poses[row, REAR_X], poses[row, REAR_Z], poses[row, REAR_N_X], poses[row, REAR_N_Z],
+        poses[row, FRONT_X], poses[row, FRONT_Z], poses[row, FRONT_N_X], poses[row, FRONT_N_Z],
+        x, z, w_x, w_z,
+    )  # fmt: skip
+    # all contacts press one way: the active pair's friction, the slope, is the least already
+    one_plane = abs(poses[row, REAR_N_X] - poses[row, FRONT_N_X]) < 1e-12
+    for k in range(many if many > 2 else 0):
+        if abs(found[k, CONTACT_N_X] - poses[row, REAR_N_X]) > 1e-12:
+            one_plane = False
+        ahead = found[k, CONTACT_X] - x + kappa * (z - found[k, CONTACT_Z])
+        for j in range(0 if one_plane else k):
+            other = found[j, CONTACT_X] - x + kappa * (z - found[j, CONTACT_Z])
+            mu2, m1, u1, m2, u2 = two_contact_forces(
+                found[j, CONTACT_X], found[j, CONTACT_Z],
+                found[j, CONTACT_N_X], found[j, CONTACT_N_Z],
+                found[k, CONTACT_X], found[k, CONTACT_Z],
+                found[k, CONTACT_N_X], found[k, CONTACT_N_Z],
+                x, z, w_x, w_z,
+            )  # fmt: skip
+            if mu2 < mu - 1e-12:
+                mu, n1, t1, n2, t2 = mu2, m1, u1, m2, u2
+                if ahead < other:
+                    n1, t1, n2, t2 = m2, u2, m1, u1
+    return mu, n1, t1, n2, t2
+
+
 def margins_at(
     poses: PoseTable,
     row: int,
@@ -155,65 +235,16 @@ def margins_at(
         kappa = a * math.cos(psi) / (g + a * math.sin(psi))
         gravity = math.sqrt(g * g + a * a + 2.0 * g * a * math.sin(psi))
     down = math.sqrt(1.0 + kappa * kappa)
-    p_x = poses[row, REAR_X]
-    p_z = poses[row, REAR_Z]
-    o_x = poses[row, FRONT_X]
-    o_z = poses[row, FRONT_Z]
-    mu, n1, t1, n2, t2 = two_contact_forces(
-        p_x, p_z, poses[row, REAR_N_X], poses[row, REAR_N_Z],
-        o_x, o_z, poses[row, FRONT_N_X], poses[row, FRONT_N_Z],
-        x, z, gravity * kappa / down, gravity / down,
-    )  # fmt: skip
-    back = -(p_x - x + kappa * (z - p_z)) / down
-    front = (o_x - x + kappa * (z - o_z)) / down
-    belly = 0.0
-    # normal of the steepest contact, its x taken positive
-    n_x = abs(poses[row, REAR_N_X])
-    n_z = poses[row, REAR_N_Z]
-    if abs(poses[row, FRONT_N_X]) * n_z > poses[row, FRONT_N_Z] * n_x:
-        n_x = abs(poses[row, FRONT_N_X])
-        n_z = poses[row, FRONT_N_Z]
-    r_x, r_z, f_x, f_z = p_x, p_z, o_x, o_z
-    # all contacts press one way: the active pair's friction, the slope, is the least already
-    one_plane = abs(poses[row, REAR_N_X] - poses[row, FRONT_N_X]) < 1e-12
-    for k in range(many):
-        if abs(found[k, CONTACT_N_X] - poses[row, REAR_N_X]) > 1e-12:
-            one_plane = False
-        if int(found[k, CONTACT_KIND]) == BELLY:
-            belly = 1.0
-        if many > 2:
-            if abs(found[k, CONTACT_N_X]) * n_z > found[k, CONTACT_N_Z] * n_x:
-                n_x = abs(found[k, CONTACT_N_X])
-                n_z = found[k, CONTACT_N_Z]
-            ahead = (found[k, CONTACT_X] - x + kappa * (z - found[k, CONTACT_Z])) / down
-            # more than two: the outermost contacts bound the margins
-            if ahead > front:
-                front = ahead
-                f_x = found[k, CONTACT_X]
-                f_z = found[k, CONTACT_Z]
-            elif -ahead > back:
-                back = -ahead
-                r_x = found[k, CONTACT_X]
-                r_z = found[k, CONTACT_Z]
-            for j in range(0 if one_plane else k):
-                other = (found[j, CONTACT_X] - x + kappa * (z - found[j, CONTACT_Z])) / down
-                mu2, m1, u1, m2, u2 = two_contact_forces(
-                    found[j, CONTACT_X], found[j, CONTACT_Z],
-                    found[j, CONTACT_N_X], found[j, CONTACT_N_Z],
-                    found[k, CONTACT_X], found[k, CONTACT_Z],
-                    found[k, CONTACT_N_X], found[k, CONTACT_N_Z],
-                    x, z, gravity * kappa / down, gravity / down,
-                )  # fmt: skip
-                if mu2 < mu - 1e-12:
-                    mu, n1, t1, n2, t2 = mu2, m1, u1, m2, u2
-                    if ahead < other:
-                        n1, t1, n2, t2 = m2, u2, m1, u1
+    mu, n1, t1, n2, t2 = least_forces(
+        poses, row, found, many, kappa, gravity * kappa / down, gravity / down
+    )
     margins[row, FRICTION] = mu
     margins[row, REAR_N] = n1
     margins[row, REAR_T] = t1
     margins[row, FRONT_N] = n2
     margins[row, FRONT_T] = t2
     margins[row, TRACTION] = g * math.sin(psi) + a
+    back, front, r_x, r_z, f_x, f_z = outer_contacts(poses, row, found, many, kappa, down)
     margins[row, BACK] = back
     margins[row, FRONT] = front
     rise_back = pivot_rise(r_x, r_z, x, z, kappa)
@@ -227,7 +258,11 @@ def margins_at(
     )
     margins[row, ZMP] = back / (back + front) if back + front > 0.0 else math.nan
     margins[row, CONTACTS] = max(many, 2)
-    margins[row, BELLY_TOUCHES] = belly
+    margins[row, BELLY_TOUCHES] = 0.0
+    for k in range(many):
+        if int(found[k, CONTACT_KIND]) == BELLY:
+            margins[row, BELLY_TOUCHES] = 1.0
+    n_x, n_z = steepest_normal(poses, row, found, many)
     margins[row, STEEPEST] = math.atan2(n_x, n_z)
     margins[row, TILT] = kappa
     margins[row, OUTER_REAR] = poses[row, POSE_REAR]
@@ -330,85 +365,3 @@ def margins_without(
                 kept += 1
         margins_at(poses, row, a, g, found, kept, margins)
         margins[row, WITHOUT] = without[row]
-
-
-@entry
-def flow_energy(
-    ground: GroundTable, body: BodyTable, poses: PoseTable, margins: MarginTable, rows: IntArray
-) -> None:
-    """Work out the energy margin along the flow, its side and whether it is bounded, at some poses.
-
-    Parameters
-    ----------
-    ground, body, poses
-        As for :func:`pose_margins`.
-    margins
-        Table that it has filled.
-    rows
-        Which poses.
-    """
-    hint = 0
-    for k in range(rows.shape[0]):
-        row = rows[k]
-        x = poses[row, POSE_X]
-        z = poses[row, POSE_Z]
-        phi = poses[row, POSE_PHI]
-        kappa = margins[row, TILT]
-        rise_back = abs(margins[row, BACK_RISE])
-        rise_front = abs(margins[row, FRONT_RISE])
-        rear = int(margins[row, OUTER_REAR])
-        ahead = int(margins[row, OUTER_FRONT])
-        # the side with the smaller bound first, the other only if it can be less
-        side = 1.0
-        pivot = rear
-        bound = rise_front
-        if rise_front < rise_back:
-            side = -1.0
-            pivot = ahead
-            bound = rise_back
-        bounded, rise, hint = barrier(ground, body, pivot, x, z, phi, side, kappa, ROCKING, hint)
-        if rise > bound:
-            pivot = ahead if side > 0.0 else rear
-            other_bounded, other_rise, hint = barrier(
-                ground, body, pivot, x, z, phi, -side, kappa, ROCKING, hint
-            )
-            if other_rise < rise:
-                rise = other_rise
-                bounded = other_bounded
-                side = -side
-        margins[row, ENERGY] = rise
-        margins[row, ENERGY_SIDE] = side
-        margins[row, BOUNDED] = 1.0 if bounded else 0.0
-
-
-@entry
-def flow_tilts(
-    ground: GroundTable, body: BodyTable, poses: PoseTable, margins: MarginTable, rows: IntArray,
-    side: float, tolerance: float, found: TiltTable,
-) -> None:  # fmt: skip
-    """Work out beyond which tilt of gravity some poses rotate by more than rocking, to one side.
-
-    Parameters
-    ----------
-    ground, body, poses
-        As for :func:`pose_margins`.
-    margins
-        Table that it has filled.
-    rows
-        Which poses.
-    side
-        +1 back, -1 front.
-    tolerance
-        Rotation that is rocking [rad].
-    found
-        A row for each pose, to be filled: tilt and rocking [rad].
-    """
-    hint = 0
-    column = OUTER_REAR if side > 0.0 else OUTER_FRONT
-    for k in range(rows.shape[0]):
-        row = rows[k]
-        found[k, CARRIED_TO], found[k, ROCKS_BY], hint = carrying_tilt(
-            ground, body, int(margins[row, column]), poses[row, POSE_X], poses[row, POSE_Z],
-            poses[row, POSE_PHI], side, margins[row, TILT], tolerance,
-            int(margins[row, WITHOUT]), hint,
-        )  # fmt: skip

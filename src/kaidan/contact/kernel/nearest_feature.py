@@ -79,6 +79,29 @@ def first_index(ground: GroundTable, x: float, hint: int) -> int:
     return k
 
 
+def disc_gap(
+    ground: GroundTable, k: int, to_x: float, to_z: float, radius: float, best: float
+) -> float:
+    """Gap between a disc and a segment if it is less than ``best``, else ``best`` [m].
+
+    Parameters
+    ----------
+    to_x, to_z
+        From point k to the disc's centre [m].
+    """
+    u_x = ground[k, U_X]
+    u_z = ground[k, U_Z]
+    distance = u_x * to_z - u_z * to_x
+    if distance - radius >= best or distance <= -DEEPEST:
+        return best
+    foot = to_x * u_x + to_z * u_z
+    if foot < 0.0 or foot > ground[k, LENGTH]:
+        return best
+    if distance <= 0.0 and to_z + ground[k, Z] >= height_of_ground(ground, to_x + ground[k, X]):
+        return best
+    return float(distance - radius)
+
+
 def nearest(
     ground: GroundTable,
     body: BodyTable,
@@ -113,10 +136,8 @@ def nearest(
     which = NO_FEATURE
     new_hint = n
     for part in range(body.shape[0]):
-        o_x = c * body[part, X1] - s * body[part, Z1]
-        o_z = s * body[part, X1] + c * body[part, Z1]
-        x1 = x + o_x
-        z1 = z + o_z
+        x1 = x + (c * body[part, X1] - s * body[part, Z1])
+        z1 = z + (s * body[part, X1] + c * body[part, Z1])
         x2 = x + c * body[part, X2] - s * body[part, Z2]
         z2 = z + s * body[part, X2] + c * body[part, Z2]
         r1 = body[part, R1]
@@ -180,20 +201,12 @@ def nearest(
                     to_x = x2 - g_x
                     to_z = z2 - g_z
                     radius = r2
-                u_x = ground[k, U_X]
-                u_z = ground[k, U_Z]
-                distance = u_x * to_z - u_z * to_x
-                if distance - radius < best and distance > -DEEPEST:
-                    foot = to_x * u_x + to_z * u_z
-                    if foot >= 0.0 and foot <= ground[k, LENGTH]:
-                        feature = POINT * k + PART * part + disc
-                        if feature != skip_1 and feature != skip_2:
-                            if distance <= 0.0 and to_z + g_z >= height_of_ground(
-                                ground, to_x + g_x
-                            ):
-                                continue
-                            best = distance - radius
-                            which = feature
+                distance = disc_gap(ground, k, to_x, to_z, radius, best)
+                if distance < best:
+                    feature = POINT * k + PART * part + disc
+                    if feature != skip_1 and feature != skip_2:
+                        best = distance
+                        which = feature
             k += 1
     if which < 0:
         best = FAR

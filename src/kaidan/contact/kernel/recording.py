@@ -50,7 +50,14 @@ from kaidan.contact.columns import (
     TOPPLES,
 )
 from kaidan.contact.kernel.gaps import gap, pressed_normal
-from kaidan.contact.tables import BodyTable, EventTable, GroundTable, PoseTable, RotationTable
+from kaidan.contact.tables import (
+    BodyTable,
+    EventTable,
+    GroundTable,
+    Held,
+    PoseTable,
+    RotationTable,
+)
 
 
 def record_pose(
@@ -59,20 +66,14 @@ def record_pose(
     poses: PoseTable,
     row: int,
     path: float,
-    x: float,
-    z: float,
-    phi: float,
-    rear: int,
-    front: int,
-    t_x: float,
-    t_z: float,
-    t_w: float,
+    at: Held,
     leg: int,
 ) -> None:
     """Write one pose: s, x, z, phi, rear, front, their points and normals, tangent, leg.
 
     Normals, and with them the direction of the path, are those of the belt as it gives way.
     """
+    x, z, phi, t_x, t_z, _, rear, front = at
     c = math.cos(phi)
     s = math.sin(phi)
     _, m_x, m_z, p_x, p_z = gap(ground, body, rear, x, z, c, s)
@@ -107,19 +108,9 @@ def record_pose(
     poses[row, REAR_LEAN] = math.atan2(m_x, m_z)
 
 
-def write_event(
-    events: EventTable,
-    row: int,
-    code: int,
-    path: float,
-    x: float,
-    z: float,
-    phi: float,
-    feature: int,
-    other: int,
-    pose: int,
-) -> None:
-    """Write one event: code, s, x, z, phi, feature, other feature, row of the pose."""
+def write_event(events: EventTable, row: int, code: int, path: float, at: Held, pose: int) -> None:
+    """Write one event: code, s, x, z, phi, its two features, row of the pose."""
+    x, z, phi, _, _, _, feature, other = at
     events[row, EVENT_KIND] = code
     events[row, EVENT_S] = path
     events[row, EVENT_X] = x

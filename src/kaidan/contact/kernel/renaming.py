@@ -44,7 +44,7 @@ from kaidan.contact.entries import entry
 from kaidan.contact.kernel.continuation import ARM, distance, stepped, tangent
 from kaidan.contact.kernel.gaps import FAR, flat_room, gap, on_flat
 from kaidan.contact.kernel.recording import record_pose
-from kaidan.contact.tables import BodyTable, FloatRow, GroundTable, IntArray, PoseTable
+from kaidan.contact.tables import BodyTable, FloatRow, GroundTable, Held, IntArray, PoseTable
 
 #: How well the place is known [m]: a normal on an arc of 5 mm turns by 2e-7 rad in it.
 PLACE = 1e-9
@@ -138,19 +138,8 @@ def record_renamings(
     poses: PoseTable,
     n_pose: int,
     path: float,
-    x: float,
-    z: float,
-    phi: float,
-    t_x: float,
-    t_z: float,
-    t_w: float,
-    rear: int,
-    front: int,
-    new_rear: int,
-    new_front: int,
-    x1: float,
-    z1: float,
-    phi1: float,
+    at: Held,
+    there: Held,
     ds: float,
     leg: int,
 ) -> tuple[int, float]:
@@ -158,13 +147,15 @@ def record_renamings(
 
     Parameters
     ----------
-    x1, z1, phi1
-        The pose at the end of the step.
+    at, there
+        The pose at the begin of the step, and at its end.
 
     Returns
     -------
     poses written in all, and how far it is from pose to pose over the step [m]
     """
+    x, z, phi, t_x, t_z, t_w, rear, front = at
+    x1, z1, phi1, _, _, _, new_rear, new_front = there
     c1 = math.cos(phi1)
     s1 = math.sin(phi1)
     left = ds
@@ -194,9 +185,8 @@ def record_renamings(
         left -= cut
         length += distance(x, z, phi, x2, z2, phi2)
         x, z, phi, t_x, t_z, t_w, rear, front = x2, z2, phi2, u_x, u_z, u_w, rear2, front2
-        record_pose(
-            ground, body, poses, n_pose, path + length, x, z, phi, rear, front, t_x, t_z, t_w, leg
-        )
+        now = (x, z, phi, t_x, t_z, t_w, rear, front)
+        record_pose(ground, body, poses, n_pose, path + length, now, leg)
         n_pose += 1
     return n_pose, length + distance(x, z, phi, x1, z1, phi1)
 
@@ -252,7 +242,8 @@ def poses_between(
                 front = new_front
             else:  # the path bends too much for the step
                 step *= 0.5
+        now = (x, z, phi, t_x, t_z, t_w, rear, front)
         record_pose(
-            ground, body, between, k, poses[row, POSE_S] + ds - left, x, z, phi, rear, front,
-            t_x, t_z, t_w, int(poses[row, POSE_LEG]),
+            ground, body, between, k, poses[row, POSE_S] + ds - left, now,
+            int(poses[row, POSE_LEG]),
         )  # fmt: skip

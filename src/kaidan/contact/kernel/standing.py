@@ -6,8 +6,9 @@ import math
 
 from kaidan.contact.columns import POSE_PHI, POSE_X
 from kaidan.contact.entries import entry
-from kaidan.contact.kernel.continuation import tangent
-from kaidan.contact.kernel.margins import flow_energy, pose_margins
+from kaidan.contact.kernel.contact_changes import settled
+from kaidan.contact.kernel.energy_margins import flow_energy
+from kaidan.contact.kernel.margins import pose_margins
 from kaidan.contact.kernel.recording import record_pose
 from kaidan.contact.kernel.settling import settle
 from kaidan.contact.tables import (
@@ -25,14 +26,10 @@ def standing_pose(
     ground: GroundTable, body: BodyTable, x: float, phi: float, poses: PoseTable, row: int
 ) -> bool:
     """Write the pose in which the robot stands at centroid x, settled from an inclination."""
-    found, z, phi, rear, front = settle(ground, body, x, phi, 0.0)
-    if not found or rear == front:
-        return False
-    t_x, t_z, t_w, size = tangent(ground, body, rear, front, x, z, math.cos(phi), math.sin(phi))
-    if size == 0.0:
-        return False
-    record_pose(ground, body, poses, row, 0.0, x, z, phi, rear, front, t_x, t_z, t_w, 0)
-    return True
+    found, at = settled(ground, body, x, phi, 0.0)
+    if found:
+        record_pose(ground, body, poses, row, 0.0, at, 0)
+    return found
 
 
 @entry

@@ -55,6 +55,37 @@ def same_place(
     return abs(p_x - o_x) < 2e-6 and abs(p_z - o_z) < 2e-6
 
 
+def rates(
+    ground: GroundTable, body: BodyTable, about: int, closed: int, x: float, z: float, phi: float,
+    k2: float, freely: float,
+) -> tuple[float, float, float]:  # fmt: skip
+    """Rates of turn before and after an impact [rad/s], and what is left of the energy [J/kg].
+
+    Parameters
+    ----------
+    about, closed
+        Contact about which it has turned, and the one that closes; -1: none does.
+    k2
+        Square of the radius of gyration [m^2].
+    freely
+        Energy of a free turn about ``about`` [J/kg].
+    """
+    c = math.cos(phi)
+    s = math.sin(phi)
+    a_x, a_z = contact_point(ground, body, about, x, z, c, s)
+    a_x = x - a_x
+    a_z = z - a_z
+    before = math.sqrt(max(2.0 * freely / (k2 + a_x * a_x + a_z * a_z), 0.0))
+    if closed < 0:
+        return before, 0.0, 0.0
+    b_x, b_z = contact_point(ground, body, closed, x, z, c, s)
+    b_x = x - b_x
+    b_z = z - b_z
+    arm = k2 + b_x * b_x + b_z * b_z
+    after = before * max(k2 + a_x * b_x + a_z * b_z, 0.0) / arm
+    return before, after, 0.5 * after * after * arm
+
+
 def fall(
     ground: GroundTable,
     body: BodyTable,
@@ -86,7 +117,7 @@ def fall(
     outcome
         A `RotationOutcome`.
     rear, front
-        The two contacts that arrest it.
+        The two contacts that arrest it, if it is arrested.
     x, z, phi
     omega_minus
         Rate of turn just before the last impact [rad/s].
@@ -116,22 +147,23 @@ def fall(
     still = 0
     k2 = gyration * gyration
     down = math.sqrt(1.0 + kappa * kappa)
+    outcome: int = RotationOutcome.ENDLESS
+    rear = pivot
+    front = NO_FEATURE
     for _ in range(60):
         most = min(0.5 * math.pi - sense * phi, 0.5 * math.pi - total)
         if most <= 0.0:
-            return (
-                RotationOutcome.PAST_VERTICAL, pivot, NO_FEATURE,
-                x, z, phi, omega_minus, omega_plus, total, hint,
-            )  # fmt: skip
+            outcome = RotationOutcome.PAST_VERTICAL
+            break
         height = (z + kappa * x) / down
         limit = foot_limit(ground, body, pivot, x, z, phi, sense)
         rest = angle_until_over(ground, body, pivot, x, z, phi, sense, kappa, True)
         closed, angle, hint = first_closing(
             ground, body, pivot, x, z, phi, sense, min(most, limit, rest), hint
         )
-        x1, z1 = turned(ground, body, pivot, x, z, phi, sense * angle)
-        phi1 = phi + sense * angle
-        gained = gravity * (height - (z1 + kappa * x1) / down)
+        x, z = turned(ground, body, pivot, x, z, phi, sense * angle)
+        phi += sense * angle
+        gained = gravity * (height - (z + kappa * x) / down)
         kinetic += gained
         freely += gained
         total += angle
@@ -139,58 +171,29 @@ def fall(
         if since > AT_ONCE:
             about = pivot
             freely = kinetic
-        if angle > 1e-12:
-            still = 0
-        else:
-            still += 1
-        x, z, phi = x1, z1, phi1
+        still = 0 if angle > 1e-12 else still + 1
+        omega_minus, after, left = rates(ground, body, about, closed, x, z, phi, k2, freely)
+        if closed < 0:
+            if rest > angle and limit <= angle:
+                pivot = next_pivot(ground, body, pivot, x, z, phi, sense)
+                continue
+            outcome = RotationOutcome.ROCKING if rest <= angle else RotationOutcome.PAST_VERTICAL
+            break
+        omega_plus = after
+        kinetic = left
+        since = 0.0
         c = math.cos(phi)
         s = math.sin(phi)
-        a_x, a_z = contact_point(ground, body, about, x, z, c, s)
-        a_x = x - a_x
-        a_z = z - a_z
-        omega_minus = math.sqrt(max(2.0 * freely / (k2 + a_x * a_x + a_z * a_z), 0.0))
-        if closed < 0 and rest <= angle:
-            return (
-                RotationOutcome.ROCKING, pivot, pivot,
-                x, z, phi, omega_minus, omega_plus, total, hint,
-            )  # fmt: skip
-        if closed < 0 and limit <= angle:
-            pivot = next_pivot(ground, body, pivot, x, z, phi, sense)
-            continue
-        if closed < 0:
-            return (
-                RotationOutcome.PAST_VERTICAL, pivot, NO_FEATURE,
-                x, z, phi, omega_minus, omega_plus, total, hint,
-            )  # fmt: skip
-        b_x, b_z = contact_point(ground, body, closed, x, z, c, s)
-        b_x = x - b_x
-        b_z = z - b_z
-        share = max(k2 + a_x * b_x + a_z * b_z, 0.0)
-        omega_plus = omega_minus * share / (k2 + b_x * b_x + b_z * b_z)
-        kinetic = 0.5 * omega_plus * omega_plus * (k2 + b_x * b_x + b_z * b_z)
-        since = 0.0
-        delta = lever(ground, body, closed, x, z, c, s, kappa)
-        if delta * sense <= 0.0:
+        if lever(ground, body, closed, x, z, c, s, kappa) * sense <= 0.0:
             stays = pivot
             if about != pivot and abs(gap(ground, body, about, x, z, c, s)[0]) < TOUCHES:
                 stays = about
-            rear = closed
-            front = stays
-            if sense < 0.0:
-                rear = stays
-                front = closed
-            return (
-                RotationOutcome.ARRESTED, rear, front,
-                x, z, phi, omega_minus, omega_plus, total, hint,
-            )  # fmt: skip
+            outcome = RotationOutcome.ARRESTED
+            rear = closed if sense >= 0.0 else stays
+            front = stays if sense >= 0.0 else closed
+            break
         if still > 12:
-            return (
-                RotationOutcome.WEDGED, pivot, closed,
-                x, z, phi, omega_minus, omega_plus, total, hint,
-            )  # fmt: skip
+            outcome = RotationOutcome.WEDGED
+            break
         pivot = closed
-    return (
-        RotationOutcome.ENDLESS, pivot, NO_FEATURE,
-        x, z, phi, omega_minus, omega_plus, total, hint,
-    )  # fmt: skip
+    return outcome, rear, front, x, z, phi, omega_minus, omega_plus, total, hint
