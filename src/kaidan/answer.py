@@ -21,6 +21,7 @@ from kaidan.errors import InputError
 MOST_ITEMS = 8
 """Items of a list that a table shows."""
 _UNIT = re.compile(r"\[([^\]]+)\]")
+_PLAIN = {str, int, bool, type(None)}
 _SUFFIXES = {"deg": "deg", "m": "m", "mm": "mm", "kg": "kg", "N": "N", "W": "W", "s": "s"}
 
 
@@ -135,6 +136,11 @@ class Answer(Part):
 
 def plain(value: Any) -> Any:
     """Value with arrays as lists and None for what is no finite number."""
+    kind = type(value)
+    if kind is float:
+        return value if math.isfinite(value) else None
+    if kind in _PLAIN or issubclass(kind, BaseModel):
+        return value
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):

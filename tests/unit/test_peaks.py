@@ -6,12 +6,15 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from kaidan import contact
 from kaidan.traversal.peaks import AT_ONCE, PIECES, ROUNDS, peaks_between, promise
 
 NAN = math.nan
 
 
 class Poses(SimpleNamespace):
+    leads_on = property(contact.Poses.leads_on.func)
+
     def __len__(self):
         return len(self.s)
 

@@ -248,7 +248,7 @@ def test_between_two_phases_a_pose_is_of_both():
     phase = np.array(["enter", "enter", "traverse", "traverse", "land", "land"])
     rear = np.array([1, 1, 2, 2, 2, 3])
     path = SimpleNamespace(
-        poses=SimpleNamespace(rear=rear, front=rear, leg=np.zeros(6), s=np.arange(6.0))
+        poses=SimpleNamespace(rear=rear, front=rear, leads_on=np.ones(5, dtype=bool))
     )
     path.poses = type("Poses", (SimpleNamespace,), {"__len__": lambda _: 6})(**vars(path.poses))
     found = {each: rows.tolist() for each, rows in _closed(path, phase).items()}

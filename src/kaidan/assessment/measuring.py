@@ -8,6 +8,7 @@ that it belongs to evenly between their worst and best cases; its draws are even
 
 import math
 from collections.abc import Mapping
+from functools import cache
 
 import numpy as np
 
@@ -101,11 +102,15 @@ def draws_of(question: Question, doubts: tuple[Doubt, ...]) -> dict[str, Array]:
     count = sample_count(question)
     unit = unit_draws(count)
     found = {each.name: unit[SAMPLED.index(each.name)] for each in doubts if each.name in SAMPLED}
+    ranged = [each.name for each in doubts if each.ends is not None]
+    return found | dict(zip(ranged, _even_draws(count, len(ranged)), strict=True))
+
+
+@cache
+def _even_draws(count: int, rows: int) -> list[Array]:
+    """Evenly distributed draws from 0 to 1, each in an order of its own; not to be written to."""
     shuffle = np.random.default_rng(1947)
-    for each in doubts:
-        if each.ends is not None:
-            found[each.name] = shuffle.permutation((np.arange(count) + 0.5) / count)
-    return found
+    return [shuffle.permutation((np.arange(count) + 0.5) / count) for _ in range(rows)]
 
 
 def margins_of(question: Question, found: Findings, draws: Mapping[str, Array]) -> Array | None:

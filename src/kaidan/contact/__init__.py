@@ -19,6 +19,7 @@ from kaidan.contact.margin_records import Job, Margins, Summaries, Tilts
 from kaidan.contact.path import Path, joined
 from kaidan.contact.rating import Ratings, rate_many
 from kaidan.contact.records import (
+    ONE_PLACE,
     Body,
     EventRecord,
     Events,
@@ -44,6 +45,7 @@ from kaidan.contact.traversing import STEP, arrives, plain_seconds, traverse, tr
 __all__ = [
     "BELLY",
     "FLIPPER",
+    "ONE_PLACE",
     "ROCKING",
     "STEP",
     "TRACK",

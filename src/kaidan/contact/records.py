@@ -19,6 +19,9 @@ from kaidan.contact import columns as at
 from kaidan.contact.codes import Event, RotationOutcome
 from kaidan.contact.tables import FloatArray, IntArray
 
+ONE_PLACE = 1e-8
+"""Distance of poses that stand at one place, where several contacts are exchanged [m]."""
+
 BoolArray = NDArray[np.bool_]
 Rows = slice | NDArray[np.int64] | NDArray[np.bool_]
 
@@ -178,6 +181,12 @@ class Poses(_Table):
     def leg(self) -> IntArray:
         """Number of the line of poses: it grows by one with every rotation."""
         return self._whole(at.POSE_LEG)
+
+    @cached_property
+    def leads_on(self) -> BoolArray:
+        """Whether the path leads on from each pose to the next along one line of poses (n - 1)."""
+        s, leg = self.s, self.leg
+        return np.asarray((leg[1:] == leg[:-1]) & (s[1:] - s[:-1] > ONE_PLACE))
 
     @property
     def placements(self) -> FloatArray:

@@ -16,7 +16,9 @@ from kaidan.mechanics import Number
 
 STEEPEST = np.radians(85.0)
 """Inclination up to which the centroid may pass the nosing [rad]."""
-_HALVINGS = 50
+_PIECES, _CUTS = 128, 5
+"""So often the range of inclinations is cut into so many: the length is flat where it is least."""
+_SHARES = np.arange(1, _PIECES) / _PIECES
 
 
 def rearing_length(*, phi: Number, h: Number, R: Number, C_N: Number) -> Number:
@@ -89,13 +91,17 @@ def rear_length_margin(*, b: Number, h: Number, R: Number, C_N: Number) -> Numbe
     ----------
     Derived: docs/theory/rocking.md.
     """
-    low, high = np.full(np.broadcast(b, h, R, C_N).shape, 1e-3), STEEPEST
-    for _ in range(_HALVINGS):  # the length falls, then rises: where its slope changes sign
-        phi = 0.5 * (low + high)
-        slope = (
-            C_N / np.cos(phi) ** 2
-            - h * np.cos(phi) / np.sin(phi) ** 2
-            - 0.5 * R / np.cos(phi / 2) ** 2
-        )
-        low, high = np.where(slope < 0, phi, low), np.where(slope < 0, high, phi)
-    return b - rearing_length(phi=0.5 * (low + high), h=h, R=R, C_N=C_N)
+    low = np.full((*np.broadcast(b, h, R, C_N).shape, 1), 1e-3)
+    width = STEEPEST - low
+    of = np.expand_dims(h, -1), np.expand_dims(R, -1), np.expand_dims(C_N, -1)
+    for _ in range(_CUTS):  # the length falls, then rises: where its slope changes sign
+        falls = _rate(low + width * _SHARES, *of) < 0
+        width = width / _PIECES
+        low = low + width * falls.sum(axis=-1, keepdims=True)
+    return b - rearing_length(phi=(low + 0.5 * width)[..., 0], h=h, R=R, C_N=C_N)
+
+
+def _rate(phi: Number, h: Number, R: Number, C_N: Number) -> Number:
+    """Slope of `rearing_length` over the inclination."""
+    cosine = np.cos(phi)
+    return C_N / cosine**2 - h * cosine / np.sin(phi) ** 2 - R / (1.0 + cosine)

@@ -15,9 +15,11 @@ the robot tips about the lower track.
 """
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kaidan.answer import Part
 from kaidan.errors import InputError
@@ -192,12 +194,14 @@ def margins_of(question: Question, flight: Stairs, psi: Array, *, certain: bool 
         Downhill, uphill, sideways [rad], without allowances; minus a right angle where a track is
         without any contact at times.
     """
-    gauge = gauge_of(question)
     at = nominal(question, flight)
     if not certain:
         at = next(draws(question, at))  # one flight has few steps: one block
+    return _margins(at, gauge_of(question), psi, question.acceleration)
+
+
+def _margins(at: Draws, gauge: float, psi: Array, a: float) -> Array:
     yaw = np.abs(psi)[:, None, None]
-    a = question.acceleration
     each = [(edge.end, _margin(at, gauge, yaw, edge, a)) for edge in _edges(at, gauge, yaw)]
     down, up = (
         np.minimum(*(margin for end, margin in each if end == which)) for which in (1.0, -1.0)
@@ -225,7 +229,10 @@ def energy_of(question: Question, flight: Stairs, psi: Array) -> Array:
     array, shape (k,)
         Rise [m].
     """
-    gauge, at = gauge_of(question), nominal(question, flight)
+    return _energy(nominal(question, flight), gauge_of(question), psi, question.acceleration)
+
+
+def _energy(at: Draws, gauge: float, psi: Array, a: float) -> Array:
     yaw = np.abs(psi)[:, None, None]
     rises = [
         edge_energy(
@@ -234,7 +241,7 @@ def energy_of(question: Question, flight: Stairs, psi: Array) -> Array:
             C_N=at.C_N,
             theta_s=at.theta_s,
             psi=yaw,
-            a=question.acceleration,
+            a=a,
         )
         for edge in _edges(at, gauge, yaw)
     ]
@@ -304,25 +311,45 @@ def yaw_limit(question: Question, flight: Stairs) -> float | None:
     if question.robot.track.gauge is None:
         return None
     count = math.floor(LARGEST_YAW / SCAN)
-    low, high = 0.0, count * SCAN
     yaws: Array = SCAN * np.arange(count + 1, dtype=np.float64)
-    for _ in range(4):  # each scan narrows the bracket by its number of yaws
-        holds = _hold(question, flight, yaws)
-        if holds.all() or not holds[0]:
-            return None
-        first = int(np.argmin(holds))
+    # each scan narrows the bracket by its number of yaws: in doubt few, as each takes every sample
+    pieces, together, scans = (8, 8, 6) if question.uncertain else (512, len(yaws), 2)
+    holds = _holding(question, flight)
+    first = _first_to_fail(holds, yaws, together)
+    if not first:
+        return None
+    for _ in range(scans):
         low, high = float(yaws[first - 1]), float(yaws[first])
-        yaws = low + (high - low) / 64 * np.arange(65, dtype=np.float64)
-    return low
+        yaws = low + (high - low) / pieces * np.arange(pieces + 1, dtype=np.float64)
+        between = _first_to_fail(holds, yaws[1:-1], pieces)
+        first = pieces if between is None else between + 1
+    return float(yaws[first - 1])
 
 
-def _hold(question: Question, flight: Stairs, psi: Array) -> Array:
-    """Whether the robot holds at each yaw."""
-    steady = energy_of(question, flight, psi) > question.energy_threshold
-    down, up, side = margins_of(question, flight, psi)
-    off = question.allowance_d.high
-    worst = np.minimum(np.minimum(down - off - question.allowance_M.high, up - off), side - off)
-    return np.asarray(steady & (each_at_risk(worst, question.risk) > 0))
+def _first_to_fail(
+    holds: Callable[[Array], NDArray[np.bool_]], psi: Array, together: int
+) -> int | None:
+    """First of some yaws at which the robot does not hold, so many at once; None: there is none."""
+    for begin in range(0, len(psi), together):
+        at = holds(psi[begin : begin + together])
+        if not at.all():
+            return begin + int(np.argmin(at))
+    return None
+
+
+def _holding(question: Question, flight: Stairs) -> Callable[[Array], NDArray[np.bool_]]:
+    """Function that says whether the robot holds at each of some yaws."""
+    gauge, at, a = gauge_of(question), nominal(question, flight), question.acceleration
+    drawn = next(draws(question, at))
+    d, M, threshold = question.allowance_d, question.allowance_M, question.energy_threshold
+
+    def holds(psi: Array) -> NDArray[np.bool_]:
+        down, up, side = _margins(drawn, gauge, psi, a)
+        worst = np.minimum(np.minimum(down - d.high - M.high, up - d.high), side - d.high)
+        steady = _energy(at, gauge, psi, a) > threshold
+        return np.asarray(steady & (each_at_risk(worst, question.risk) > 0))
+
+    return holds
 
 
 def gauge_of(question: Question) -> float:

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan import contact
-from kaidan.traversal.peaks import ONE_PLACE
 
 Array = NDArray[np.float64]
 
@@ -39,7 +38,7 @@ def by_how_long(path: contact.Path, traction: Array, row: NDArray[np.int64]) -> 
     poses = path.poses
     if len(poses) == 0:
         return traction
-    exchange = (np.diff(poses.s) < ONE_PLACE) | (np.diff(poses.leg) != 0)
+    exchange = (np.diff(poses.s) < contact.ONE_PLACE) | (np.diff(poses.leg) != 0)
     run = np.append(0, np.cumsum(exchange))
     count = int(run[-1]) + 1
     first = np.searchsorted(run, np.arange(count))

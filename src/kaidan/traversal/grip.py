@@ -213,8 +213,10 @@ class Grip:
         for rows, i, j in self._pairs():
             each = []
             for k, other in ((i, j), (j, i)):
-                margin = self._stands(rows, k, other, phi, grousers, tips)
-                each.append(np.where(tips.may[rows, k], margin, -np.inf))
+                may = tips.may[rows, k]
+                margin = np.full(len(rows), -np.inf)
+                margin[may] = self._stands(rows[may], k, other, phi, grousers, tips)
+                each.append(margin)
             better = np.maximum(*each)
             for k in range(at.x.shape[1]):
                 own = each[0] if k == i else each[1] if k == j else better

@@ -13,7 +13,7 @@ again, until none promises more than is found. Figures have kinks, for example w
 to give way at a nosing: lines bound them as well as an arch, a parabola would not.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,8 +31,6 @@ PIECES = 8
 """Pieces into which each is cut."""
 NEAR = 0.05
 """Share of a figure by which it may be higher where no line tells [1]."""
-ONE_PLACE = 1e-8
-"""Distance of poses that stand at one place, where several contacts are exchanged [m]."""
 _LEAST = 1e-6
 """Difference of any figure that is none."""
 _ALIKE = 9
@@ -47,12 +45,6 @@ _ABOUT = (np.arange(PIECES) + 1 + _FOUR).ravel()
 # ends and of the pose ahead [m]; the figure there, NaN where the path does not lead on to it; how
 # high the figure may be in between.
 _ROW, _S, _HEIGHT, _PROMISE = 0, slice(1, 5), slice(5, 9), 9
-
-
-def leads_on(path: contact.Path) -> NDArray[np.bool_]:
-    """Whether the path leads on from each pose to the next along one line of poses."""
-    poses = path.poses
-    return np.asarray((poses.leg[1:] == poses.leg[:-1]) & (np.diff(poses.s) > ONE_PLACE))
 
 
 def peaks_between(
@@ -93,11 +85,15 @@ def peaks_between(
     rows = [np.empty(0, dtype=np.int64)]
     largest = np.full(int(group.max(initial=-1)) + 1, -np.finfo(np.float64).max)
     np.maximum.at(largest, group[group >= 0], values[group >= 0])
-    pool = _ways_of(path, values, group, narrow)
+
+    def open_(of: Rows, may: Array) -> NDArray[np.bool_]:
+        return np.asarray(may > (largest + _LEAST + tolerance * np.abs(largest))[of])
+
+    pool = _ways_of(path, values, group, narrow, open_)
     for _ in range(ROUNDS):
         of = group[_rows(pool)]
-        open_ = pool[_PROMISE] > (largest + _LEAST + tolerance * np.abs(largest))[of]
-        pool = _once(pool[:, open_], of[open_])
+        still = open_(of, pool[_PROMISE])
+        pool = _once(pool[:, still], of[still])
         if pool.shape[1] == 0:
             break
         chosen = _first_of_each(group[_rows(pool)])
@@ -135,23 +131,31 @@ def _first_of_each(group: Rows) -> Rows:
 
 
 def _ways_of(
-    path: contact.Path, values: Array, group: Rows, narrow: NDArray[np.bool_] | None
+    path: contact.Path,
+    values: Array,
+    group: Rows,
+    narrow: NDArray[np.bool_] | None,
+    open_: Callable[[Rows, Array], NDArray[np.bool_]],
 ) -> Array:
-    """Ways from each pose of a group to the next."""
-    on = leads_on(path)
-    some = on & (group[:-1] >= 0) & np.isfinite(values[1:]) & np.isfinite(values[:-1])
-    row = np.flatnonzero(some)
+    """Ways from each pose of a group to the next that promise enough."""
+    s, finite = path.s, np.isfinite(values)
+    told = path.poses.leads_on & finite[1:] & finite[:-1]
+    slope = np.full(len(values) + 1, np.nan)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        np.divide(values[1:] - values[:-1], s[1:] - s[:-1], out=slope[1:-1], where=told)
+    row = np.flatnonzero(told & (group[:-1] >= 0))
+    before, after = values[row], values[row + 1]
+    may = _promise(s[row + 1] - s[row], before, after, (slope[row], slope[row + 1], slope[row + 2]))
+    if narrow is not None:
+        higher = np.maximum(before, after)
+        may = np.where(narrow[row], higher + NEAR * np.abs(higher), may)
+    some = open_(group[row], may)
+    row, may = row[some], may[some]
     about = np.clip(row + _FOUR, 0, len(values) - 1)
     height = values[about]
-    on = np.concatenate([[False], on, [False]])
-    height[0, ~(on[row] & np.isfinite(height[0]))] = np.nan
-    height[3, ~(on[row + 2] & np.isfinite(height[3]))] = np.nan
-    s = path.s[about]
-    may = promise(s, height)
-    if narrow is not None:
-        higher = height[1:3].max(axis=0)
-        may = np.where(narrow[row], higher + NEAR * np.abs(higher), may)
-    return _ways(row, s, height, may)
+    height[0, np.isnan(slope[row])] = np.nan
+    height[3, np.isnan(slope[row + 2])] = np.nan
+    return _ways(row, s[about], height, may)
 
 
 def promise(s: Array, height: Array) -> Array:
@@ -169,14 +173,18 @@ def promise(s: Array, height: Array) -> Array:
         both. Without one of these the other line counts, without both `NEAR` above the higher.
     """
     with np.errstate(invalid="ignore", divide="ignore"):
-        slopes = np.diff(height, axis=0) / np.diff(s, axis=0)
-    length = s[2] - s[1]
+        slopes = (height[1:] - height[:-1]) / (s[1:] - s[:-1])
+    return _promise(s[2] - s[1], height[1], height[2], slopes)
+
+
+def _promise(length: Array, begin: Array, end: Array, slopes: Sequence[Array] | Array) -> Array:
+    """The same of ways so long, the figure at their ends and its slopes before, on and after."""
     rises, falls = np.fmax(slopes[0], slopes[1]), np.fmin(slopes[2], slopes[1])
-    from_behind, from_ahead = height[1] + rises * length, height[2] - falls * length
+    from_behind, from_ahead = begin + rises * length, end - falls * length
     bends = np.where(rises - falls > 0.0, rises - falls, np.inf)
-    meet = height[1] + rises * np.clip((height[2] - height[1] - falls * length) / bends, 0, length)
-    before, after = np.isnan(height[0]), np.isnan(height[3])
-    higher = height[1:3].max(axis=0)
+    meet = begin + rises * np.clip((end - begin - falls * length) / bends, 0, length)
+    before, after = np.isnan(slopes[0]), np.isnan(slopes[2])
+    higher = np.maximum(begin, end)
     meet = np.where(before, from_ahead, np.where(after, from_behind, meet))
     may = np.where(before & after, higher + NEAR * np.abs(higher), meet)
     return np.asarray(np.maximum(higher, may))

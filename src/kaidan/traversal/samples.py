@@ -23,7 +23,7 @@ from kaidan import contact
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.traversal.brief import by_how_long
 from kaidan.traversal.nosing_events import nosing_events
-from kaidan.traversal.peaks import ONE_PLACE, leads_on, peaks_between
+from kaidan.traversal.peaks import peaks_between
 from kaidan.traversal.phases import Phase
 
 Array = NDArray[np.float64]
@@ -103,7 +103,7 @@ def samples_of(path: contact.Path, phase: NDArray[np.str_], acceleration: float)
 
 def lasting(path: contact.Path) -> NDArray[np.bool_]:
     """Poses in which the robot stands for a while: not in the midst of an exchange of contacts."""
-    at_once = np.abs(np.diff(path.s)) < ONE_PLACE
+    at_once = np.abs(np.diff(path.s)) < contact.ONE_PLACE
     lasts = np.ones(len(path.poses), dtype=np.bool_)
     lasts[1:-1] = ~(at_once[1:] & at_once[:-1])
     return lasts
@@ -114,7 +114,7 @@ def corners(path: contact.Path) -> NDArray[np.bool_]:
     poses = path.poses
     renamed = (poses.rear[1:] != poses.rear[:-1]) | (poses.front[1:] != poses.front[:-1])
     found = np.zeros(len(poses), dtype=np.bool_)
-    found[1:] = leads_on(path) & renamed
+    found[1:] = poses.leads_on & renamed
     return found
 
 
@@ -156,7 +156,7 @@ def _along_ends(path: contact.Path) -> NDArray[np.bool_]:
     There the belt gives way at it up to some height and then no more: two kinks of the friction,
     which may be nearer to one another than the poses.
     """
-    poses, on = path.poses, leads_on(path)
+    poses, on = path.poses, path.poses.leads_on
     moves = np.zeros_like(on)
     for features, normal in ((poses.rear, poses.rear_normal), (poses.front, poses.front_normal)):
         corner = contact.FeatureTable.of(features).kind == contact.FeatureKind.VERTEX
@@ -179,7 +179,7 @@ def _upright(path: contact.Path) -> tuple[Rows, Array]:
     rows, shares = [], []
     for upright in (math.pi / 2, -math.pi / 2):
         away = _turn(psi[:-1], upright)
-        passed = leads_on(path) & (away * swept > 0) & (np.abs(away) < np.abs(swept))
+        passed = path.poses.leads_on & (away * swept > 0) & (np.abs(away) < np.abs(swept))
         rows.append(np.flatnonzero(passed))
         shares.append(away[passed] / swept[passed])
     return np.concatenate(rows), np.concatenate(shares)
