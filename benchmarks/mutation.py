@@ -193,6 +193,11 @@ def live(path: Path) -> dict[str, list[FunctionType]]:
     return held
 
 
+def caches() -> list[_lru_cache_wrapper]:
+    """Functions that remember their answers, but for those that are frozen."""
+    return [each for each in gc.get_objects() if isinstance(each, _lru_cache_wrapper)]
+
+
 class Lines:
     """Lines of some files over which one test passes."""
 
@@ -245,6 +250,8 @@ class Run:
         counts: Counter[str] = Counter()
         last: dict[str, int] = {}
         for path in self.paths:
+            held = live(path)
+            gc.freeze()  # nothing held here is garbage
             for mutant, code in self._sampled(list(mutants(path))):
                 if mutant.key in done or self.only not in mutant.function:
                     continue
@@ -255,7 +262,9 @@ class Run:
                 chosen.sort(key=lambda k: (k != last.get(mutant.function), usual[k][0]))
                 mutant.outcome = UNTESTED
                 if chosen:
-                    mutant.outcome, killer = self._try(path, mutant, code, items, chosen, usual)
+                    mutant.outcome, killer = self._try(
+                        held[mutant.function], code, items, chosen, usual
+                    )
                     if killer is not None:
                         mutant.by, last[mutant.function] = items[killer].nodeid, killer
                 counts[mutant.outcome] += 1
@@ -280,15 +289,17 @@ class Run:
             os.close(read)
             self._quiet()
             usual: dict[int, tuple[float, list[object]]] = {}
+            gc.unfreeze()  # what the tests have set aside
+            held = caches()
+            gc.freeze()
             for k, item in enumerate(items):
                 start = time.process_time()
                 failed = self._ask(item, None)
                 took = time.process_time() - start
                 if failed or took > self.longest:
                     continue
-                for each in gc.get_objects():
-                    if isinstance(each, _lru_cache_wrapper):  # so that its lines are passed again
-                        each.cache_clear()
+                for each in (*held, *caches()):
+                    each.cache_clear()  # so that its lines are passed again
                 lines = Lines(self.paths)
                 sys.settrace(lines.call)
                 self._ask(item, None)
@@ -319,8 +330,7 @@ class Run:
         os.dup2(null, 1)
         os.dup2(null, 2)
 
-    def _try(self, path, mutant, code, items, chosen, usual):
-        held = live(path)[mutant.function]
+    def _try(self, held, code, items, chosen, usual):
         read, write = os.pipe()
         child = os.fork()
         if child == 0:

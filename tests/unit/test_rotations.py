@@ -12,7 +12,13 @@ from kaidan.robot import Posture, Robot, Track
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Chain, Phase, Rotation, traverse
-from kaidan.traversal.rotations import AT_ONCE, ROCKING, together
+from kaidan.traversal.rotations import (
+    AT_ONCE,
+    ROCKING,
+    _beyond_the_edge,
+    rotations_of,
+    together,
+)
 
 G = 9.80665
 KENAF = Outline.of(Robot.named("kenaf"))
@@ -261,7 +267,7 @@ def test_what_is_together():
     def at(x, ends):
         return SimpleNamespace(start=Placement(x, 1.0, 0.2), end=Placement(ends, 0.9, -0.3))
 
-    rotations = [at(0.1, 0.102), at(0.1065, 0.11), at(0.112, 0.15), at(0.2, 0.2), at(0.25, 0.25)]
+    rotations = [at(0.1, 0.102), at(0.1065, 0.11), at(0.112, 0.19), at(0.2, 0.2), at(0.25, 0.25)]
     for each in rotations:
         each.start = each.start._replace(z=0.9)
     groups = [list(group) for group in together(rotations, 0.5)]
@@ -300,3 +306,56 @@ def test_drops_are_along_effective_gravity(acceleration):
     r = math.dist(start, record.pivot_point)
     rate = math.sqrt(2 * size * fall / (KENAF.gyration**2 + r**2))
     assert record.rate_before == pytest.approx(rate, rel=1e-9)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_a_rotation_on_a_slope_by_hand(sense):
+    """From (0, 0.5) to (0.1, 0.3) on a path that rises by 0.5 rad, at 2 m/s^2 along it.
+
+    Effective gravity has a cos(0.5) ahead and G + a sin(0.5) up; it is arrested by what carries at
+    the pose after it, in front where the leading end comes down.
+    """
+    record = SimpleNamespace(
+        s=1.5, sense=sense, arrested=True, angle=0.4, pivot=7, barrier=3.0, kinetic=1.0,
+        pivot_point=(0.0, 0.0), start=Placement(0.0, 0.5, 0.2), end=Placement(0.1, 0.3, -0.2),
+    )  # fmt: skip
+    poses = SimpleNamespace(
+        path_direction=np.array([0.0, 0.5, 0.0]),
+        front_point=np.array([(-1, 0), (0.35, 0), (2, 0)]),
+        front=np.array([64, 65, 66]), rear=np.array([128, 129, 130]),
+    )  # fmt: skip
+    path = SimpleNamespace(
+        rotations=[record], impact_speeds=lambda: np.array([0.7]), poses=poses,
+        row_before=lambda s: 1,
+    )  # fmt: skip
+    phase = np.array(["enter", "traverse", "land"])
+    stairs = Profile.of_stairs(Stairs(rise=0.1, going=0.3, steps=3))
+    (found,) = rotations_of(path, stairs, phase, False, 0.5, 2.0)
+    ahead, up = 2 * math.cos(0.5), G + 2 * math.sin(0.5)
+    gravity = math.hypot(ahead, up)
+    drop = (up * 0.2 - ahead * 0.1) / gravity
+    assert found.drop == pytest.approx(drop, abs=1e-12)
+    assert found.spare == pytest.approx(3.0 / gravity - drop)
+    assert found.spare_after_impact == pytest.approx(2.0 / gravity)
+    assert (found.phase, found.step, found.path) == (Phase.TRAVERSE, 2, 1.5)
+    assert found.leading_end_down is (sense < 0)
+    assert found.arrested_by == (66 if sense < 0 else 130)
+
+
+@pytest.mark.parametrize(
+    ("edges", "start", "avoidable"),
+    [
+        ([(0.3, -0.1), (0.3, -0.2)], 0.2, math.atan2(-0.1, 0.3) + 0.6),  # the highest line
+        ([(0.3, -0.4)], 0.2, 0.0),  # as far as the flat is long, steeper than where it ends
+        ([(0.3, -0.4), (0.1, 0.2)], -0.5, 0.1),  # no higher than where it begins
+        ([(0.3, -0.41), (-0.1, 0.2), (1e-6, 0.2)], 0.2, 0.0),  # too far, behind, above
+        ([(0.3, -0.1), (0.5, 0.0)], 0.2, 0.6),
+    ],
+)
+def test_what_a_longer_robot_would_be_spared_by_hand(edges, start, avoidable):
+    """Edges from the pivot, under a flat of 0.5 m; it ends at -0.6 rad."""
+    record = SimpleNamespace(
+        pivot_point=(2.0, 1.0), start=Placement(0, 0, start), end=Placement(0, 0, -0.6)
+    )
+    profile = SimpleNamespace(edges=np.array([(2.0, 1.0)]) + edges)
+    assert _beyond_the_edge(record, profile, 0.5) == pytest.approx(avoidable, abs=1e-12)

@@ -11,7 +11,13 @@ from kaidan import Question, Robot, Stairs
 from kaidan.mechanics.margin import theta_s_inf, theta_s_sup
 from kaidan.models.quasi_static import traverse_of
 from kaidan.modes import Phase
-from kaidan.traversal.static_criterion import Tread, static_criterion
+from kaidan.traversal.static_criterion import (
+    Criterion,
+    Loss,
+    Tread,
+    flights_of,
+    static_criterion,
+)
 
 KENAF = Tread(0.470, 0.196, 0.071, 0.06, 0.06, 0.2)
 
@@ -51,6 +57,97 @@ def test_kenaf_of_the_paper():
         slope = math.radians(30.0)
         worst = static_criterion(flight(slope, p), KENAF).smallest(downhill=True)
         assert math.degrees(worst.margin + slope) == pytest.approx(sup, abs=5e-4)
+
+
+def test_each_loss_and_gain_of_a_short_flight_by_hand():
+    """Five nosings 1 m apart on a slope of 3 in 4, under a flat of 2.5 m.
+
+    As one is left the nosing behind it lies 1.5 m within the tip; as one is reached, 2 m. The
+    centroid may move by that, less its place and C_N tan of the slope. Over the landing above the
+    downhill end leaves one more nosing, the uphill end none.
+    """
+    C_L, C_N, slope = 0.75, 0.4, math.atan2(3, 4)
+    found = static_criterion(flight(slope, 1.0, 5), Tread(2.5, C_L, C_N, 0.0, 0.0, 1.0))
+    up, down = C_N * 0.75, 2.5 - C_L  # beyond the lever: uphill end and downhill end
+
+    def by_hand(downhill, nosing, lever, contacts, place, landing=False):
+        sign = 1 if downhill else -1
+        margin = math.atan2(lever, C_N) - sign * slope
+        spare = lever - sign * up
+        rise = math.hypot(lever, C_N) - sign * lever * 0.6 - C_N * 0.8
+        place = 0.8 * place - 0.6 * C_N
+        figures = (sign * slope, lever, margin, spare, 0.0, rise, 0.0, contacts, landing, place)
+        return (downhill, nosing, *figures)
+
+    expected = [
+        *(by_hand(True, i, 1.5 - C_L, 2, i + down, i == 2) for i in range(3)),
+        *(by_hand(True, m, 2.0 - C_L, 2, m - C_L) for m in (3, 4)),
+        *(by_hand(False, i, 1.5 - down, 2, i - C_L) for i in (4, 3)),
+        *(by_hand(False, m, 2.0 - down, 2, m + down) for m in (1, 0)),
+    ]
+    assert [tuple(each) for each in found.losses] == [
+        pytest.approx(each, abs=1e-12) for each in expected
+    ]
+    assert found.tops == (pytest.approx(3.2),)
+    assert found.seesaw == pytest.approx(0.0, abs=1e-12)
+    assert found.holds is True
+    assert not found.alone
+
+
+def test_the_last_loss_over_the_landing():
+    """The centroid has passed the last nosing if it lies behind the nose by no more than
+    1.5 - 1 m, less C_N tan of the slope: then the end comes down on the landing.
+    """
+    for C_L, count in ((0.19, 2), (0.21, 3)):
+        found = static_criterion(
+            flight(math.atan2(3, 4), 1.0, 5), Tread(2.5, C_L, 0.4, 0.0, 0.0, 1.0)
+        )
+        losses = [each for each in found.losses if each.downhill and each.nosing < 3]
+        assert len(losses) == count
+
+
+def test_what_a_criterion_says_of_its_losses():
+    """By hand: over the landing nothing counts for the flight."""
+    loss = Loss(True, 1, 0.5, 0.1, 0.2, 0.05, 0.01, 0.004, 0.001, 2, False, 1.0)
+    lands = loss._replace(margin=-0.1, contacts=1, landing=True, rocking=0.03)
+    found = Criterion((loss, lands), 0.02, (1.0, 2.0))
+    assert (found.holds, found.alone, found.rocking) == (True, False, 0.03)
+    assert Criterion((lands,), 0.0).holds is None
+    for margin, holds in ((0.0, False), (-0.1, False), (0.1, True)):
+        both = Criterion((loss, loss._replace(margin=margin)), 0.0)
+        assert both.holds is holds
+    one = Criterion((loss, loss._replace(contacts=1)), 0.02)
+    assert (one.alone, one.rocking) == (True, 0.02)
+    # both ends count
+    for part, losses, tops in (((1.0, 2.0), 2, (1.0, 2.0)), ((1.1, 1.9), 0, ()), ((0, 1), 2, (1,))):
+        within = found.within(*part)
+        assert (len(within.losses), within.tops) == (losses, tops)
+    # of those that are alike the first
+    alike = [loss._replace(nosing=k, margin=0.2 + 4e-13 * m) for k, m in ((1, 1), (2, 0), (3, 3))]
+    assert Criterion(tuple(alike), 0.0).smallest(downhill=True).nosing == 1
+    assert Criterion(tuple(alike), 0.0).smallest(downhill=False) is None
+
+
+def test_landings_cut_the_nosings_into_flights():
+    """A distance of the flat's length is a landing; one nosing between two is no flight."""
+    x = np.array([0.0, 1.0, 3.0, 5.5, 8.0, 9.0])
+    assert flights_of(np.c_[x, 0 * x], 2.5) == [(0, 2), (4, 5)]
+    assert flights_of(np.c_[x, 0 * x][:2], 2.5) == [(0, 1)]
+    assert flights_of(np.c_[x, 0 * x][:1], 2.5) == []
+
+
+def test_no_slope_tips_where_the_acceleration_alone_holds_it_down():
+    """a/g C_N above the distance of the centroid from the pivot: no slope balances it."""
+    slope, tread = math.atan2(3, 4), Tread(2.5, 0.75, 0.4, 0.0, 0.0, 1.0)
+    first = {
+        a: static_criterion(flight(slope, 1.0, 5), tread, acceleration=a).losses[0]
+        for a in (-30.0, 30.0)
+    }
+    # 0.4 * 30 / 9.80665 is more than hypot(0.75, 0.4)
+    assert first[-30.0].margin == pytest.approx(math.pi / 2)
+    assert first[30.0].margin == pytest.approx(-math.pi / 2)
+    for a, loss in first.items():
+        assert loss.centroid == pytest.approx(0.45 - 0.4 * a / (9.80665 * 0.8))
 
 
 @pytest.mark.parametrize("h", [1e-6, 1e-4, 1e-3])
@@ -112,6 +209,7 @@ def test_past_half_the_flat_the_formula_goes_on(p):
     """p > L/2 = 235 mm: one nosing stays, and one of the two limits is passed."""
     found = static_criterion(flight(0.5, p), KENAF)
     assert found.alone
+    assert len(found.losses) == 24  # twelve at either end; nothing carries as one is reached
     sup = math.atan2(0.470 - p - 0.196, 0.071)
     inf = math.atan2(p - 0.196, 0.071)
     assert found.smallest(downhill=True).margin == pytest.approx(sup - 0.5, abs=1e-9)

@@ -181,8 +181,7 @@ def _losses(P: Array, tread: Tread, a: float, number: int, *, downhill: bool) ->
     end = x[-1]
     for i in range(len(x) - 2):
         before = _steepest(x, z, i, tread.L)
-        if before is None:
-            break
+        assert before is not None  # the next nosing of a flight is within reach
         landing = x[i] + tread.L * math.cos(before[0]) > end + 1e-9
         r = i + 1
         left = tread.L - math.dist((x[i], z[i]), (x[r], z[r]))

@@ -1,0 +1,250 @@
+"""Which poses the extremes of a phase are of, by hand on records made for it; no kernel runs."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from kaidan.contact import Feature, FeatureKind
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import Stairs
+from kaidan.traversal import Phase, extremes
+from kaidan.traversal.extremes import (
+    Rise,
+    _comes_back,
+    _least_rise,
+    _on_a_flight,
+    _rock,
+    _rotated,
+    phase_extremes,
+)
+
+G = 9.80665
+STEPS = Profile.of_stairs(Stairs(rise=0.1, going=0.3, steps=3))
+NOSINGS = STEPS.nosings
+
+
+class Rows(SimpleNamespace):
+    def __len__(self):
+        return len(self.front_point)
+
+
+class Margins(SimpleNamespace):
+    def __getitem__(self, rows):
+        return Margins(**{name: values[rows] for name, values in vars(self).items()})
+
+
+PHASE = np.array(["enter"] * 2 + ["traverse"] * 4 + ["land"] * 2)
+CLOSED = {Phase.ENTER: [0, 1], Phase.TRAVERSE: [2, 3, 4, 5, 6], Phase.LAND: [5, 6, 7]}
+PLACES = NOSINGS[0, 0] + np.array([-0.5, -0.4, 0.1, 0.15, 0.2, 0.65, 0.6, 0.8, 0.11, 0.66])
+COUNT = len(PLACES)
+"""Eight poses, and two between, after the fourth and the sixth."""
+
+
+@pytest.fixture
+def looked_at(monkeypatch):
+    """Extremes, and rows that are looked at: of each phase for each kind of figure and side."""
+
+    def mark(*rows):
+        marked = np.zeros(COUNT, dtype=np.bool_)
+        marked[list(rows)] = True
+        return marked
+
+    seen = SimpleNamespace(
+        poses=Rows(front_point=np.c_[PLACES, np.full(COUNT, -7.0)]),
+        margins=Margins(
+            front=np.arange(COUNT) + 0.5, back=np.arange(COUNT) + 0.25, belly_touches=mark()
+        ),
+    )
+    samples = SimpleNamespace(
+        row=np.array([0, 1, 2, 3, 4, 5, 6, 7, 3, 5]),
+        lasts=~mark(4),
+        path=seen,
+        comes_off=mark(1, 7),
+        friction=np.array([0.1, 0.9, 0.2, 0.3, 9.0, 0.4, 0.5, 0.8, 0.3, 0.4]),
+        traction=np.array([0.1, 0.2, 0.2, 0.3, 9.0, 0.4, 0.5, 0.8, 0.3, 0.4]),
+    )
+    rows = {name: np.isin(np.arange(8), some) for name, some in CLOSED.items()}
+
+    def of(*, descending=False, whole=True, rises=(), profile=STEPS):
+        asked = []
+
+        def energy(path, rows, side):
+            asked.append(("energy", side, rows.tolist()))
+            return (0.002, PLACES[rows[0]]) if len(rows) else (math.inf, math.nan)
+
+        def rock(path, rows, side, *given):
+            asked.append(("rock", side, rows.tolist()))
+            return math.inf, 0
+
+        def rotated(path, phase, name, side, *given):
+            asked.append(("rotated", side))
+            return 0.1 * side, 5
+
+        for name, found in {
+            "samples_of": lambda *given: samples,
+            "_chain_angles": lambda *given: [(0, 0.3), (2, 0.1), (3, 0.2)],
+            "over_the_top": lambda *given: mark(6, 7, 9),
+            "_closed": lambda *given: rows,
+            "_comes_back": lambda *given: mark(3)[:8],
+            "_on_a_flight": lambda *given: mark(2, 8),
+            "_least_energy": energy,
+            "_rock": rock,
+            "_rotated": rotated,
+        }.items():
+            monkeypatch.setattr(extremes, name, found)
+        path = SimpleNamespace(poses=Rows(front_point=np.zeros((8, 2))))
+        found = phase_extremes(path, profile, PHASE, descending, 0.0, rises, 0.5, whole)
+        kinds = ("energy", "rock", "rotated")
+        return found, [[each[1:] for each in asked if each[0] == kind] for kind in kinds]
+
+    return of
+
+
+def test_which_poses_count_on_the_way_up(looked_at):
+    """Traversing a flat judges by nosings, and poses where it is on no flight; a pose that comes
+    back is none that falls, uphill none over the top.
+    """
+    found, (energy, rock, rotated) = looked_at()
+    assert [each.phase for each in found] == list(Phase)
+    on, lands = [2, 3, 5, 6, 8, 9], [5, 6, 7, 9]
+    assert energy == [
+        (1.0, [0, 1]), (-1.0, [0, 1]), (1.0, on), (-1.0, [2, 3, 5, 8]), (1.0, lands), (-1.0, [5]),
+    ]  # fmt: skip
+    assert rock == [
+        (1.0, [0, 1]),
+        (-1.0, []),
+        (1.0, [5, 9]),
+        (-1.0, [3, 5]),
+        (1.0, lands),
+        (-1.0, []),
+    ]
+    assert rotated == [(1.0,), (-1.0,)] * 3
+    enter, traverse, land = found
+    assert (traverse.energy_margin, traverse.energy_margin_step) == (0.002, 1)
+    assert (land.energy_margin_step, land.uphill_energy_margin_step) == (3, 3)
+    assert (enter.tilt_downhill, enter.tilt_uphill) == ((0.1, 5), (-0.1, 5))
+    assert [each.static_margin for each in found] == [0.25, 2.25, 5.25]
+    # only landing the trailing end slides down what it comes off
+    assert (enter.required_friction, enter.slides_below) == (0.9, None)
+    assert (traverse.required_friction, traverse.required_friction_step) == (0.5, 3)
+    assert (land.required_friction, land.slides_below) == (0.5, 0.8)
+    assert [each.traction_over_weight * G for each in found] == pytest.approx([0.2, 0.5, 0.5])
+    assert [each.largest_rotation for each in found] == [0.3, 0.2, 0.0]
+
+
+def test_where_no_flat_carries_every_pose_is_judged(looked_at):
+    rock = looked_at(whole=False)[1][1]
+    assert rock[2:4] == [(1.0, [2, 5, 6, 9]), (-1.0, [2, 3, 5, 8])]
+
+
+def test_where_nosings_carry_their_rises_count(looked_at):
+    """Traversing those alone, landing poses too, but for one with its contact at a nosing."""
+    rises = (
+        Rise(True, 0.001, 2, Phase.TRAVERSE), Rise(False, 0.004, 3, Phase.TRAVERSE),
+        Rise(True, 0.005, 3, Phase.LAND),
+    )  # fmt: skip
+    found, (energy, *_) = looked_at(rises=rises)
+    assert PLACES[6] == NOSINGS[2, 0]
+    assert energy[2:] == [(1.0, []), (-1.0, []), (1.0, [5, 7, 9]), (-1.0, [5])]
+    _, traverse, land = found
+    assert (traverse.energy_margin, traverse.energy_margin_step) == (0.001, 2)
+    assert (traverse.uphill_energy_margin, traverse.uphill_energy_margin_step) == (0.004, 3)
+    assert (land.energy_margin, land.energy_margin_step) == (0.002, 3)
+
+
+def test_which_poses_count_on_the_way_down(looked_at):
+    """Over the edge of the landing above it has to rotate: no pose there counts."""
+    found, (energy, rock, rotated) = looked_at(descending=True)
+    assert energy[:3] == [(-1.0, []), (1.0, []), (-1.0, [2, 3, 5, 6, 8, 9])]
+    assert rock[:4] == [(-1.0, []), (1.0, []), (-1.0, [3, 5, 9]), (1.0, [3, 5])]
+    assert rotated == [(-1.0,), (1.0,)] * 3
+    assert [each.static_margin for each in found] == [0.5, 2.5, 5.5]
+    level = Profile.of_points([(-3, 0), (3, 0)])
+    assert looked_at(descending=True, profile=level)[1][0][:2] == [(-1.0, [0, 1]), (1.0, [0, 1])]
+
+
+def test_poses_on_a_flight_by_hand():
+    """Nosings 0.3, 0.6 and 0.3 m apart under a flat of 0.5 m: two flights of two."""
+    nosings = np.array([(0.0, 0.0), (0.3, 0.0), (0.9, 0.0), (1.2, 0.0)])
+    rear = np.array([0.0, -1e-5, 0.1, 0.1, 0.35, 0.9 - 1e-7, 1.0])
+    front = np.array([0.3 + 1e-7, 0.2, 0.3 + 1e-5, 0.2, 0.8, 1.2, 1.3])
+    path = SimpleNamespace(
+        poses=SimpleNamespace(
+            rear_point=np.c_[rear, np.full(7, 0.2)], front_point=np.c_[front, np.full(7, 0.2)]
+        )
+    )
+    found = _on_a_flight(path, SimpleNamespace(nosings=nosings), 0.5)
+    assert found.tolist() == [True, False, False, True, False, True, False]
+
+
+def code(point, kind=FeatureKind.VERTEX):
+    return Feature(point, 0, kind).code
+
+
+def test_poses_from_which_it_rotates_back():
+    """From the rotation on, as long as the edge that it rotated about is the rear contact."""
+    rear = np.array([code(each) for each in (4, 4, 5, 5, 5, 6, 5, 5)])
+
+    def back(*records):
+        rotations = [
+            SimpleNamespace(sense=sense, arrested=arrested, pivot=pivot, s=float(row))
+            for row, sense, arrested, pivot in records
+        ]
+        path = SimpleNamespace(
+            margins=SimpleNamespace(outermost=np.c_[rear, 0 * rear]),
+            poses=Rows(front_point=np.zeros((8, 2))), rotations=rotations, row_before=int,
+        )  # fmt: skip
+        return np.flatnonzero(_comes_back(path)).tolist()
+
+    assert back((1, -1, True, code(5))) == [2, 3, 4]
+    assert back((2, -1, True, code(5))) == [3, 4]
+    assert back((5, -1, True, code(5)), (1, -1, True, code(5))) == [2, 3, 4, 6, 7]
+    assert back((1, -1, True, code(7))) == []
+    for other in ((1, 1, True, code(5)), (1, -1, False, code(5))):
+        assert back(other) == []  # the trailing end comes down; it falls
+        assert back(other, (1, -1, True, code(5))) == [2, 3, 4]
+    rear[2] = code(5, FeatureKind.DISC_1)
+    assert back((1, -1, True, code(5, FeatureKind.DISC_1))) == []
+    assert back((1, -1, True, code(5))) == []  # another contact of that point
+
+
+def test_rotations_that_no_nosing_under_a_flat_arrests():
+    """As a tilt the largest of its sense counts, with the step at which it begins."""
+    places = np.r_[NOSINGS[:, 0] + 0.01, 2.0, 3.0]
+    rear, front = 100 + np.arange(5), 200 + np.arange(5)
+    phase = np.array(["traverse", "traverse", "traverse", "traverse", "land"])
+
+    def rotated(records, side, *, whole=False, name=Phase.TRAVERSE, on_flat=()):
+        rotations = [
+            SimpleNamespace(s=float(row), sense=sense, angle=angle) for row, sense, angle in records
+        ]
+        path = SimpleNamespace(
+            rotations=rotations, row_before=int,
+            poses=Rows(front_point=np.c_[places, places], rear=rear, front=front),
+            is_on_flat=lambda code, row: (code, row) in on_flat,
+        )  # fmt: skip
+        return _rotated(path, phase, name, side, STEPS, False, whole)
+
+    two = [(0, 1, 0.1), (1, 1, 0.3), (2, -1, 0.4)]
+    assert rotated(two, 1.0) == (-0.3, 2)
+    assert rotated(two, -1.0) == (-0.4, 3)
+    assert rotated(two[:1], -1.0) == rotated([], 1.0) == (math.inf, 0)
+    # what arrests it carries at the pose after it: the rear contact, or where the nose comes down
+    assert rotated(two, 1.0, on_flat=[(102, 2)]) == (-0.1, 1)
+    assert rotated(two, -1.0, on_flat=[(203, 3)]) == (math.inf, 0)
+    assert rotated(two, 1.0, whole=True) == (math.inf, 0)
+    assert rotated(two, 1.0, name=Phase.LAND) == (math.inf, 0)
+    last = [(4, 1, 0.9), (3, 1, 0.2)]  # the last pose: it fell; and one of another phase
+    assert rotated(last, 1.0, name=Phase.TRAVERSE) == (-0.2, 3)
+
+
+def test_the_step_of_the_least_rise_and_of_the_first_rock(monkeypatch):
+    rises = [Rise(True, 0.2, 4, Phase.LAND), Rise(True, 0.2 + 5e-10, 2, Phase.LAND)]
+    assert _least_rise(rises, downhill=True) == (0.2, 2)
+    assert _least_rise(rises, downhill=False) == (math.inf, 0)
+    path = SimpleNamespace(poses=Rows(front_point=np.c_[NOSINGS[:, 0] + 0.01, [9.0] * 3]))
+    for row, step in ((0, 1), (2, 3), (-1, 0)):
+        monkeypatch.setattr(extremes, "first_rock", lambda *given, r=row, **more: (0.1, r))
+        assert _rock(path, np.arange(3), 1.0, STEPS, False, 0.0, 3) == (0.1, step)

@@ -1,0 +1,185 @@
+"""Nosings that pass an end of the flat, and forces of a pose, by hand on records made for it."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from kaidan import contact
+from kaidan.contact import Contact, Event, EventRecord, Feature, FeatureKind, PartKind
+from kaidan.traversal.contact_forces import contact_forces
+from kaidan.traversal.nosing_events import TOUCH, along_flat, nosing_events
+
+G = 9.80665
+
+
+class Rows(SimpleNamespace):
+    def __len__(self):
+        return len(self.s)
+
+
+def path_of(passings, asked=None, **margins):
+    """A path of ten poses that reports some passings of its straight pieces."""
+
+    def passed(rows, touch):
+        assert touch == TOUCH
+        if asked is not None:
+            asked.extend(rows.tolist())
+        return np.array(passings, dtype=float).reshape(-1, 6)
+
+    n = np.arange(10.0)
+    poses = Rows(
+        leg=np.array([0] * 8 + [1] * 2),
+        inclination=np.where(n < 3, 0.0, 1e-8),  # turns from the third pose to the fourth
+        s=np.array([0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0, 5.5, 6.0, 7.0]),
+        placements=np.c_[n, n**2, -n],
+    )
+    return SimpleNamespace(
+        poses=poses, passed=passed, margins=SimpleNamespace(**margins) if margins else None
+    )
+
+
+def test_pieces_are_straight_and_beside_a_change_of_contacts():
+    asked = []
+    nosing_events(path_of([], asked))
+    assert asked == [0, 1, 3, 5, 6, 8]  # no turn, some way, one line of poses
+    asked.clear()
+    contacts = np.array([2, 2] + [3] * 8)
+    outermost = np.array([[1, 4]] * 7 + [[1, 5]] * 3)
+    nosing_events(path_of([], asked, contacts=contacts, outermost=outermost))
+    assert asked == [0, 1, 5, 6]  # changes at 1 and 6, and the pieces beside them
+    asked.clear()
+    nosing_events(path_of([], asked, contacts=contacts, outermost=outermost[:1].repeat(10, 0)))
+    assert asked == [0, 1]
+
+
+def test_an_event_lies_between_two_poses():
+    """A quarter of the way from (3, 9, -3) to (4, 16, -4)."""
+    left, reached = [2.2, 0.0, 7.0, 1.0, 3.0, 0.25], [4.0, 1.0, 8.0, 0.0, 5.0, 0.0]
+    found = list(nosing_events(path_of([left, reached])))
+    one, other = (Feature(*each, FeatureKind.VERTEX).code for each in ((7, 1), (8, 0)))
+    assert found == [
+        EventRecord(Event.LEFT, 2.2, 3.25, 10.75, -3.25, one, -1, 3),
+        EventRecord(Event.REACHED, 4.0, 5.0, 25.0, -5.0, other, -1, 5),
+    ]
+
+
+def test_from_one_part_to_the_next_in_line_a_nosing_neither_comes_nor_goes():
+    def kept(*passings):
+        rows = [[s, reached, point, 0, 1, 0] for s, reached, point in passings]
+        return [(e.s, Feature.of(e.feature).point) for e in nosing_events(path_of(rows))]
+
+    assert kept((1.0, 0, 5), (1.0 + 5e-7, 1, 5)) == []
+    assert kept((1.0, 1, 5), (1.0, 0, 5), (1.0, 1, 5)) == [(1.0, 5)]
+    for other in ((1.0, 1, 6), (1.0, 0, 5), (1.01, 1, 5)):  # another nosing, way, place
+        assert kept((1.0, 0, 5), other) == [(1.0, 5), (other[0], other[2])]
+    between = [(1.0, 0, 10 + k) for k in range(8)]
+    assert len(kept((1.0, 0, 5), *between[:7], (1.0, 1, 5))) == 7
+    assert len(kept((1.0, 0, 5), *between, (1.0, 1, 5))) == 10  # only eight are looked back on
+
+
+def test_place_along_a_flat_by_hand():
+    """Discs of 50 and 20 mm, 500 mm apart: their lower tangent touches both at their radii.
+
+    Turned, the tips of the flat and what lies below it keep their places along it.
+    """
+    turned, leans, r_1, r_2, apart = 0.4, 0.3, 0.05, 0.02, 0.5
+    axis = np.array([math.cos(leans), math.sin(leans)])
+    one = np.array([-0.2, 0.01])
+    two = one + apart * axis
+    parts = np.array([[*one, r_1, *two, r_2]])
+    run = contact.traverse(np.array([(-3.0, 0.0), (3.0, 0.0)]), parts, -0.5, 0.0, step=0.5)
+    # the normal that leads out of the robot, downwards: n . (two - one) = r_1 - r_2
+    off = (r_1 - r_2) / apart
+    n = off * axis + math.sqrt(1 - off**2) * np.array([axis[1], -axis[0]])
+    tips = one + r_1 * n, two + r_2 * n
+    length = math.dist(*tips)
+    points = np.array([*tips, tips[0] + 0.03 * n, tips[1] - 0.01 * n])
+    c, s = math.cos(turned), math.sin(turned)
+    centroid = np.array([1.5, 0.7])
+    x, z = (centroid + points @ np.array([[c, s], [-s, c]])).T
+    path = SimpleNamespace(
+        ground=SimpleNamespace(x=x, z=z), parts=run.parts,
+        x=centroid[:1], z=centroid[1:], inclination=np.array([turned]),
+    )  # fmt: skip
+    along, gap = along_flat(path, np.array([0]), np.arange(4), 0)
+    np.testing.assert_allclose(along, [[0.0, length, 0.0, length]], atol=1e-12)
+    np.testing.assert_allclose(gap, [[0.0, 0.0, 0.03, -0.01]], atol=1e-12)
+
+
+COM = (5.0, 1.3)
+
+
+def touching(x, z, leans=0.0):
+    """Contact beside the centroid, on a plane that rises ahead."""
+    place = (COM[0] + x, COM[1] + z)
+    return Contact(place, (-math.sin(leans), math.cos(leans)), 0, 0.0, PartKind.TRACK)
+
+
+def forces(touched, carrying, *, needed=0.0, a=0.0, path=0.0, descending=False):
+    """Forces of a pose, effective gravity along and up the level [N/kg]."""
+    along = -a if descending else a
+    pull = along * math.cos(path), G + along * math.sin(path)
+    traverse = SimpleNamespace(
+        descending=descending,
+        path=SimpleNamespace(
+            margins=SimpleNamespace(
+                tilt=np.array([0.0, pull[0] / pull[1]]), required_friction=np.array([0.0, needed])
+            ),
+            poses=SimpleNamespace(
+                placement=lambda row: contact.Placement(*COM, 0.1 * row),
+                path_direction=np.array([0.0, path]),
+            ),
+            contacts_at=lambda place: tuple(touched),
+            carrying=lambda row: tuple(carrying),
+        ),
+    )
+    return contact_forces(traverse, 1, a), pull
+
+
+@pytest.mark.parametrize("path", [0.0, 0.6, -0.4])
+@pytest.mark.parametrize("a", [0.0, 2.0, -3.0])
+@pytest.mark.parametrize("descending", [False, True])
+def test_forces_of_two_contacts_add_up_to_effective_gravity(a, path, descending):
+    pair = touching(-0.3, -0.2), touching(0.2, -0.2)
+    found, pull = forces(pair, pair, a=a, path=path, descending=descending)
+    assert [each.point for each in found] == [each.point for each in pair]
+    assert np.sum([each.vector for each in found], axis=0) == pytest.approx(pull)
+    # about the centroid, 0.2 m above: the loads differ by what the tractions turn
+    (rear, front), traction = (each.load for each in found), sum(each.traction for each in found)
+    assert 0.3 * rear - 0.2 * front == pytest.approx(0.2 * traction)
+
+
+def test_the_pair_is_the_one_whose_friction_the_margins_tell():
+    """On the floor before and behind no friction is needed, on the floor and at a face some."""
+    rear, front, face = touching(-0.3, -0.2), touching(0.2, -0.2), touching(0.2, -0.1, math.pi / 2)
+    beside = touching(0.2 + 5e-6, -0.2)
+    floor, _ = forces((rear, front, beside, face), (rear, face))
+    loads = {each.point: each.load for each in floor}
+    assert loads == pytest.approx({rear.point: 0.4 * G, front.point: 0.6 * G, face.point: 0.0})
+    # a ladder: both forces meet over the centroid, 0.3 / mu above the floor, 0.1 + 0.2 mu too
+    wall, _ = forces((rear, front, beside, face), (rear, front), needed=0.9)
+    loads = {each.point: each.load for each in wall}
+    assert {point for point, load in loads.items() if load == 0.0} == {front.point, beside.point}
+    assert max(each.traction / each.load for each in wall if each.load) == pytest.approx(1.0)
+
+
+def test_a_contact_below_the_centroid_carries_all_of_it():
+    rear, below, face = touching(-0.3, -0.2), touching(0.0, -0.2), touching(0.2, -0.1, math.pi / 2)
+    found, _ = forces((rear, below), (rear, face))
+    loads = {each.point: each.load for each in found}
+    assert loads == pytest.approx({rear.point: 0.0, below.point: G})
+
+
+@pytest.mark.parametrize("a", [0.0, 2.0])
+def test_three_contacts_on_one_plane_are_springs_along_effective_gravity(a):
+    """Evenly beside the centroid, which lies between them: a third of it each."""
+    slope = 0.3
+    plane = [touching(w * math.cos(slope), w * math.sin(slope), slope) for w in (-0.2, 0.0, 0.2)]
+    found, pull = forces(plane, plane[::2], a=a)
+    n, t = (-math.sin(slope), math.cos(slope)), (math.cos(slope), math.sin(slope))
+    for each, touched in zip(found, plane, strict=True):
+        assert each.point == touched.point
+        assert each.load == pytest.approx(np.dot(pull, n) / 3)
+        assert each.traction == pytest.approx(np.dot(pull, t) / 3)

@@ -1,0 +1,244 @@
+"""What a traverse says of phases, criterion and falls, by hand: no kernel runs."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from kaidan import contact, traversal
+from kaidan.contact import Placement, Status
+from kaidan.outline import Outline
+from kaidan.robot import Robot
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import Stairs
+from kaidan.traversal import Fall, FirstRock, Phase, Traverse, traverse
+from kaidan.traversal.static_criterion import Criterion, Loss, Tread
+from kaidan.traversal.tilting import LARGEST, WITHIN, largest_survived
+
+OUTLINE = Outline.of(Robot.named("kenaf"))
+STEPS = Profile.of_stairs(Stairs(rise=0.1, going=0.3, steps=4))  # nosings 0.3162 m apart
+NOSINGS = STEPS.nosings[:, 0]
+LOSS = Loss(True, 2, 0.5, 0.1, 0.2, 0.05, 0.01, 0.004, 0.001, 2, False, 1.0)
+
+
+class Rows(SimpleNamespace):
+    def __len__(self):
+        return len(self.front_point)
+
+
+def path_to(*places, status=Status.OK):
+    """A path whose front contact stands at some places along the profile."""
+    points = np.array([(x, 0.0) for x in places]).reshape(-1, 2)
+    return SimpleNamespace(status=status, poses=Rows(front_point=points))
+
+
+def extremes(phase, downhill=math.inf, uphill=math.inf, step=7):
+    return SimpleNamespace(phase=phase, tilt_downhill=(downhill, step), tilt_uphill=(uphill, step))
+
+
+def made(**given):
+    figures = {
+        "status": Status.OK, "descending": False, "profile": STEPS, "outline": OUTLINE,
+        "acceleration": 0.5, "path": path_to(0.0, 1.0), "tread": Tread(0.5, 0.2, 0.1, 0, 0.06, 0.2),
+        "criterion": Criterion((LOSS,), 0.0), "whole": True,
+        "phase_of_pose": np.array(["enter", "land"]), "phases": (), "start": None, "until": None,
+        "step": 0.02,
+    }  # fmt: skip
+    return Traverse(**(figures | given))
+
+
+def test_the_end_is_the_last_pose():
+    path = path_to(0.0, NOSINGS[1] + 0.01)
+    assert made(path=path).end == (Phase.LAND, 2)
+    assert made(path=path, descending=True).end == (Phase.LAND, 3)
+
+
+def test_only_landing_the_trailing_end_comes_off(monkeypatch):
+    leaves = np.array([True, True, False])
+    monkeypatch.setattr(traversal, "trailing_end_leaves", lambda path: leaves)
+    found = made(phase_of_pose=np.array(["traverse", "land", "land"])).comes_off
+    assert found.tolist() == [False, True, False]
+
+
+def test_the_part_that_it_is_over():
+    start = Placement(1.0, 2.0, 0.0)
+    assert made().part == (-math.inf, math.inf)
+    assert made(start=start, until=3.0).part == (1.0, 3.0)
+    assert made(start=start).part == (1.0, math.inf)
+    # driven down the profile is reflected
+    down = made(profile=STEPS.reflected(), descending=True, start=start, until=3.0)
+    assert down.part == (-3.0, -1.0)
+
+
+def test_the_rear_length_is_judged_at_each_riser():
+    """docs/theory/transitions.md: the tip b behind the centroid, risers of 50, 200 and 100 mm."""
+    rises = Profile.of_points(
+        [(-1, 0), (0, 0), (0, 0.05), (0.3, 0.05), (0.3, 0.25), (0.6, 0.25), (0.6, 0.35), (2, 0.35)]
+    )
+    of_each = {}
+    for height in (0.05, 0.1, 0.2):
+        one = Profile.of_points([(-1, 0), (0, 0), (0, height), (2, height)])
+        margin, rise = made(profile=one).rear_length
+        assert rise == pytest.approx(height)
+        of_each[height] = margin
+    margin, rise = made(profile=rises).rear_length
+    assert (margin, rise) == pytest.approx((min(of_each.values()), 0.2))
+    farther = made(profile=rises, tread=Tread(0.6, 0.2, 0.1, 0, 0.06, 0.2)).rear_length[0]
+    assert farther > margin
+    assert made(profile=rises, descending=True).rear_length is None
+    assert made(profile=Profile.of_points([(0, 0), (2, 0)])).rear_length is None
+
+
+def test_the_first_rock_is_the_least_of_criterion_and_poses():
+    on, lands = extremes(Phase.TRAVERSE, 0.3, 0.1, step=2), extremes(Phase.LAND, 0.25, step=4)
+    of_criterion = FirstRock(0.2, Phase.TRAVERSE, 3)  # steps are counted from 1
+    found = made(phases=(on, lands))
+    assert found.first_rock(downhill=True) == of_criterion
+    assert found.downhill_margin == 0.2
+    assert found.first_rock(downhill=False) == (0.1, Phase.TRAVERSE, 2)
+    assert found.uphill_margin == 0.1
+    assert found.first_rock(downhill=True, phases=(on, lands)) == of_criterion
+    assert found.first_rock(downhill=True, phases=(lands,)) == (0.25, Phase.LAND, 4)
+    assert found.first_rock(downhill=False, phases=(lands,)) is None
+    assert math.isnan(made(criterion=Criterion((), 0.0)).downhill_margin)
+    # of those that are alike the first, whichever is a hair less
+    hair = extremes(Phase.LAND, 0.2 - 5e-7, step=4)
+    assert made(phases=(hair,)).first_rock(downhill=True) == of_criterion
+    more = extremes(Phase.LAND, 0.2 - 2e-6, step=4)
+    assert made(phases=(more,)).first_rock(downhill=True).phase is Phase.LAND
+
+
+def test_where_poses_judge_several_steps_it_rocks_no_later_than_it_falls():
+    fall = Fall(0.15, Phase.TRAVERSE, 3)
+    on = extremes(Phase.TRAVERSE, 0.3, 0.4, step=2)
+
+    def first(downhill=True, **given):
+        found = made(phases=(on,), criterion=Criterion((), 0.0), **given)
+        found.__dict__["falls_downhill"] = fall
+        return found.first_rock(downhill=downhill)
+
+    assert first(whole=False) == tuple(fall)
+    assert first(whole=False, downhill=False) == (0.4, Phase.TRAVERSE, 2)
+    assert first(whole=False, status=Status.FELL_BACKWARD).margin == 0.3
+    assert first().margin == 0.3  # all on one flight
+    step_longer = Tread(0.3, 0.1, 0.1, 0, 0.06, 0.2)  # nosings 0.316 m apart
+    assert first(tread=step_longer) == tuple(fall)
+    two = Profile.of_points(
+        [(-1, 0), (0, 0), (0, 0.1), (0.2, 0.1), (0.2, 0.2), (0.6, 0.2), (0.6, 0.3), (0.8, 0.3),
+         (0.8, 0.4), (2, 0.4)]
+    )  # fmt: skip
+    assert first(profile=two, tread=step_longer).margin == 0.3  # both of them flights
+    for points, phases in (([(-1, 0), (0, 0), (0, 0.1), (2, 0.1)], 1), ([(0, 0), (2, 0)], 0)):
+        one = Profile.of_points(points)
+        assert len(one.nosings) == phases
+        assert first(profile=one, whole=False).margin == 0.3
+    assert made(criterion=Criterion((), 0.0), whole=False).first_rock(downhill=True) is None
+
+
+@pytest.mark.parametrize(
+    ("downhill", "uphill", "holds"),
+    [(0.1, 0.2, True), (0.0, 0.2, False), (0.1, -0.1, False), (0.1, math.inf, True)],
+)
+def test_what_holds_on_the_flight(downhill, uphill, holds):
+    phases = (extremes(Phase.ENTER, -1.0, -1.0), extremes(Phase.TRAVERSE, downhill, uphill))
+    one = Profile.of_points([(-1, 0), (0, 0), (0, 0.1), (2, 0.1)])
+    assert made(whole=False, phases=phases, profile=one).holds is holds
+    assert made(whole=False, phases=phases[:1], profile=one).holds is None
+    assert made(phases=phases).holds is True  # of the criterion
+    assert made(criterion=Criterion((LOSS._replace(margin=0.0),), 0.0)).holds is False
+
+
+def test_how_far_the_centroid_may_move():
+    both = Criterion((LOSS, LOSS._replace(centroid=-0.03)), 0.0)
+    assert made(criterion=both).centroid_margin == -0.03
+    assert math.isnan(made(criterion=Criterion((), 0.0)).centroid_margin)
+    assert math.isnan(made(criterion=both, whole=False).centroid_margin)
+
+
+@pytest.mark.parametrize("limit", [0.01, 0.1, 0.3, math.radians(29.9), -0.02, -0.3])
+def test_the_largest_tilt_that_is_survived(limit):
+    asked = []
+
+    def survives(tilt):
+        asked.append(tilt)
+        return tilt <= limit
+
+    assert limit - WITHIN <= largest_survived(survives) <= limit
+    assert len(asked) < 20  # 4 deg, twice that and so on, then halves
+    assert max(abs(tilt) for tilt in asked) <= LARGEST
+
+
+def test_tilts_of_which_nothing_is_known():
+    assert largest_survived(lambda tilt: True) == math.inf
+    assert largest_survived(lambda tilt: False) == -math.pi / 2
+
+
+@pytest.mark.parametrize("descending", [False, True])
+@pytest.mark.parametrize("downhill", [False, True])
+@pytest.mark.parametrize("beyond", [True, False])
+def test_a_fall_is_looked_for_under_gravity_tilted_towards_it(
+    descending, downhill, beyond, monkeypatch
+):
+    """It survives up to 0.1 rad; a little beyond that, or only where it fell, it is seen to fall.
+
+    Gravity leans back for what lies behind: downhill going up, uphill going down.
+    """
+    back, driven = 1 if downhill is not descending else -1, []
+
+    def arrives(*, tilt, acceleration, step, **way):
+        assert tilt * back > 0
+        assert (acceleration, step, way["x_end"]) == (0.5, 0.02, 3.0)
+        return abs(tilt) <= 0.1
+
+    def fallen(*, tilt, with_margins, **way):
+        driven.append(tilt * back)
+        falls = beyond or len(driven) == 2
+        status = Status.FELL_BACKWARD if falls else Status.OK
+        return path_to(NOSINGS[0] + 0.01, NOSINGS[2] + 0.01, status=status)
+
+    monkeypatch.setattr(contact, "arrives", arrives)
+    monkeypatch.setattr(contact, "traverse", fallen)
+    monkeypatch.setattr(traversal, "phases_of", lambda *args: np.array(["enter", "traverse"]))
+    found = made(descending=descending, until=3.0)
+    fall = found.falls_downhill if downhill else found.falls_uphill
+    assert 0.1 - WITHIN <= fall.tilt <= 0.1
+    assert fall[1:] == (Phase.TRAVERSE, 2 if descending else 3)
+    assert driven[0] == pytest.approx(fall.tilt + math.radians(0.01))
+    assert len(driven) == (1 if beyond else 2)
+    assert 0.1 < driven[-1] <= fall.tilt + math.radians(0.01)
+
+
+def test_a_fall_without_any_tilt_is_that_of_the_path(monkeypatch):
+    monkeypatch.setattr(contact, "arrives", lambda *, tilt, **way: tilt <= -0.1)
+    monkeypatch.setattr(traversal, "phases_of", lambda *args: np.array(["enter", "traverse"]))
+    path = path_to(NOSINGS[0] + 0.01, NOSINGS[1] + 0.01)
+    fall = made(status=Status.FELL_BACKWARD, path=path).falls_downhill
+    assert -0.1 - WITHIN <= fall.tilt <= -0.1
+    assert fall[1:] == (Phase.TRAVERSE, 2)
+    assert made(status=Status.FELL_BACKWARD, path=path_to()).falls_downhill[1:] == (Phase.ENTER, 0)
+    # beyond what is looked for nothing falls: the level path ends well
+    monkeypatch.setattr(contact, "arrives", lambda **way: True)
+    monkeypatch.setattr(contact, "traverse", None)
+    assert made(path=path).falls_downhill == (math.inf, Phase.TRAVERSE, 2)
+
+
+def test_of_a_part_the_criterion_judges_what_is_there():
+    """Losses by the place of the centroid, whichever way the profile is driven."""
+    kenaf = {"outline": OUTLINE, "step": 0.05, "with_margins": False}
+    profile = Profile.of_stairs(Stairs.inclined(angle=0.5, nosing_spacing=0.15, steps=8))
+    places = sorted(each.place for each in traverse(profile, **kenaf).criterion.losses)
+    low, high = places[3] + 1e-3, places[-4] - 1e-3
+    inside = [place for place in places if low <= place <= high]
+
+    def there(**part):
+        found = traverse(profile, **kenaf, **part).criterion
+        return sorted(each.place for each in found.losses)
+
+    assert there(until=high) == [place for place in places if place <= high]
+    start = Placement(low, 0.9, 0.5)
+    assert there(start=start) == [place for place in places if place >= low]
+    assert there(start=start, until=high) == inside
+    down = {"descending": True, "facing": "tail-first"}
+    back = {"start": Placement(-high, 0.9, -0.5), "until": -low}
+    assert there(**down, **back) == pytest.approx(inside)
