@@ -214,7 +214,7 @@ def test_rotations_that_no_nosing_under_a_flat_arrests():
     """As a tilt the largest of its sense counts, with the step at which it begins."""
     places = np.r_[NOSINGS[:, 0] + 0.01, 2.0, 3.0]
     rear, front = 100 + np.arange(5), 200 + np.arange(5)
-    phase = np.array(["traverse", "traverse", "traverse", "traverse", "land"])
+    phase = np.array(["enter"] + ["traverse"] * 4)
 
     def rotated(records, side, *, whole=False, name=Phase.TRAVERSE, on_flat=()):
         rotations = [
@@ -222,22 +222,22 @@ def test_rotations_that_no_nosing_under_a_flat_arrests():
         ]
         path = SimpleNamespace(
             rotations=rotations, row_before=int,
-            poses=Rows(front_point=np.c_[places, places], rear=rear, front=front),
+            poses=Rows(front_point=np.c_[places, 0 * places], rear=rear, front=front),
             is_on_flat=lambda code, row: (code, row) in on_flat,
         )  # fmt: skip
         return _rotated(path, phase, name, side, STEPS, False, whole)
 
-    two = [(0, 1, 0.1), (1, 1, 0.3), (2, -1, 0.4)]
+    two = [(3, 1, 0.1), (1, 1, 0.3), (2, -1, 0.4)]
     assert rotated(two, 1.0) == (-0.3, 2)
     assert rotated(two, -1.0) == (-0.4, 3)
     assert rotated(two[:1], -1.0) == rotated([], 1.0) == (math.inf, 0)
     # what arrests it carries at the pose after it: the rear contact, or where the nose comes down
-    assert rotated(two, 1.0, on_flat=[(102, 2)]) == (-0.1, 1)
+    assert rotated(two, 1.0, on_flat=[(102, 2)]) == (-0.1, 3)
     assert rotated(two, -1.0, on_flat=[(203, 3)]) == (math.inf, 0)
     assert rotated(two, 1.0, whole=True) == (math.inf, 0)
     assert rotated(two, 1.0, name=Phase.LAND) == (math.inf, 0)
-    last = [(4, 1, 0.9), (3, 1, 0.2)]  # the last pose: it fell; and one of another phase
-    assert rotated(last, 1.0, name=Phase.TRAVERSE) == (-0.2, 3)
+    # in another phase; at the last pose: it fell
+    assert rotated([(0, 1, 0.8), (4, 1, 0.9), (3, 1, 0.2)], 1.0) == (-0.2, 3)
 
 
 def test_the_step_of_the_least_rise_and_of_the_first_rock(monkeypatch):

@@ -99,7 +99,7 @@ def test_of_one_traverse_phase_alone_one_pose(stages):
         ([turn(3, 0.1), turn(4, 0.3), turn(5, 0.2)], 4, 0.3),
         ([turn(3, 0.3), turn(4, 0.3)], 3, 0.3),  # of two alike the first
         ([turn(3, 0.3), turn(4, 0.1, arrested=False), turn(5, 0.2, arrested=False)], 4, None),
-        ([turn(3, 0.1), turn(4, 0.3, sense=-1), turn(0, 0.9), turn(7, 0.9)], 3, 0.1),
+        ([turn(4, 0.3, sense=-1), turn(0, 0.9), turn(3, 0.1), turn(7, 0.9)], 3, 0.1),
     ],
 )
 def test_the_rotation_is_the_largest_over_the_downhill_end_or_the_fall(

@@ -167,9 +167,31 @@ def test_the_pair_is_the_one_whose_friction_the_margins_tell():
 
 def test_a_contact_below_the_centroid_carries_all_of_it():
     rear, below, face = touching(-0.3, -0.2), touching(0.0, -0.2), touching(0.2, -0.1, math.pi / 2)
-    found, _ = forces((rear, below), (rear, face))
-    loads = {each.point: each.load for each in found}
-    assert loads == pytest.approx({rear.point: 0.0, below.point: G})
+    for touched in ((rear, below), (below, rear)):
+        found, _ = forces(touched, (rear, face))
+        loads = {each.point: each.load for each in found}
+        assert loads == pytest.approx({rear.point: 0.0, below.point: G})
+
+
+def test_contacts_on_one_side_of_the_centroid_are_no_pair():
+    """A floor and a face that holds it from behind, both ahead: 0.2 / mu = 0.5 + 0.2 mu above."""
+    rear, front, hook = touching(-0.3, -0.2), touching(0.2, -0.2), touching(0.2, 0.3, -math.pi / 2)
+    mu = (-0.5 + math.sqrt(0.5**2 + 4 * 0.2 * 0.2)) / (2 * 0.2)
+    assert contact.pair_forces(front, hook, COM, (0.0, G)).required_friction == pytest.approx(mu)
+    found, _ = forces((rear, front, hook), (rear, front), needed=mu)
+    assert [(each.point, each.load) for each in found] == [
+        (rear.point, pytest.approx(0.4 * G)), (front.point, pytest.approx(0.6 * G)), (hook.point, 0)
+    ]  # fmt: skip
+    assert found[-1].traction == 0.0
+
+
+def test_three_contacts_on_two_planes_are_no_springs():
+    """In a trough of sides alike steep."""
+    trough = [
+        touching(*each) for each in ((-0.3, -0.2, -0.3), (0.2, -0.2, 0.3), (0.25, -0.19, 0.3))
+    ]
+    found, _ = forces(trough, trough[:2])
+    assert [each.load > 0 for each in found] == [True, True, False]
 
 
 @pytest.mark.parametrize("a", [0.0, 2.0])
@@ -178,6 +200,7 @@ def test_three_contacts_on_one_plane_are_springs_along_effective_gravity(a):
     slope = 0.3
     plane = [touching(w * math.cos(slope), w * math.sin(slope), slope) for w in (-0.2, 0.0, 0.2)]
     found, pull = forces(plane, plane[::2], a=a)
+    assert np.sum([each.vector for each in found], axis=0) == pytest.approx(pull)
     n, t = (-math.sin(slope), math.cos(slope)), (math.cos(slope), math.sin(slope))
     for each, touched in zip(found, plane, strict=True):
         assert each.point == touched.point
