@@ -8,6 +8,7 @@ import pytest
 
 from kaidan import contact, traversal
 from kaidan.contact import Placement, Status
+from kaidan.mechanics.rearing import rear_length_margin
 from kaidan.outline import Outline
 from kaidan.robot import Robot
 from kaidan.terrain.profile import Profile
@@ -19,6 +20,7 @@ from kaidan.traversal.tilting import LARGEST, WITHIN, largest_survived
 OUTLINE = Outline.of(Robot.named("kenaf"))
 STEPS = Profile.of_stairs(Stairs(rise=0.1, going=0.3, steps=4))  # nosings 0.3162 m apart
 NOSINGS = STEPS.nosings[:, 0]
+PHASES = np.array(["enter", "enter", "traverse"])
 LOSS = Loss(True, 2, 0.5, 0.1, 0.2, 0.05, 0.01, 0.004, 0.001, 2, False, 1.0)
 
 
@@ -49,9 +51,9 @@ def made(**given):
 
 
 def test_the_end_is_the_last_pose():
-    path = path_to(0.0, NOSINGS[1] + 0.01)
-    assert made(path=path).end == (Phase.LAND, 2)
-    assert made(path=path, descending=True).end == (Phase.LAND, 3)
+    given = {"path": path_to(-1.0, 0.0, NOSINGS[1] + 0.01), "phase_of_pose": PHASES}
+    assert made(**given).end == (Phase.TRAVERSE, 2)
+    assert made(**given, descending=True).end == (Phase.TRAVERSE, 3)
 
 
 def test_only_landing_the_trailing_end_comes_off(monkeypatch):
@@ -76,16 +78,9 @@ def test_the_rear_length_is_judged_at_each_riser():
     rises = Profile.of_points(
         [(-1, 0), (0, 0), (0, 0.05), (0.3, 0.05), (0.3, 0.25), (0.6, 0.25), (0.6, 0.35), (2, 0.35)]
     )
-    of_each = {}
-    for height in (0.05, 0.1, 0.2):
-        one = Profile.of_points([(-1, 0), (0, 0), (0, height), (2, height)])
-        margin, rise = made(profile=one).rear_length
-        assert rise == pytest.approx(height)
-        of_each[height] = margin
     margin, rise = made(profile=rises).rear_length
-    assert (margin, rise) == pytest.approx((min(of_each.values()), 0.2))
-    farther = made(profile=rises, tread=Tread(0.6, 0.2, 0.1, 0, 0.06, 0.2)).rear_length[0]
-    assert farther > margin
+    assert rise == pytest.approx(0.2)
+    assert margin == pytest.approx(rear_length_margin(b=0.5 - 0.2, h=0.2, R=0.06, C_N=0.1))
     assert made(profile=rises, descending=True).rear_length is None
     assert made(profile=Profile.of_points([(0, 0), (2, 0)])).rear_length is None
 
@@ -113,8 +108,8 @@ def test_where_poses_judge_several_steps_it_rocks_no_later_than_it_falls():
     fall = Fall(0.15, Phase.TRAVERSE, 3)
     on = extremes(Phase.TRAVERSE, 0.3, 0.4, step=2)
 
-    def first(downhill=True, **given):
-        found = made(phases=(on,), criterion=Criterion((), 0.0), **given)
+    def first(downhill=True, phases=(on,), **given):
+        found = made(phases=phases, criterion=Criterion((), 0.0), **given)
         found.__dict__["falls_downhill"] = fall
         return found.first_rock(downhill=downhill)
 
@@ -129,11 +124,13 @@ def test_where_poses_judge_several_steps_it_rocks_no_later_than_it_falls():
          (0.8, 0.4), (2, 0.4)]
     )  # fmt: skip
     assert first(profile=two, tread=step_longer).margin == 0.3  # both of them flights
-    for points, phases in (([(-1, 0), (0, 0), (0, 0.1), (2, 0.1)], 1), ([(0, 0), (2, 0)], 0)):
-        one = Profile.of_points(points)
-        assert len(one.nosings) == phases
-        assert first(profile=one, whole=False).margin == 0.3
-    assert made(criterion=Criterion((), 0.0), whole=False).first_rock(downhill=True) is None
+    kerb = [(-1, 0), (0, 0), (0, 0.1), (2, 0.1)]
+    second = [(1, 0.1), (1, 0.2), (2, 0.2)]
+    for points, count in (([(0, 0), (2, 0)], 0), (kerb, 1), (kerb[:3] + second, 2)):
+        few = Profile.of_points(points)
+        assert len(few.nosings) == count
+        assert first(profile=few, whole=False).margin == (0.15 if count > 1 else 0.3)
+    assert first(whole=False, phases=(extremes(Phase.LAND),)) is None  # nothing was looked at
 
 
 @pytest.mark.parametrize(
@@ -192,14 +189,15 @@ def test_a_fall_is_looked_for_under_gravity_tilted_towards_it(
         return abs(tilt) <= 0.1
 
     def fallen(*, tilt, with_margins, **way):
+        assert not with_margins
         driven.append(tilt * back)
         falls = beyond or len(driven) == 2
         status = Status.FELL_BACKWARD if falls else Status.OK
-        return path_to(NOSINGS[0] + 0.01, NOSINGS[2] + 0.01, status=status)
+        return path_to(-1.0, NOSINGS[0] + 0.01, NOSINGS[2] + 0.01, status=status)
 
     monkeypatch.setattr(contact, "arrives", arrives)
     monkeypatch.setattr(contact, "traverse", fallen)
-    monkeypatch.setattr(traversal, "phases_of", lambda *args: np.array(["enter", "traverse"]))
+    monkeypatch.setattr(traversal, "phases_of", lambda *args: PHASES)
     found = made(descending=descending, until=3.0)
     fall = found.falls_downhill if downhill else found.falls_uphill
     assert 0.1 - WITHIN <= fall.tilt <= 0.1
@@ -211,8 +209,8 @@ def test_a_fall_is_looked_for_under_gravity_tilted_towards_it(
 
 def test_a_fall_without_any_tilt_is_that_of_the_path(monkeypatch):
     monkeypatch.setattr(contact, "arrives", lambda *, tilt, **way: tilt <= -0.1)
-    monkeypatch.setattr(traversal, "phases_of", lambda *args: np.array(["enter", "traverse"]))
-    path = path_to(NOSINGS[0] + 0.01, NOSINGS[1] + 0.01)
+    monkeypatch.setattr(traversal, "phases_of", lambda *args: PHASES)
+    path = path_to(-1.0, NOSINGS[0] + 0.01, NOSINGS[1] + 0.01)
     fall = made(status=Status.FELL_BACKWARD, path=path).falls_downhill
     assert -0.1 - WITHIN <= fall.tilt <= -0.1
     assert fall[1:] == (Phase.TRAVERSE, 2)
@@ -242,3 +240,12 @@ def test_of_a_part_the_criterion_judges_what_is_there():
     down = {"descending": True, "facing": "tail-first"}
     back = {"start": Placement(-high, 0.9, -0.5), "until": -low}
     assert there(**down, **back) == pytest.approx(inside)
+
+
+def test_the_robot_and_its_acceleration_as_driven():
+    kenaf = {"outline": OUTLINE, "step": 0.05, "with_margins": False, "acceleration": 0.5}
+    up, down = (traverse(STEPS, **kenaf, descending=each) for each in (False, True))
+    assert (up.acceleration, down.acceleration) == (0.5, -0.5)
+    np.testing.assert_array_equal(up.outline.parts, OUTLINE.parts)
+    tail = traverse(STEPS, **kenaf, facing="tail-first")
+    np.testing.assert_array_equal(tail.outline.parts, OUTLINE.turned_round().parts)
