@@ -8,7 +8,7 @@ import sys
 import time
 from pathlib import Path
 
-from kaidan.campaign import DaskWorkers, LocalWorkers, Store, Work, conduct
+from kaidan import campaign  # of which each process imports what it uses
 
 COLUMNS = {"n": "count", "square": "number", "pid": "count"}
 
@@ -47,7 +47,9 @@ def version():
     return "fake 1"
 
 
-FAKE = Work(name="fake", run=run, inputs=inputs, text=text, version=version, columns=COLUMNS)
+FAKE = campaign.Work(
+    name="fake", run=run, inputs=inputs, text=text, version=version, columns=COLUMNS
+)
 
 
 def specs(count, **fields):
@@ -81,15 +83,19 @@ def wait_until(condition, seconds=30.0):
 
 
 def local_campaign(folder, trials, *, count=2, tries=3):
-    with Store(Path(folder), FAKE) as store, LocalWorkers(FAKE, count, tries=tries) as workers:
-        return conduct(trials, store, workers)
+    workers = campaign.LocalWorkers(FAKE, count, tries=tries)
+    with campaign.Store(Path(folder), FAKE) as store, workers:
+        return campaign.conduct(trials, store, workers)
 
 
 if __name__ == "__main__":
     folder, count, seconds, notes, *address = sys.argv[1:]
     plan = specs(int(count), seconds=float(seconds), folder=notes)
     if address:
-        with Store(Path(folder), FAKE) as store, DaskWorkers(FAKE, address[0]) as workers:
-            print(conduct(plan, store, workers).done)
+        with (
+            campaign.Store(Path(folder), FAKE) as store,
+            campaign.DaskWorkers(FAKE, address[0]) as workers,
+        ):
+            print(campaign.conduct(plan, store, workers).done)
     else:
         print(local_campaign(folder, plan).done)

@@ -1,9 +1,11 @@
 import gc
 import os
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
+import typer.testing
 from hypothesis import settings
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -15,6 +17,9 @@ os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 # no matrix here is worth threads that wait for each other, less so where each core has a worker
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+# the whole command line is built once, not in each of a thousand calls of a CliRunner
+typer.testing._get_command = cache(typer.main.get_command)
 
 gc.disable()  # ten thousand tests are being collected, and none of them is garbage
 

@@ -83,6 +83,16 @@ def test_importing_kaidan_imports_no_more_than_its_names():
     assert "numpy" not in modules
 
 
+def test_a_process_of_a_campaign_imports_what_it_does_and_no_more():
+    code = (
+        "import json, sys, kaidan.campaign.local\n"
+        "print(json.dumps([0, sorted(sys.modules)]), file=sys.stderr)"
+    )
+    modules = imported(code)[1]
+    assert "kaidan.campaign.job" in modules
+    assert {"numpy", "pydantic"}.isdisjoint(modules)
+
+
 def test_a_question_from_python_imports_nothing_heavy():
     code = (
         "import json, sys, kaidan\n"
@@ -94,12 +104,18 @@ def test_a_question_from_python_imports_nothing_heavy():
 
 def test_every_public_name_is_there():
     import kaidan
+    from kaidan import campaign
 
     for name in kaidan.__all__:
         assert getattr(kaidan, name) is not None
+    for name in campaign.__all__:
+        assert getattr(campaign, name) is not None
     assert dir(kaidan) == sorted(kaidan.__all__)
-    with pytest.raises(AttributeError, match="module 'kaidan' has no attribute 'luck'"):
-        _ = kaidan.luck
+    for each in (kaidan, campaign):
+        with pytest.raises(
+            AttributeError, match=f"module '{each.__name__}' has no attribute 'luck'"
+        ):
+            _ = each.luck
 
 
 def test_every_command_is_found_by_its_name():
