@@ -4,6 +4,7 @@ Most pages are the closed form's, whose figures follow by hand; the default, the
 its own.
 """
 
+import io
 import json
 import math
 import os
@@ -17,6 +18,7 @@ from typer.testing import CliRunner
 
 from kaidan import Payload, Posture, Robot, Stairs, Surface, assess
 from kaidan.cli import app, main
+from kaidan.cli import run as command_line
 
 KENAF_40 = ["kenaf", "--angle", "40deg", "--nosing-spacing", "150mm"]
 GRIP = ["--friction", "2"]
@@ -479,24 +481,47 @@ def test_as_a_process():
     assert (done.returncode, done.stdout) == (2, b"")
     assert done.stderr.startswith(b"kaidan: no staircase is called 'nowhere'")
     assert done.stderr.count(b"\n") == 1
-    assert process("kenaf", "ibc", *CLOSED).returncode == 3
-    # hand: before the first nosing bears it, the centroid would have to lie over it:
-    # 178 / sin(phi) = 274 - 71 tan(phi), which no phi solves (45 deg: 252 > 203)
-    assert process("kenaf", "ibc").returncode == 1
-    assert process("kenaf", "ibc", "--nonsense").returncode == 2
 
 
-def test_any_encoding_of_the_screen(tmp_path):
+@pytest.mark.parametrize(
+    ("words", "code"),
+    [
+        (["kenaf", "ibc", *CLOSED], 3),
+        # hand: before the first nosing bears it, the centroid would have to lie over it:
+        # 178 / sin(phi) = 274 - 71 tan(phi), which no phi solves (45 deg: 252 > 203)
+        (["kenaf", "ibc"], 1),
+        (["kenaf", "ibc", "--nonsense"], 2),
+    ],
+)
+def test_exit_codes_of_the_process(words, code, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["kaidan", "assess", *words])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == code
+    assert (capsys.readouterr().out == "") is (code == 2)
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])
+def test_any_encoding_of_the_screen(encoding, tmp_path, monkeypatch):
     path = tmp_path / "odd.toml"
     sheet = Robot.named("kenaf").model_dump(exclude_none=True) | {"name": "Käfer 階段"}
     path.write_text(Robot.model_validate(sheet).to_toml(), encoding="utf-8")
-    for encoding in ("ascii", "latin-1", "utf-8"):
-        env = os.environ | {"PYTHONIOENCODING": f"{encoding}:strict"}
-        done = process(str(path), *KENAF_40[1:], *GRIP, env=env)
+    words = [str(path), *KENAF_40[1:], *GRIP]
+
+    def printed(*words):
+        screen = io.TextIOWrapper(io.BytesIO(), encoding, errors="strict")
+        with monkeypatch.context() as patch:
+            patch.setattr(sys, "stdout", screen)
+            assert command_line(["assess", *words]) == 0
+        return screen.buffer.getvalue()
+
+    assert printed(*words).startswith(b"GO  K")
+    document = json.loads(printed(*words, "--json"))
+    assert document["question"]["robot"]["name"] == "Käfer 階段"
+    if encoding == "ascii":
+        done = process(*words, env=os.environ | {"PYTHONIOENCODING": "ascii:strict"})
         assert (done.returncode, done.stderr) == (0, b"")
-        assert done.stdout.startswith(b"GO  K")
-        done = process(str(path), *KENAF_40[1:], *GRIP, "--json", env=env)
-        assert json.loads(done.stdout)["question"]["robot"]["name"] == "Käfer 階段"
+        assert done.stdout == printed(*words)
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
@@ -514,12 +539,14 @@ def test_a_full_disk_is_no_verdict():
     assert done.stderr == (b"kaidan: the answer cannot be written: No space left on device\n")
 
 
-def test_it_writes_nothing_anywhere(tmp_path):
+def test_it_writes_nothing_anywhere(tmp_path, monkeypatch):
     """Killed or refused or answered: the folder stays as it was."""
-    for words in (["kenaf", "ibc"], ["kenaf", "nowhere"], [*KENAF_40, "--friction", "x"]):
-        process(*words, cwd=tmp_path)
+    monkeypatch.chdir(tmp_path)
+    for words in (["kenaf", "nowhere"], [*KENAF_40, "--friction", "x"]):
+        assert command_line(["assess", *words]) == 2
+    process("kenaf", "ibc")
     command = [sys.executable, "-c", "from kaidan.cli import main; main()", "assess", *KENAF_40]
-    running = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.DEVNULL)
+    running = subprocess.Popen(command, stdout=subprocess.DEVNULL)
     time.sleep(0.05)
     running.send_signal(signal.SIGKILL)
     running.wait(timeout=60)

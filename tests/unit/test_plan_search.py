@@ -98,10 +98,10 @@ IBC = Stairs.named("ibc")
         ("absolem", IBC, {"friction": 1.0, "flipper_tolerance": "6deg"}),
         ("absolem", STAIRS, {"friction": 0.5}),
         ("absolem", STAIRS, {"friction": 1.2, "direction": "down"}),
-        ("marv", IBC, {"friction": 1.0}),
+        pytest.param("marv", IBC, {"friction": 1.0}, marks=pytest.mark.slow),
         ("kenaf", Stairs.inclined(angle="50deg", nosing_spacing="150mm"), {"friction": 2.0}),
         ("absolem-flat", IBC, {"friction": 1.2}),
-        ("packbot-510", IBC, {"friction": 1.2}),
+        pytest.param("packbot-510", IBC, {"friction": 1.2}, marks=pytest.mark.slow),
     ],
 )
 def test_a_planned_answer_is_the_answer_to_its_question(robot, stairs, manner):
@@ -330,9 +330,9 @@ def test_advice_about_a_plan_that_was_found_holds_off_its_angles():
     ("name", "stairs", "manner"),
     [
         ("absolem", "ibc", {}),
-        ("absolem", "ada", {}),
-        ("marv", "ibc", {}),
-        ("marv", "ada", {}),
+        pytest.param("absolem", "ada", {}, marks=pytest.mark.slow),
+        pytest.param("marv", "ibc", {}, marks=pytest.mark.slow),
+        pytest.param("marv", "ada", {}, marks=pytest.mark.slow),
         ("ozbot-atr", "ibc", {"speed": 0.05}),
     ],
 )
