@@ -15,7 +15,7 @@ from kaidan import Question, Robot, Stairs
 from kaidan.models.quasi_static import traverse_of
 from kaidan.modes import Phase
 from kaidan.robot import FlipperPair, Posture, Track
-from kaidan.traversal.tilting import LARGEST
+from kaidan.traversal.tilting import LARGEST, largest_survived
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -219,6 +219,24 @@ def test_the_papers_rig(p, angle, to_rock, to_fall):
     assert math.degrees(found.downhill_margin) == pytest.approx(to_rock, abs=1e-3)
     # an independent bisection of the whole traverse, another end radius: 0.1 deg, found within 0.1
     assert math.degrees(found.falls_downhill.tilt) == pytest.approx(to_fall, abs=0.2)
+
+
+@pytest.mark.parametrize("falls_at", [-40.0, -7.3, -0.5, 0.01, 2.0, 4.0, 6.5, 29.0, 31.0])
+@pytest.mark.parametrize("sought", [(0.0,), (3.0, 8.0), (6.499, 6.5), (-7.3,), (15.0,)])
+def test_of_the_tilt_to_the_fall_only_on_which_side_it_is(falls_at, sought):
+    """What is sought lies on the same side of it, with fewer drives."""
+    tried = []
+
+    def survives(tilt):
+        tried.append(tilt)
+        return math.degrees(tilt) < falls_at
+
+    whole, count = largest_survived(survives), len(tried)
+    tried.clear()
+    found = largest_survived(survives, sought=[math.radians(each) for each in sought])
+    assert len(tried) <= count
+    for each in map(math.radians, sought):
+        assert (found > each) == (whole > each)
 
 
 def test_after_a_drop_that_the_terrain_obliges_to_it_only_comes_back():

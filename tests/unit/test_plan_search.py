@@ -8,6 +8,9 @@ import pytest
 
 import kaidan
 from kaidan.assessment.answer import Assessment
+from kaidan.assessment.plan_drives import Drives
+from kaidan.assessment.plan_hopes import Search
+from kaidan.assessment.plan_scores import Score
 from kaidan.assessment.plan_search import (
     LIMITS,
     found_of,
@@ -15,6 +18,7 @@ from kaidan.assessment.plan_search import (
     off_angles,
     shortened,
 )
+from kaidan.assessment.verdict import conclude
 from kaidan.errors import InputError
 from kaidan.models import judge
 from kaidan.modes import Verdict
@@ -350,3 +354,43 @@ def test_long_robots_climb_on_their_grousers(name, stairs, manner):
     assert kaidan.assess(sheet, stairs, surface="concrete-dry", **manner).verdict == "caution"
     slippery = answer.question.changed(surface=Surface.named("petg-on-plywood"))
     assert kaidan.assess(slippery).verdict == "no-go"
+
+
+def test_what_was_driven_already_is_not_driven_again():
+    """Friction and belts play no part in a traverse, tilts that alone count neither."""
+    drives = Drives()
+    plan = Question.of("absolem", STAIRS, friction=0.9, flippers="flat/land:-60deg,-20deg")
+    profile = plan.profile
+    first, like = (
+        drives.over(profile, each.changed(changes=()), until=1.0)
+        for each in (plan, plan.changed(surface=Surface.of_friction(0.3)))
+    )
+    assert like is first
+    rough = drives.over(profile, plan.changed(changes=()), until=1.0, sought=(0.1,))
+    assert (rough.path is first.path, rough.sought) == (True, (0.1,))
+    assert drives.over(profile, plan.changed(changes=()), until=1.1) is not first
+
+
+@pytest.mark.parametrize("friction", [0.4, 0.7, 1.0, 1.5])
+@pytest.mark.parametrize("flippers", ["stowed", "flat", "-40deg,-13deg/traverse:flat"])
+def test_where_only_the_verdict_counts_it_is_the_same(friction, flippers):
+    drives = Drives()
+    for stairs in (STAIRS, Stairs(name="steep", rise=0.2, going=0.21, steps=6)):
+        plan = Question.of("absolem", stairs, friction=friction, flippers=flippers)
+        ranked, whole = drives.rank(plan), Drives().judge(plan)
+        assert conclude(plan, ranked).verdict is conclude(plan, whole).verdict
+
+
+def test_the_way_off_that_promises_least_is_looked_at_first():
+    question = Question.of("absolem", STAIRS, friction=0.9).changed(best_of=())
+    search = Search(question, "nose-first", LIMITS)
+    plan = question.changed(
+        posture=Posture(front=0.2, rear=0.3), flipper_tolerance=math.radians(2.0)
+    )
+    ways = list(off_angles(plan))
+    scores = {Posture(front=0.2, rear=0.3): 1.0, ways[2].posture: -5.0, ways[1].posture: 3.0}
+    for phase, (posture, margin) in product(search.scores.phases, scores.items()):
+        search.scores.known[phase, posture] = Score(True, 0, margin, 0.0)
+    order = search.weakest_first(ways)
+    assert order[:2] == [ways[2], ways[1]]
+    assert {each.posture for each in order} == {each.posture for each in ways}

@@ -168,9 +168,7 @@ def judged(
             *verdicts.notes(question, found, conclusion),
             *(() if search is None else plan_text.notes(question, search.ends)),
         ),
-        what_would_help=what_would_help(
-            question, found, conclusion, measure, searched=search is not None
-        )
+        what_would_help=what_would_help(question, found, conclusion, measure, search=search)
         if advice
         else (),
         to_measure=measure,

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from kaidan.allowance import Allowance
 from kaidan.assessment.answer import Change
@@ -39,6 +39,9 @@ from kaidan.text import advice as text
 from kaidan.text import measuring
 from kaidan.text import unweighed as weighing
 
+if TYPE_CHECKING:
+    from kaidan.assessment.plan_search import Found
+
 RAISED = math.radians(45.0)
 """Angle of leading flippers that reach for a first riser: half-way between flat and upright."""
 SLOWEST = 0.01
@@ -67,7 +70,7 @@ def what_would_help(
     conclusion: Conclusion,
     measure: Sequence[Measurement] = (),
     *,
-    searched: bool = False,
+    search: "Found | None" = None,
 ) -> tuple[Change, ...]:
     """Changes that raise the verdict or the margin, the best first; nothing for a GO.
 
@@ -80,8 +83,8 @@ def what_would_help(
         Of the findings.
     measure : sequence of Measurement
         What to measure next, the first first.
-    searched : bool
-        Whether postures and facing were searched already, so that none of them would help.
+    search : Found, optional
+        What found the plan: postures and facing were searched, so that none of them would help.
 
     Returns
     -------
@@ -92,7 +95,7 @@ def what_would_help(
     better = []
     known = found if question.robot.com_range is None else None
     candidates = (
-        *_candidates(question, found, conclusion, searched),
+        *_candidates(question, found, conclusion, search is not None),
         *_known_better(question, measure),
     )
     for change, changed, certain in candidates:
@@ -101,7 +104,7 @@ def what_would_help(
         except InputError:  # a posture or a place of the centroid that the robot cannot have
             continue
         if then.verdict is Verdict.GO and changed.tolerance:
-            then = _off_its_angles(changed, then, searched)
+            then = _off_its_angles(changed, then, search)
         if _is_better(then, conclusion) and (not certain or _settles(then, conclusion)):
             better.append((then, change))
     better.sort(key=lambda each: _rank(each[0]))
@@ -115,17 +118,18 @@ def what_would_help(
     )
 
 
-def _off_its_angles(question: Question, then: Conclusion, searched: bool) -> Conclusion:
+def _off_its_angles(question: Question, then: Conclusion, search: "Found | None") -> Conclusion:
     """Conclusion of a plan, with the verdict that it has off its angles.
 
     Where it is worse and plans are searched for, that of the plan that the change would have.
     """
     from kaidan.assessment.plan_search import found_of, holds_off_its_angles
 
-    if holds_off_its_angles(question):
+    drives = None if search is None else search.drives
+    if holds_off_its_angles(question, drives):
         return then
-    if searched and question.robot.com_range is None:
-        own = found_of(question.changed(best_of=("flippers", "facing")))
+    if search is not None and question.robot.com_range is None:
+        own = found_of(question.changed(best_of=("flippers", "facing")), drives=drives)
         if own.sturdy:
             return conclude(own.question, own.findings)
     return then._replace(verdict=Verdict.CAUTION)

@@ -87,9 +87,27 @@ class Search:
             (phase, each) for phase, posture in plan.postures for each in scores.about(posture)
         )
         worst = [scores.off(phase, posture) for phase, posture in plan.postures]
-        postures = [posture for _, posture in plan.postures]
+        return self._merit(worst, [posture for _, posture in plan.postures])
+
+    def weakest_first(self, questions: Iterable[Question]) -> list[Question]:
+        """Questions with a plan each, in the order of what its scores let one hope for.
+
+        Those that are not scored in every phase come last.
+        """
+        return sorted(questions, key=self._known_merit)
+
+    def _known_merit(self, question: Question) -> tuple[bool, Merit]:
+        at = question.postures
+        scores = [self.scores.known.get((phase, at[phase])) for phase in self.scores.phases]
+        known = [each for each in scores if each is not None]
+        if len(known) < len(scores):
+            return True, (True, 0, 0.0)
+        return False, self._merit(known, list(at.values()))
+
+    def _merit(self, scores: Iterable[Score], postures: Sequence[Posture]) -> Merit:
+        """What the scores of a plan's phases come to."""
         cost = cost_of(self.question.robot, postures)
-        passes, failing, value = _order([_figures([each])[:, 0] for each in worst], cost)
+        passes, failing, value = _order([_figures([each])[:, 0] for each in scores], cost)
         return bool(passes), int(failing), float(value)
 
     def _together(self, choices: Sequence[Sequence[Posture]]) -> list[Hope]:

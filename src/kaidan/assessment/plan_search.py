@@ -10,16 +10,17 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from kaidan.assessment.plan_drives import Drives
 from kaidan.assessment.plan_hopes import LIMITS as LIMITS
 from kaidan.assessment.plan_hopes import Hope, Merit, Search
 from kaidan.assessment.plan_scores import ENOUGH
-from kaidan.assessment.plan_sturdy import FINE, Sturdier
+from kaidan.assessment.plan_sturdy import Sturdier
 from kaidan.assessment.plans import Plan, cost_of, cost_of_drop, words
 from kaidan.assessment.plans import off_angles as off_angles
 from kaidan.assessment.verdict import Conclusion, conclude
-from kaidan.models import judge, planned
+from kaidan.models import judge
 from kaidan.models.findings import Findings
-from kaidan.models.quasi_static import Basis, findings_of, traverse_of
+from kaidan.models.quasi_static import Basis
 from kaidan.modes import CONTACT, FALLS, Facing, Phase, Verdict
 from kaidan.outline import Outline
 from kaidan.question import Question
@@ -27,7 +28,11 @@ from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Traverse
 
 FINALISTS = 3
-"""Plans that are driven in one go and judged: the best one at its angles too."""
+"""Plans that are driven in one go and judged at most: the best one at its angles too."""
+SLACK = 0.5
+"""Margin by which a plan may be better than its scores [deg]."""
+NEARLY = 0.1
+"""Difference of two scores from which on both plans are judged [deg]."""
 
 
 Standing = tuple[int, bool, int, float]
@@ -72,15 +77,19 @@ class Found(NamedTuple):
     """Of that question."""
     sturdy: bool
     """Whether its verdict holds off its angles by the question's tolerance."""
-    tried: int
-    """Drives of a phase."""
     short: Question
     """On which it searched: a long uniform flight repeats itself."""
-    ends: tuple[Facing, ...]
+    drives: Drives
+    """What was driven for it in one go."""
+    tried: int = 0
+    """Drives of a phase."""
+    ends: tuple[Facing, ...] = ()
     """Ends that were tried first: the other one only where the nose is no GO."""
 
 
-def found_of(question: Question, limits: tuple[float, float] = LIMITS) -> Found:
+def found_of(
+    question: Question, limits: tuple[float, float] = LIMITS, *, drives: Drives | None = None
+) -> Found:
     """Best plan of a question whose posture is to be found.
 
     Parameters
@@ -89,6 +98,8 @@ def found_of(question: Question, limits: tuple[float, float] = LIMITS) -> Found:
         With `best_of`.
     limits : (float, float)
         Angles allowed [rad]; the stowed angle and lying flat always are.
+    drives : Drives, optional
+        Of the search for a similar question.
 
     Returns
     -------
@@ -100,34 +111,38 @@ def found_of(question: Question, limits: tuple[float, float] = LIMITS) -> Found:
     facings: tuple[Facing, ...] = (stated.facing,)
     if "facing" in question.best_of:
         facings = ("nose-first", "tail-first")
+    drives = Drives() if drives is None else drives
     if not stated.plannable:
-        return _fixed(stated, facings)
+        return _fixed(stated, facings, drives)
     short = shortened(stated)
     plans: list[_Off] = []
+    ends: tuple[Facing, ...] = ()
     tried = 0
     for facing in facings:
         search = Search(short, facing, limits)
-        plans.append(_sturdiest(search, plans[-1].worst if plans else None))
+        found = _sturdiest(search, plans[-1].worst if plans else None, drives)
+        ends = (*ends, facing)
         tried += len(search.scores.known)
-        if plans[-1].sturdy and plans[-1].judged.conclusion.verdict is Verdict.GO:
+        if found is None:
+            continue
+        plans.append(found)
+        if found.sturdy and found.judged.conclusion.verdict is Verdict.GO:
             break
     ranked = sorted(plans, key=lambda each: each.worst, reverse=True)
-    return _on_the_whole(stated, ranked, tried, facings[: len(plans)])
+    return _on_the_whole(stated, ranked, drives)._replace(tried=tried, ends=ends)
 
 
-def _on_the_whole(
-    stated: Question, plans: Sequence["_Off"], tried: int, ends: tuple[Facing, ...]
-) -> Found:
+def _on_the_whole(stated: Question, plans: Sequence["_Off"], drives: Drives) -> Found:
     """First of some plans whose verdict the whole terrain, pose by pose, does not lower."""
     each = []
     for plan in plans:
-        tested = plan if plan.tested else plan.judged_off()
+        tested = plan if plan.tested else _judged_off(plan.judged, None, drives)
         question = plan.judged.question.changed(terrain=stated.terrain)
         each.append((judged_of(question, judge(question)), tested))
         if each[-1][0].merit[0] >= plan.judged.merit[0]:
             break
     whole, plan = max(each, key=lambda one: one[0].merit[0])
-    return Found(whole.question, whole.findings, plan.sturdy, tried, plan.judged.question, ends)
+    return Found(whole.question, whole.findings, plan.sturdy, plan.judged.question, drives)
 
 
 class _Off(NamedTuple):
@@ -144,54 +159,123 @@ class _Off(NamedTuple):
         """Whether its verdict holds off its angles."""
         return self.worst == self.judged.merit
 
-    def judged_off(self) -> "_Off":
-        """The same, tested."""
-        return _judged_off(self.judged, None)
+
+class _Candidate(NamedTuple):
+    """A plan that may be the best, and what the scores of its phases let one hope for."""
+
+    plan: Plan
+    hope: Merit
+    """At its angles."""
+    off: Merit
+    """The worst off them, as far as it is scored."""
 
 
-def _sturdiest(search: Search, beaten: Standing | None) -> _Off:
+def _sturdiest(search: Search, beaten: Standing | None, drives: Drives) -> _Off | None:
     """Best plan of a search: the most promising off their angles, judged in one go.
 
-    Of plans that are no better than what is beaten it is any.
+    Of plans that are no better than what is beaten it is any; None: no plan promised to be better.
     """
-    hopes = search.hopes()
-    dearest = max(hopes, key=lambda hope: hope.merit)
-    chosen = dict.fromkeys([*_best_off(search, hopes, FINALISTS - 1), dearest.plan])
-    finalists = [_judged(plan.question(search.question)) for plan in chosen]
-    finalists.sort(key=lambda each: each.merit, reverse=True)
     best: _Off | None = None
-    for each in finalists:
-        found = _judged_off(each, beaten)
+    first: Judged | None = None
+    of_best = None
+    for each in _candidates(search):
+        bar = _better(beaten, best)
+        if bar is not None and not _may_be_better(search, each, bar, of_best, drives):
+            continue
+        judged = _judged(each.plan.question(search.question), drives)
+        first = max(first or judged, judged, key=lambda one: one.merit)
+        found = _judged_off(judged, bar, drives, search)
         if best is None or found.worst > best.worst:
             best = found
-        if best.sturdy:
-            break
-        beaten = best.worst if beaten is None else max(beaten, best.worst)
-    assert best is not None
-    first = finalists[0]
+            as_hoped = found.sturdy and -judged.merit[0] == _rank(search, each.off)
+            of_best = each if as_hoped else None
+    if best is None or first is None:
+        return best
     hoped = first.conclusion.verdict
     gripping = search.question.robot.track.has_grousers and hoped is Verdict.CAUTION
     if best.worst[0] == -Verdict.GO.rank or not (hoped is Verdict.GO or gripping):
         return best
     at = first.question.postures
     plan = Plan(search.scores.facing, tuple((phase, at[phase]) for phase in search.scores.phases))
-    sturdier = Sturdier(search.scores, search.limits).plan(plan)
+    sturdier = Sturdier(search.scores, search.limits, drives).plan(plan)
     if sturdier is None:
         return best
-    found = _judged_off(_judged(sturdier.question(search.question)), best.worst)
+    found = _judged_off(_judged(sturdier.question(search.question), drives), best.worst, drives)
     return max(best, found, key=lambda each: each.worst)
 
 
-def holds_off_its_angles(question: Question) -> bool:
+def _better(beaten: Standing | None, best: _Off | None) -> Standing | None:
+    """The larger of two merits to beat."""
+    if best is None or beaten is None:
+        return beaten if best is None else best.worst
+    return max(beaten, best.worst)
+
+
+def _candidates(search: Search) -> list[_Candidate]:
+    """Plans to judge, the first first: by the verdict that they promise off their angles."""
+    hopes = search.hopes()
+    dearest = max(hopes, key=lambda hope: hope.merit)
+    merits = {hope.plan: hope.merit for hope in hopes}
+    plans = dict.fromkeys([*_best_off(search, hopes, FINALISTS - 1), dearest.plan])
+    each = [_Candidate(plan, merits[plan], search.off(plan)) for plan in plans]
+    return sorted(each, key=lambda one: (-_rank(search, one.off), one.hope), reverse=True)
+
+
+def _rank(search: Search, merit: Merit) -> int:
+    """Rank of the verdict that a merit promises; grousers may do better than friction alone."""
+    passes, failing, _ = merit
+    if search.question.robot.track.has_grousers or (passes and not failing):
+        return Verdict.GO.rank
+    return Verdict.CAUTION.rank if passes else Verdict.NO_GO.rank
+
+
+def _may_be_better(
+    search: Search,
+    each: _Candidate,
+    bar: Standing,
+    of_best: _Candidate | None,
+    drives: Drives,
+) -> bool:
+    """Whether a plan may be better than what is beaten.
+
+    Parameters
+    ----------
+    search : Search
+    each : _Candidate
+    bar : (int, bool, int, float)
+        Merit to beat.
+    of_best : _Candidate, optional
+        The plan that has it, where it came to what it promised.
+    drives : Drives
+    """
+    rank = _rank(search, each.hope)
+    if rank != -bar[0]:
+        return rank < -bar[0]
+    known = search.question.surface is not None and not search.question.robot.track.has_grousers
+    if known and bar[2] >= -1 and each.hope[2] + SLACK <= bar[3]:
+        return False
+    if of_best is not None and known and each.hope[2] <= of_best.hope[2] + NEARLY:
+        return False
+    if _rank(search, each.off) <= -bar[0]:
+        return True
+    # where the plan promises to fail: one judgement tells
+    off = search.weakest_first(off_angles(each.plan.question(search.question)))
+    return not off or _rank_of(off[0], drives) >= bar[0]
+
+
+def holds_off_its_angles(question: Question, drives: Drives | None = None) -> bool:
     """Whether a stated plan has no worse verdict off its angles, judged as the search judges.
 
     Parameters
     ----------
     question : Question
         Its `tolerance` is how far off they are.
+    drives : Drives, optional
+        Of a similar question.
     """
+    drives = Drives() if drives is None else drives
     middle = question.changed(robot=question.robot.middle)
-    return _judged_off(_judged(shortened(middle)), None).sturdy
+    return _judged_off(_judged(shortened(middle), drives), None, drives).sturdy
 
 
 def _best_off(search: Search, hopes: Sequence[Hope], count: int) -> list[Plan]:
@@ -205,35 +289,42 @@ def _best_off(search: Search, hopes: Sequence[Hope], count: int) -> list[Plan]:
     return [plan for *_, plan in best]
 
 
-def _judged_off(plan: Judged, beaten: Standing | None) -> _Off:
+def _judged(question: Question, drives: Drives) -> Judged:
+    return judged_of(question, drives.judge(question))
+
+
+def _rank_of(question: Question, drives: Drives) -> int:
+    """Rank of a plan's verdict with its sign turned: larger is better."""
+    return -conclude(question, drives.rank(question)).verdict.rank
+
+
+def _judged_off(
+    plan: Judged, beaten: Standing | None, drives: Drives, search: Search | None = None
+) -> _Off:
     """A plan judged off its angles, as long as its verdict may be better than what is beaten."""
     worst = plan.merit
-    for off in off_angles(plan.question):
+    each = list(off_angles(plan.question))
+    for off in each if search is None else search.weakest_first(each):
         if beaten is not None and worst <= beaten:
             return _Off(plan, worst, tested=False)
-        worst = (min(worst[0], _judged(off).merit[0]), *plan.merit[1:])
+        worst = (min(worst[0], _rank_of(off, drives)), *plan.merit[1:])
         if worst != plan.merit and worst[0] <= -Verdict.NO_GO.rank:
             break
     return _Off(plan, worst, tested=True)
 
 
-def _fixed(question: Question, facings: tuple[Facing, ...]) -> Found:
+def _fixed(question: Question, facings: tuple[Facing, ...], drives: Drives) -> Found:
     """Best of the words for postures, for a model that judges one posture throughout."""
     known = list(words(question.robot))
     each = [
-        _judged(Plan(facing, ((Phase.ENTER, posture),)).question(question))
+        _judged(Plan(facing, ((Phase.ENTER, posture),)).question(question), drives)
         for facing in facings
         for posture in known
     ]
     best = max(each, key=lambda one: one.merit)
     coarse = question.model == CONTACT.name
     found = judge(best.question) if coarse else best.findings
-    return Found(best.question, found, True, len(each), question, facings)
-
-
-def _judged(question: Question) -> Judged:
-    found = judge_coarsely(question) if question.model == CONTACT.name else judge(question)
-    return judged_of(question, found)
+    return Found(best.question, found, True, question, drives, len(each), facings)
 
 
 def judged_of(question: Question, found: Findings) -> Judged:
@@ -245,13 +336,6 @@ def judged_of(question: Question, found: Findings) -> Judged:
     drop = max((_drop(each) for each in traverses), default=0.0)
     arrives = all(each.arrived for each in traverses)
     return Judged(question, found, conclude(question, found), drop, arrives)
-
-
-def judge_coarsely(question: Question) -> Findings:
-    """Findings of the contact model from poses farther apart."""
-    if question.changes:
-        return planned.findings(question, planned.drive(question, step=FINE))
-    return findings_of(question, Basis(question, traverse_of(question, step=FINE)))
 
 
 def _drop(found: Traverse) -> float:
@@ -271,5 +355,6 @@ def shortened(question: Question) -> Question:
     reach = sum(Outline.of(question.robot).reach)
     reach += sum(pair.length for pair in question.robot.flippers().values())
     enough = max(5, math.ceil(reach / stairs.nosing_spacing) + 3)
-    short = stairs.model_copy(update={"steps": min(stairs.steps, enough)})
-    return question.changed(terrain=short)
+    if stairs.steps <= enough:
+        return question
+    return question.changed(terrain=stairs.model_copy(update={"steps": enough}))

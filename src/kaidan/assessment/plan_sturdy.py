@@ -8,17 +8,16 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from kaidan.assessment.plan_drives import Drives
 from kaidan.assessment.plan_scores import ENOUGH, Scores
 from kaidan.assessment.plans import Plan, off, pressed
 from kaidan.assessment.verdict import conclude
 from kaidan.errors import InputError
-from kaidan.models.quasi_static import Basis, driven_over, findings_of
+from kaidan.models.quasi_static import Basis, findings_of
 from kaidan.modes import Phase, Verdict
 from kaidan.robot import Posture
 from kaidan.traversal.moves import angles_of
 
-FINE = 0.02
-"""Arclength between poses while judging [m]; events are located anyway."""
 FARTHEST = 8
 """Largest move of an angle that is tried at a time, in tolerances; so off one lies on the next."""
 MOST_MOVES = 2
@@ -51,12 +50,16 @@ class Sturdier:
         Of the search that found the plan: where each of its phases begins and ends.
     limits : (float, float)
         Angles allowed [rad].
+    drives : Drives
+        What was driven already.
     """
 
-    def __init__(self, scores: Scores, limits: tuple[float, float]) -> None:
-        self.scores, self.limits = scores, limits
+    def __init__(self, scores: Scores, limits: tuple[float, float], drives: Drives) -> None:
+        self.scores, self.limits, self.drives = scores, limits, drives
         self.question = scores.question.changed(facing=scores.facing)
         self._known: dict[tuple[Phase, Posture], Worth] = {}
+        self._weakest: dict[Phase, int] = {}
+        """Which way off its angles the last posture that was looked at is the worst."""
 
     def plan(self, plan: Plan) -> Plan | None:
         """The plan with another posture in each phase that is no GO off its angles; None: none is.
@@ -107,10 +110,16 @@ class Sturdier:
                         yield posture.model_copy(update={end: math.radians(degrees)})
 
     def _worst(self, phase: Phase, posture: Posture, beaten: Worth) -> Worth:
-        """Worst of a posture and those off its angles; any that is no better than it."""
+        """Worst of a posture and those off its angles; any that is no better than what is beaten.
+
+        What was the worst of the last one is looked at first.
+        """
         worst = Worth(0, ENOUGH)
-        for each in (posture, *off(self.question.robot, posture, self.question.tolerance)):
-            worst = min(worst, self._of(phase, each))
+        each = (posture, *off(self.question.robot, posture, self.question.tolerance))
+        for k in sorted(range(len(each)), key=lambda k: k != self._weakest.get(phase)):
+            found = self._of(phase, each[k])
+            if found < worst:
+                worst, self._weakest[phase] = found, k
             if worst <= beaten:
                 break
         return worst
@@ -133,7 +142,7 @@ class Sturdier:
         except InputError:  # its centroid is outside
             return OUT
         start, until = self.scores.stretch(phase)
-        found = driven_over(self.scores.profile, alone, step=FINE, start=start, until=until)
+        found = self.drives.over(self.scores.profile, alone, start=start, until=until)
         conclusion = conclude(alone, findings_of(alone, Basis(alone, found)))
         margin = math.degrees(conclusion.margin)
         return Worth(-conclusion.verdict.rank, -90.0 if math.isnan(margin) else min(margin, ENOUGH))

@@ -5,14 +5,13 @@ the whole traverse. Each part is judged as any traverse is; the plan has the sma
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from kaidan import contact
 from kaidan.answer import Part as Figures
 from kaidan.models import traction
 from kaidan.models.contact_figures import ContactFigures, Grades, PhaseFigures, TiltFigures
@@ -65,17 +64,19 @@ class Planned(NamedTuple):
         return self.parts[-1].traverse.arrived and all(each.stands for each in self.moves)
 
 
-def drive(question: Question, *, with_energy: bool = False, step: float = contact.STEP) -> Planned:
+def drive(
+    question: Question, *, over: Callable[..., Traverse] = driven_over, **how: Any
+) -> Planned:
     """Drive a plan of postures, from landing to landing.
 
     Parameters
     ----------
     question : Question
         Straight up or down.
-    with_energy : bool
-        The energy margin along the flow too at every pose.
-    step : float
-        Arclength between poses [m].
+    over : callable
+        What drives a part, as `driven_over` does.
+    **how
+        As for `kaidan.traversal.traverse`.
 
     Returns
     -------
@@ -106,14 +107,8 @@ def drive(question: Question, *, with_energy: bool = False, step: float = contac
             if not moves[-1].stands:
                 break
             start = moves[-1].end
-        found = driven_over(
-            profile,
-            alone,
-            with_energy=with_energy,
-            step=step,
-            start=start,
-            until=ends[k] if k < len(ends) else None,
-        )
+        until = ends[k] if k < len(ends) else None
+        found = over(profile, alone, start=start, until=until, **how)
         parts.append(Part(alone, found))
         if not found.arrived:
             break

@@ -5,6 +5,7 @@ drives towards +x; going down, the profile is reflected so that the path still l
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal, NamedTuple
@@ -81,6 +82,9 @@ class Traverse:
     """Where the centroid ends [m]; None: beyond the flight."""
     step: float
     """Arclength between poses [m]."""
+    sought: tuple[float, ...] | None
+    """Tilts of which alone it counts whether a fall is beyond them, nor where it is [rad]; None:
+    the tilt to the fall is found."""
 
     @cached_property
     def events(self) -> tuple[TraverseEvent, ...]:
@@ -133,27 +137,43 @@ class Traverse:
         """Tilt of gravity to the fall over the uphill end."""
         return self._fall(downhill=False)
 
-    def _fall(self, *, downhill: bool) -> Fall:
-        back = 1.0 if downhill is not self.descending else -1.0
+    @cached_property
+    def _survives(self) -> dict[float, bool]:
+        """Whether it survives tilts that were tried, backward positive [rad]."""
+        return {0.0: self.arrived}
+
+    @property
+    def _manner(self) -> dict[str, Any]:
         there = way(self.profile, self.outline, self.start, self.until)
-        manner: dict[str, Any] = {"acceleration": self.acceleration, "step": self.step}
-        falls_at = 0.0
+        return {**there, "acceleration": self.acceleration, "step": self.step}
+
+    def _survived(self, back: float, sought: Sequence[float] | None) -> float:
+        """Largest tilt that it survives, back or front, see `largest_survived` [rad]."""
+        manner, known = self._manner, self._survives
 
         def survives(tilt: float) -> bool:
-            nonlocal falls_at
-            if tilt == 0.0:
-                return self.arrived
-            if contact.arrives(**there, **manner, tilt=back * tilt):
-                return True
-            falls_at = back * tilt
-            return False
+            if back * tilt not in known:
+                known[back * tilt] = contact.arrives(**manner, tilt=back * tilt)
+            return known[back * tilt]
 
-        tilt = largest_survived(survives)
+        return largest_survived(survives, sought=sought)
+
+    def _falls_beyond(self, tilt: float) -> bool:
+        """Whether no tilt up to one makes it fall over its downhill end [rad]."""
+        return self._survived(-1.0 if self.descending else 1.0, (tilt,)) > tilt
+
+    def _fall(self, *, downhill: bool) -> Fall:
+        back = 1.0 if downhill is not self.descending else -1.0
+        tilt = self._survived(back, self.sought)
+        if self.sought is not None:
+            return Fall(tilt, *self.end)
         fallen = self.path
-        if self.arrived and falls_at:
+        fatal = [abs(each) for each, survives in self._survives.items()
+                 if not survives and each * back > 0.0]  # fmt: skip
+        if self.arrived and fatal:
             # of steps that are alike the first: all of them fall a little beyond
-            for beyond in (back * (tilt + _BESIDE), falls_at):
-                fallen = contact.traverse(**there, **manner, tilt=beyond, with_margins=False)
+            for beyond in (tilt + _BESIDE, min(fatal)):
+                fallen = contact.traverse(**self._manner, tilt=back * beyond, with_margins=False)
                 if fallen.status is not contact.Status.OK:
                     break
         if len(fallen.poses) == 0:
@@ -251,11 +271,13 @@ class Traverse:
             found = one.tilt_downhill if downhill else one.tilt_uphill
             if math.isfinite(found[0]):
                 each.append(FirstRock(found[0], one.phase, found[1]))
-        if each and downhill and self._rocks_beside_flights and self.arrived:
+        least = min((one.margin for one in each), default=math.inf)
+        beside = each and downhill and self.arrived and self._rocks_beside_flights
+        if beside and not self._falls_beyond(least + _ALIKE):
             # poses of the level traverse may be too kind: it rocks no later than it falls
             fall = self.falls_downhill
             each.append(FirstRock(fall.tilt, fall.phase, fall.step))
-        least = min((one.margin for one in each), default=math.inf)
+            least = min(least, fall.tilt)
         # of those that are alike the first: a pose between two phases is of both
         return next((one for one in each if one.margin < least + _ALIKE), None)
 
@@ -286,6 +308,7 @@ def traverse(
     step: float = contact.STEP,
     start: contact.Placement | None = None,
     until: float | None = None,
+    sought: tuple[float, ...] | None = None,
 ) -> Traverse:
     """Drive a robot from landing to landing, or over a part of it.
 
@@ -312,6 +335,9 @@ def traverse(
         when descending), the leading end up; before the flight without one.
     until : float, optional
         Where the centroid ends, likewise [m]; beyond the flight without one.
+    sought : tuple of float, optional
+        Tilts to the fall of which alone it counts whether it is beyond them, and not where it falls
+        [rad]; the tilt is found without them.
 
     Returns
     -------
@@ -357,4 +383,5 @@ def traverse(
         start=start,
         until=until,
         step=step,
+        sought=sought,
     )

@@ -10,7 +10,7 @@ r"""Two margins in one unit: the tilt of gravity to the first rock, and to the f
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -189,21 +189,42 @@ def _lost_between(
     return Rock(float(tilt[least]), int(begin[least]))
 
 
-def largest_survived(survives: Callable[[float], bool]) -> float:
-    """Largest tilt that is survived, see `Fall`, to `WITHIN` [rad]."""
-    low, high = 0.0, _FIRST
+def largest_survived(
+    survives: Callable[[float], bool], *, sought: Sequence[float] | None = None
+) -> float:
+    """Largest tilt that is survived, see `Fall`, to `WITHIN` [rad].
+
+    Parameters
+    ----------
+    survives : callable
+        Whether the robot survives a tilt.
+    sought : sequence of float, optional
+        Tilts which it may only exceed or not [rad]: a smaller one is found where that says as much
+        of each.
+    """
+
+    def is_open(low: float, high: float) -> bool:
+        return sought is None or any(low <= each < high for each in sought)
+
+    low, high, tilt = 0.0, math.inf, _FIRST
     if survives(0.0):
-        while survives(high):
-            if high >= LARGEST:
+        while high == math.inf and is_open(low, high):
+            if not survives(tilt):
+                high = tilt
+            elif tilt >= LARGEST:
                 return math.inf
-            low, high = high, min(2.0 * high, LARGEST)
+            else:
+                low, tilt = tilt, min(2.0 * tilt, LARGEST)
     else:
-        low, high = -_FIRST, 0.0
-        while not survives(low):
-            if low <= -LARGEST:
-                return -math.pi / 2
-            low, high = max(2.0 * low, -LARGEST), low
-    while high - low > WITHIN:
+        low, high = -math.pi / 2, 0.0
+        while low == -math.pi / 2 and is_open(low, high):
+            if survives(-tilt):
+                low = -tilt
+            elif tilt >= LARGEST:
+                return low
+            else:
+                high, tilt = -tilt, min(2.0 * tilt, LARGEST)
+    while high - low > WITHIN and is_open(low, high):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if survives(middle) else (low, middle)
     return low
