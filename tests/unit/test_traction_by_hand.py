@@ -1,0 +1,204 @@
+"""What friction and grousers hold, by hand on margins made for it; no kernel runs."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from kaidan.models import traction as module
+from kaidan.models.traction import (
+    Supply,
+    standing_margins,
+    strength_margin,
+    supplies,
+    supply,
+    together,
+)
+from kaidan.models.traction_figures import TractionFigures
+from kaidan.modes import Phase
+from kaidan.terrain.profile import Profile
+from kaidan.terrain.stairs import Stairs
+
+G = 9.80665
+STEPS = Profile.of_stairs(Stairs(rise=0.1, going=0.3, steps=3))
+PLACES = np.r_[STEPS.nosings[:, 0] + 0.01, [2.0] * 3]
+PHASES = np.array(["enter", "traverse", "traverse", "traverse", "land", "land"])
+ALONE = np.array([0.1, -0.1, 0.0, -0.2, -0.3, -0.4])
+HELD = {
+    0.04: np.array([0.1, 0.05, 0.2, 0.0, 0.4, 0.3]),
+    0.06: np.array([0.1, 0.02, 0.3, 0.0, 0.1, 0.3]),
+}
+"""Of grousers of a spacing."""
+SLIP = np.array([9.0, 1e-3, 2e-3, 9.0, 9.0, 9.0])
+"""Kinetic-energy height of a slip [m]."""
+FRICTIONS = {False: (0.5, 0.7, 0.6), True: (0.8, 1.0, 0.9)}
+
+
+def surface(*, differs=False):
+    return SimpleNamespace(of_parts=lambda *, best: FRICTIONS[best], differs=differs)
+
+
+def track(*, grousers=True, strength=None):
+    return SimpleNamespace(has_grousers=grousers, grouser_strength=strength)
+
+
+def asked(of=None, *, stated=True, yaw=0.0, **belt):
+    return SimpleNamespace(
+        surface=(of or surface()) if stated else None, yaw=yaw, direction="up",
+        stance=SimpleNamespace(mass=2.0), robot=SimpleNamespace(track=track(**belt)),
+    )  # fmt: skip
+
+
+class Holding:
+    """What a path's contacts hold, of any friction the same; it writes down what it is asked."""
+
+    def __init__(self, alone=ALONE):
+        self.alone, self.asked = alone, []
+
+    def by_friction(self, phi):
+        self.asked.append(tuple(math.tan(each) for each in phi))
+        return self.alone
+
+    def with_grousers(self, phi, each, alone):
+        assert alone is self.alone
+        return HELD[each.spacing]
+
+    at_once = with_grousers
+
+    def slip_heights(self, slip, mu_k):
+        self.asked.append((slip, mu_k))
+        return SLIP
+
+
+def driven(grip=None, tractions=(0.5, 1.5)):
+    return SimpleNamespace(
+        grip=grip or Holding(), path=SimpleNamespace(
+            poses=SimpleNamespace(front_point=np.c_[PLACES, 0 * PLACES])
+        ),
+        phases=[SimpleNamespace(traction_over_weight=each) for each in tractions],
+        comes_off=np.array([False] * 5 + [True]), phase_of_pose=PHASES, profile=STEPS,
+        descending=False,
+    )  # fmt: skip
+
+
+@pytest.fixture(autouse=True)
+def grousers(monkeypatch):
+    """Two cases of grousers; the fifth pose is in the midst of an exchange of contacts."""
+    cases = tuple(SimpleNamespace(spacing=each) for each in HELD)
+    monkeypatch.setattr(module, "grousers_of", lambda question, track, *, best: cases)
+    monkeypatch.setattr(module, "lasting", lambda path: np.arange(6) != 4)
+
+
+def test_grousers_hold_in_the_worst_of_cases_after_a_slip():
+    """Least 0 at the fourth pose. It slips where friction does not hold, but grousers do."""
+    grip = Holding()
+    found = supply(asked(), driven(grip), track())
+    assert grip.asked == [pytest.approx((0.5, 0.7, 0.6)), (0.06, pytest.approx(0.8 * 0.5))]
+    assert found == Supply(0.0, pytest.approx(0.5), Phase.TRAVERSE, 3, 0.06, {Phase.TRAVERSE: 2e-3})
+    smooth = supply(asked(), driven(), track(grousers=False))
+    assert smooth[:4] == (-0.2, pytest.approx(math.tan(math.atan(0.5) + 0.2)), Phase.TRAVERSE, 3)
+    assert smooth[4:] == (0.0, {})
+    best = supply(asked(), driven(grip), track(), best=True)
+    assert grip.asked[2] == pytest.approx((0.8, 1.0, 0.9))
+    assert best.required == pytest.approx(0.8)
+
+
+def test_of_a_phase_alone():
+    enter = supply(asked(), driven(), track(), phase=Phase.ENTER)
+    assert enter == (0.1, pytest.approx(math.tan(math.atan(0.5) - 0.1)), Phase.ENTER, 1, 0.0, {})
+    none = supply(asked(), driven(), track(), phase=Phase.LAND)  # passing, and coming off
+    assert none[2:] == (None, None, 0.0, {})
+    assert math.isnan(none.margin)
+    assert math.isnan(none.required)
+
+
+def test_friction_that_nobody_stated_is_none():
+    grip = Holding()
+    found = supply(asked(stated=False), driven(grip), track())
+    assert grip.asked == [(0.0, 0.0, 0.0), (0.06, 0.0)]
+    assert (found.margin, found.required) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize(("margin", "finite"), [(-1.1, True), (-1.2, False), (-3.0, False)])
+def test_beyond_a_right_angle_no_friction_is_enough(margin, finite):
+    """atan(0.5) is 0.464 rad, and 1.107 short of a right angle."""
+    found = supply(asked(), driven(Holding(np.full(6, margin))), track(grousers=False))
+    assert math.isfinite(found.required) is finite
+
+
+def test_grousers_that_do_not_bear_half_of_the_traction():
+    """Half of 2 kg is 9.81 N, times the largest traction over weight; that of none known is 1."""
+    weak = track(strength=12.0)
+    assert strength_margin(asked(), weak, 1.5) == pytest.approx(12.0 - 1.5 * G)
+    assert supply(asked(), driven(), weak).margin == -0.2
+    assert supply(asked(), driven(tractions=(0.5, 1.2)), weak).margin == 0.0
+    assert supply(asked(), driven(tractions=()), weak).margin == 0.0
+
+
+def test_where_one_friction_of_smooth_belts_is_all_there_is_nothing_to_say():
+    smooth, found = asked(grousers=False), driven()
+    assert supplies(smooth, smooth, found, None) is None
+    differs = asked(surface(differs=True), grousers=False)
+    assert supplies(differs, differs, found, None).worst.margin == -0.2
+    both = supplies(asked(), asked(), found, None)
+    assert both.worst.required == pytest.approx(0.5)
+    assert both.best.required == pytest.approx(0.8)
+    assert supplies(asked(yaw=0.1), asked(), found, None) is None
+    assert supplies(asked(), asked(), found, Phase.LAND) is None
+
+
+@pytest.mark.parametrize("direction", ["up", "down"])
+def test_while_it_stands(direction, monkeypatch):
+    """It stands on those that hold at once, the worst of cases and poses; NaN is not known."""
+
+    def made(path, *, descending, acceleration):
+        assert (path, descending, acceleration) == ("its path", direction == "down", 0.0)
+        return Holding(np.where(ALONE == -0.4, np.nan, ALONE))
+
+    def of(move, *given, **belt):
+        question = asked(*given, **belt)
+        question.direction = direction
+        return standing_margins(question, move)
+
+    monkeypatch.setattr(module, "Grip", made)
+    move = SimpleNamespace(path="its path", required_friction=0.6)
+    assert all(map(math.isnan, of(move, stated=False)))
+    smooth = [math.atan(each) - math.atan(0.6) for each in (0.5, 0.8)]
+    assert of(move, grousers=False) == pytest.approx(smooth)
+    assert of(move, surface(differs=True), grousers=False) == pytest.approx((-0.3, -0.3))
+    assert of(move) == (0.0, 0.0)
+    assert of(move, strength=12.0) == (0.0, 0.0)
+    assert of(move, strength=9.0) == pytest.approx((-0.3, -0.3))  # half the weight is 9.81 N
+
+
+def figures(**given):
+    usual = {
+        "belt": "smooth", "required_friction": 0.5, "smooth_required_friction": 0.6,
+        "usual_required_friction": None, "phase": "enter", "step": 1, "slip_mm": None,
+        "slip_heights_mm": {}, "standing_phases": None, "strength_margin_N": None,
+    }  # fmt: skip
+    return TractionFigures(**(usual | given))
+
+
+def test_parts_of_a_plan_as_one():
+    """The most friction of any; of what is not known as much as can be."""
+    one = figures(slip_mm=40.0, slip_heights_mm={"enter": 1.0, "land": 5.0}, step=2)
+    two = figures(
+        required_friction=0.7, smooth_required_friction=0.4, usual_required_friction=0.3, step=3,
+        slip_mm=60.0, slip_heights_mm={"enter": 2.0, "land": -1.0, "traverse": 0.5},
+    )  # fmt: skip
+    three = figures(required_friction=0.1, usual_required_friction=0.2)
+    for parts in ((one, two, three), (three, two, one)):
+        found = together(parts)
+        assert (found.required_friction, found.step) == (0.7, 3)
+        assert found.smooth_required_friction == 0.6
+        assert found.usual_required_friction == 0.3
+        assert found.slip_mm == 60.0
+        assert found.slip_heights_mm == {"enter": 2.0, "land": 5.0, "traverse": 0.5}
+    nothing = figures(required_friction=math.inf, smooth_required_friction=math.inf, step=9)
+    assert together((one, nothing, two)).step == 9
+    assert (
+        together((one, nothing, two)).smooth_required_friction == nothing.smooth_required_friction
+    )
+    assert together((three, three)).slip_mm is None
