@@ -59,7 +59,7 @@ def test_static_stiffness(stiffness, ratio):
     x, z = body.course.x, body.course.z
     assert body.settle() is None
     body.drive(0.0, 3000, on=False)
-    forces, contacts = body.by_nosing()
+    forces, _, contacts = body.contact_forces()
     along = body.course.along
     across = np.array([-along[1], along[0]])
     assert contacts == np.count_nonzero(forces[:, 1] > 1.0) >= 3

@@ -286,19 +286,45 @@ def theta_m(
     output.put_out(found, {}, as_json=as_json)
 
 
-@contextmanager
-def _bench(store: Path | None, workers: int | None, seed: int, trials: int) -> "Iterator[Bench]":
-    from kaidan.studies.calibration.bench import Bench, in_store
+@group.command("engagement")
+def engagement(
+    trials: Annotated[int, typer.Option(min=1, max=1000, help="A cell.")] = 2,
+    seed: Seed = 0,
+    store: StoreFolder = None,
+    workers: Workers = None,
+    as_json: options.AsJson = False,
+) -> None:
+    """Try driven grousers on slopes and frictions against the rule of traction.
 
-    with tempfile.TemporaryDirectory() as passing:
-        folder = store or Path(passing) / "store"
+    168 trials of some seconds each. Exit code: 0 done, 2 bad input.
+    """
+    from kaidan.studies.calibration.engagement import engagement as found_by
+    from kaidan.studies.calibration.engagement import in_store
+
+    with _kept(store) as folder:
         runner = in_store(folder, workers=workers, progress=True)
+        found = found_by(runner, trials=trials, seed=seed)
+    output.put_out(found, {}, as_json=as_json)
+
+
+@contextmanager
+def _kept(store: Path | None) -> "Iterator[Path]":
+    with tempfile.TemporaryDirectory() as passing:
         try:
-            yield Bench(runner, seed=seed, trials=trials)
+            yield store or Path(passing) / "store"
         except KeyboardInterrupt:
             kept = "" if store is None else f"; the same command goes on with {store}"
             typer.echo(f"kaidan: broken off{kept}", err=True)
             raise typer.Exit(130) from None
+
+
+@contextmanager
+def _bench(store: Path | None, workers: int | None, seed: int, trials: int) -> "Iterator[Bench]":
+    from kaidan.studies.calibration.bench import Bench, in_store
+
+    with _kept(store) as folder:
+        runner = in_store(folder, workers=workers, progress=True)
+        yield Bench(runner, seed=seed, trials=trials)
 
 
 def _list(text: str, kind: str, option: str) -> list[float]:

@@ -31,6 +31,7 @@ KINDS = {
     "calibration": "kaidan.studies.calibration.answer:Calibration",
     "yielding-calibration": "kaidan.studies.calibration.yielding:YieldingCalibration",
     "theta-m": "kaidan.studies.calibration.theta_m:ThetaMStudy",
+    "engagement": "kaidan.studies.calibration.engagement:Engagement",
     "rig-calibration": "kaidan.studies.rig.calibration:RigCalibration",
     "grouser-effects": "kaidan.studies.calibration.answer:GrouserEffects",
     "reproduction": "kaidan.studies.reproduction:Reproduction",

@@ -18,14 +18,12 @@ from numpy.typing import NDArray
 from kaidan.contact import BELLY, TRACK
 from kaidan.physics.engine import engine
 from kaidan.physics.spec import TrialSpec
-from kaidan.physics.terrain import turned
+from kaidan.physics.terrain import AXLE, turned
 
 Array = NDArray[np.float64]
 
 SHARPEST = 1e-3
 """Sharpest end [m], as in the contact model."""
-_ACROSS = [math.sqrt(0.5), -math.sqrt(0.5), 0.0, 0.0]
-"""Turns z to y: an axle."""
 _BELLY_HEIGHT = 0.01
 HIDDEN = 3
 """Group of geoms that MuJoCo's viewers do not show by default."""
@@ -136,7 +134,7 @@ def _belt(
             type=mujoco.mjtGeom.mjGEOM_CAPSULE,
             size=[r, lane.half_width, 0.0],
             pos=[x, lane.y, z],
-            quat=_ACROSS,
+            quat=AXLE,
             surfacevel=field[f"{name}_{end}"] * speed,
             **{**look, "group": HIDDEN},
         )
@@ -156,7 +154,7 @@ def add_wheel(
     """Add a cylinder that is seen and touches nothing, for a capsule that touches unseen."""
     body.add_geom(
         type=engine().mjtGeom.mjGEOM_CYLINDER, size=[radius, half + 0.002, 0.0], pos=at,
-        quat=_ACROSS, contype=0, conaffinity=0, rgba=colour,
+        quat=AXLE, contype=0, conaffinity=0, rgba=colour,
     )  # fmt: skip
 
 

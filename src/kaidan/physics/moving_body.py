@@ -56,10 +56,10 @@ class MovingBody(ABC):
         """Whether the simulation has left the realm of robots."""
 
     @abstractmethod
-    def by_nosing(self) -> tuple[Array, int]:
-        """Force on the robot from each nosing along their line and normal to it [N], and contacts.
+    def contact_forces(self) -> tuple[Array, Array, int]:
+        """Forces along the line of the nosings and normal to it [N], and the number of contacts.
 
-        The forces have shape (nosings, 2).
+        On the robot from each nosing, shape (nosings, 2), and on each grouser, (grousers, 2).
         """
 
     @abstractmethod

@@ -111,6 +111,8 @@ class TrialLog:
     forces: Array
     """Force on the robot from each nosing [N], shape (rows, nosings, 2): along the line of the
     nosings as it drives, and normal to it."""
+    grousers: Array
+    """Force on each grouser [N], shape (rows, grousers, 2), likewise; no grousers: (rows, 0, 2)."""
     poses: Array
     """State of the model at each row, shape (rows, nq): for pictures."""
 

@@ -195,11 +195,11 @@ class RubberBody(MovingBody):
         """Whether the simulation has left the realm of robots."""
         return not (np.isfinite(self.state).all() and bool((np.abs(self.state[3:5]) < WILD).all()))
 
-    def by_nosing(self) -> tuple[Array, int]:
+    def contact_forces(self) -> tuple[Array, Array, int]:
         """Mean forces of the nosings since the last look, and the number of contacts now."""
         along = self.course.along
         frame = np.array([along, [-along[1], along[0]]]).T
-        return self.impulses[:-1] @ frame / self.lasted, self.contacts
+        return self.impulses[:-1] @ frame / self.lasted, np.zeros((0, 2)), self.contacts
 
     def configuration(self) -> Array:
         """Centroid and inclination, as the model of a smooth belt has them."""

@@ -77,8 +77,8 @@ class Simulation(MovingBody):
             return super().velocity()
         return float(self.data.qvel[:3] @ self.axes[:, 0])
 
-    def by_nosing(self) -> tuple[Array, int]:
-        """Forces of the nosings at this moment, and the number of contacts."""
+    def contact_forces(self) -> tuple[Array, Array, int]:
+        """Forces of nosings and on grousers at this moment, and the number of contacts."""
         return self.forces.read(self.data)
 
     def configuration(self) -> Array:

@@ -32,6 +32,7 @@ SMOOTH_FRICTION = 3.0
 RUBBER_FRICTION = 0.8
 """Friction of grousers where none is stated [1]: rubber on something dry, 0.6 to 1.0."""
 _SMOOTH = ("smooth-belt", "yielding-belt", "sprung-noses", "shoe-chain")
+_RIGID_STAIRS = ("smooth-belt", "driven-grousers", "shoe-chain")
 FROM_THE_LANDING = 0.02
 """Contact time of a trial that drives against risers [s]: a rigid belt that never slows down and a
 rigid riser throw each other about; rubber does not."""
@@ -59,6 +60,9 @@ class TrialSpec(Sheet):
     ground: Literal["steps", "noses"] = Field(
         default="steps",
         description="steps with treads and risers, or a rig that has nothing but its nosings",
+    )
+    nosing_radius: float = quantity(
+        "m", 0.0, 0.05, "of the nosings: their edges are round; sharp without", default=0.0
     )
     begin: Literal["flight", "landing"] = Field(
         default="flight", description="on the flight as in the paper, or on the landing before it"
@@ -153,6 +157,10 @@ class TrialSpec(Sheet):
                 )
             if track.gap:
                 raise self.refuse(f"{kind} needs a track without a gap")
+        if self.nosing_radius and (kind not in _RIGID_STAIRS or self.ground == "noses"):
+            raise self.refuse(
+                f"nosing_radius is for steps, with {', '.join(_RIGID_STAIRS)}; 0 elsewhere"
+            )
         if kind in ("sprung-noses", "yielding-belt") and self.stiffness is None:
             raise self.refuse(f"{kind} needs a stiffness; the track of {robot.name!r} states none")
         if kind == "shoe-chain" and self.outline().kinds.max() > 0:

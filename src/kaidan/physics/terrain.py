@@ -21,6 +21,8 @@ _THICK = 0.05
 _PLATE = 0.01
 """Thickness of what slopes [m]: little of its square ends sticks out beside it."""
 _OVERLAP = 0.01
+AXLE = [math.sqrt(0.5), -math.sqrt(0.5), 0.0, 0.0]
+"""Turns z to y: an axle, or an edge across the stairs."""
 _ASIDE = 0.002
 """By which every second box is narrower on each side [m]."""
 MOST_BLOCKS = 5000
@@ -38,6 +40,8 @@ class Block(NamedTuple):
     angle: float
     nosing: int
     """Number of its nosing counted as the robot drives, from 0; -1: none."""
+    round: bool = False
+    """Whether it is a disc, of `half_height`, and no box."""
 
 
 def blocks_of(profile: Profile, *, down: bool, noses_only: bool) -> list[Block]:
@@ -96,6 +100,23 @@ def blocks_of(profile: Profile, *, down: bool, noses_only: bool) -> list[Block]:
     return made
 
 
+def with_round_nosings(blocks: list[Block], radius: float, *, down: bool) -> list[Block]:
+    """Blocks of level steps with round nosings: a disc, what lies under it and what behind it."""
+    made = []
+    for block in blocks:
+        if block.nosing < 0 or block.angle or block.half_length <= radius:
+            made.append(block)
+            continue
+        ahead = -radius if down else radius
+        x, top = block.x - math.copysign(block.half_length, ahead), block.z + block.half_height
+        made += [
+            block._replace(z=block.z - radius / 2, half_height=block.half_height - radius / 2),
+            block._replace(x=block.x + ahead / 2, half_length=block.half_length - radius / 2),
+            Block(x + ahead, top - radius, radius, radius, 0.0, block.nosing, round=True),
+        ]
+    return made
+
+
 def _upright(points: Array, k: int) -> bool:
     return bool(points[k + 1, 0] - points[k, 0] < 1e-9)
 
@@ -133,11 +154,12 @@ def add_terrain(
         More boxes than `MOST_BLOCKS`.
     """
     mujoco = engine()
+    blocks = blocks_of(profile, down=spec.downhill, noses_only=spec.ground == "noses")
+    if spec.nosing_radius:
+        blocks = with_round_nosings(blocks, spec.nosing_radius, down=spec.downhill)
     reached = [
         (k, block)
-        for k, block in enumerate(
-            blocks_of(profile, down=spec.downhill, noses_only=spec.ground == "noses")
-        )
+        for k, block in enumerate(blocks)
         if block.x + block.half_length >= window[0] and block.x - block.half_length <= window[1]
     ]
     if len(reached) > MOST_BLOCKS:
@@ -153,13 +175,17 @@ def add_terrain(
         track = spec.track
         if isinstance(track, SprungNoses) and block.nosing >= 0 and spec.stiffness is not None:
             owner, at = _sprung(scene, track, block, name, spec.stiffness), [0.0, 0.0, 0.0]
+        # of two that overlap one is narrower: their sides do not coincide in pictures
+        across = half_width - _ASIDE * (k % 2)
+        capsule, box = mujoco.mjtGeom.mjGEOM_CAPSULE, mujoco.mjtGeom.mjGEOM_BOX
         owner.add_geom(
             name=name,
-            type=mujoco.mjtGeom.mjGEOM_BOX,
-            # of two that overlap one is narrower: their sides do not coincide in pictures
-            size=[block.half_length, half_width - _ASIDE * (k % 2), block.half_height],
+            type=capsule if block.round else box,
+            size=[block.half_height, across - block.half_height, 0.0]
+            if block.round
+            else [block.half_length, across, block.half_height],
             pos=at,
-            quat=turned(block.angle),
+            quat=AXLE if block.round else turned(block.angle),
             rgba=_COLOURS[k % 2],
             contype=1,
             conaffinity=2,

@@ -104,6 +104,7 @@ class _Drive:
         self.spec, self.course = simulation.spec, simulation.course
         self.rows: list[tuple[float, ...]] = []
         self.by_nosing: list[Array] = []
+        self.by_grouser: list[Array] = []
         self.poses: list[Array] = []
         self.driven = 0.0
         """How far the robot drove along its track [m]."""
@@ -210,7 +211,7 @@ class _Drive:
     def _note(self, time: float, x: float, z: float, phi: float, at: float, slip: float) -> None:
         """Add a row to the log."""
         simulation = self.simulation
-        by_nosing, contacts = simulation.by_nosing()
+        by_nosing, by_grouser, contacts = simulation.contact_forces()
         forces = self.forces
         row = [
             time, simulation.belt.run(time), x, z, math.degrees(phi),
@@ -220,6 +221,7 @@ class _Drive:
         ]  # fmt: skip
         self.rows.append((*row, *simulation.in_space()))
         self.by_nosing.append(by_nosing)
+        self.by_grouser.append(by_grouser)
         self.poses.append(simulation.configuration())
 
     @property
@@ -233,11 +235,15 @@ class _Drive:
         names = _COLUMNS if self.spec.dimensions == 2 else (*_COLUMNS, *_IN_SPACE)
         table = np.array(self.rows) if self.rows else np.zeros((0, len(names)))
         columns = {name: table[:, k].copy() for k, name in enumerate(names)}
-        forces = np.array(self.by_nosing) if self.by_nosing else np.zeros((0, 0, 2))
+        forces, grousers = (
+            np.array(each) if each else np.zeros((0, 0, 2))
+            for each in (self.by_nosing, self.by_grouser)
+        )
         return TrialLog(
             result=self._result(outcome, columns, began),
             columns=columns,
             forces=forces,
+            grousers=grousers,
             poses=np.array(self.poses),
         )
 

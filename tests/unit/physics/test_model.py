@@ -9,6 +9,7 @@ pytest.importorskip("mujoco", reason="skipped: mujoco not installed")
 
 import mujoco
 
+from kaidan.errors import InputError
 from kaidan.outline import Outline
 from kaidan.physics import (
     DrivenGrousers,
@@ -22,7 +23,8 @@ from kaidan.physics import (
 from kaidan.physics.belts import rounded, tangent
 from kaidan.physics.grousers import Motion
 from kaidan.physics.initial_pose import course_of
-from kaidan.physics.terrain import blocks_of
+from kaidan.physics.simulation import Simulation
+from kaidan.physics.terrain import blocks_of, with_round_nosings
 from kaidan.question import Question
 from kaidan.robot import Posture, Robot
 from kaidan.terrain.profile import Profile
@@ -84,6 +86,45 @@ def test_a_rig_has_nothing_but_its_nosings():
     for block, nosing in zip(blocks, profile.nosings, strict=True):
         corner = (block.x - block.half_length, block.z + block.half_height)
         assert corner == pytest.approx(tuple(nosing), abs=1e-12)
+
+
+@pytest.mark.parametrize("down", [False, True])
+def test_round_nosings_are_discs_within_the_sharp_ones(down):
+    r, profile = 0.02, Profile.of_stairs(STAIRS)
+    profile = profile.reflected() if down else profile
+    sharp = blocks_of(profile, down=down, noses_only=False)
+    blocks = with_round_nosings(sharp, r, down=down)
+    side = -1.0 if down else 1.0
+    for number, (x, z) in enumerate(profile.nosings):
+        own = [block for block in blocks if block.nosing == number]
+        (disc,) = [block for block in own if block.round]
+        assert (disc.x, disc.z) == pytest.approx((x + side * r, z - r))
+        assert disc.half_height == r
+        boxes = [block for block in own if not block.round]
+        assert not any(inside(block, (x + side * 0.5 * r, z - 0.5 * r)) for block in boxes)
+        # tread and face begin where the round ends
+        for at in ((x + side * 1.01 * r, z - 1e-4), (x + side * 1e-4, z - 1.01 * r)):
+            assert any(inside(block, at) for block in boxes)
+    assert [b for b in blocks if b.nosing < 0] == [b for b in sharp if b.nosing < 0]
+
+
+def test_a_smooth_belt_rests_on_the_round_of_the_nosings():
+    trial = spec(40.0, nosing_radius=0.01, radius=0.06)
+    model = model_of(trial)
+    discs = [k for k in range(model.compiled.ngeom) if model.number_of[k] >= 0]
+    capsules = [k for k in discs if model.compiled.geom_type[k] == mujoco.mjtGeom.mjGEOM_CAPSULE]
+    assert {model.number_of[k] for k in capsules} == {model.number_of[k] for k in discs}
+    simulation = Simulation(model)
+    assert simulation.settle() is None
+    touched = {int(g) for pair in simulation.data.contact.geom for g in pair} & set(discs)
+    assert touched
+    assert touched <= set(capsules)
+
+
+@pytest.mark.parametrize("fields", [{"track": SprungNoses(stiffness=3e4)}, {"ground": "noses"}])
+def test_round_nosings_are_those_of_rigid_steps(fields):
+    with pytest.raises(InputError, match="nosing_radius is for steps, with smooth-belt"):
+        spec(40.0, nosing_radius=0.01, **fields)
 
 
 def test_tangents_of_a_tapered_flipper_touch_both_discs():
