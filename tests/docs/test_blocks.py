@@ -66,6 +66,7 @@ ELSEWHERE = {
     "python benchmarks/pairs.py": "by hand",
     "python benchmarks/stream.py": "by hand",
     "python benchmarks/physics.py": "by hand",
+    "python benchmarks/experiment.py": "by hand",
     "pip install 'kaidan[physics,cluster]'   # several machines": ".ci/run, within '.[dev]'",
     "pip install 'kaidan[sweeps]'   # tables in Parquet and Zarr, stores, labelled Datasets": (
         ".ci/run, within '.[dev]'"
