@@ -150,7 +150,11 @@ def failure_of(trial: TrialResult) -> FailureMode | None:
     if trial.outcome is Outcome.SLID and question.surface is not None:
         behind_the_belt = trial.slip_m > 0
         return SLIDES_DOWN if behind_the_belt == (question.direction == "up") else SLIDES_UP
-    if trial.outcome in (Outcome.SLID, Outcome.TIMED_OUT):  # with a friction beyond any real one
+    if trial.outcome in (
+        Outcome.SLID,
+        Outcome.STALLED,
+        Outcome.TIMED_OUT,
+    ):  # with a friction beyond any real one
         return STUCK
     over_its_tail = trial.outcome is Outcome.FELL_BACKWARD
     return TIP_DOWNHILL if over_its_tail == question.nose_up else TIP_UPHILL

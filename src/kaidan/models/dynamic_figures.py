@@ -6,7 +6,14 @@ from kaidan.answer import Part
 from kaidan.modes import Phase
 
 OutcomeName = Literal[
-    "climbed", "fell_backward", "fell_forward", "slid", "timed_out", "unstable", "start_fall"
+    "climbed",
+    "fell_backward",
+    "fell_forward",
+    "slid",
+    "stalled",
+    "timed_out",
+    "unstable",
+    "start_fall",
 ]
 
 
@@ -20,7 +27,7 @@ class TrialFigures(Part):
     outcome: OutcomeName
     """How it ended."""
     phase: Phase | None
-    """Part of the traverse in which it fell, slid or was given up; null if it did not."""
+    """Part of the traverse in which it fell, slid, stalled or was given up; null: none."""
     step: int | None
     """Nosing that the leading end had reached then, counted from the bottom; null likewise."""
     largest_extra_deg: float

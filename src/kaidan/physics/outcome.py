@@ -25,9 +25,12 @@ class Outcome(StrEnum):
     FELL_FORWARD = "fell_forward"
     """It tipped over its nose."""
     SLID = "slid"
-    """The track ran on without the robot."""
+    """The track ran on without the robot, for want of friction."""
+    STALLED = "stalled"
+    """The track ran on without the robot, which friction would hold on the flight: it hops on the
+    spot, or stands."""
     TIMED_OUT = "timed_out"
-    """It neither fell nor slid nor arrived in twice the time it takes."""
+    """It neither fell nor slid nor stalled nor arrived in twice the time it takes."""
     UNSTABLE = "unstable"
     """The simulation diverged: this says nothing about the robot."""
     START_FALL = "start_fall"
@@ -49,7 +52,7 @@ class TrialResult(Answer):
     outcome: Outcome
     """How it ended."""
     phase: Phase | None
-    """Part of the traverse in which it fell, slid or was given up; null if it did not."""
+    """Part of the traverse in which it fell, slid, stalled or was given up; null: none."""
     step: int | None
     """Nosing that the leading end had reached then, counted from the bottom; null likewise."""
     nosings_passed: int

@@ -174,7 +174,7 @@ class _Drive:
             nose_up = (phi > course.slope) == (self.spec.question.facing == "nose-first")
             return Outcome.FELL_BACKWARD if nose_up else Outcome.FELL_FORWARD
         if self._slides(slip, extra):
-            return Outcome.SLID
+            return Outcome.STALLED if self._would_hold(phi) else Outcome.SLID
         done = at >= course.goal or simulation.point(course.rear, 0.0)[0] >= course.goal_x
         return Outcome.CLIMBED if done and extra < RESTED else None
 
@@ -186,6 +186,13 @@ class _Drive:
             self.furthest, self.slip_then = reached, max(slip, 0.0)
         lost = max(slip - self.slip_then, -2.0 * slip)  # running away, half as much tells
         return lost > self._allowed_slip * (1.0 if abs(extra) < ROTATING else 4.0)
+
+    def _would_hold(self, phi: float) -> bool:
+        """Whether it is on the flight, and friction more than what it takes to rest there."""
+        steepest = max(abs(phi), abs(self.course.slope))
+        return self._place()[0] is Phase.TRAVERSE and self.spec.static_friction > math.tan(
+            min(steepest, 0.5 * math.pi - 1e-9)
+        )
 
     @property
     def _allowed_slip(self) -> float:

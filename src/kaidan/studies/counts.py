@@ -12,6 +12,9 @@ FELL = ("fell_backward", "fell_forward")
 """Outcomes that are a fall. Where it fell before the track moved (`start_fall`), it was placed
 where it cannot stand: that is counted apart and drawn apart."""
 
+STALLED = "stalled"
+"""Outcome of a robot that gets no farther where friction would hold it: no fall, but no climb."""
+
 Symbol = Literal["circle", "cross", "triangle", "plus", "square"]
 Bracket = tuple[float, float]
 """The last slope before the first fall, and that of the fall [deg]."""
@@ -25,9 +28,11 @@ class Trial(NamedTuple):
     """Largest inclination beyond the line of the nosings [deg]."""
 
     @property
-    def fell(self) -> bool | None:
-        """Whether it fell; None if it neither fell nor climbed."""
-        return True if self.outcome in FELL else False if self.outcome == "climbed" else None
+    def lost(self) -> bool | None:
+        """Whether it fell or stalled; None if it did neither nor climbed."""
+        if self.outcome == "climbed":
+            return False
+        return True if self.outcome in (*FELL, STALLED) else None
 
 
 class Range(Part):
@@ -57,9 +62,9 @@ class Count(Part):
     angle_deg: float
     """Slope [deg]."""
     direction: Literal["up", "down"]
-    fell_of_trial: tuple[bool | None, ...]
-    """Whether each trial fell while driving, in the order of their numbers; null: it neither fell
-    so nor climbed."""
+    lost_of_trial: tuple[bool | None, ...]
+    """Whether each trial fell while driving or stalled, in the order of their numbers; null: it did
+    neither, nor climbed."""
     climbed: int
     """Trials that came to the end of their path."""
     fell: int
@@ -78,15 +83,15 @@ class Count(Part):
 def count_of(condition: Condition, trials: Sequence[Trial]) -> Count:
     """Count of a condition's trials, in the order of their numbers."""
     at_start = sum(trial.outcome == START_FALL for trial in trials)
-    neither = [trial.outcome for trial in trials if trial.fell is None]
-    others = [outcome for outcome in neither if outcome != START_FALL]
-    fell_of_trial = tuple(trial.fell for trial in trials)
-    climbed, fell = fell_of_trial.count(False), fell_of_trial.count(True)
+    climbed = sum(trial.lost is False for trial in trials)
+    fell = sum(trial.outcome in FELL for trial in trials)
+    known = ("climbed", START_FALL, *FELL)
+    others = [trial.outcome for trial in trials if trial.outcome not in known]
     return Count(
         nosing_spacing_m=condition.nosing_spacing,
         angle_deg=round(math.degrees(condition.angle), 9),
         direction=condition.direction,
-        fell_of_trial=fell_of_trial,
+        lost_of_trial=tuple(trial.lost for trial in trials),
         climbed=climbed,
         fell=fell,
         fell_at_start=at_start,
@@ -95,7 +100,7 @@ def count_of(condition: Condition, trials: Sequence[Trial]) -> Count:
         extra_deg=range_of(
             trial.extra_deg
             for trial in trials
-            if trial.fell is False and trial.extra_deg is not None
+            if trial.lost is False and trial.extra_deg is not None
         ),
     )
 
@@ -130,7 +135,7 @@ def all_fell(counts: Sequence[Count]) -> list[Count]:
 
 
 def margin(counts: Sequence[Count]) -> Range | None:
-    """Slope at which it begins to fall; its ends are slopes that were tried."""
+    """Slope at which it begins to fall or to stall; its ends are slopes that were tried."""
     found = [bracket for bracket in brackets(counts) if bracket is not None]
     if not found:
         return None
@@ -159,23 +164,24 @@ def descent_gain(up: Sequence[Count], down: Sequence[Count]) -> Range | None:
 
 
 def brackets(counts: Sequence[Count]) -> list[Bracket | None]:
-    """For each series (the k-th trials of all slopes): between which slopes it begins to fall.
+    """For each series (the k-th trials of all slopes): between which slopes it is lost first.
 
-    None where the gentlest slope made it fall, none did, or a trial before did neither.
+    None where it was lost on the gentlest slope or on none, or a trial before neither was lost nor
+    climbed.
     """
-    series = min((len(count.fell_of_trial) for count in counts), default=0)
+    series = min((len(count.lost_of_trial) for count in counts), default=0)
     return [
-        _bracket([(count.angle_deg, count.fell_of_trial[k]) for count in counts])
+        _bracket([(count.angle_deg, count.lost_of_trial[k]) for count in counts])
         for k in range(series)
     ]
 
 
 def _bracket(trials: Sequence[tuple[float, bool | None]]) -> Bracket | None:
     last: float | None = None
-    for angle, fell in trials:
-        if fell is None or (fell and last is None):
+    for angle, lost in trials:
+        if lost is None or (lost and last is None):
             return None
-        if fell and last is not None:
+        if lost and last is not None:
             return last, angle
         last = angle
     return None

@@ -47,7 +47,8 @@ class Spacing(Part):
     fell_from_deg: float | None
     """Gentlest slope tried from which on all fell [deg]."""
     margin_deg: Range | None
-    """Slope at which it begins to fall going up; its ends are slopes that were tried."""
+    """Slope at which it begins to fall or to stall going up; its ends are slopes that were
+    tried."""
     descent_margin_deg: Range | None
     """The same going down."""
     theta_d_deg: Range | None
@@ -124,7 +125,7 @@ class Verification(Answer):
             "nosing_spacing_m": [count.nosing_spacing_m for count in counts],
             "angle_deg": [count.angle_deg for count in counts],
             "direction": [count.direction for count in counts],
-            "trials": [len(count.fell_of_trial) for count in counts],
+            "trials": [len(count.lost_of_trial) for count in counts],
             "climbed": [count.climbed for count in counts],
             "fell": [count.fell for count in counts],
             "fell_at_start": [count.fell_at_start for count in counts],

@@ -30,7 +30,7 @@ _HEADS = {
 
 def text(found: "Verification") -> str:
     """Margins of each spacing, and every condition by its symbol."""
-    number = sum(len(count.fell_of_trial) for count in found.counts)
+    number = sum(len(count.lost_of_trial) for count in found.counts)
     lines = [
         f"{found.robot}: {number} trials; {found.track}, {found.speed_m_s:g} m/s, friction "
         f"{found.friction:g}, seed {found.seed}",

@@ -26,7 +26,14 @@ from kaidan.studies.verification import (
 UP = {50.0: "cc", 52.0: "cc", 54.0: "cf", 56.0: "ff", 58.0: "fs"}
 DOWN = {56.0: "cc", 58.0: "cc", 60.0: "cf", 62.0: "ff"}
 """Climbed, fell, fell at the start; two trials a condition."""
-WORDS = {"c": "climbed", "f": "fell_backward", "s": "start_fall", "l": "slid", "u": "unstable"}
+WORDS = {
+    "c": "climbed",
+    "f": "fell_backward",
+    "s": "start_fall",
+    "l": "slid",
+    "h": "stalled",
+    "u": "unstable",
+}
 
 
 def plan_of(up=UP, down=DOWN, robot=None, spacing=0.15, **setting):
@@ -112,6 +119,18 @@ def test_what_neither_fell_nor_climbed_is_no_fall_and_no_climb():
         "of the first series alone"
     )
     assert found.columns()["others"] == ["", "slid:1", ""]
+
+
+def test_what_stalls_is_no_fall_but_ends_the_climb():
+    found = found_of(up={50.0: "cc", 52.0: "ch", 54.0: "hf"}, down={})
+    (spacing,) = found.spacings
+    assert [count.symbol for count in spacing.up] == ["circle", "square", "square"]
+    assert [count.fell for count in spacing.up] == [0, 0, 1]
+    assert spacing.up[1].lost_of_trial == (False, True)
+    assert spacing.climbed_up_to_deg == pytest.approx(50.0)
+    # by hand: 52 to 54 in the first series, 50 to 52 in the second
+    assert ends(spacing.margin_deg) == pytest.approx((50.0, 52.0, 54.0))
+    assert "? stands for: stalled" in str(found)
 
 
 @pytest.mark.parametrize("outcomes", [{50.0: "cc", 52.0: "cc"}, {50.0: "ff", 52.0: "ff"}])

@@ -21,6 +21,7 @@ from kaidan.physics import (
     SprungNoses,
     TrialResult,
     TrialSpec,
+    YieldingBelt,
     record,
     run,
 )
@@ -96,6 +97,14 @@ def test_too_smooth_it_slides():
     result = run(spec(38.9, friction=0.8))
     assert result.outcome is Outcome.SLID
     assert result.slip_m > 0.15
+
+
+def test_what_hops_on_the_spot_has_stalled_where_friction_would_hold_it():
+    belt = YieldingBelt(stiffness=4.8e4, shear_ratio=1.1, damping_ratio=0.05)
+    fields = {"radius": 0.011, "track": belt, "start_offset": None}
+    stalls = run(spec(60.0, friction=3.0, **fields))  # atan(3) = 71.6 deg
+    assert (stalls.outcome, stalls.phase) == (Outcome.STALLED, Phase.TRAVERSE)
+    assert run(spec(56.0, friction=1.4, **fields)).outcome is Outcome.SLID  # 54.5 deg
 
 
 @pytest.mark.parametrize("direction", ["up", "down"])

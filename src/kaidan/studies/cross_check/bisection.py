@@ -104,7 +104,7 @@ def friction_required(question: Question, formula: float, resolution: float) -> 
         if outcome is Outcome.CLIMBED:
             return False
         ended = outcome.value
-        return outcome in (Outcome.SLID, Outcome.TIMED_OUT) or None
+        return outcome in (Outcome.SLID, Outcome.STALLED, Outcome.TIMED_OUT) or None
 
     centre = math.degrees(math.atan(formula))
     low, high = max(0.5, centre - 1.0), min(centre + 8.0, math.degrees(math.atan(PLENTY)))
