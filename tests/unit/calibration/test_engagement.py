@@ -38,7 +38,7 @@ def test_a_log_is_read_as_by_hand():
     columns["time_s"] = path
     forces = np.zeros((rows, 2, 2))
     forces[10:15, 0] = (30.0, 40.0)  # 50 N for 20 ms
-    forces[40, 1] = (0.0, 200.0)  # a blow: one reading of five, so a mean of 40 N
+    forces[40, 1] = (0.0, 200.0)  # a blow: one sample of five, so a mean of 40 N
     found = engaged(replace(log, columns=columns, grousers=forces))
     assert found.outcome == "climbed"
     assert found.slip == pytest.approx(0.004)

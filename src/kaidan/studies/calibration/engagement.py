@@ -59,7 +59,7 @@ NOSINGS = 2
 
 
 EVERY = 0.004
-"""Between readings of the grousers' forces [s]: five make a mean over 20 ms."""
+"""Between samples of the grousers' forces [s]: five make a mean over 20 ms."""
 
 
 class Engaged(NamedTuple):
@@ -71,7 +71,7 @@ class Engaged(NamedTuple):
     slip_height: float
     """Kinetic-energy height of the largest speed down the stairs [m]."""
     grouser_force: float
-    """Largest force on one grouser, mean of the readings of 20 ms, over the weight [1]."""
+    """Largest force on one grouser, mean of the samples of 20 ms, over the weight [1]."""
 
 
 Runner = Callable[[Sequence[TrialSpec]], list[Engaged]]
@@ -104,7 +104,7 @@ class Cell(Part):
     energy_margin_m: float
     """Energy margin on the flight by the contact model [m]."""
     grouser_force_over_weight: float | None
-    """Largest force on one grouser of theirs, mean of the readings of 20 ms [1]."""
+    """Largest force on one grouser of theirs, mean of the samples of 20 ms [1]."""
 
     @property
     def climbed(self) -> bool:
