@@ -20,6 +20,7 @@ from kaidan.modes import (
     STUCK,
     TIP_DOWNHILL,
     TIP_UPHILL,
+    UNWEIGHED,
     Phase,
     Undecided,
     Verdict,
@@ -334,3 +335,18 @@ def test_verdicts_have_a_rank_an_exit_code_and_a_label():
         (2, 1, "NO-GO"),
         (3, 3, "OUTSIDE THE MODEL"),
     ]
+
+
+def test_what_no_slope_would_mend_has_no_margin_of_slope_left():
+    found = judged(finding(TIP_DOWNHILL, 0.3), finding(IMPACT, -0.2))
+    assert (found.verdict, found.governs) == (NO_GO, "impact")
+    assert (found.margin, found.margin_best) == (-math.pi / 2, -math.pi / 2)
+    for margin in (0.0, -0.1):
+        found = judged(finding(TIP_DOWNHILL, margin), finding(IMPACT, -0.2))
+        assert (found.margin, found.margin_best) == (margin, margin)
+
+
+def test_a_centroid_that_nobody_measured_comes_before_what_follows_from_it():
+    found = judged(finding(TIP_DOWNHILL, -0.5), finding(UNWEIGHED, -0.1))
+    assert found.governs == "unweighed"
+    assert [one.mode for one in found.doubts] == [UNWEIGHED, TIP_DOWNHILL]

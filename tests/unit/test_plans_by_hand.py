@@ -1,0 +1,423 @@
+"""Which plan is chosen, and which angles are tried, on verdicts and scores made by hand."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from kaidan import Question
+from kaidan.assessment import plan_search, plan_sturdy
+from kaidan.assessment.plan_hopes import Hope, Search, _along, _order
+from kaidan.assessment.plan_scores import ENOUGH, Score
+from kaidan.assessment.plan_search import (
+    Judged,
+    _best_off,
+    _better,
+    _Candidate,
+    _judged_off,
+    _may_be_better,
+    _Off,
+    _on_the_whole,
+    _rank,
+)
+from kaidan.assessment.plan_sturdy import OUT, Sturdier, Worth
+from kaidan.assessment.plans import Plan, cost_of, cost_of_drop, off, off_angles, pressed, words
+from kaidan.modes import FALL_DOWNHILL, Phase, Verdict
+from kaidan.robot import Posture, Robot
+
+GO, CAUTION, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.CAUTION, Verdict.NO_GO))
+ABSOLEM = Robot.named("absolem")
+ONE = Robot.model_validate(ABSOLEM.model_dump() | {"rear_flippers": None})
+TWO = math.radians(2.0)
+LOW, HIGH = Posture(front=-0.1), Posture(front=0.3)
+
+
+def asked(robot=ONE, posture=LOW, changes=(), tolerance=TWO):
+    return Question.of(robot, "ibc", friction=0.9).changed(
+        best_of=(), posture=posture, changes=changes, flipper_tolerance=tolerance
+    )
+
+
+def degrees(*angles):
+    return [Posture(front=math.radians(each)) for each in angles]
+
+
+# plans
+
+
+def test_a_plan_changes_where_its_posture_does():
+    plan = Plan("tail-first", ((Phase.ENTER, LOW), (Phase.TRAVERSE, LOW), (Phase.LAND, HIGH)))
+    question = plan.question(asked(posture=HIGH))
+    assert (question.facing, question.posture, question.best_of) == ("tail-first", LOW, ())
+    assert [(each.before, each.posture) for each in question.changes] == [("land", HIGH)]
+
+
+def test_what_changes_and_drops_have_to_gain():
+    """1.5 deg a change and 5 mdeg for a degree that a flipper turns; 0.1 deg beyond 5 deg."""
+    assert cost_of_drop(np.array([0.0, 5.0, 15.0])) == pytest.approx([0.0, 0.0, 1.0])
+    turned = 1.5 + 0.005 * math.degrees(0.4)
+    assert cost_of(ONE, [LOW, HIGH, HIGH, LOW]) == pytest.approx(2 * turned)
+    both = Posture(front=-0.1, rear=0.2), Posture(front=0.3, rear=-0.1)
+    assert cost_of(ABSOLEM, both) == pytest.approx(1.5 + 0.005 * math.degrees(0.7))
+    assert cost_of(ONE, [LOW]) == 0
+
+
+def test_postures_that_have_a_name():
+    armed = Robot.model_validate(
+        ONE.model_dump() | {"states": {"out": {"mass": 5.0, "forward": 0.3, "up": 0.1}}}
+    )
+    each = [(one.front, one.state) for one in words(armed)]
+    assert each == [(None, None), ("flat", None), (None, "out"), ("flat", "out")]
+    assert len(list(words(ABSOLEM))) == 4
+
+
+def test_flat_flippers_are_pressed_below_the_flat_in_whole_degrees():
+    flat = math.degrees(ABSOLEM.flippers()["front"].flat_angle)  # -10.48
+    found = pressed(ABSOLEM, Posture(front="flat", rear=0.3), TWO)
+    assert found.front == pytest.approx(math.radians(math.floor(flat - 2.0)))
+    assert found.rear == 0.3
+    assert pressed(ABSOLEM, Posture(front=None), TWO) == Posture(front=None)
+
+
+def test_off_the_angles_every_way():
+    both = Posture(front=0.1, rear=-0.2)
+    found = [(round(one.front, 9), round(one.rear, 9)) for one in off(ABSOLEM, both, 0.05)]
+    assert found == [(0.15, -0.15), (0.15, -0.25), (0.05, -0.15), (0.05, -0.25)]
+    stowed = off(ABSOLEM, Posture(front=0.1), 0.05)  # those at their stop stay there
+    assert {one.rear for one in stowed} == {None}
+    land = {"before": "land", "posture": HIGH}
+    ways = list(off_angles(asked(changes=(land,), tolerance=0.05)))
+    assert [(one.posture.front, one.changes[0].posture.front) for one in ways] == [
+        (pytest.approx(-0.05), pytest.approx(0.35)), (pytest.approx(-0.15), pytest.approx(0.25)),
+    ]  # fmt: skip
+    assert {one.tolerance for one in ways} == {asked(tolerance=None).tolerance}
+    assert list(off_angles(asked(posture=Posture()))) == []
+
+
+# postures about a plan's
+
+
+@pytest.fixture
+def sturdier(monkeypatch):
+    """A search about a plan, GO at front angles of some degrees; and what it judges."""
+    judged = []
+
+    def of(holds, limits=(-90.0, 90.0), tolerance=2.0):
+        def worth(self, phase, posture):
+            angle = posture.front
+            judged.append(round(math.degrees(angle)) if isinstance(angle, float) else angle)
+            at = math.degrees(angle) if isinstance(angle, float) else -50.0
+            return Worth(GO if holds[0] <= at <= holds[1] else CAUTION, -abs(at - sum(holds) / 2))
+
+        monkeypatch.setattr(Sturdier, "_judged", worth)
+        question = asked(tolerance=math.radians(tolerance))
+        scores = SimpleNamespace(question=question, facing="nose-first")
+        low, high = map(math.radians, limits)
+        return Sturdier(scores, (low, high), None), judged
+
+    return of
+
+
+def plan_of(*angles):
+    each = degrees(*angles)
+    return Plan("nose-first", tuple(zip((Phase.ENTER, Phase.LAND), each, strict=False)))
+
+
+def front_of(plan):
+    return [round(math.degrees(posture.front), 6) for _, posture in plan.postures]
+
+
+def test_a_plan_that_holds_off_its_angles_stays(sturdier):
+    search, judged = sturdier((10.0, 30.0))
+    assert front_of(search.plan(plan_of(20.0, 25.0))) == [20.0, 25.0]
+    assert judged == [20, 22, 18, 25, 27, 23]
+
+
+def test_another_angle_within_sixteen_degrees_holds(sturdier):
+    """Off by two degrees: 12 to 28 deg hold. By two moves of up to eight tolerances it gets there;
+    the middle is the best.
+    """
+    for start in (0.0, 11.0, 45.0, 51.0):
+        (found,) = front_of(sturdier((10.0, 30.0))[0].plan(plan_of(start)))
+        assert 12.0 <= found <= 28.0
+    # from the flat it gets no farther than 6 deg at a time
+    assert sturdier((60.0, 80.0))[0].plan(plan_of(20.0, 95.0)) is None
+    (found,) = front_of(sturdier((10.0, 30.0), limits=(-90.0, 13.0))[0].plan(plan_of(0.0)))
+    assert 12.0 <= found <= 13.0
+    assert sturdier((10.0, 30.0), limits=(-90.0, 11.0))[0].plan(plan_of(0.0)) is None
+
+
+def test_a_phase_that_holds_nowhere_has_no_plan(sturdier):
+    search, judged = sturdier((200.0, 210.0))
+    assert search.plan(plan_of(20.0, 25.0)) is None
+    assert len(judged) == len(set(judged))  # none is judged twice
+
+
+def test_the_worst_is_looked_at_until_it_is_beaten(sturdier):
+    search, judged = sturdier((10.0, 30.0))
+    (posture,) = degrees(40.0)
+    assert search._worst(Phase.ENTER, posture, OUT) == Worth(CAUTION, pytest.approx(-22.0))
+    assert judged == [40, 42, 38]
+    judged.clear()
+    (posture,) = degrees(50.0)  # upwards was the worst: it is enough
+    assert search._worst(Phase.ENTER, posture, Worth(CAUTION, -30.0)).margin == pytest.approx(-32.0)
+    assert judged == [52]
+    judged.clear()
+    assert search._worst(Phase.LAND, posture, Worth(CAUTION, -30.0)).margin == pytest.approx(-30.0)
+    assert judged == [50]
+    assert search._worst(Phase.LAND, degrees(20.0)[0], OUT) == Worth(GO, pytest.approx(-2.0))
+    assert Worth(GO, 0.0).holds
+    assert not Worth(CAUTION, 9.0).holds
+
+
+def test_angles_about_a_posture(sturdier):
+    search, _ = sturdier((0.0, 1.0), limits=(-5.0, 8.0), tolerance=3.0)
+    found = [round(math.degrees(each.front), 6) for each in search._about(degrees(1.4)[0])]
+    assert found == [4.0, -2.0, 7.0, -5.0]
+
+
+@pytest.mark.parametrize(
+    ("margin", "worth"),
+    [(math.radians(3.0), 3.0), (math.radians(40.0), ENOUGH), (math.nan, -90.0)],
+)
+def test_what_a_phase_comes_to(margin, worth, monkeypatch):
+    """Driven over its part of the terrain, judged by the policy."""
+    conclusion = SimpleNamespace(verdict=Verdict.CAUTION, margin=margin)
+    monkeypatch.setattr(plan_sturdy, "findings_of", lambda question, basis: (question, basis))
+    monkeypatch.setattr(plan_sturdy, "conclude", lambda question, found: conclusion)
+    asked_for = []
+    drives = SimpleNamespace(over=lambda *given, **how: asked_for.append((given, how)))
+    scores = SimpleNamespace(
+        question=asked(), facing="tail-first", profile="ground", stretch=lambda phase: (phase, 2.0)
+    )
+    found = Sturdier(scores, (-1.0, 1.0), drives)._judged(Phase.LAND, HIGH)
+    assert found == Worth(CAUTION, pytest.approx(worth))
+    ((given, how),) = asked_for
+    assert (given[0], given[1].posture, given[1].facing) == ("ground", HIGH, "tail-first")
+    assert how == {"start": Phase.LAND, "until": 2.0}
+
+
+# plans put together of phases
+
+
+def score(margin, drop=0.0, *, passes=True, failing=0):
+    return Score(passes, failing, margin, drop)
+
+
+def test_scores_of_a_phase():
+    """Of the drop what is beyond 5 deg counts, a tenth of it."""
+    assert score(8.0, -15.0).value == pytest.approx(7.0)
+    assert score(8.0, -4.0).merit == (True, 0, 8.0)
+    assert score(8.004, -15.0, failing=-1).merit == (True, -1, 7.0)
+    assert score(3.0, -5.0).does(3.0)
+    for other in (score(2.9), score(3.0, -5.1), score(3.0, failing=-1), score(3.0, passes=False)):
+        assert not other.does(3.0)
+
+
+def test_the_weakest_phase_counts_and_a_little_the_others():
+    """Two phases, three plans: margins and drops of the weakest, a twentieth of the mean value."""
+    first = np.array([[1, 1, 1], [0, -1, 0], [9.0, 9.0, 9.0], [0.0, 0, -25.0], [9.0, 9.0, 7.0]])
+    second = np.array([[1, 1, 0], [0, -2, 0], [3.0, 10.0, 3.0], [-15.0, 0, 0], [2.0, 10.0, 3.0]])
+    passes, failing, value = _order([first, second], np.array([0.0, 1.5, 0.0]))
+    assert passes.tolist() == [1, 1, 0]
+    assert failing.tolist() == [0, -3, 0]
+    assert value == pytest.approx([3 - 1 + 0.05 * 5.5, 9 - 1.5 + 0.05 * 9.5, 3 - 2 + 0.05 * 5.0])
+    assert _along(1, 3) == (1, -1, 1)
+
+
+def test_changes_of_plans_by_hand():
+    search = Search(asked(), "nose-first", (-1.0, 1.0))
+    costs, changes = search._changes([[LOW, HIGH], [LOW], [LOW, HIGH]])
+    one = cost_of(ONE, [LOW, HIGH])
+    np.testing.assert_array_equal(changes, [[[0, 1]], [[1, 2]]])
+    np.testing.assert_allclose(costs, [[[0, one]], [[one, 2 * one]]])
+
+
+@pytest.mark.parametrize(
+    ("limits", "angles"),
+    [((-75.0, 90.0), [-75, -47.5, -20, 7.5, 35, 62.5, 90]), ((0.0, 10.0), [0, 10]), ((5.0, 5.0), [5, 5]),
+     ((0.0, 60.0), [0, 30, 60])],
+)  # fmt: skip
+def test_angles_tried_first_are_whole_degrees_from_end_to_end(limits, angles):
+    low, high = map(math.radians, limits)
+    found = [math.degrees(each) for each in Search(asked(), "nose-first", (low, high))._grid()]
+    assert found == pytest.approx(angles, abs=0.51)
+    assert found == pytest.approx([round(each) for each in found])
+
+
+# plans judged
+
+
+def conclusion(rank=GO, margin=0.1, governs="tip_downhill", doubts=()):
+    verdict = next(each for each in Verdict if each.rank == -rank)
+    return SimpleNamespace(verdict=verdict, margin=margin, governs=governs, doubts=doubts)
+
+
+def judged(rank=GO, margin=0.1, drop=0.0, *, question=None, arrives=True, **more):
+    question = question or asked()
+    return Judged(question, None, conclusion(rank, margin, **more), drop, arrives)
+
+
+def test_the_merit_of_a_plan():
+    assert judged(GO, 0.1).merit == (GO, True, 0, pytest.approx(math.degrees(0.1), abs=1e-6))
+    assert judged(GO, 0.5, 15.0).merit[3] == pytest.approx(ENOUGH - 1.0)
+    land = {"before": "land", "posture": HIGH}
+    change = cost_of(ONE, [LOW, HIGH])
+    changed = judged(GO, 0.5, question=asked(changes=(land,)))
+    assert changed.merit[3] == pytest.approx(ENOUGH - change)
+    assert judged(CAUTION, math.nan, doubts=(1, 2), arrives=False).merit == (
+        CAUTION,
+        False,
+        -2,
+        -90,
+    )
+    assert judged(NO_GO, -0.1, governs=FALL_DOWNHILL.key).merit[3] == -90.0
+    assert judged(CAUTION, -0.1, governs=FALL_DOWNHILL.key).merit[3] > -90.0
+    assert judged(NO_GO, -0.1).merit[3] > -90.0
+
+
+@pytest.fixture
+def ways(monkeypatch):
+    """A plan judged off its angles: ranks of the ways off, in their order; and how many were."""
+
+    def of(ranks, plan, beaten=None):
+        looked_at = []
+        monkeypatch.setattr(plan_search, "off_angles", lambda question: range(len(ranks)))
+        monkeypatch.setattr(
+            plan_search, "_rank_of", lambda k, drives: (looked_at.append(k), ranks[k])[1]
+        )
+        return _judged_off(plan, beaten, None), len(looked_at)
+
+    return of
+
+
+def test_off_its_angles_the_worst_verdict_counts(ways):
+    plan = judged(GO)
+    assert ways([], plan) == (_Off(plan, plan.merit, True), 0)
+    assert ways([GO] * 3, plan) == (_Off(plan, plan.merit, True), 3)
+    worst = (CAUTION, *plan.merit[1:])
+    found, count = ways([GO, CAUTION, GO], plan)
+    assert (found.worst, found.tested, found.sturdy, count) == (worst, True, False, 3)
+    found, count = ways([CAUTION, NO_GO, GO], plan)
+    assert (found.worst[0], found.tested, count) == (NO_GO, True, 2)  # there is nothing worse
+    bad = judged(NO_GO)
+    assert ways([NO_GO, NO_GO], bad) == (_Off(bad, bad.merit, True), 2)
+    assert _Off(bad, bad.merit, True).sturdy
+    # what is no better than what is beaten is judged no farther
+    assert ways([CAUTION, GO, GO], plan, worst) == (_Off(plan, worst, False), 1)
+    assert ways([GO, GO], plan, plan.merit) == (_Off(plan, plan.merit, False), 0)
+    less = (GO, True, 0, plan.merit[3] - 0.1)
+    assert ways([GO, GO], plan, less)[0].tested
+
+
+def searching(*, surface="known", grousers=False, off=None, questions=()):
+    robot = SimpleNamespace(track=SimpleNamespace(has_grousers=grousers))
+    return SimpleNamespace(
+        question=SimpleNamespace(surface=surface, robot=robot), off=off,
+        weakest_first=lambda ways: list(questions),
+    )  # fmt: skip
+
+
+PLAN = SimpleNamespace(question=lambda question: "plan")
+
+
+def candidate(hope=10.0, *, passes=True, failing=0, off=None):
+    merit = (passes, failing, hope)
+    return _Candidate(PLAN, merit, off or (True, 0, 0.0))
+
+
+def test_which_verdict_scores_promise():
+    each = [(True, 0, 1.0), (True, -1, 1.0), (False, 0, 1.0)]
+    assert [-_rank(searching(), one) for one in each] == [GO, CAUTION, NO_GO]
+    assert [-_rank(searching(grousers=True), one) for one in each] == [GO] * 3
+
+
+def test_which_plans_may_be_better(monkeypatch):
+    """Than a CAUTION; than a GO of 9 deg by its scores or by those of the best."""
+    monkeypatch.setattr(plan_search, "off_angles", lambda question: question)
+
+    def may(each, bar, of_best=None, **more):
+        return _may_be_better(searching(**more), each, bar, of_best, None)
+
+    caution, go = (CAUTION, True, -1, 9.0), (GO, True, 0, 9.0)
+    assert may(candidate(), caution)
+    assert not may(candidate(failing=-1), go)
+    assert not may(candidate(passes=False), caution)
+    assert may(candidate(8.6), go)
+    for hope in (8.5, 8.4):  # by half a degree it may be better than its scores
+        assert not may(candidate(hope), go)
+        assert may(candidate(hope), go, surface=None)
+        assert may(candidate(hope), go, grousers=True)
+        assert may(candidate(hope), (GO, True, -2, 9.0))
+        assert not may(candidate(hope), (GO, True, -1, 9.0))
+    for hope, better in ((10.05, False), (10.2, True)):  # nearly alike
+        assert may(candidate(hope), go, candidate(10.0)) is better
+        assert may(candidate(hope), go, candidate(10.0), surface=None)
+    # where it fails off its angles the weakest way tells
+    fails = candidate(off=(True, -1, 0.0))
+    for rank, better in ((GO, True), (CAUTION, False)):
+        monkeypatch.setattr(plan_search, "_rank_of", lambda one, drives, rank=rank: rank)
+        assert may(fails, go, questions=["way"]) is better
+    assert may(fails, go)
+    worse = candidate(failing=-1, off=(True, -2, 0.0))
+    assert may(worse, (CAUTION, True, -1, 0.0))
+
+
+def test_the_larger_of_two_merits_is_to_be_beaten():
+    plan = judged(CAUTION)
+    best = _Off(plan, plan.merit, True)
+    go = judged(GO).merit
+    assert _better(None, None) is None
+    assert _better(go, None) == go
+    assert _better(None, best) == plan.merit
+    assert _better(go, best) == go
+    assert _better(judged(NO_GO).merit, best) == plan.merit
+
+
+def test_the_best_plans_off_their_angles():
+    """At its angles no plan promises less: beyond that none is scored off them."""
+    hopes = [
+        Hope(name, (True, 0, value))
+        for name, value in zip("abcd", (5.0, 9.0, 7.0, 1.0), strict=True)
+    ]
+    scored = []
+
+    def off(plan):
+        scored.append(plan)
+        return True, 0, {"a": 4.0, "b": 2.0, "c": 6.0, "d": 1.0}[plan]
+
+    assert _best_off(searching(off=off), hopes, 2) == ["c", "a"]
+    assert scored == ["b", "c", "a"]
+
+
+def test_the_whole_terrain_decides_among_plans(monkeypatch):
+    """The first whose verdict it does not lower; else the one of the best verdict."""
+    monkeypatch.setattr(plan_search, "judge", lambda question: question.posture.front)
+
+    def chosen(*ranks, tested=True):
+        """Of plans by rank on the short terrain and on the whole."""
+        plans = []
+        for k, (short, _) in enumerate(ranks):
+            plan = judged(short, question=asked(posture=Posture(front=0.1 * k)))
+            plans.append(_Off(plan, plan.merit, tested))
+        whole = {0.1 * k: judged(rank) for k, (_, rank) in enumerate(ranks)}
+        looked_at = []
+
+        def of_whole(question, found):
+            looked_at.append(question)
+            return whole[found]._replace(question=question)
+
+        monkeypatch.setattr(plan_search, "judged_of", of_whole)
+        monkeypatch.setattr(
+            plan_search, "_judged_off",
+            lambda plan, beaten, drives: _Off(plan, (NO_GO, *plan.merit[1:]), True),
+        )  # fmt: skip
+        found = _on_the_whole(asked(), plans, "drives")
+        return round(10 * found.question.posture.front), len(looked_at), found.sturdy
+
+    assert chosen((GO, GO), (GO, GO)) == (0, 1, True)
+    assert chosen((GO, CAUTION), (CAUTION, CAUTION)) == (0, 2, True)
+    assert chosen((GO, NO_GO), (CAUTION, CAUTION)) == (1, 2, True)
+    assert chosen((GO, NO_GO)) == (0, 1, True)
+    assert chosen((GO, GO), tested=False) == (0, 1, False)
