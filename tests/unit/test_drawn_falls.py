@@ -8,9 +8,16 @@ import pytest
 
 from kaidan import contact
 from kaidan.models import drawn_falls as module
-from kaidan.models.drawn_falls import FAR, _changed, _features, _Sample, drawn_falls
+from kaidan.models.drawn_falls import (
+    FAR,
+    _changed,
+    _features,
+    _Sample,
+    _samples,
+    drawn_falls,
+)
 from kaidan.outline import Outline
-from kaidan.robot import Robot
+from kaidan.robot import Posture, Robot
 from kaidan.traversal.tilting import LARGEST
 
 WITHIN = math.radians(0.03)
@@ -126,6 +133,50 @@ def test_near_the_reserve_it_is_driven_on_which_side_a_sample_lies(most, falls, 
     assert np.std(found - (0.12 + 2 * ROCK - RESERVE)) == pytest.approx(0.02, rel=0.2)
 
 
+def test_scatter_about_a_line_by_hand(falls, monkeypatch):
+    """Three of five are driven, off their line by e, -2 e and e; with two figures of the line that
+    tells of sqrt(3) as much. The second and the fourth are as far off as the second and the first.
+    """
+    monkeypatch.setattr(module, "DRIVEN", 3)
+    rock, e = 0.02 * np.arange(-2.0, 3.0), 1e-3
+    line = RESERVE + 0.03 + rock
+    found, driven = falls(line + e * np.array([1.0, 0, -2, 0, 1]), rock)
+    assert driven == {0, 2, 4}
+    off = e * np.array([1.0, -2 * math.sqrt(3), -2, math.sqrt(3), 1.0])
+    np.testing.assert_allclose(found, line + off - RESERVE, atol=1e-12)
+
+
+@pytest.mark.parametrize("descending", [False, True])
+@pytest.mark.parametrize("downhill", [False, True])
+def test_a_sample_has_its_own_robot_and_terrain(descending, downhill, monkeypatch):
+    """Its nosings as drawn, as they are driven, and its robot with the end ahead that leads."""
+    outline = Outline.of(Robot.named("kenaf"))
+    drawn = np.array([[0.01, 0.02], [0.03, 0.01], [0.0, 0.004]])
+
+    def driven(terrain, body, start, until):
+        return {"terrain": terrain, "parts": body.parts.tolist(), "part": (start, until)}
+
+    class Terrain(str):
+        def reflected(self):
+            return Terrain("reflected " + self)
+
+    monkeypatch.setattr(module, "drawn_of_all", lambda question: drawn)
+    monkeypatch.setattr(module, "nosings_of", lambda profile, drawn: ["none", "its own"])
+    monkeypatch.setattr(module, "moved_profile", lambda profile, nosings: Terrain(nosings))
+    monkeypatch.setattr(module, "way", driven)
+    run = SimpleNamespace(descending=descending, acceleration=0.3, step=0.02, start=1, until=2)
+    for facing in ("nose-first", "tail-first"):
+        question = SimpleNamespace(profile=None, outline=outline, facing=facing)
+        found = _samples(question, run, downhill)(1)
+        body = _changed(outline, 0.02, 0.01, 0.004)
+        body = body if facing == "nose-first" else body.turned_round()
+        assert found.way == {
+            "terrain": "reflected its own" if descending else "its own",
+            "parts": body.parts.tolist(), "part": (1, 2), "acceleration": 0.3, "step": 0.02,
+        }  # fmt: skip
+        assert found.back == (1.0 if downhill is not descending else -1.0)
+
+
 def test_what_the_tilt_is_taken_as_linear_in(monkeypatch):
     drawn = np.array([[1.0, 3.0], [2, 2], [0, 4], [1, 1], [5, 9], [0, 7]])
     monkeypatch.setattr(module, "drawn_of_all", lambda question: drawn)
@@ -137,11 +188,11 @@ def test_what_the_tilt_is_taken_as_linear_in(monkeypatch):
 
 def test_a_changed_robot_by_hand():
     """Its discs ahead by the change of C_L, the rear ones less that of L, all down by C_N's."""
-    robot = Robot.named("kenaf")
-    outline = Outline.of(robot)
+
+    outline = Outline.of(Robot.named("absolem"), Posture(front="flat", rear="flat"))
     found = _changed(outline, 0.02, 0.005, 0.01).parts.reshape(-1, 3)
     discs = outline.parts.reshape(-1, 3)
     ahead = np.where(discs[:, 0] < 0, 0.005 - 0.02, 0.005)
     np.testing.assert_allclose(found, discs + np.c_[ahead, np.full_like(ahead, -0.01), 0 * ahead])
     low = _changed(outline, 0.0, 0.0, -1.0).parts.reshape(-1, 3)
-    np.testing.assert_allclose(low[:, 1] - discs[:, 1], robot.com_height - 1e-4)
+    np.testing.assert_allclose(low[:, 1] - discs[:, 1], outline.stance.com_height - 1e-4)

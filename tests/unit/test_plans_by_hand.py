@@ -236,9 +236,13 @@ def test_changes_of_plans_by_hand():
 
 @pytest.mark.parametrize(
     ("limits", "angles"),
-    [((-75.0, 90.0), [-75, -47.5, -20, 7.5, 35, 62.5, 90]), ((0.0, 10.0), [0, 10]), ((5.0, 5.0), [5, 5]),
-     ((0.0, 60.0), [0, 30, 60])],
-)  # fmt: skip
+    [
+        ((-75.0, 90.0), [-75, -47.5, -20, 7.5, 35, 62.5, 90]),
+        ((0.0, 10.0), [0, 10]),
+        ((5.0, 5.0), [5, 5]),
+        ((0.0, 60.0), [0, 30, 60]),
+    ],
+)
 def test_angles_tried_first_are_whole_degrees_from_end_to_end(limits, angles):
     low, high = map(math.radians, limits)
     found = [math.degrees(each) for each in Search(asked(), "nose-first", (low, high))._grid()]

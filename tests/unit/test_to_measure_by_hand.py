@@ -54,6 +54,8 @@ def test_ranges_move_margins_from_the_worst_to_the_best_case(margins):
     slides = finding(SLIDES_DOWN, [0.3], [0.4])
     assert margins(slides, **THREE) == pytest.approx([0.4, 0.35, 0.3])
     assert margins(tips, slides, **THREE) == pytest.approx([0.2, 0.25, 0.3])  # of both the least
+    some = finding(SLIDES_DOWN, [0.05, math.inf, 0.2])
+    assert margins(tips, some) == [0.05, 0.1, 0.1]
     assert margins(tips) == [0.1] * 3
     half = finding(TIP_DOWNHILL, [0.1, 0.2, 0.3], [0.5, math.inf, 0.5])
     assert margins(half, **THREE) == [0.1, 0.2, 0.3]  # not all of it is known
@@ -79,7 +81,8 @@ def test_a_first_order_index_of_seven_draws(monkeypatch):
     monkeypatch.setattr(module, "SLICES", 3)
     drawn = np.array([0.9, 0.1, 0.5, 0.2, 0.8, 0.3, 0.6])
     values = np.array([7.0, 0.0, 1.0, 1.0, 5.0, 2.0, 3.0])
-    assert first_order(drawn, values) == pytest.approx((220 - 18) / 262)
+    for unit in (1.0, 0.01):
+        assert first_order(drawn, unit * values) == pytest.approx((220 - 18) / 262)
     assert first_order(drawn, np.full(7, 0.3)) == 0.0
     # alternating within slices: means 1/3, 1/2 and 1/2 tell less than chance does
     assert first_order(drawn, np.array([0.0, 0, 0, 1, 1, 0, 1])) == 0.0
@@ -142,6 +145,7 @@ def test_single_steps_bring_what_the_others_leave(measured):
     left, rest = measured({"friction": 0.4}, TWO, (FRICTION, steps))
     assert (left[0], left[1], left[2]) == ("stairs", (STEPS,), pytest.approx(0.6))
     assert rest[2] == pytest.approx(0.4)
+    assert measured({}, TWO, (steps,))[0][2] == 1.0
     over = measured({"friction": 1.25}, TWO, (FRICTION, steps))
     assert [each[2] for each in over] == [pytest.approx(1.0), 0.0]
 
