@@ -202,10 +202,13 @@ def margins_of(question: Question, flight: Stairs, psi: Array, *, certain: bool 
 
 def _margins(at: Draws, gauge: float, psi: Array, a: float) -> Array:
     yaw = np.abs(psi)[:, None, None]
-    each = [(edge.end, _margin(at, gauge, yaw, edge, a)) for edge in _edges(at, gauge, yaw)]
-    down, up = (
-        np.minimum(*(margin for end, margin in each if end == which)) for which in (1.0, -1.0)
-    )
+    edges = _edges(at, gauge, yaw)
+    kappa = np.cos(yaw) + _END * (edges.left - edges.right) * np.sin(yaw) / gauge
+    slack = _END * edge_slack(x=edges.x, kappa=kappa, C_N=at.C_N, theta_s=at.theta_s, a=a)
+    limit = edge_limit(x=edges.x, kappa=kappa, C_N=at.C_N, a=a)
+    margin = _END * (limit - at.theta_s)
+    margin = np.where(np.isnan(margin), np.copysign(math.pi / 2, slack), margin)
+    down, up = np.minimum(margin[0], margin[1]), np.minimum(margin[2], margin[3])
     side = sideways_limit(gauge=gauge, C_N=at.C_N, psi=yaw) - at.theta_s
     tips = np.stack(np.broadcast_arrays(down, up, side))
     rows = np.where(at.p / np.cos(yaw) > at.L, -math.pi / 2, tips)
@@ -234,61 +237,39 @@ def energy_of(question: Question, flight: Stairs, psi: Array) -> Array:
 
 def _energy(at: Draws, gauge: float, psi: Array, a: float) -> Array:
     yaw = np.abs(psi)[:, None, None]
-    rises = [
-        edge_energy(
-            x=edge.x,
-            slope=(edge.left - edge.right) / gauge * edge.end,
-            C_N=at.C_N,
-            theta_s=at.theta_s,
-            psi=yaw,
-            a=a,
-        )
-        for edge in _edges(at, gauge, yaw)
-    ]
+    edges = _edges(at, gauge, yaw)
+    slope = (edges.left - edges.right) / gauge * _END
+    over = edge_energy(x=edges.x, slope=slope, C_N=at.C_N, theta_s=at.theta_s, psi=yaw, a=a)
     # over the lower track: its line lies along the heading
     lean = np.sin(at.theta_s) * np.sin(yaw)
-    rises.append(
-        np.hypot(gauge / 2, at.C_N) * np.hypot(lean, np.cos(at.theta_s))
-        - (at.C_N * np.cos(at.theta_s) + gauge / 2 * lean)
+    aside = np.hypot(gauge / 2, at.C_N) * np.hypot(lean, np.cos(at.theta_s)) - (
+        at.C_N * np.cos(at.theta_s) + gauge / 2 * lean
     )
-    return np.asarray(np.stack(np.broadcast_arrays(*rises)).min(axis=(0, 2, 3)))
+    return np.asarray(np.minimum(over.min(axis=0), aside).min(axis=(1, 2)))
 
 
-class _Edge(NamedTuple):
-    """Edge at its worst: places of its ends on the right and the left track."""
+_END = np.array([1.0, 1.0, -1.0, -1.0])[:, None, None, None]
+"""Which end each edge is at: 1 downhill, -1 uphill."""
 
-    end: float
-    """1 downhill, -1 uphill."""
+
+class _Edges(NamedTuple):
+    """Edges at their worst, shape (4, yaws, samples, steps): their ends on both tracks."""
+
     right: Array
     """From the rear tip downhill, from the front tip uphill [m]."""
     left: Array
     x: Array
-    """Its middle downhill of the centroid [m]."""
+    """Their middle downhill of the centroid [m]."""
 
 
-def _edges(at: Draws, gauge: float, psi: Array) -> list[_Edge]:
+def _edges(at: Draws, gauge: float, psi: Array) -> _Edges:
     q = at.p / np.cos(psi)
     near, far = (other_offset(p=at.p, psi=side * psi, gauge=gauge) for side in (1, -1))
     # downhill just after a loss on the right, on the left; uphill just before a gain on either
-    ends = ((1.0, q, near), (1.0, far, q), (-1.0, q, far), (-1.0, near, q))
-    return [
-        _Edge(
-            end,
-            right,
-            left,
-            at.L - at.C_L - (left + right) / 2 if end > 0 else (left + right) / 2 - at.C_L,
-        )
-        for end, right, left in ends
-    ]
-
-
-def _margin(at: Draws, gauge: float, psi: Array, edge: _Edge, a: float) -> Array:
-    """Margin of slope of one edge."""
-    kappa = np.cos(psi) + edge.end * (edge.left - edge.right) * np.sin(psi) / gauge
-    slack = edge.end * edge_slack(x=edge.x, kappa=kappa, C_N=at.C_N, theta_s=at.theta_s, a=a)
-    limit = edge_limit(x=edge.x, kappa=kappa, C_N=at.C_N, a=a)
-    margin = edge.end * (limit - at.theta_s)
-    return np.asarray(np.where(np.isnan(margin), np.copysign(math.pi / 2, slack), margin))
+    right, left = np.stack([q, far, q, near]), np.stack([near, q, far, q])
+    middle = (left + right) / 2
+    x = np.concatenate([at.L - at.C_L - middle[:2], middle[2:] - at.C_L])
+    return _Edges(right, left, x)
 
 
 def yaw_limit(question: Question, flight: Stairs) -> float | None:
@@ -313,7 +294,7 @@ def yaw_limit(question: Question, flight: Stairs) -> float | None:
     count = math.floor(LARGEST_YAW / SCAN)
     yaws: Array = SCAN * np.arange(count + 1, dtype=np.float64)
     # each scan narrows the bracket by its number of yaws: in doubt few, as each takes every sample
-    pieces, together, scans = (8, 8, 6) if question.uncertain else (512, len(yaws), 2)
+    pieces, together, scans = (8, 8, 6) if question.uncertain else (64, len(yaws), 3)
     holds = _holding(question, flight)
     first = _first_to_fail(holds, yaws, together)
     if not first:

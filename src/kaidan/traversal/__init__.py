@@ -281,7 +281,7 @@ class Traverse:
         # of those that are alike the first: a pose between two phases is of both
         return next((one for one in each if one.margin < least + _ALIKE), None)
 
-    @property
+    @cached_property
     def _rocks_beside_flights(self) -> bool:
         """Whether poses judge some of several steps: no flat carries, or a step is longer."""
         nosings = self.profile.nosings

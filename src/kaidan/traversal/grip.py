@@ -13,6 +13,7 @@ nosing must do at every pose of that slip, or friction (docs/theory/grousers.md)
 """
 
 import math
+from functools import cached_property
 from itertools import combinations
 from typing import NamedTuple
 
@@ -100,9 +101,9 @@ class Grip:
         if phi[0] == phi[1] == phi[2]:
             return np.asarray(phi[0] - self.coulomb)
         found = np.full(len(self._required), -np.inf)
-        for rows, i, j in self._pairs():
-            one, other = self._belt(rows, i, phi), self._belt(rows, j, phi)
-            found[rows] = np.maximum(found[rows], self._margin(rows, i, j, one, other))
+        rows, i, j = self._pairs
+        one, other = self._belt(rows, i, phi), self._belt(rows, j, phi)
+        np.maximum.at(found, rows, self._margin(rows, i, j, one, other))
         return found[self._like]
 
     def with_grousers(
@@ -160,27 +161,25 @@ class Grip:
         way = slip if self.descending else -slip
         return np.abs(gained - np.interp(s + way, s, gained))
 
-    def _pairs(self) -> list[tuple[Whole, int, int]]:
+    @cached_property
+    def _pairs(self) -> tuple[Whole, Whole, Whole]:
         """Rows and two contacts each that may carry them: on either side of the centroid."""
         at = self._unlike
         w_x, w_z = self._force
         ahead = at.x - (w_x / w_z)[:, None] * at.z
-        found = []
-        for i, j in combinations(range(at.x.shape[1]), 2):
-            both = at.is_one[:, i] & at.is_one[:, j]
-            carries = (ahead[:, i] * ahead[:, j] <= 0.0) | ((i, j) == (0, 1))
-            rows = np.flatnonzero(both & carries)
-            if len(rows):
-                found.append((rows, i, j))
-        return found
+        i, j = np.array(list(combinations(range(at.x.shape[1]), 2))).T
+        both = at.is_one[:, i] & at.is_one[:, j]
+        carries = (ahead[:, i] * ahead[:, j] <= 0.0) | ((i == 0) & (j == 1))
+        rows, pair = np.nonzero(both & carries)
+        return rows, i[pair], j[pair]
 
-    def _belt(self, rows: Whole, k: int, phi: tuple[float, float, float]) -> tuple[Array, Array]:
+    def _belt(self, rows: Whole, k: Whole, phi: tuple[float, float, float]) -> tuple[Array, Array]:
         """Axis and half angle of the cone under the belt."""
         return self._unlike.normal[rows, k], np.array(phi)[self._unlike.place[rows, k]]
 
     def _margin(
-        self, rows: Whole, i: int, j: int, one: tuple[Array, Array], other: tuple[Array, Array],
-        ahead: Array | float = 0.0,
+        self, rows: Whole, i: Whole, j: Whole, one: tuple[Array, Array],
+        other: tuple[Array, Array], ahead: Array | float = 0.0,
     ) -> Array:  # fmt: skip
         """Margin of two contacts with their cones, the first so far ahead of its place [m]."""
         at, (w_x, w_z) = self._unlike, self._force
@@ -209,18 +208,14 @@ class Grip:
         """
         at = self._unlike
         tips = self._tips(grousers)
+        rows, i, j = self._pairs
+        each = [self._stands(rows, k, o, phi, grousers, tips) for k, o in ((i, j), (j, i))]
+        # of every contact of the pose: the one, the other or neither of the two
+        k = np.arange(at.x.shape[1])
+        own = np.where(k == j[:, None], each[1][:, None], np.maximum(*each)[:, None])
+        own = np.where(k == i[:, None], each[0][:, None], own)
         found = np.full(at.x.shape, np.inf)
-        for rows, i, j in self._pairs():
-            each = []
-            for k, other in ((i, j), (j, i)):
-                may = tips.may[rows, k]
-                margin = np.full(len(rows), -np.inf)
-                margin[may] = self._stands(rows[may], k, other, phi, grousers, tips)
-                each.append(margin)
-            better = np.maximum(*each)
-            for k in range(at.x.shape[1]):
-                own = each[0] if k == i else each[1] if k == j else better
-                found[rows, k] = np.minimum(found[rows, k], own)
+        np.minimum.at(found, rows, own)
         found = np.where(np.isinf(found) & (found > 0), -np.inf, found)
         several = at.is_one.sum(axis=1)[:, None]
         if (several > 2).any():
@@ -236,10 +231,21 @@ class Grip:
         return found
 
     def _stands(
-        self, rows: Whole, k: int, other: int, phi: tuple[float, float, float],
+        self, rows: Whole, k: Whole, other: Whole, phi: tuple[float, float, float],
         grousers: Grousers, tips: "_Tips",
     ) -> Array:  # fmt: skip
-        """Margin of two contacts, a grouser standing at the first."""
+        """Margin of two contacts, a grouser standing at the first; minus infinity: none can."""
+        found = np.full(len(rows), -np.inf)
+        may = tips.may[rows, k]
+        rows, k, other = rows[may], k[may], other[may]
+        found[may] = self._standing_there(rows, k, other, phi, grousers, tips)
+        return found
+
+    def _standing_there(
+        self, rows: Whole, k: Whole, other: Whole, phi: tuple[float, float, float],
+        grousers: Grousers, tips: "_Tips",
+    ) -> Array:  # fmt: skip
+        """The same where one can."""
         at, side = self._unlike, self._side
         tip, half = tips.tilt[rows, k], np.full(len(rows), phi[TREAD])
         axis, own = self._belt(rows, other, phi)
@@ -254,13 +260,17 @@ class Grip:
         axis = axis - side * np.where(on_nosing, grousers.height / np.maximum(apart, 1e-3), 0.0)
         gamma = np.where(on_nosing, tips.gamma[rows, k], 0.0)
         rolled = axis - side * np.arcsin(np.minimum(gamma, 1.0))
-        first = self._margin(rows, k, other, (tip, half), (rolled, own), ahead)
-        if not (gamma > 0.0).any():
-            return first
-        lean = side * (tip - at.normal[rows, k])
+        margin = self._margin(rows, k, other, (tip, half), (rolled, own), ahead)
+        rolls = gamma > 0.0
+        tip, gamma, normal = tip[rolls], gamma[rolls], at.normal[rows, k][rolls]
+        lean = side * (tip - normal)
         later = tip - side * (lean - np.arcsin(np.maximum(np.sin(lean) - gamma, 0.0)))
-        then = self._margin(rows, k, other, (later, half), (axis, own), ahead)
-        return np.minimum(first, then)
+        then = self._margin(
+            rows[rolls], k[rolls], other[rolls], (later, half[rolls]), (axis[rolls], own[rolls]),
+            ahead[rolls],
+        )  # fmt: skip
+        margin[rolls] = np.minimum(margin[rolls], then)
+        return margin
 
     def _tips(self, grousers: Grousers) -> "_Tips":
         """Tips of grousers as they come to stand at each contact."""

@@ -15,7 +15,7 @@ alike it is the closed form: docs/theory/uneven.md derives it.
 
 import math
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import pairwise, takewhile
 from typing import NamedTuple
 
@@ -93,7 +93,7 @@ class Criterion:
     tops: tuple[float, ...] = ()
     """Place of the last nosing of each flight [m]."""
 
-    @property
+    @cached_property
     def on_flight(self) -> tuple[Loss, ...]:
         """Losses and gains with the whole flat on the flight, which the criterion judges."""
         return tuple(each for each in self.losses if not each.landing)
