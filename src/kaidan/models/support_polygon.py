@@ -293,8 +293,8 @@ def yaw_limit(question: Question, flight: Stairs) -> float | None:
         return None
     count = math.floor(LARGEST_YAW / SCAN)
     yaws: Array = SCAN * np.arange(count + 1, dtype=np.float64)
-    # each scan narrows the bracket by its number of yaws: in doubt few, as each takes every sample
-    pieces, together, scans = (8, 8, 6) if question.uncertain else (64, len(yaws), 3)
+    # each scan narrows the bracket by its number of yaws: in doubt one by one, of many samples each
+    pieces, together, scans = (2, 1, 18) if question.uncertain else (64, len(yaws), 3)
     holds = _holding(question, flight)
     first = _first_to_fail(holds, yaws, together)
     if not first:
