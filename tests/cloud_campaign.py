@@ -34,6 +34,7 @@ class Case:
     sensor: str
     seen: scenes.Seen
     top: bool
+    bias: float
 
     @property
     def nosings(self):
@@ -67,11 +68,12 @@ def case(number, most_noise=0.01):
     if top:
         place = (end[0] + rng.uniform(0.1, 0.5), end[1] + rng.uniform(0.5, 1.2))
         pose |= {"from_top": place, "look": -0.35}
+    bias = rng.normal(0, BIAS)
     seen = scenes.seen(
-        scene, rng, sensor=sensor, noise=noise, bias=rng.normal(0, BIAS), ripple=RIPPLE,
+        scene, rng, sensor=sensor, noise=noise, bias=bias, ripple=RIPPLE,
         tilt=np.radians(rng.uniform(0, 3)), **pose,
     )  # fmt: skip
-    return Case(truth, rng.normal(0, LEAN), noise, sensor, seen, top)
+    return Case(truth, rng.normal(0, LEAN), noise, sensor, seen, top, bias)
 
 
 @dataclass

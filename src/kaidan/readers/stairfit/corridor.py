@@ -103,7 +103,8 @@ def lanes(xyz: Array, patches: Patches, of_point: Indices, tolerance: float) -> 
         across = np.abs(normal[:, 1] * math.cos(axis) - normal[:, 0] * math.sin(axis))
         # side walls say nothing and cover everything
         free = (across < 0.85) & ~high
-        steps = free & ~floors(s, z)
+        s, z = s[free], z[free]
+        steps = ~floors(s, z) if len(s) else free[:0]
         if steps.sum() < 50:
             continue
         s, z = s[steps], z[steps]

@@ -6,6 +6,7 @@ import numpy as np
 
 from kaidan.readers.kinds import Array
 from kaidan.readers.stairfit.patches import Patches
+from kaidan.readers.stairfit.planes import leans
 
 OUT_OF_TRUE = math.radians(0.3)
 """Standard deviation of what was built level or plumb [rad]: 16 mm over 3 m."""
@@ -13,6 +14,10 @@ NEAR = 10.0
 """Angle within which a patch counts as level or plumb at first [deg]."""
 NARROWEST = math.radians(0.7)
 """Smallest such angle [rad]."""
+EDGES = math.radians(0.35)
+"""By how much patches over edges turn the mean, root mean square in clouds that were cast [rad]."""
+BEST = math.radians(0.1)
+"""Standard uncertainty of a plane's lean at best [rad]."""
 FEWEST_PATCHES = 12
 """Level and plumb patches from which up is estimated."""
 
@@ -22,7 +27,7 @@ def refined(patches: Patches, up: Array, sigma: float) -> tuple[Array, float]:
 
     Minimises the squares of the sines between level patches and up and of the cosines between
     plumb patches and up: the eigenvector to the least eigenvalue of the plumb ones' scatter matrix
-    less the level ones'. What the sensor states has its weight too.
+    less the level ones'. Large planes put it right, and what the sensor states has its weight too.
 
     Parameters
     ----------
@@ -55,12 +60,27 @@ def refined(patches: Patches, up: Array, sigma: float) -> tuple[Array, float]:
         # patches over the edge of a step lean all the same way: only the core counts
         near = min(max(3.0 * float(np.median(off)), NARROWEST), 0.7 * near)
     scatter_of = float(np.sqrt(np.mean(off**2)) / math.sqrt(max(len(off) / 8.0, 1.0)))
-    found = math.hypot(scatter_of, OUT_OF_TRUE)
+    up, found = _by_planes(patches, up, math.hypot(scatter_of, EDGES))
+    found = math.hypot(found, OUT_OF_TRUE)
     if math.acos(min(1.0, float(up @ stated))) > 3 * math.hypot(sigma, found):
         return up, found  # what was stated contradicts what was built
     share = found**2 / (found**2 + sigma**2)
     mixed = up + share * (stated - up)
     return mixed / np.linalg.norm(mixed), math.sqrt(share) * sigma
+
+
+def _by_planes(patches: Patches, up: Array, sigma: float) -> tuple[Array, float]:
+    """Direction up and its doubt, with what large planes say of it (weighted least squares)."""
+    weights, pulled = np.eye(3) / sigma**2, np.zeros(3)
+    for lean in leans(patches, up, math.radians(NEAR)):
+        weight = 1.0 / (lean.sigma**2 + BEST**2)
+        weights += weight * np.outer(lean.along, lean.along)
+        pulled += weight * lean.angle * lean.along
+    covariance = np.linalg.inv(weights)
+    level = np.eye(3) - np.outer(up, up)
+    found = up + covariance @ pulled
+    doubt = float(np.linalg.eigvalsh(level @ covariance @ level)[-1])
+    return found / np.linalg.norm(found), math.sqrt(doubt)
 
 
 def frame(up: Array, side: Array) -> Array:

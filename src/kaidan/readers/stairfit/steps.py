@@ -51,6 +51,8 @@ OUT_OF_LEVEL = math.tan(math.radians(3.0))
 ODD_UNSEEN = 0.25
 """Largest difference of the last riser from the others, as a share of them, where its face was not
 seen [1]: what lies higher is something that stands on the landing."""
+HIGHEST_LAST = 1.3
+"""Highest last riser, over the others [1]: what lies higher stands on the landing."""
 LANDING_ACROSS = 0.6
 """Least width of a landing with a riser of its own, over that of the flight [1]: a box on it is
 narrower."""
@@ -117,24 +119,21 @@ def steps_of(
     line = _bottom(_trimmed(line, s, t, z, tight), s, t, z, tight)
     if line.last - line.first < 2:
         return None
+    line = _without_odd(line, s, t, z, tight)
+    found, sigma = _alone(line, s, t, z, noise, tight)
+    seen = np.flatnonzero(np.isfinite(sigma).any(axis=1))
+    if len(seen) < 3:
+        return None
+    if np.ptp(seen) + 1 < len(found):  # of a step at an end nothing was measured
+        line = replace(line, first=line.first + int(seen[0]), last=line.first + int(seen[-1]))
+        line = _without_odd(line, s, t, z, tight)
+        found, sigma = _alone(line, s, t, z, noise, tight)
     at = assigned(line, s, t, z, tight)
     within = (at.step >= line.first) & (at.step <= line.last)
     off = at.off[(at.tread | at.riser) & within]
     if len(off) < 30:
         return None
     number = np.arange(line.first, line.last + 1)
-    front = [fronts(line, s, t, z, tight, wide) for wide in LANES]
-    front = [replace(each, at=each.at - line.skew * each.t) for each in front]
-    top = [tops(line, s, t, z, tight, wide) for wide in LANES]
-    regular = line.at(number)
-    found, sigma = regular.copy(), np.full(regular.shape, np.nan)
-    for row, k in enumerate(number.tolist()):
-        tread = at.tread & at.inner & (at.step == k)
-        riser = at.riser & at.inner & (at.step == k)
-        level = z[tread]
-        found[row, 1], sigma[row, 1] = _level(level, noise, top, k, regular[row, 1], riser.sum())
-        face = s[riser] - line.skew * t[riser]
-        found[row, 0], sigma[row, 0] = _level(face, noise, front, k, regular[row, 0], tread.sum())
     measured = np.isfinite(sigma)
     if measured.sum(axis=0).min() < 2 or measured.any(axis=1).sum() < 3:
         return None
@@ -160,6 +159,27 @@ def steps_of(
         level=_level_share(line, at, s, t, z),
         width=width, angles=nosing_angles(line, s, t, z, width),
     )  # fmt: skip
+
+
+def _alone(
+    line: StairLine, s: Array, t: Array, z: Array, noise: float, tight: float
+) -> tuple[Array, Array]:
+    """(s, z) of the nosings, each measured alone, and their doubt; NaN: neither face nor end."""
+    at = assigned(line, s, t, z, tight)
+    number = np.arange(line.first, line.last + 1)
+    front = [fronts(line, s, t, z, tight, wide) for wide in LANES]
+    front = [replace(each, at=each.at - line.skew * each.t) for each in front]
+    top = [tops(line, s, t, z, tight, wide) for wide in LANES]
+    regular = line.at(number)
+    found, sigma = regular.copy(), np.full(regular.shape, np.nan)
+    for row, k in enumerate(number.tolist()):
+        tread = at.tread & at.inner & (at.step == k)
+        riser = at.riser & at.inner & (at.step == k)
+        level = z[tread]
+        found[row, 1], sigma[row, 1] = _level(level, noise, top, k, regular[row, 1], riser.sum())
+        face = s[riser] - line.skew * t[riser]
+        found[row, 0], sigma[row, 0] = _level(face, noise, front, k, regular[row, 0], tread.sum())
+    return found, sigma
 
 
 def smooth_field(away: Array, width: float) -> Array:
@@ -309,6 +329,14 @@ def _bottom(line: StairLine, s: Array, t: Array, z: Array, tight: float) -> Stai
     return line
 
 
+def _without_odd(line: StairLine, s: Array, t: Array, z: Array, tight: float) -> StairLine:
+    """Line fitted to its steps alone, and not to the last riser, which may be another one."""
+    if line.last - line.first < 3:
+        return line
+    inner = replace(line, last=line.last - 1)
+    return replace(fitted(inner, s, t, z, tolerances=(tight, tight)), last=line.last)
+
+
 def _densest(values: Array, width: float) -> tuple[float, float, int]:
     """Mean of the most crowded level, its standard uncertainty, and its points."""
     if not len(values):
@@ -359,18 +387,23 @@ def _last_riser(
     The length is NaN where no landing was seen.
     """
     last, r, g = found[-1], line.rise, line.going
-    level = (np.abs(z - last[1]) < tight) & (s > last[0] + 0.03)
-    ahead = s[level] - last[0]
-    if level.sum() >= FLOOR_SEEN and _reach(ahead) > g + 0.1:
+    alone = bool(measured[-1, 1])
+    within = tight if alone else max(tight, ODD_UNSEEN * r)
+    near = (np.abs(z - last[1]) < within) & (s > last[0] + 0.03)
+    height, doubt, count = _densest(z[near], max(tight, 0.01))
+    ahead = s[near & (np.abs(z - height) < tight)] - last[0]
+    if count >= FLOOR_SEEN and _reach(ahead) > g + 0.1:
+        if not alone:
+            found[-1, 1], sigma[-1, 1], measured[-1, 1] = height, doubt, True
         return found, sigma, measured, _reach(ahead)
     above = (s > last[0] + g + 0.03) & (s < last[0] + g + 1.2)
-    above &= (z > last[1] + 0.2 * r) & (z < last[1] + 1.7 * r)
+    above &= (z > last[1] + 0.2 * r) & (z < last[1] + HIGHEST_LAST * r)
     height, doubt, count = _densest(z[above], max(tight, 0.01))
     if count < FLOOR_SEEN:
         return found, sigma, measured, math.nan
     on = above & (np.abs(z - height) < tight)
     reach = _reach(s[on] - last[0] - g)
-    across = float(np.ptp(np.percentile(t[on], [2, 98]))) if on.any() else 0.0
+    across = STRIP * np.unique(np.floor(t[on] / STRIP)).size  # not of walls at both sides
     narrow = across < LANDING_ACROSS * float(np.ptp(np.percentile(t, [2, 98])))
     if reach < 0.1 + 0.5 * g or count < 0.5 * above.sum() or narrow:
         return found, sigma, measured, math.nan
