@@ -19,7 +19,7 @@ on it [m]."""
 FEWEST = 12
 """Patches of a plane; more of them say no more, because their errors are alike."""
 LEAST = 0.15
-"""Least spread of a plane's patches, root mean square, along the way in which it may tilt [m]:
+"""Least spread of a plane's patches, root mean square, where it may tilt [m]:
 those of a tread and a riser are shorter."""
 SCATTER = 0.003
 """Least scatter of patches about a plane [m]: ranges err by as much from one direction to the
