@@ -8,7 +8,7 @@ import pytest
 
 from kaidan.contact import Status
 from kaidan.models import balance as module
-from kaidan.models.balance import _energy, _falls, _hits, _rocking, _tips, balance
+from kaidan.models.balance import _energy, _falls, _hits, _least, _rocking, _tips, balance
 from kaidan.models.findings import Finding
 from kaidan.models.spread import Spread
 from kaidan.modes import (
@@ -162,10 +162,10 @@ def test_which_falls_are_of_a_phase(falls):
 def test_how_hard_rotations_end_and_what_momentum_is_left():
     """Of those alike the first; what the rubber takes up has no momentum."""
     chains = [
+        chain(step=4, impact_speed=0.6, spare=0.04, spare_after_impact=0.05),
         chain(step=1, impact_speed=0.3, spare=0.0300005, spare_after_impact=0.06),
         chain(step=2, impact_speed=0.7, spare=0.0300000, spare_after_impact=0.05),
         chain(step=3, impact_speed=0.7, angle=TAKEN_UP, spare=-1.0, spare_after_impact=-1.0),
-        chain(step=4, impact_speed=0.6, spare=0.04, spare_after_impact=0.05),
     ]
     hit, momentum = _hits(ASKED, found(), chains)
     assert (hit.mode, hit.worst, hit.step) == (IMPACT, pytest.approx(-0.2), 2)
@@ -174,7 +174,7 @@ def test_how_hard_rotations_end_and_what_momentum_is_left():
     )  # fmt: skip
     assert (momentum.worst.tolist(), momentum.best.tolist()) == ([0.0300005], [0.05])
     assert momentum.step == 1
-    assert [each.mode for each in _hits(ASKED, found(), chains[2:3])] == [IMPACT]
+    assert [each.mode for each in _hits(ASKED, found(), chains[3:])] == [IMPACT]
 
 
 @pytest.mark.parametrize(
@@ -240,8 +240,8 @@ def test_the_least_energy_of_the_phases_by_hand():
     least = [pytest.approx(each, abs=2e-7) for each in (0.07, 0.05, 0.06)]
     assert energy() == (Phase.TRAVERSE, 5, least, least)  # uphill, of the two alike the first
     held = SimpleNamespace(
-        worst=SimpleNamespace(heights={Phase.TRAVERSE: 0.05, Phase.ENTER: 0.01}),
-        best=SimpleNamespace(heights={Phase.TRAVERSE: 0.04}),
+        worst=SimpleNamespace(heights={Phase.TRAVERSE: 0.05, Phase.ENTER: 0.03}),
+        best=SimpleNamespace(heights={Phase.TRAVERSE: 0.04, Phase.ENTER: 0.01}),
     )
     worst = [pytest.approx(each) for each in (0.03, 0.03, 0.02)]
     best = [pytest.approx(each) for each in (0.04, 0.04, 0.03)]
@@ -249,6 +249,8 @@ def test_the_least_energy_of_the_phases_by_hand():
     # beside the flight: entering, going down landing
     enter = [pytest.approx(0.09)]
     assert energy(flight=False) == (Phase.ENTER, 1, enter, enter)
+    worst, best = [pytest.approx(0.06)], [pytest.approx(0.08)]
+    assert energy(held=held, flight=False) == (Phase.ENTER, 1, worst, best)
     assert energy(flight=False, descending=True)[:2] == (Phase.LAND, 8)
     # one that falls has none, where it falls
     for status in (Status.FELL_BACKWARD, Status.FELL_FORWARD):
@@ -317,3 +319,8 @@ def test_what_tips_in_every_sample_has_no_energy(monkeypatch):
     assert ENERGY not in modes(0.0, -0.01, -0.02)
     assert ENERGY in modes(0.01, -0.01, -0.02)
     assert FALL_DOWNHILL in modes(0.0, -0.01, -0.02)
+
+
+def test_the_smaller_of_two_findings_by_their_smallest_sample():
+    one, other = given(ENERGY, [0.1, 0.5]), given(ENERGY, [0.2, 0.3])
+    assert _least(one, other) is _least(other, one) is one
