@@ -8,6 +8,8 @@ import pytest
 
 from kaidan import Question
 from kaidan.assessment import plan_search, plan_sturdy
+from kaidan.assessment.plan import PlanShown, PlanStep
+from kaidan.assessment.plan import plan_of as plan_of_answer
 from kaidan.assessment.plan_hopes import Hope, Search, _along, _order
 from kaidan.assessment.plan_scores import ENOUGH, Score
 from kaidan.assessment.plan_search import (
@@ -23,7 +25,8 @@ from kaidan.assessment.plan_search import (
 )
 from kaidan.assessment.plan_sturdy import OUT, Sturdier, Worth
 from kaidan.assessment.plans import Plan, cost_of, cost_of_drop, off, off_angles, pressed, words
-from kaidan.modes import FALL_DOWNHILL, Phase, Verdict
+from kaidan.models.findings import Finding, Findings
+from kaidan.modes import FALL_DOWNHILL, POSTURE_TOLERANCE, Phase, Verdict
 from kaidan.robot import Posture, Robot
 
 GO, CAUTION, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.CAUTION, Verdict.NO_GO))
@@ -93,6 +96,50 @@ def test_off_the_angles_every_way():
     ]  # fmt: skip
     assert {one.tolerance for one in ways} == {asked(tolerance=None).tolerance}
     assert list(off_angles(asked(posture=Posture()))) == []
+
+
+def shown(**given):
+    usual = {"phase": "enter", "before_step": None, "flippers": "stowed", "front_deg": None,
+             "rear_deg": None, "state": None, "turn_deg": None, "time_s": None,
+             "torque_Nm": None}  # fmt: skip
+    return PlanStep(**(usual | given))
+
+
+def test_a_plan_with_nothing_to_lay_out():
+    def bare(*steps):
+        return PlanShown(
+            facing="nose-first", flippers="", steps=steps, found=True, holds_within_deg=None,
+            tried=None,
+        ).bare  # fmt: skip
+
+    assert bare(shown())
+    for laid in ({"front_deg": 0.0}, {"rear_deg": 1.0}, {"state": "out"}):
+        assert not bare(shown(**laid))
+    assert not bare(shown(), shown())
+
+
+def test_the_plan_of_an_answer():
+    """Its steps, and how far off its angles it holds; of one stated posture there is none."""
+    nothing, fails = (
+        Findings(model="", each=each)
+        for each in ((), (Finding.certain(POSTURE_TOLERANCE, -1.0, model=""),))
+    )
+    land = {"before": "land", "posture": HIGH}
+    assert plan_of_answer(asked(tolerance=0.0), nothing, None) is None
+    plan = plan_of_answer(asked(), nothing, None)
+    assert (plan.found, plan.tried, plan.holds_within_deg) == (False, None, pytest.approx(2.0))
+    assert plan_of_answer(asked(), fails, None).holds_within_deg == 0.0
+    assert plan_of_answer(asked(posture=Posture()), nothing, None).holds_within_deg is None
+    found = plan_of_answer(asked(changes=(land,)), nothing, SimpleNamespace(tried=7))
+    assert (found.found, found.tried) == (True, 7)
+    assert [(one.phase, one.before_step) for one in found.steps] == [
+        ("enter", None), ("land", len(asked().profile.nosings)),
+    ]  # fmt: skip
+    assert [one.front_deg for one in found.steps] == pytest.approx(
+        [math.degrees(-0.1), math.degrees(0.3)]
+    )
+    traverse = {"before": "traverse", "posture": HIGH}
+    assert plan_of_answer(asked(changes=(traverse,)), nothing, None).steps[1].before_step == 1
 
 
 # postures about a plan's
@@ -175,6 +222,9 @@ def test_angles_about_a_posture(sturdier):
     search, _ = sturdier((0.0, 1.0), limits=(-5.0, 8.0), tolerance=3.0)
     found = [round(math.degrees(each.front), 6) for each in search._about(degrees(1.4)[0])]
     assert found == [4.0, -2.0, 7.0, -5.0]
+    wide, _ = sturdier((0.0, 1.0), tolerance=2.0)
+    found = [math.degrees(each.front) for each in wide._about(degrees(0.0)[0])]
+    assert sorted(found) == pytest.approx([*range(-16, 0, 2), *range(2, 17, 2)])
 
 
 @pytest.mark.parametrize(

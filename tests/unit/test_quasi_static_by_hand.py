@@ -1,0 +1,256 @@
+"""Friction, drive, obstacles and what is no answer, by hand; no kernel runs."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from kaidan import Question, Robot, Stairs
+from kaidan.contact import Status
+from kaidan.models.drive_limits import steepest_for_drive, traction_limit
+from kaidan.models.quasi_static import (
+    _answered,
+    _drive_margin,
+    _drives_alike,
+    _Extremes,
+    _obstacles,
+    _supply,
+    repeats,
+)
+from kaidan.models.spread import Spread
+from kaidan.modes import (
+    DRIVE,
+    HIGH_CENTRING,
+    LANDING_ROOM,
+    SLIDES_DOWN,
+    SLIDES_UP,
+    STUCK,
+    Phase,
+    Verdict,
+)
+from kaidan.robot import Track
+
+G = 9.80665
+KENAF = Robot.named("kenaf")
+
+
+def drive(**given):
+    usual = {"max_traction": None, "max_power": None, "efficiency": 0.5, "rolling_resistance": 0.0}
+    return SimpleNamespace(**(usual | given))
+
+
+def asked(*, speed=0.0, mass=10.0, direction="up", a=0.0, angle=0.5, belly=None, **of_drive):
+    robot = SimpleNamespace(drive=drive(**of_drive), track=SimpleNamespace(belly_clearance=belly))
+    return SimpleNamespace(
+        robot=robot, speed=speed, direction=direction, acceleration=a, friction=(0.5, 0.8),
+        stance=SimpleNamespace(mass=mass), profile=SimpleNamespace(angle=angle),
+        leaves=(0.7, 0.9), rolling_resistance=robot.drive.rolling_resistance,
+    )  # fmt: skip
+
+
+# drive
+
+
+def test_the_traction_of_a_drive():
+    """Power counts on the way up, and at a speed: 100 W and half of it lost, at 0.25 m/s."""
+    assert traction_limit(asked()) is None
+    assert traction_limit(asked(max_traction=150.0)) == 150.0
+    both = {"max_traction": 250.0, "max_power": 100.0}
+    assert traction_limit(asked(**both)) == 250.0
+    assert traction_limit(asked(**both, speed=0.25)) == 200.0
+    assert traction_limit(asked(**both), 0.25) == 200.0
+    assert traction_limit(asked(**both, speed=0.1)) == 250.0
+    assert traction_limit(asked(**both, speed=0.25, direction="down")) == 250.0
+    assert traction_limit(asked(max_power=100.0, speed=0.25)) == 200.0
+    assert traction_limit(asked(max_power=100.0)) is None
+
+
+def test_the_slope_that_takes_all_traction():
+    """F = m (a + g sin theta): 10 kg, half the weight and more for the acceleration."""
+    question = asked(max_traction=5.0 * G + 20.0)
+    found = steepest_for_drive(question, np.array([2.0, 2.0 + 5.0 * G / 10, 9.0, -90.0]))
+    assert found == pytest.approx(
+        [math.pi / 6, 0.0, -math.asin((90 - 20 - 5 * G) / (10 * G)), math.pi / 2]
+    )
+    assert steepest_for_drive(question, 30.0) == -math.pi / 2  # no descent gives that much
+    for unknown in (asked(), asked(max_traction=50.0, mass=None)):
+        assert math.isnan(steepest_for_drive(unknown, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("required", "margin"),
+    [
+        (0.5, math.pi / 2 - math.pi / 6),
+        (1.2, math.pi / 2 - (math.pi / 2 + 0.2)),
+        (math.nan, math.nan),
+    ],
+)
+def test_the_margin_of_the_drive(required, margin):
+    """The weight as traction: upright; beyond that a radian for each weight more."""
+    weight = asked(max_traction=10.0 * G)
+    assert _drive_margin(weight, required) == pytest.approx(margin, nan_ok=True)
+
+
+def test_the_margin_of_a_drive_by_its_sheet():
+    half = asked(max_traction=5.0 * G, rolling_resistance=0.1)
+    assert _drive_margin(half, 0.2) == pytest.approx(math.asin(0.4) - math.asin(0.2))
+    assert _drive_margin(asked(max_traction=1e4), 0.2) == math.pi / 2  # at most
+    worn = asked(max_traction=5.0 * G, rolling_resistance=9.0)
+    assert _drive_margin(worn, 0.2) == pytest.approx(-math.pi / 2 - math.asin(0.2))
+    assert math.isnan(_drive_margin(asked(), 0.2))
+    assert math.isnan(_drive_margin(asked(max_traction=50.0, mass=None), 0.2))
+
+
+# friction
+
+OVER = Spread(
+    *[np.zeros(2)] * 6, angle=np.array([0.0, 0.03]), inclination=np.array([0.0, 0.05]),
+    friction=np.array([0.1, -0.9]),
+)  # fmt: skip
+
+
+def supply(question, phase=Phase.LAND, held=None, friction=0.4):
+    extremes = _Extremes(0.4, 0.5, phase, 3)
+    slides, stalls = _supply(question, SimpleNamespace(), OVER, extremes, friction, held)
+    assert stalls.mode is DRIVE
+    return slides, stalls
+
+
+def test_friction_against_what_is_required_sample_by_sample():
+    """Stated 0.5 to 0.8, in doubt by 0.1 and -0.9 (none is left at the worst), steeper by 30 mrad;
+    where the flight decides by 50 mrad.
+    """
+    for phase, steeper in ((Phase.LAND, 0.03), (Phase.TRAVERSE, 0.05)):
+        slides, _ = supply(asked(), phase)
+        assert (slides.mode, slides.phase, slides.step) == (SLIDES_DOWN, phase, 3)
+        needed = math.atan(0.4)
+        assert slides.worst == pytest.approx([math.atan(0.6) - needed, -needed - steeper])
+        assert slides.best == pytest.approx([math.atan(0.9) - needed, -needed - steeper])
+    _, stalls = supply(asked(max_traction=10.0 * G))
+    assert stalls.worst == pytest.approx([math.pi / 3, math.pi / 3 - 0.05])
+    assert stalls.best is stalls.worst
+
+
+def test_grousers_change_what_is_required_and_where():
+    held = tuple(SimpleNamespace(required=each, phase=Phase.ENTER, step=1) for each in (0.3, 0.2))
+
+    class Held(tuple):
+        worst = held[0]
+
+    slides, _ = supply(asked(), Phase.TRAVERSE, Held(held))
+    assert (slides.phase, slides.step) == (Phase.ENTER, 1)
+    assert slides.worst[0] == pytest.approx(math.atan(0.6) - math.atan(0.3))
+    assert slides.best[0] == pytest.approx(math.atan(0.9) - math.atan(0.2))
+    assert slides.worst[1] == pytest.approx(-math.atan(0.3) - 0.03)
+
+
+@pytest.mark.parametrize(
+    ("a", "angle", "mode"),
+    [(-4.7, 0.5, SLIDES_DOWN), (-4.71, 0.5, SLIDES_UP), (0.0, math.nan, SLIDES_DOWN),
+     (-0.1, math.nan, SLIDES_UP), (0.0, -0.5, SLIDES_DOWN), (-0.1, -0.5, SLIDES_UP)],
+)  # fmt: skip
+def test_braking_more_than_the_slope_does_it_slides_up(a, angle, mode):
+    """g sin(0.5) is 4.7016 m/s^2."""
+    assert supply(asked(a=a, angle=angle))[0].mode is mode
+
+
+def test_extremes_over_phases():
+    def phase(name, friction, traction, step):
+        return SimpleNamespace(
+            phase=name, required_friction=friction, traction_over_weight=traction,
+            required_friction_step=step,
+        )  # fmt: skip
+
+    each = (phase(Phase.ENTER, 0.4, 0.9, 1), phase(Phase.LAND, 0.6, 0.3, 7))
+    assert _Extremes.of(None, None, each) == (0.6, 0.9, Phase.LAND, 7)
+    nothing = _Extremes.of(None, None, ())
+    assert nothing[2:] == (None, None)
+    assert math.isnan(nothing.friction)
+    assert math.isnan(nothing.traction)
+
+
+# obstacles
+
+
+def obstacles(*, belly=None, touches=(), phase=None, status=Status.OK, descending=False):
+    found = SimpleNamespace(
+        status=status, end=(Phase.TRAVERSE, 4), descending=descending,
+        outline=SimpleNamespace(reach=(0.4, 0.6)), profile=SimpleNamespace(landings=(2.0, 3.0)),
+    )  # fmt: skip
+    phases = tuple(SimpleNamespace(phase=each, belly_touches=each in touches) for each in Phase)
+    return {one.mode: one for one in _obstacles(asked(belly=belly), found, phase, phases)}
+
+
+def test_room_on_the_landings_is_the_least_of_both():
+    """1 m of robot: 2.0 - 0.7 and 3.0 - 0.9 m deep; driven down the doors change places."""
+    assert list(obstacles()) == [LANDING_ROOM]
+    room = obstacles()[LANDING_ROOM]
+    assert (room.worst.tolist(), room.failing) == ([pytest.approx(0.3)], Verdict.CAUTION)
+    assert obstacles(descending=True)[LANDING_ROOM].worst == pytest.approx(0.1)
+    assert obstacles(phase=Phase.ENTER) == {}
+    assert list(obstacles(phase=Phase.LAND)) == [LANDING_ROOM]
+
+
+def test_where_it_is_stuck():
+    stuck = obstacles(status=Status.STUCK)[STUCK]
+    assert (stuck.worst.tolist(), stuck.phase, stuck.step) == ([-math.pi / 2], Phase.TRAVERSE, 4)
+    assert stuck.failing is Verdict.NO_GO
+    assert STUCK in obstacles(status=Status.STUCK, phase=Phase.TRAVERSE)
+    assert STUCK not in obstacles(status=Status.STUCK, phase=Phase.LAND)
+    assert STUCK not in obstacles(status=Status.FELL_BACKWARD)
+
+
+def test_where_its_belly_touches():
+    free = obstacles(belly=0.05)[HIGH_CENTRING]
+    assert (free.worst.tolist(), free.phase) == ([math.inf], None)
+    found = obstacles(belly=0.05, touches=(Phase.TRAVERSE, Phase.LAND))[HIGH_CENTRING]
+    assert (found.worst.tolist(), found.phase) == ([-math.inf], Phase.TRAVERSE)
+    assert found.failing is Verdict.CAUTION
+    assert HIGH_CENTRING not in obstacles(touches=(Phase.LAND,))
+
+
+# what is driven
+
+
+@pytest.mark.parametrize("status", Status)
+@pytest.mark.parametrize("a", [0.0, 0.1, -0.1])
+def test_what_is_no_answer(status, a):
+    """The solver's failures; and a robot that rocks where effective gravity turns."""
+    failed = status in (Status.NOT_CONVERGED, Status.TOO_LONG, Status.NO_START)
+    rocks = status is Status.STUCK and a != 0
+    assert _answered(asked(a=a), SimpleNamespace(status=status)) is not (failed or rocks)
+
+
+def long(flat_length):
+    track = Track(flat_length=flat_length, front_radius=0.06, rear_radius=0.06)
+    return Robot(name="long", com_from_front=1.0, com_height=0.2, track=track)
+
+
+def test_which_flights_repeat_themselves():
+    """Over 60 risers, if the robot spans less than 30 of them: 30 hypot(50, 50) mm are 2.12 m."""
+
+    def of(robot=KENAF, **flight):
+        return repeats(Question.in_one_posture(robot, Stairs(**flight)))
+
+    assert of(rise=0.1, going=0.3, steps=61)
+    assert not of(rise=0.1, going=0.3, steps=60)
+    assert not of(rises=(0.1,) * 30 + (0.12,) * 31, goings=(0.3,) * 60)
+    assert of(long(2.0), rise=0.05, going=0.05, steps=80)  # 2.12 m with its ends
+    assert not of(long(2.002), rise=0.05, going=0.05, steps=80)
+
+
+def test_which_questions_have_one_traverse():
+    flight = Stairs(rise=0.1, going=0.3)
+
+    def of(robot=KENAF, stairs=flight, friction=0.5, **manner):
+        return Question.in_one_posture(robot, stairs, friction=friction, **manner)
+
+    assert _drives_alike(of(), of(friction=0.9))
+    belts = KENAF.track.model_copy(update={"belt": "smooth"})
+    assert _drives_alike(of(), of(KENAF.model_copy(update={"track": belts})))
+    for other in (
+        of(stairs=Stairs(rise=0.1, going=0.31)), of(direction="down"), of(acceleration=0.1),
+        of(facing="tail-first"), of(KENAF.with_centroid(0.2, 0.08)),
+    ):  # fmt: skip
+        assert not _drives_alike(of(), other)
