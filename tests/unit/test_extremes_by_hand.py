@@ -10,6 +10,7 @@ from kaidan.contact import Feature, FeatureKind
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Phase, extremes
+from kaidan.traversal.brief import by_how_long
 from kaidan.traversal.extremes import (
     Rise,
     _comes_back,
@@ -248,3 +249,45 @@ def test_the_step_of_the_least_rise_and_of_the_first_rock(monkeypatch):
     for row, step in ((0, 1), (2, 3), (-1, 0)):
         monkeypatch.setattr(extremes, "first_rock", lambda *given, r=row, **more: (0.1, r))
         assert _rock(path, np.arange(3), 1.0, STEPS, False, 0.0, 3) == (0.1, step)
+
+
+def braked(*runs, more=(), up=False):
+    """Tractive forces of runs of poses between exchanges, and of some poses between."""
+    s = np.concatenate([np.linspace(begin, end, len(each)) for begin, end, each in runs])
+    leg = np.zeros(len(s))
+    path = SimpleNamespace(
+        poses=Rows(front_point=s, s=s, leg=leg, path_direction=np.full(len(s), 0.5 if up else -0.5))
+    )
+    traction = np.concatenate([[*each] for _, _, each in runs] + [[each for _, each in more]])
+    row = np.r_[np.arange(len(s)), [row for row, _ in more]].astype(int)
+    found = by_how_long(path, traction, row).tolist()
+    return found[: len(s)], found[len(s) :]
+
+
+def test_brief_braking_counts_by_how_long_it_lasts():
+    """5 mm between two long runs are a quarter of 20 mm, above the larger of 2 and 3 N/kg."""
+    before, after = (0.0, 0.10, (1.0, 1.0, 2.0)), (0.105, 0.2, (3.0, 1.0, 1.0))
+    brief = (0.10, 0.105, (8.0, 2.5))
+    found, more = braked(before, brief, after, more=[(3, 6.0), (1, 7.0)])
+    assert found == pytest.approx([1, 1, 2, 4.25, 2.5, 3, 1, 1])
+    assert more == pytest.approx([3.75, 7.0])
+    assert braked(before, brief, after, up=True)[0][3] == 8.0  # it does not brake
+    long = (0.10, 0.12, (8.0, 8.0))
+    assert braked(before, long, (0.12, 0.2, (3.0, 1.0)))[0][3:5] == pytest.approx([8.0, 8.0])
+    # at an end there is one run beside it; with none at all it is as it is
+    assert braked(brief, after)[0][0] == pytest.approx(4.25)
+    assert braked(before, brief)[0][3] == pytest.approx(2 + 0.25 * 6)
+    assert braked(brief)[0] == [8.0, 2.5]
+
+
+def test_brief_runs_side_by_side_last_as_long_as_they_brake_no_less():
+    """Of 5 mm at 8 N/kg and 10 mm at 9: braking of 8 lasts 15 mm, that of 9 lasts 10 mm."""
+    before, after = (0.0, 0.10, (1.0, 3.0)), (0.115, 0.2, (2.0, 1.0))
+    low, high = (0.10, 0.105, (8.0, 8.0)), (0.105, 0.115, (9.0, 9.0))
+    expected = [3 + 0.75 * 5] * 2 + [3 + 0.5 * 6] * 2
+    assert braked(before, low, high, after)[0][2:6] == pytest.approx(expected)
+    low, high = (0.11, 0.115, (8.0, 8.0)), (0.10, 0.11, (9.0, 9.0))
+    assert braked(before, high, low, after)[0][2:6] == pytest.approx(expected[::-1])
+    # never more than it is
+    two = [(0.1, 0.115, (8.0, 8.0)), (0.115, 0.13, (8.0, 8.0))]
+    assert braked(before, *two, (0.13, 0.2, (2.0, 1.0)))[0][2:6] == [8.0] * 4
