@@ -173,15 +173,19 @@ def test_a_contact_below_the_centroid_carries_all_of_it():
         assert loads == pytest.approx({rear.point: 0.0, below.point: G})
 
 
-def test_contacts_on_one_side_of_the_centroid_are_no_pair():
-    """A floor and a face that holds it from behind, both ahead: 0.2 / mu = 0.5 + 0.2 mu above."""
-    rear, front, hook = touching(-0.3, -0.2), touching(0.2, -0.2), touching(0.2, 0.3, -math.pi / 2)
+@pytest.mark.parametrize("side", [1, -1])
+def test_contacts_on_one_side_of_the_centroid_are_no_pair(side):
+    """A floor and a face that holds it from behind, both ahead: 0.2 / mu = 0.5 + 0.2 mu above.
+
+    Or the other way round.
+    """
+    rear, front = touching(-0.3 * side, -0.2), touching(0.2 * side, -0.2)
+    hook = touching(0.2 * side, 0.3, -math.pi / 2 * side)
     mu = (-0.5 + math.sqrt(0.5**2 + 4 * 0.2 * 0.2)) / (2 * 0.2)
     assert contact.pair_forces(front, hook, COM, (0.0, G)).required_friction == pytest.approx(mu)
     found, _ = forces((rear, front, hook), (rear, front), needed=mu)
-    assert [(each.point, each.load) for each in found] == [
-        (rear.point, pytest.approx(0.4 * G)), (front.point, pytest.approx(0.6 * G)), (hook.point, 0)
-    ]  # fmt: skip
+    loads = {each.point: each.load for each in found}
+    assert loads == pytest.approx({rear.point: 0.4 * G, front.point: 0.6 * G, hook.point: 0.0})
     assert found[-1].traction == 0.0
 
 

@@ -1,0 +1,359 @@
+"""Scores of postures, and the search among them, on scores made by hand; nothing is driven."""
+
+import math
+from types import SimpleNamespace
+
+import pytest
+
+from kaidan import Question, Robot, Stairs
+from kaidan.assessment import plan_search
+from kaidan.assessment.plan_hopes import Hope, Search
+from kaidan.assessment.plan_scores import ENOUGH, ROUNDING, UNKNOWN, Score, Scores
+from kaidan.assessment.plan_search import (
+    Judged,
+    _Candidate,
+    _candidates,
+    _Off,
+    _sturdiest,
+    judged_of,
+    shortened,
+)
+from kaidan.models.findings import Findings
+from kaidan.models.planned import STAND_OFF
+from kaidan.models.quasi_static import Basis
+from kaidan.modes import Phase, Verdict
+from kaidan.outline import Outline
+from kaidan.robot import Posture
+from kaidan.terrain.profile import Profile
+from kaidan.traversal.rating import Rated
+from kaidan.traversal.rotations import ROCKING
+
+GO, CAUTION, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.CAUTION, Verdict.NO_GO))
+ONE = Robot.model_validate(Robot.named("absolem").model_dump() | {"rear_flippers": None})
+FLIGHT = Stairs(rise=0.17, going=0.29, steps=6)
+RATED = Rated(
+    required_friction=0.5, belly_touches=False, rotation=0.2, avoidable=0.0, impact_speed=0.1,
+    spare=0.01, downhill=0.3, uphill=0.25,
+)  # fmt: skip
+
+
+def asked(terrain=FLIGHT, robot=ONE, **given):
+    usual = {"friction": (0.6, 1.0), "theta_d": (0.01, 0.02), "theta_M": (0.01, 0.05)}
+    return Question.in_one_posture(robot, terrain, **(usual | given))
+
+
+def scores(terrain=FLIGHT, facing="nose-first", **given):
+    return Scores(asked(terrain, **given), facing)
+
+
+def degrees(*angles):
+    return [Posture(front=math.radians(each)) for each in angles]
+
+
+# scores
+
+
+def test_the_score_of_a_drive():
+    """Friction 0.6 to 1.0, less 0.07 rad downhill and 0.02 uphill; the smallest margin counts."""
+    of = scores()._score
+    slides = math.degrees(math.atan(0.6) - math.atan(0.5))
+    assert of(RATED) == Score(True, 0, pytest.approx(slides), pytest.approx(-math.degrees(0.2)))
+    for given, margin in (({"downhill": 0.1}, 0.03), ({"uphill": 0.05}, 0.03)):
+        assert of(RATED._replace(**given)).margin == pytest.approx(math.degrees(margin))
+    easy = RATED._replace(required_friction=0.1, downhill=math.inf, uphill=math.inf)
+    assert of(easy).margin == ENOUGH
+    assert of(RATED._replace(required_friction=1.0)).passes is False
+    assert of(RATED._replace(required_friction=0.99)).passes is True
+    nobody = scores(friction=None)._score
+    assert UNKNOWN == 1.0
+    assert nobody(RATED._replace(required_friction=9.0)).passes is True
+    assert nobody(RATED._replace(required_friction=0.9)).margin == pytest.approx(
+        math.degrees(math.atan(1.0) - math.atan(0.9))
+    )
+
+
+def test_ways_in_which_a_drive_fails():
+    of = scores()._score
+    tolerated = ONE.tolerated_impact
+    for given in (
+        {"required_friction": 0.6}, {"downhill": 0.07}, {"uphill": 0.02}, {"spare": 0.0},
+        {"avoidable": math.nextafter(ROCKING, 1)}, {"impact_speed": tolerated},
+        {"belly_touches": True},
+    ):  # fmt: skip
+        assert of(RATED._replace(**given)).failing == -1
+    for given in (
+        {"required_friction": 0.599}, {"downhill": 0.071}, {"uphill": 0.021}, {"spare": 1e-9},
+        {"avoidable": ROCKING}, {"impact_speed": 0.999 * tolerated},
+    ):  # fmt: skip
+        assert of(RATED._replace(**given)).failing == 0
+    assert of(RATED._replace(downhill=0.0, uphill=0.0, belly_touches=True)).failing == -2
+
+
+def test_no_posture_has_more_margin_on_the_flight_than_friction_leaves():
+    slope = math.atan2(0.17, 0.29)
+    by_hand = math.degrees(math.atan(0.6) - slope) - ROUNDING
+    assert scores().bound(Phase.TRAVERSE) == pytest.approx(by_hand)
+    assert scores(direction="down").bound(Phase.TRAVERSE) == pytest.approx(by_hand)
+    assert scores().bound(Phase.LAND) == ENOUGH
+    assert scores(Profile.of_points([(0, 0), (2, 0)])).bound(Phase.TRAVERSE) == ENOUGH
+
+
+@pytest.mark.parametrize("direction", ["up", "down"])
+def test_where_phases_begin_and_end(direction):
+    """50 mm before the first nosing and before the last one, level and along the flight."""
+    found = scores(direction=direction)
+    driven = Profile.of_stairs(FLIGHT)
+    driven = driven.reflected() if direction == "down" else driven
+    first, last = (float(driven.nosings[k, 0]) - STAND_OFF for k in (0, -1))
+    assert found.phases == tuple(Phase)
+    assert found.stretch(Phase.ENTER) == (None, pytest.approx(first))
+    start, until = found.stretch(Phase.TRAVERSE)
+    assert (tuple(start), until) == (pytest.approx((first, 0.0, 0.0)), pytest.approx(last))
+    start, until = found.stretch(Phase.LAND)
+    slope = math.atan2(0.17, 0.29)
+    slope = -slope if direction == "down" else slope
+    assert (tuple(start), until) == (pytest.approx((last, 0.0, slope)), None)
+
+
+def test_where_there_are_few_nosings():
+    kerb = scores(Profile.of_points([(-2, 0), (0, 0), (0, 0.1), (2, 0.1)]))
+    assert kerb.phases == (Phase.ENTER, Phase.LAND)
+    assert kerb.stretch(Phase.LAND) == ((pytest.approx(-STAND_OFF), 0.0, 0.0), None)
+    assert scores(Profile.of_points([(0, 0), (2, 0)])).phases == (Phase.ENTER,)
+    for going, phases in ((STAND_OFF - 1e-6, 2), (STAND_OFF + 1e-6, 3)):
+        two = [(-2, 0), (0, 0), (0, 0.1), (going, 0.1), (going, 0.2), (2, 0.2)]
+        assert len(scores(Profile.of_points(two)).phases) == phases
+
+
+def test_off_its_angles_a_posture_is_as_good_as_the_worst():
+    found = scores(flipper_tolerance=math.radians(2.0))
+    posture, up, down = found.about(degrees(10.0)[0])
+    assert math.degrees(up.front) == pytest.approx(12.0)
+    assert math.degrees(down.front) == pytest.approx(8.0)
+    for each, margin in ((posture, 5.0), (up, 3.0), (down, 4.0)):
+        found.known[Phase.LAND, each] = Score(True, 0, margin, 0.0)
+    assert found.off(Phase.LAND, posture).margin == 3.0
+    assert found.of(Phase.LAND, posture).margin == 5.0
+
+
+# the search among postures
+
+
+def searching(value, limits=(-60.0, 60.0), **given):
+    """A search of one phase in which a front angle [deg] has a value; stowed has -70."""
+    low, high = map(math.radians, limits)
+    search = Search(asked(**given), "nose-first", (low, high))
+    asked_for = []
+
+    def known(phase, posture):
+        angle = posture.front
+        at = math.degrees(angle) if isinstance(angle, float) else None
+        asked_for.append(at)
+        return Score(True, 0, -70.0 if at is None else value(at), 0.0)
+
+    search.scores = SimpleNamespace(
+        of=known, off=known, work_out=list, about=lambda posture: [posture],
+        bound=lambda phase: ENOUGH, facing="nose-first", phases=(Phase.ENTER,),
+    )  # fmt: skip
+    search._allowed = {Phase.ENTER: {Posture(): None}}
+    return search, asked_for
+
+
+def test_angles_are_refined_about_the_best():
+    """A grid of 30 deg, then 15 and 7 deg about the best: 20 deg is met to within 4."""
+    search, _ = searching(lambda at: -abs(at - 20.0))
+    search._scan(Phase.ENTER, [Posture()], ENOUGH)
+    tried = [round(math.degrees(each.front), 6) for each in search._allowed[Phase.ENTER]
+             if each.front is not None]  # fmt: skip
+    assert tried == [-60.0, -30.0, 0.0, 30.0, 60.0, 15.0, 45.0, 8.0, 22.0]
+    best, *_, worst = search._ranked(Phase.ENTER)
+    assert round(math.degrees(best.front), 6) == 22.0
+    assert round(math.degrees(worst.front), 6) == -60.0  # -80, and stowed -70
+
+
+def test_what_is_good_enough_is_not_refined():
+    """At its angles as much as is wanted, off them no failure."""
+    posture = degrees(10.0)[0]
+
+    def tries(margin, off, enough=5.0, bound=ENOUGH):
+        search, _ = searching(lambda at: margin)
+        search.scores.off = lambda phase, each: Score(True, 0, off, 0.0)
+        search.scores.bound = lambda phase: bound
+        search._better(Phase.ENTER, posture, "front", [0.5], enough)
+        return len(search._allowed[Phase.ENTER]) > 1
+
+    assert not tries(5.0, 0.0)
+    assert tries(4.9, 0.0)
+    assert tries(5.0, -0.1)
+    assert not tries(4.9, 0.0, bound=4.0)
+    assert tries(14.9, 0.0, enough=math.inf)
+    assert not tries(ENOUGH, 0.0, enough=math.inf)
+
+
+def test_angles_within_the_limits_and_in_whole_degrees():
+    search, _ = searching(lambda at: at, limits=(-10.0, 20.0))
+    angles = [math.radians(each) for each in (-10.0, -10.6, 19.6, 20.6, 3.4)]
+    best = search._better(Phase.ENTER, degrees(0.0)[0], "front", angles, ENOUGH)
+    tried = [round(math.degrees(each.front), 6) for each in list(search._allowed[Phase.ENTER])[1:]]
+    assert tried == [-10.0, 3.0, 20.0]
+    assert round(math.degrees(best.front), 6) == 20.0
+
+
+def test_plans_put_together_of_two_phases():
+    """Of those with as many changes the best comes first; of those alike the first."""
+    search, _ = searching(lambda at: at)
+    search.scores.phases = (Phase.ENTER, Phase.LAND)
+    low, high = degrees(4.0, 6.0)
+    found = search._together([[low, high], [low, high]])
+    fronts = [[round(math.degrees(one.front)) for _, one in each.plan.postures] for each in found]
+    assert fronts == [[6, 6], [4, 4], [4, 6], [6, 4]]
+    assert found[0].merit == (True, 0, pytest.approx(6 + 0.05 * 6))
+    cost = 1.5 + 0.005 * 2
+    assert found[2].merit == (True, 0, pytest.approx(4 + 0.05 * 5 - cost))
+    assert [phase for phase, _ in found[0].plan.postures] == [Phase.ENTER, Phase.LAND]
+    assert search.off(found[0].plan) == found[0].merit
+
+
+# plans judged
+
+
+def conclusion(rank):
+    verdict = next(each for each in Verdict if each.rank == -rank)
+    return SimpleNamespace(verdict=verdict, margin=0.1, governs="", doubts=())
+
+
+def judged(rank, name="plan"):
+    question = SimpleNamespace(robot=None, postures=dict.fromkeys(Phase, Posture()), name=name)
+    return Judged(question, None, conclusion(rank), 0.0, True)
+
+
+@pytest.fixture
+def sturdiest(monkeypatch):
+    """The best of candidates: of each its rank, the worst off its angles, whether it is tried."""
+
+    def of(*each, grousers=False, sturdier=None, beaten=None):
+        search = SimpleNamespace(
+            question=SimpleNamespace(
+                robot=SimpleNamespace(track=SimpleNamespace(has_grousers=grousers)), surface="known"
+            ),
+            scores=SimpleNamespace(facing="tail-first", phases=tuple(Phase)), limits=None,
+        )  # fmt: skip
+        bars, promised = [], []
+        ranks = {str(k): one[:2] for k, one in enumerate(each)}
+        if sturdier is not None:
+            ranks["sturdier"] = sturdier
+
+        def plan(name):
+            return SimpleNamespace(question=lambda question: name)
+
+        candidates = [
+            _Candidate(plan(str(k)), (True, 0, 0.0), (True, 0 if one[0] == GO else -1, 0.0))
+            for k, one in enumerate(each)
+        ]
+
+        def may(search, one, bar, of_best, drives):
+            bars.append(bar)
+            promised.append(None if of_best is None else of_best.plan.question(None))
+            return each[int(one.plan.question(None))][2]
+
+        def judged_off(one, bar, drives, search=None):
+            worst = (ranks[one.question.name][1], *one.merit[1:])
+            return _Off(one, worst, True)
+
+        class Found:
+            def __init__(self, *given):
+                pass
+
+            def plan(self, plan):
+                assert plan.facing == "tail-first"
+                assert [phase for phase, _ in plan.postures] == list(Phase)
+                return None if sturdier is None else SimpleNamespace(question=lambda _: "sturdier")
+
+        monkeypatch.setattr(plan_search, "_candidates", lambda search: candidates)
+        monkeypatch.setattr(plan_search, "_may_be_better", may)
+        monkeypatch.setattr(
+            plan_search, "_judged", lambda name, drives: judged(ranks[name][0], name)
+        )
+        monkeypatch.setattr(plan_search, "_judged_off", judged_off)
+        monkeypatch.setattr(plan_search, "Sturdier", Found)
+        found = _sturdiest(search, beaten, "drives")
+        return (None if found is None else found.judged.question.name), bars, promised
+
+    return of
+
+
+def test_the_sturdiest_of_candidates(sturdiest):
+    """The best off its angles, the first of those alike; what cannot be better is not judged."""
+    assert sturdiest((GO, GO, True), (GO, GO, True))[0] == "0"
+    assert sturdiest((GO, CAUTION, True), (GO, GO, True))[0] == "1"
+    assert sturdiest((GO, CAUTION, True), (GO, GO, False), (GO, GO, True))[0] == "2"
+    low = judged(CAUTION).merit
+    assert sturdiest((GO, GO, False), beaten=low)[:2] == (None, [low])
+    # what there is to beat, and of the best one what it promised, where it came to that
+    _, bars, promised = sturdiest((CAUTION, CAUTION, True), (GO, CAUTION, True), (GO, GO, True))
+    assert [bar[0] for bar in bars] == [CAUTION, CAUTION]
+    assert promised[-1] == "0"
+    assert sturdiest((GO, CAUTION, True), (GO, GO, True))[2] == [None]
+
+
+def test_a_plan_that_is_go_at_its_angles_alone_is_made_sturdier(sturdiest):
+    assert sturdiest((GO, CAUTION, True), sturdier=(GO, GO))[0] == "sturdier"
+    assert sturdiest((GO, CAUTION, True), sturdier=(GO, NO_GO))[0] == "0"
+    assert sturdiest((GO, CAUTION, True))[0] == "0"
+    assert sturdiest((GO, GO, True), sturdier=(GO, GO))[0] == "0"  # it holds already
+    # one that is no GO is worth it on grousers only
+    assert sturdiest((CAUTION, CAUTION, True), sturdier=(GO, GO))[0] == "0"
+    assert sturdiest((CAUTION, CAUTION, True), sturdier=(GO, GO), grousers=True)[0] == "sturdier"
+    assert sturdiest((NO_GO, NO_GO, True), sturdier=(GO, GO), grousers=True)[0] == "0"
+    # the best of all at its angles is what counts
+    assert sturdiest(
+        (CAUTION, CAUTION, True), (GO, NO_GO, True), sturdier=(GO, GO)
+    )[0] == "sturdier"  # fmt: skip
+
+
+def test_which_plans_are_judged_and_in_which_order():
+    """The two best off their angles and the best at them; by the verdict that they promise."""
+    merits = {"a": (True, 0, 9.0), "b": (True, 0, 8.0), "c": (True, 0, 7.0), "d": (True, 0, 6.0)}
+    off = {"a": (False, 0, 0.0), "b": (True, -1, 0.0), "c": (True, 0, 1.0), "d": (True, -2, 0.0)}
+    search = SimpleNamespace(
+        hopes=lambda: [Hope(name, merit) for name, merit in merits.items()], off=off.get,
+        question=SimpleNamespace(
+            robot=SimpleNamespace(track=SimpleNamespace(has_grousers=False))
+        ),
+    )  # fmt: skip
+    found = _candidates(search)
+    assert [one.plan for one in found] == ["c", "b", "a"]
+    assert [(one.hope, one.off) for one in found] == [
+        (merits[name], off[name]) for name in ("c", "b", "a")
+    ]
+
+
+def test_what_a_plan_comes_to(monkeypatch):
+    """The largest rotation of all its parts; it arrives if all of them do."""
+    monkeypatch.setattr(plan_search, "conclude", lambda question, found: "conclusion")
+
+    def part(arrived, *angles):
+        chains = [SimpleNamespace(angle=math.radians(each)) for each in angles]
+        return SimpleNamespace(traverse=SimpleNamespace(arrived=arrived, chains=chains))
+
+    def of(*parts):
+        basis = Basis(None, SimpleNamespace(parts=parts))
+        found = judged_of("question", Findings(model="", basis=basis))
+        return found.drop, found.arrives
+
+    assert of(part(True, 3.0, -8.0, 5.0), part(True)) == (pytest.approx(8.0), True)
+    assert of(part(True), part(False, 0.5)) == (pytest.approx(0.5), False)
+    assert of(part(True)) == (0.0, True)
+    assert judged_of("question", Findings(model="")).drop == 0.0
+
+
+def test_a_long_flight_is_shortened_to_what_says_all():
+    """As many nosings as the robot spans, its flippers stretched, and three more; five at least."""
+    reach = sum(Outline.of(ONE).reach) + ONE.flippers()["front"].length
+    for going in (0.29, 0.2):
+        enough = math.ceil(reach / math.hypot(0.17, going)) + 3
+        for steps, left in ((60, enough), (enough + 1, enough), (enough, enough)):
+            flight = Stairs(rise=0.17, going=going, steps=steps)
+            assert shortened(asked(flight)).terrain.steps == left
+    wide = Stairs(rise=0.3, going=2.0, steps=20)
+    assert shortened(asked(wide)).terrain.steps == 5
