@@ -80,6 +80,8 @@ class Sheet(BaseModel):
     @model_validator(mode="wrap")
     @classmethod
     def _tell_what_is_wrong(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        if isinstance(data, cls):  # it was looked at when it was made
+            return handler(data)
         wrong: list[str] = []
         if isinstance(data, Mapping):
             data = cls._in_si(data, wrong)
@@ -101,9 +103,9 @@ class Sheet(BaseModel):
     @classmethod
     def _in_si(cls, data: Mapping[Any, Any], wrong: list[str]) -> dict[Any, Any]:
         """Fields with quantities written as texts ("290mm") as numbers; `wrong` gets the others."""
-        read = dict(data)
+        read, units = dict(data), _units_of(cls)
         for name, value in data.items():
-            if name not in _units_of(cls):
+            if name not in units or value is None or type(value) is float:
                 continue
             if not is_list(cls.model_fields[name]):
                 read[name] = cls._number((name,), value, wrong)

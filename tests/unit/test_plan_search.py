@@ -394,3 +394,29 @@ def test_the_way_off_that_promises_least_is_looked_at_first():
     order = search.weakest_first(ways)
     assert order[:2] == [ways[2], ways[1]]
     assert {each.posture for each in order} == {each.posture for each in ways}
+
+
+@pytest.mark.parametrize("friction", [0.3, 0.6, 0.8, 1.2])
+def test_what_is_certainly_no_failure_is_judged_to_be_none(friction):
+    drives, told = Drives(), set()
+    for flippers, rise in product(("stowed", "flat", "35deg,-13deg/traverse:flat"), (0.15, 0.21)):
+        stairs = Stairs(name="some", rise=rise, going=0.26, steps=5)
+        plan = Question.of("absolem", stairs, friction=friction, flippers=flippers)
+        sound = drives.is_no_failure(plan)
+        failure = conclude(plan, drives.judge(plan)).verdict is Verdict.NO_GO
+        assert not (sound and failure)
+        told.add(sound)
+    assert told == ({False} if friction < 0.5 else told)
+
+
+def test_some_plans_are_certainly_no_failure_and_unsure_ones_never():
+    drives = Drives()
+    flat = Question.of("absolem", STAIRS, friction=1.2, flippers="flat/land:-60deg,-20deg")
+    assert drives.is_no_failure(flat)
+    assert not drives.is_no_failure(flat.changed(surface=Surface.of_friction(0.3)))
+    assert not drives.is_no_failure(flat.changed(fall_reserve=math.radians(29.9)))
+    grousers = flat.robot.track.model_copy(update={"belt": "grousers"})
+    unsure = flat.robot.model_copy(update={"track": grousers})
+    assert not drives.is_no_failure(flat.changed(robot=unsure))
+    kenaf = Question.of("kenaf", "ibc", friction=2.0)
+    assert not drives.is_no_failure(kenaf.changed(best_of=()))  # it falls

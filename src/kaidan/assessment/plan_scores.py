@@ -74,6 +74,7 @@ class Scores:
     def __init__(self, question: Question, facing: Facing) -> None:
         self.question, self.facing = question, facing
         self.known: dict[tuple[Phase, Posture], Score] = {}
+        self._about: dict[Posture, tuple[Posture, Posture, Posture]] = {}
         self._outlines: dict[Posture, Outline | None] = {}
         self._down = question.direction == "down"
 
@@ -91,8 +92,10 @@ class Scores:
 
     def about(self, posture: Posture) -> tuple[Posture, Posture, Posture]:
         """A posture and those with all its angles up, or down; a plan is judged at the others."""
-        both = off(self.question.robot, posture, self.question.tolerance)
-        return posture, both[0], both[-1]
+        if posture not in self._about:
+            both = off(self.question.robot, posture, self.question.tolerance)
+            self._about[posture] = posture, both[0], both[-1]
+        return self._about[posture]
 
     def work_out(self, wanted: Iterable[tuple[Phase, Posture]]) -> None:
         """Work out some scores together."""

@@ -307,6 +307,8 @@ def _judged_off(
     for off in each if search is None else search.weakest_first(each):
         if beaten is not None and worst <= beaten:
             return _Off(plan, worst, tested=False)
+        if worst[0] == -Verdict.CAUTION.rank and drives.is_no_failure(off):
+            continue
         worst = (min(worst[0], _rank_of(off, drives)), *plan.merit[1:])
         if worst != plan.merit and worst[0] <= -Verdict.NO_GO.rank:
             break

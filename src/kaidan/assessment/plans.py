@@ -42,6 +42,8 @@ class Plan(NamedTuple):
 
 def cost_of_drop(drop: Number) -> Number:
     """Margin that the largest drop of a plan outweighs [deg]."""
+    if isinstance(drop, float):
+        return A_DROP * max(drop - GENTLE, 0.0)
     return A_DROP * np.maximum(drop - GENTLE, 0.0)
 
 

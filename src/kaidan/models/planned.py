@@ -64,9 +64,7 @@ class Planned(NamedTuple):
         return self.parts[-1].traverse.arrived and all(each.stands for each in self.moves)
 
 
-def drive(
-    question: Question, *, over: Callable[..., Traverse] = driven_over, **how: Any
-) -> Planned:
+def drive(question: Question, *, over: Callable[..., Any] = driven_over, **how: Any) -> Planned:
     """Drive a plan of postures, from landing to landing.
 
     Parameters
@@ -74,7 +72,7 @@ def drive(
     question : Question
         Straight up or down.
     over : callable
-        What drives a part, as `driven_over` does.
+        What drives a part, as `driven_over` does: its path, and whether it arrives, is needed.
     **how
         As for `kaidan.traversal.traverse`.
 

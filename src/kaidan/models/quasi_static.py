@@ -278,7 +278,7 @@ def _supply(
         step=place.step,
         model=_NAME,
     )
-    drive = _drive_margin(question, extremes.traction) - over.inclination
+    drive = drive_margin(question, extremes.traction) - over.inclination
     stalls = Finding(mode=DRIVE, worst=drive, best=drive, model=_NAME)
     return [slides, stalls]
 
@@ -288,7 +288,7 @@ def _slope(question: Question) -> float:
     return 0.0 if math.isnan(angle) else angle
 
 
-def _drive_margin(question: Question, required: float) -> float:
+def drive_margin(question: Question, required: float) -> float:
     """Margin of slope of the drive [rad]; NaN: not known."""
     force, mass = traction_limit(question), question.stance.mass
     if force is None or mass is None or math.isnan(required):

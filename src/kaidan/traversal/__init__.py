@@ -159,7 +159,9 @@ class Traverse:
         return largest_survived(survives, sought=sought)
 
     def _falls_beyond(self, tilt: float) -> bool:
-        """Whether no tilt up to one makes it fall over its downhill end [rad]."""
+        """Whether no tilt up to one that counts makes it fall over its downhill end [rad]."""
+        if self.sought is not None:
+            tilt = min(tilt, max(self.sought))
         return self._survived(-1.0 if self.descending else 1.0, (tilt,)) > tilt
 
     def _fall(self, *, downhill: bool) -> Fall:

@@ -23,6 +23,10 @@ LONGEST = 400_000
 """Points and poses above which a traverse is refused: half a minute compiled."""
 CLEARANCE = 0.05
 """Way on level ground before the first and behind the last contact with the flight [m]."""
+MANY = 100
+"""Nosings above which what the criterion says is not remembered."""
+ROBOTS = 128
+"""Robots of which it is."""
 IN_LINE = 1e-6
 """Height up to which a disc counts as in line with the flat [m]."""
 
@@ -81,7 +85,15 @@ def criterion_of(driven: Profile, body: Outline, along: float) -> tuple[Tread, C
     tread, nosings = tread_of(body), driven.nosings
     if driven.falls:
         tread, nosings, along = tread.mirrored(), driven.reflected().nosings, -along
-    return tread, static_criterion(nosings, tread, acceleration=along)
+    if len(nosings) > MANY:
+        return tread, static_criterion(nosings, tread, acceleration=along)
+    return tread, _criterion(nosings.tobytes(), tread, along)
+
+
+@lru_cache(maxsize=ROBOTS)
+def _criterion(nosings: bytes, tread: Tread, along: float) -> Criterion:
+    """The same, remembered: each part of a flight has the same."""
+    return static_criterion(np.frombuffer(nosings).reshape(-1, 2), tread, acceleration=along)
 
 
 def tread_of(body: Outline) -> Tread:
