@@ -9,6 +9,8 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import pytest
 
+from answered import each_once
+
 SCRIPTS = sorted((Path(__file__).parents[2] / "docs" / "examples").glob("plot_*.py"))
 
 
@@ -19,6 +21,7 @@ def test_there_are_examples():
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
 def test_an_example_runs(script, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    each_once(monkeypatch)
     plt.switch_backend("Agg")
     runpy.run_path(str(script), run_name="__main__")
     plt.close("all")

@@ -8,7 +8,8 @@ from itertools import pairwise
 import pytest
 from typer.testing import CliRunner
 
-import kaidan.assessment
+import kaidan
+from answered import each_once
 from kaidan.cli import app
 from kaidan.modes import FAILURE_MODES
 from kaidan.text import assessment as text
@@ -32,24 +33,12 @@ CASES = {
 }  # fmt: skip
 
 
-answer_to = kaidan.assessment.answer_to
-ANSWERS = {}
-
-
-def answered(question):
-    """Answer to a question, worked out once however it is shown."""
-    text = question.to_json()
-    if text not in ANSWERS:
-        ANSWERS[text] = answer_to(question)
-    return ANSWERS[text]
-
-
 @cache
 def shown(*words):
     """Lines of an answer; several tests look at the same ones."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("sys.argv", ["kaidan", "assess", *words])
-        patch.setattr(kaidan.assessment, "answer_to", answered)
+        each_once(patch)
         result = CliRunner().invoke(app, ["assess", *words])
     assert result.exit_code in (0, 1, 3), result.output
     return result.stdout.splitlines()
