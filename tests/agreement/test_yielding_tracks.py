@@ -12,6 +12,7 @@ from scipy.optimize import brentq, minimize
 
 from kaidan.mechanics.margin import theta_s_sup
 from kaidan.mechanics.yielding import (
+    grip_tilt,
     tail_grips,
     theta_d_at_limit,
     theta_d_two_contacts,
@@ -124,6 +125,58 @@ def test_loss_where_the_tail_grips_by_hand():
         p=0.150, w_n=0.002, w_t=0.003, R=0.010, mu=3.0, speed=0.1, gyration=0.15, **KENAF
     )
     assert math.degrees(found) == pytest.approx(0.20 * 5.21 + 0.03 + 8.5 + 3.20, abs=0.1)
+
+
+def grip_by_forces(*, p, x, C_N, w_n, R, mu, lean):
+    """Most that a grip carries, by forces put in one after the other [rad]; an oracle by hand.
+
+    The nosing at phi pushes with N along the radius and pulls with mu N across it. It may push the
+    robot up the stairs by no more than the weight pulls it down.
+    """
+    theta = math.atan2(x, C_N)
+    most = 0.0
+    for k in range(1, 20_000):
+        phi = k * math.pi / 2 / 20_000
+        along, down = math.sin(phi) + mu * math.cos(phi), mu * math.sin(phi) - math.cos(phi)
+        N = math.sin(theta) / along  # over the weight
+        P = N * down
+        if P <= 0.0:
+            continue
+        # t_0 bears what the weight and the grip push across the stairs; twice as deep at the tail
+        if R * (1 - math.cos(phi)) > 2 * w_n * (math.cos(theta - lean) + P):
+            continue
+        most = max(most, math.asin(min(1.0, P * p / math.hypot(x, C_N))))
+    return min(most, theta)
+
+
+@pytest.mark.parametrize(
+    ("p", "w_n", "R", "mu"), [(0.15, 0.002, 0.02, 3.0), (0.20, 0.003, 0.05, 2.0),
+                              (0.18, 0.0012, 0.012, 1.8), (0.22, 0.004, 0.06, 4.0)],
+)  # fmt: skip
+def test_grip_tilt_is_what_the_forces_carry(p, w_n, R, mu):
+    # oracle
+    found = float(grip_tilt(p=p, w_n=w_n, R=R, mu=mu, **KENAF))
+    x = KENAF["L"] - p - KENAF["C_L"]
+    by_forces = grip_by_forces(p=p, x=x, C_N=KENAF["C_N"], w_n=w_n, R=R, mu=mu, lean=found)
+    # 1e-3: the oracle's steps of the angle
+    assert found == pytest.approx(by_forces, abs=1e-3)
+
+
+def test_grip_tilt_at_its_ends():
+    # limit: rigid, it cannot grip; on a thin end with any friction it may lift anything
+    assert grip_tilt(p=0.15, w_n=1e-9, R=0.06, mu=3.0, **KENAF) == pytest.approx(0.0, abs=1e-9)
+    theta = math.atan2(0.124, 0.071)
+    for R, mu in ((0.01, math.inf), (0.0, 5.0)):
+        assert grip_tilt(p=0.15, w_n=0.002, R=R, mu=mu, **KENAF) == pytest.approx(theta)
+    # where it carries less than was ever seen, that counts
+    few = {"p": 0.15, "w_n": 0.002, "R": 0.02, "mu": 2.1}
+    assert tail_grips(w_n=0.002, R=0.02, mu=2.1)
+    grip = grip_tilt(**few, **KENAF)
+    assert 0.0 < grip < math.radians(8.5)
+    fields = {"w_t": 1e-9, "speed": 1e-9, "gyration": 0.15}
+    rest = yielding_loss(**few, **fields, **KENAF)
+    bare = theta_s_sup_yielding(p=0.15, w_n=0.002, drop=0.0, **KENAF)
+    assert rest == pytest.approx(theta - bare + grip, abs=1e-6)
 
 
 def test_no_loss_is_known_where_the_rigid_robot_does_not_stand():

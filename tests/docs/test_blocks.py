@@ -91,6 +91,7 @@ ELSEWHERE = {
     "kaidan calibrate yielding --store yielding --figure region.svg": "by hand",
     "kaidan calibrate rig.toml": "tests/unit/rig/test_rig_kit.py",
     "kaidan calibrate theta-m --store theta-m": "by hand",
+    "kaidan calibrate engagement --store engagement": "by hand",
     "kaidan calibrate grousers --store grousers --figure grousers.svg": "by hand",
     "kaidan calibrate effects --store effects --figure effects.svg --csv effects.csv": "by hand",
     "pytest -m slow -s tests/validation/test_physics_acceptance.py": "by hand",

@@ -20,8 +20,9 @@ _ROUNDS = 80
 OVERSHOOT = 2.0
 """How far a spring without a damper goes under a load that comes at once, of where it rests."""
 REST = np.radians(8.5)
-"""What a gripping tail costs beyond what is derived [rad]: trials took up to 4.1 degrees on a
-flight, up to 8.5 from landing to landing (docs/theory/yielding.md)."""
+"""What a gripping tail costs at most beyond what is derived [rad], where its grip could carry more:
+trials took up to 4.1 degrees on a flight, up to 8.5 from landing to landing
+(docs/theory/yielding.md)."""
 
 
 def theta_d_at_limit(*, eta: Number, p: Number) -> Number:
@@ -200,6 +201,61 @@ def tail_grips(*, w_n: Number, R: Number, mu: Number) -> Number:
     return w_n >= R * (1.0 - np.sin(np.arctan(mu)))
 
 
+def grip_tilt(
+    *, L: Number, p: Number, C_L: Number, C_N: Number, w_n: Number, R: Number, mu: Number
+) -> Number:
+    """Tilt short of the limit from which the grip of a tail can still lift the robot at rest.
+
+    ``sin(m) = (p / H) sin(theta_r) tan(phi + atan(mu) - pi/2)``, H^2 = (L - p - C_L)^2 + C_N^2,
+    ``R (1 - cos(phi)) = 2 w_n (cos(theta_r - m) + sin(theta_r) tan(phi + atan(mu) - pi/2))``
+
+    A nosing that has run the angle phi along the round end pulls the tail down by no more than the
+    edge of its friction cone does with the whole pull along the stairs, W sin(a). The upper nosing
+    lifts off when that has the moment that the robot is short of its limit by, W H sin(m) about the
+    lowest nosing. phi is the farthest at which the nosing still presses, when the lowest one bears
+    the weight and the grip.
+
+    Assumptions: at rest, nosings push the robot up the stairs only; small angles of deflection.
+
+    Parameters
+    ----------
+    L, p, C_L, C_N : float or array
+        Flat length, nosing spacing, centroid behind the uphill tip and above the underside [m].
+    w_n : float or array
+        Indentation under the whole weight on one nosing [m].
+    R : float or array
+        Radius of the downhill end [m].
+    mu : float or array
+        Static friction [1]; infinite: all of theta_r.
+
+    Returns
+    -------
+    float or array
+        m [rad], 0 to theta_r = atan((L - p - C_L) / C_N); NaN where that is not positive.
+
+    Examples
+    --------
+    >>> kenaf = dict(L=0.470, p=0.150, C_L=0.196, C_N=0.071, w_n=0.002)
+    >>> [round(float(np.degrees(grip_tilt(R=R, mu=3.0, **kenaf))), 1) for R in (0.060, 0.020)]
+    [0.0, 18.9]
+
+    References
+    ----------
+    Derived (docs/theory/yielding.md).
+    """
+    x = L - p - C_L
+    H = np.hypot(x, C_N)
+    theta = np.arctan2(x, C_N)
+    cone = np.arctan(mu) - 0.5 * np.pi
+    edge, m = np.tan(np.arctan(mu)), theta
+    for _ in range(_ROUNDS):  # from above: each round is a bound, too
+        depth = 2.0 * w_n * (np.cos(theta - m) + np.sin(theta) * edge)
+        phi = np.arccos(np.maximum(1.0 - depth / np.maximum(R, 1e-9), 0.0))
+        edge = np.tan(np.maximum(phi + cone, 0.0))
+        m = np.minimum(np.arcsin(np.minimum(p / H * np.sin(theta) * edge, 1.0)), theta)
+    return m * np.where(x > 0.0, 1.0, np.nan)
+
+
 def yielding_loss(
     *,
     L: Number,
@@ -218,8 +274,9 @@ def yielding_loss(
 
     Where the tail does not grip (`tail_grips`) it is the loss with a drop that is final,
     ``theta_r - theta_s_sup_yielding(drop=w_t)``. Where it does, the drop overshoots, the body
-    turns at up to ``speed / p`` as the nosing leaves, and what is not derived is `REST`:
-    ``theta_r - theta_s_sup_yielding(drop=2 w_t) + tau speed (1/p - C_N/H^2) + REST``,
+    turns at up to ``speed / p`` as the nosing leaves, and the grip lifts what is no more than
+    `grip_tilt` short of the limit, of which no more than `REST` was seen:
+    ``theta_r - theta_s_sup_yielding(drop=2 w_t) + tau speed (1/p - C_N/H^2) + min(grip, REST)``,
     ``tau = sqrt((gyration^2 + H^2) / (g H))``, ``H^2 = (L - p - C_L)^2 + C_N^2``.
 
     Parameters
@@ -263,5 +320,6 @@ def yielding_loss(
     sup = theta_s_sup_yielding(L=L, p=p, C_L=C_L, C_N=C_N, w_n=w_n, drop=over * w_t)
     tau = np.sqrt((gyration**2 + H**2) / (g * H))
     turning = np.maximum(tau * speed * (1.0 / p - C_N / H**2), 0.0)
-    loss = rigid - sup + np.where(over > 1.0, turning + REST, 0.0)
+    grip = np.minimum(grip_tilt(L=L, p=p, C_L=C_L, C_N=C_N, w_n=w_n, R=R, mu=mu), REST)
+    loss = rigid - sup + np.where(over > 1.0, turning + grip, 0.0)
     return np.maximum(loss, 0.0) * np.where(L - p - C_L > 0.0, 1.0, np.nan)
