@@ -1,18 +1,22 @@
 """Findings over the range of a centroid, of places judged by hand."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from kaidan import Question, Robot, Stairs
+from kaidan import Question, Robot, Stairs, assessment
+from kaidan.assessment import plan_search
+from kaidan.assessment import unweighed as module
 from kaidan.errors import InputError
 from kaidan.models.findings import Finding, Findings
-from kaidan.models.unweighed import HEIGHTS, PLACES, judge_range, places
+from kaidan.models.unweighed import HEIGHTS, PLACES, Placed, judge_range, places
 from kaidan.modes import (
     ENERGY,
     IMPACT,
     MOMENTUM,
+    POSTURE_TOLERANCE,
     SLIDES_DOWN,
     TIP_DOWNHILL,
     TIP_UPHILL,
@@ -172,3 +176,117 @@ def test_places_that_the_robot_cannot_have():
     limit = 0.0
     with pytest.raises(InputError, match="no such place"):
         over(judge)
+
+
+# where the verdict changes
+
+
+@pytest.fixture
+def stretches(monkeypatch):
+    """Stretches of one height, from places along it and what a place has as its verdict."""
+
+    def of(verdict_at, *rows, refused=()):
+        def placed(question, along, height, judge):
+            if any(low < along < high for low, high in refused):
+                raise InputError("no such place")
+            return Placed(along, height, (along, height), None)
+
+        def concluded(place, found):
+            verdict = verdict_at(*place)
+            return SimpleNamespace(verdict=verdict, governs=f"{verdict.value} at {place[0]:g}")
+
+        monkeypatch.setattr(module, "at", placed)
+        monkeypatch.setattr(module, "conclude", concluded)
+        basis = [Placed(*each, each, None) for each in rows]
+        shown = module.stretches(QUESTION, judged(basis=basis))
+        assert (shown.from_front_m, shown.height_m) == ((0.24, 0.48), (0.1, 0.2))
+        return [(e.height_m, e.from_m, e.to_m, e.verdict, e.governs) for e in shown.stretches]
+
+    return of
+
+
+def test_the_verdict_changes_where_it_is_halved_out(stretches):
+    def verdict(along, height):
+        if along < 0.3131:
+            return Verdict.NO_GO
+        return Verdict.CAUTION if height > 0.15 or along < 0.4242 else Verdict.GO
+
+    rows = [(along, height) for height in (0.1, 0.2) for along in (0.24, 0.30, 0.36, 0.42, 0.48)]
+    first, second, third, fourth, fifth = stretches(verdict, *rows)
+    near = module.FINE
+    assert first == (0.1, 0.24, pytest.approx(0.3131, abs=near), "no-go", "no-go at 0.24")
+    assert second == (
+        0.1, first[2], pytest.approx(0.4242, abs=near), "caution", "caution at 0.36",
+    )  # fmt: skip
+    assert third == (0.1, second[2], 0.48, "go", "go at 0.48")
+    assert fourth == (0.2, 0.24, first[2], "no-go", "no-go at 0.24")
+    assert fifth == (0.2, first[2], 0.48, "caution", "caution at 0.36")
+
+
+def test_one_verdict_all_along_is_one_stretch(stretches):
+    rows = [(0.24, 0.1), (0.36, 0.1), (0.48, 0.1)]
+    assert stretches(lambda *_: Verdict.GO, *rows) == [(0.1, 0.24, 0.48, "go", "go at 0.24")]
+    assert stretches(lambda *_: Verdict.GO, rows[0])[0][1:3] == (0.24, 0.24)
+
+
+def test_where_the_robot_cannot_have_the_place_between(stretches):
+    rows = [(0.24, 0.1), (0.48, 0.1)]
+    first, second = stretches(
+        lambda along, height: Verdict.GO if along < 0.3 else Verdict.CAUTION, *rows,
+        refused=[(0.25, 0.47)],
+    )  # fmt: skip
+    assert (first[2], second[1]) == (0.36, 0.36)
+
+
+# the plan of such a robot
+
+
+def test_a_plan_is_that_of_the_middle_judged_all_over_the_range(monkeypatch):
+    """And found within the limits stated; that of a weighed robot is judged already."""
+    plans, judged_ = [], []
+
+    def found_of(question, limits):
+        plans.append((question.robot.com_range, limits))
+        found = question.changed(facing="tail-first", best_of=())
+        return SimpleNamespace(question=found, findings="of the search", sturdy=True)
+
+    def judge(question):
+        judged_.append(question.robot)
+        return "judged"
+
+    monkeypatch.setattr(plan_search, "found_of", found_of)
+    monkeypatch.setattr(assessment, "judge", judge)
+    asked = QUESTION.changed(best_of=("facing",))
+    planned, found, search = assessment.with_plan(asked)
+    assert (planned.facing, planned.robot, found) == ("tail-first", asked.robot, "judged")
+    assert (plans, judged_) == ([(None, plan_search.LIMITS)], [asked.robot])
+    assert search.question.robot == asked.robot.middle
+    weighed = asked.changed(robot=asked.robot.middle)
+    planned, found, _ = assessment.with_plan(weighed, limits=(-0.1, 0.2))
+    assert (planned.facing, found, len(judged_)) == ("tail-first", "of the search", 1)
+    assert plans[1] == (None, (-0.1, 0.2))
+    assert assessment.found_plan(asked, limits=(-0.3, 0.2))[0].facing == "tail-first"
+    assert plans[2] == (None, (-0.3, 0.2))
+    assert assessment.with_plan(QUESTION) == (QUESTION, "judged", None)
+
+
+def test_what_does_not_hold_off_its_angles_is_a_finding_more(monkeypatch):
+    found, asked = judged(finding(TIP_DOWNHILL, 0.1)), []
+
+    def holds(question):
+        asked.append(question)
+        return len(asked) == 1
+
+    monkeypatch.setattr(plan_search, "holds_off_its_angles", holds)
+    loose = QUESTION.changed(flipper_tolerance=0.05)
+    assert assessment.off_plan(QUESTION.changed(flipper_tolerance=0.0), found) is found
+    assert assessment.off_plan(loose, found) is found
+    one, off = assessment.off_plan(loose, found).each
+    assert one is found.each[0]
+    assert (off.mode, off.worst.tolist(), off.failing) == (
+        POSTURE_TOLERANCE, [-math.inf], Verdict.CAUTION,
+    )  # fmt: skip
+    for sturdy, count in ((True, 1), (False, 2)):
+        search = SimpleNamespace(sturdy=sturdy)
+        assert len(assessment.off_plan(loose, found, search).each) == count
+    assert len(asked) == 2
