@@ -45,7 +45,7 @@ def made(**given):
         "acceleration": 0.5, "path": path_to(0.0, 1.0), "tread": Tread(0.5, 0.2, 0.1, 0, 0.06, 0.2),
         "criterion": Criterion((LOSS,), 0.0), "whole": True,
         "phase_of_pose": np.array(["enter", "land"]), "phases": (), "start": None, "until": None,
-        "step": 0.02,
+        "step": 0.02, "sought": None,
     }  # fmt: skip
     return Traverse(**(figures | given))
 
@@ -104,8 +104,9 @@ def test_the_first_rock_is_the_least_of_criterion_and_poses():
     assert made(phases=(more,)).first_rock(downhill=True).phase is Phase.LAND
 
 
-def test_where_poses_judge_several_steps_it_rocks_no_later_than_it_falls():
+def test_where_poses_judge_several_steps_it_rocks_no_later_than_it_falls(monkeypatch):
     fall = Fall(0.15, Phase.TRAVERSE, 3)
+    monkeypatch.setattr(Traverse, "_falls_beyond", lambda self, tilt: fall.tilt > tilt)
     on = extremes(Phase.TRAVERSE, 0.3, 0.4, step=2)
 
     def first(downhill=True, phases=(on,), **given):
@@ -117,6 +118,8 @@ def test_where_poses_judge_several_steps_it_rocks_no_later_than_it_falls():
     assert first(whole=False, downhill=False) == (0.4, Phase.TRAVERSE, 2)
     assert first(whole=False, status=Status.FELL_BACKWARD).margin == 0.3
     assert first().margin == 0.3  # all on one flight
+    sooner = extremes(Phase.TRAVERSE, 0.15 - 2e-6, step=2)
+    assert first(whole=False, phases=(sooner,)).step == 2
     step_longer = Tread(0.3, 0.1, 0.1, 0, 0.06, 0.2)  # nosings 0.316 m apart
     assert first(tread=step_longer) == tuple(fall)
     two = Profile.of_points(
@@ -164,6 +167,44 @@ def test_the_largest_tilt_that_is_survived(limit):
     assert limit - WITHIN <= largest_survived(survives) <= limit
     assert len(asked) < 20  # 4 deg, twice that and so on, then halves
     assert max(abs(tilt) for tilt in asked) <= LARGEST
+
+
+@pytest.mark.parametrize("limit", [0.01, 0.1, 0.3, 0.6, -0.02, -0.3, -0.6])
+@pytest.mark.parametrize("sought", [(0.05,), (0.1, 0.2), (-0.1,), (0.0, 0.5), ()])
+def test_what_is_sought_is_said_as_if_the_tilt_were_found(limit, sought):
+    asked = []
+
+    def survives(tilt):
+        asked.append(tilt)
+        return tilt <= limit
+
+    found = largest_survived(survives, sought=sought)
+    whole = largest_survived(lambda tilt: tilt <= limit)
+    count = len(asked)
+    assert [found > each for each in sought] == [whole > each for each in sought]
+    assert found <= whole
+    largest_survived(survives)
+    assert count <= len(asked) - count
+
+
+def test_a_traverse_that_is_asked_of_a_tilt_says_on_which_side_it_falls(monkeypatch):
+    """It falls back beyond 0.1 rad and forward beyond 0.3; what was tried is remembered."""
+    tried = []
+
+    def arrives(*, tilt, **way):
+        tried.append(tilt)
+        return -0.3 <= tilt <= 0.1
+
+    monkeypatch.setattr(contact, "arrives", arrives)
+    for descending, limit in ((False, 0.1), (True, 0.3)):
+        found = made(descending=descending)
+        assert found._falls_beyond(limit - 0.01)
+        assert not found._falls_beyond(limit + 0.01)
+        assert found._falls_beyond(limit - 0.05)
+    assert len(tried) == len({*tried})
+    asked = made(sought=(0.05,), path=path_to(-1.0, NOSINGS[1] + 0.01))
+    assert 0.05 < asked.falls_downhill.tilt <= 0.1
+    assert asked.falls_downhill[1:] == asked.end
 
 
 def test_tilts_of_which_nothing_is_known():
