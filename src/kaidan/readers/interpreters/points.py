@@ -36,7 +36,7 @@ COARSE = 0.03
 """Side of the cubes of which one point is enough to find stairs [m]."""
 MOST_FLIGHTS = 8
 """Flights that are looked for in one cloud."""
-MOST_PATCHED = 120_000
+MOST_PATCHED = 60_000
 """Points from which patches are made."""
 SAME_NOSING = 0.04
 """Distance of nosings that are one [m]."""
@@ -115,7 +115,8 @@ def _units(points: Points, xyz: Array) -> list[Known]:
 
 def _with_unit(points: Points, xyz: Array, unit: Known, metres: float, hints: Hints) -> _Try:
     # stray points far away would make rasters of any size
-    xyz = xyz[np.abs(xyz - np.median(xyz, axis=0)).max(axis=1, initial=0.0) < EXTENTS[1]]
+    middle = np.median(xyz[:: max(1, len(xyz) // MOST_PATCHED)], axis=0)
+    xyz = xyz[np.abs(xyz - middle).max(axis=1, initial=0.0) < EXTENTS[1]]
     if len(xyz) < FEWEST_POINTS:
         known = points.provenance.up or Known("+z", "assumed")
         nowhere = replace(points.provenance, unit=unit, up=known)

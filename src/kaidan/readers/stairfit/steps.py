@@ -56,6 +56,8 @@ HIGHEST_LAST = 1.3
 LANDING_ACROSS = 0.6
 """Least width of a landing with a riser of its own, over that of the flight [1]: a box on it is
 narrower."""
+MOST_FITTED = 30_000
+"""Points of a lane to which the line is fitted; single steps are measured in all of them."""
 FLOOR_SEEN = 15
 """Points from which a floor counts as seen."""
 
@@ -115,19 +117,22 @@ def steps_of(
         Doubt of measured distances as a share of them [1].
     """
     tight = min(max(3.0 * noise, 0.008), 0.35 * line.rise)
+    every = s, t, z
+    thin = max(1, len(s) // MOST_FITTED)
+    s, t, z = s[::thin], t[::thin], z[::thin]
     line = fitted(line, s, t, z, tolerances=(1.5 * tight, tight, tight))
     line = _bottom(_trimmed(line, s, t, z, tight), s, t, z, tight)
     if line.last - line.first < 2:
         return None
     line = _without_odd(line, s, t, z, tight)
-    found, sigma = _alone(line, s, t, z, noise, tight)
+    found, sigma = _alone(line, *every, noise, tight)
     seen = np.flatnonzero(np.isfinite(sigma).any(axis=1))
     if len(seen) < 3:
         return None
     if np.ptp(seen) + 1 < len(found):  # of a step at an end nothing was measured
         line = replace(line, first=line.first + int(seen[0]), last=line.first + int(seen[-1]))
         line = _without_odd(line, s, t, z, tight)
-        found, sigma = _alone(line, s, t, z, noise, tight)
+        found, sigma = _alone(line, *every, noise, tight)
     at = assigned(line, s, t, z, tight)
     within = (at.step >= line.first) & (at.step <= line.last)
     off = at.off[(at.tread | at.riser) & within]
