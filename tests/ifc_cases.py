@@ -219,6 +219,30 @@ def regular(n, rise, going):
     return np.full(n, rise), np.full(n - 1, going)
 
 
+def house_with_a_door(operation="SINGLE_SWING_LEFT", degrees=-90.0, schema="IFC4", away=1.2):
+    """A flight of 20 risers of 150 by 300 mm, and a door of 0.9 m before its foot.
+
+    Its leaf opens to the y of its placement: at -90 deg to the flight, at 90 deg away from it.
+    """
+    h = House(schema)
+    h.add("IfcStairFlight", "A", [monolith(h, [0.15] * 20, [0.3] * 19, width=1.0, last=False)])
+    for k, level in enumerate((0.0, 3.0)):
+        across = ((-3, 0), (5.7, 9))[k]
+        floor = [(x, y) for x, y in zip((across[0], across[1]) * 2, (-2, -2, 3, 3), strict=True)]
+        floor[2], floor[3] = floor[3], floor[2]
+        h.add("IfcSlab", f"floor {k}", [h.slab(floor, level)], storey=k)
+    leaf = h.slab([(-0.45, -0.025), (0.45, -0.025), (0.45, 0.025), (-0.45, 0.025)], 2.1, 2.1)
+    own = {} if schema == "IFC2X3" else {"OperationType": operation}
+    door = h.add("IfcDoor", "D", [leaf], at=(-away, 0, 0), degrees=degrees, OverallWidth=900.0,
+                 OverallHeight=2100.0, **own)  # fmt: skip
+    if schema == "IFC2X3":
+        style = h.root("IfcDoorStyle", Name="s", OperationType=operation,
+                       ConstructionType="NOTDEFINED", ParameterTakesPrecedence=False,
+                       Sizeable=False)  # fmt: skip
+        h.root("IfcRelDefinesByType", RelatedObjects=[door], RelatingType=style)
+    return h
+
+
 def half_turn_house(landing=1.2, *, width=1.0, door=0.9, ceiling=None):
     """Two storeys joined by two flights of ten risers of 150 by 300 mm with a half-turn between.
 

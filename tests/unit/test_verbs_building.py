@@ -12,7 +12,14 @@ pytest.importorskip("ifcopenshell", reason="skipped: ifcopenshell not installed"
 from typer.testing import CliRunner
 
 import kaidan
-from ifc_cases import House, boards, half_turn_house, monolith, regular
+from ifc_cases import (
+    House,
+    boards,
+    half_turn_house,
+    house_with_a_door,
+    monolith,
+    regular,
+)
 from kaidan import InputError, Stairs
 from kaidan.cli import app
 from kaidan.text.building_page import page
@@ -112,6 +119,35 @@ def test_a_door_that_is_too_narrow_binds(folder):
     assert way(found, "absolem", "First").binds == "doors"
     assert way(found, "absolem", "First").verdict == "no-go"
     assert "The widest door there leaves 450 by 2100 mm" in way(found, "absolem", "First").reason
+
+
+@pytest.mark.parametrize(
+    ("operation", "degrees", "schema", "landing", "leaf"),
+    [
+        ("SINGLE_SWING_LEFT", -90.0, "IFC4", 1.2, 0.9),
+        ("SINGLE_SWING_RIGHT", -90.0, "IFC2X3", 1.2, 0.9),
+        ("DOUBLE_DOOR_SINGLE_SWING", -90.0, "IFC4", 1.2, 0.45),
+        ("SINGLE_SWING_LEFT", 90.0, "IFC4", 3.0, 0.0),  # away from the flight
+        ("DOUBLE_SWING_LEFT", 90.0, "IFC4X3", 1.2, 0.9),  # both ways
+        ("SINGLE_SWING_LEFT", 0.0, "IFC4", 3.0, 0.0),  # sideways
+        ("SLIDING_TO_LEFT", -90.0, "IFC4", 3.0, 0.0),
+        ("NOTDEFINED", -90.0, "IFC4", 3.0, 0.0),
+    ],
+)
+def test_a_door_that_opens_to_the_flight_takes_its_leaf(
+    folder, operation, degrees, schema, landing, leaf
+):
+    """It stands 1.2 m before the foot, and its leaf takes its width of that; else 3 m are free."""
+    path = house_with_a_door(operation, degrees, schema).write(folder / "leaf.ifc")
+    found = building(path, ["absolem"], friction=1.0)
+    sheet = found.flights[0].sheet
+    assert (sheet.lower_landing, sheet.lower_leaf) == pytest.approx((landing, leaf), abs=1e-6)
+    assert sheet.upper_leaf == 0.0
+    if operation == "SINGLE_SWING_RIGHT":  # 0.3 m are left for a robot of more than a metre
+        by_hand = kaidan.assess("absolem", sheet, flippers="flat", friction=1.0)
+        assert "landing_room" in by_hand.doubts
+    stated = {"SLIDING_TO_LEFT": 0.0, "NOTDEFINED": None, "DOUBLE_DOOR_SINGLE_SWING": 0.45}
+    assert found.doors[0].leaf_m == stated.get(operation, 0.9)
 
 
 def test_a_ceiling_that_is_too_low_binds(folder):

@@ -324,15 +324,30 @@ class _Assembly:
                 continue
             low, high = body.vertices.min(axis=0), body.vertices.max(axis=0)
             width, height = body.facts.get("door") or (None, None)
+            width = width * unit if width else float((high - low)[:2].max())
+            operation = body.facts.get("operation", "")
+            x, y = body.facts.get("opens", (0.0, 0.0))
             yield Doorway(
                 identity=body.identity,
                 name=body.name or "door",
                 x=float(low[0] + high[0]) / 2,
                 y=float(low[1] + high[1]) / 2,
                 level=float(low[2]),
-                width=width * unit if width else float((high - low)[:2].max()),
+                width=width,
                 height=height * unit if height else float(high[2] - low[2]),
+                leaf=_leaf(operation, width),
+                opens=(float(x), float(y)),
+                both="DOUBLE_SWING" in operation or "OPPOSITE" in operation,
             )
+
+
+def _leaf(operation: str, width: float) -> float:
+    """Width of a leaf that opens about a hinge [m]; zero: none does, NaN: not stated."""
+    if not operation:
+        return math.nan
+    if "SWING" not in operation:  # sliding, folding, lifting, rolling up, revolving
+        return 0.0
+    return width / 2 if operation.startswith("DOUBLE_DOOR") else width
 
 
 def _told_apart(flights: Sequence[Flight]) -> Iterator[Flight]:

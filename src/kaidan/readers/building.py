@@ -1,5 +1,6 @@
 """A building: its flights, the floors and landings that they join, and its doors."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -13,6 +14,8 @@ from kaidan.readers.kinds import Provenance
 from kaidan.readers.solids.stated import Stated
 
 Array = NDArray[np.float64]
+OPPOSITE = math.cos(math.radians(45.0))
+"""Cosine of the angle from which a door faces another way than the flight."""
 
 
 @dataclass(frozen=True)
@@ -76,6 +79,32 @@ class Doorway:
     width: float
     """Of the whole door, frame included [m]."""
     height: float
+    leaf: float = math.nan
+    """Width of a leaf that opens about a hinge [m]; zero: none does, NaN: not stated."""
+    opens: tuple[float, float] = (0.0, 0.0)
+    """Direction in the plan in which it opens, a unit vector."""
+    both: bool = False
+    """Whether a leaf opens to the other side too."""
+
+    def opens_onto(self, start: Array, heading: float, wide: float) -> bool:
+        """Whether its leaf opens towards the end of a flight that it stands opposite of.
+
+        Parameters
+        ----------
+        start : array, shape (2,)
+            End of the flight in the plan [m].
+        heading : float
+            Direction from there away from the flight [rad].
+        wide : float
+            Width of the flight [m].
+        """
+        ahead = np.array([math.cos(heading), math.sin(heading)])
+        way = np.array([self.x, self.y]) - start
+        across = abs(float(ahead[0] * way[1] - ahead[1] * way[0]))
+        towards = -float(ahead @ self.opens)
+        faces = abs(towards) > OPPOSITE if self.both else towards > OPPOSITE
+        opposite = float(ahead @ way) > 0.0 and across < (wide + self.width) / 2
+        return self.leaf > 0.0 and faces and opposite
 
 
 @dataclass(frozen=True, eq=False)

@@ -137,6 +137,8 @@ def _body(element: Any, has_shape: bool) -> dict[str, Any]:
         facts["stated"] = _stated(element)
     if element.is_a("IfcDoor"):
         facts["door"] = [element.OverallWidth, element.OverallHeight]
+        facts["operation"] = _operation(element)
+        facts["opens"] = _opens(element)
     kind = elements.get_predefined_type(element)
     return {
         "id": element.GlobalId,
@@ -148,6 +150,26 @@ def _body(element: Any, has_shape: bool) -> dict[str, Any]:
         "shape": has_shape,
         "facts": facts,
     }
+
+
+def _operation(door: Any) -> str:
+    """How a door opens: its own word, else that of its type or style; empty: not stated."""
+    import ifcopenshell.util.element as elements
+
+    for each in (door, elements.get_type(door)):
+        word = getattr(each, "OperationType", None)
+        if word and word not in ("NOTDEFINED", "USERDEFINED"):
+            return str(word)
+    return ""
+
+
+def _opens(door: Any) -> list[float]:
+    """Direction in the plan in which its leaf opens: y of its placement, as the schema has it."""
+    import ifcopenshell.util.placement as placement
+
+    if door.ObjectPlacement is None:
+        return [0.0, 1.0]
+    return [float(each) for each in placement.get_local_placement(door.ObjectPlacement)[:2, 1]]
 
 
 def _stated(element: Any) -> dict[str, Any]:

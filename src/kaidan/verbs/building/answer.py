@@ -99,6 +99,8 @@ class DoorShown(Part):
     """Of the door [m]."""
     threshold_m: float
     """Sill above the floor [m]."""
+    leaf_m: float | None
+    """Width of a leaf that opens about a hinge [m]; zero: none does, null: not stated."""
     x: float
     """Middle in the plan [m]."""
     y: float

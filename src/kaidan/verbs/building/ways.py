@@ -69,6 +69,7 @@ def doors_of(building: Building) -> Iterator[DoorShown]:
                         clear_width_m=door_clear_width(opening=door.width, leaf=FRAME),
                         height_m=door.height,
                         threshold_m=door.level - level,
+                        leaf_m=door.leaf,
                         x=door.x,
                         y=door.y,
                     )
