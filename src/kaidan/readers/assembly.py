@@ -35,6 +35,8 @@ LIKE_STAIRS = 0.05
 """Spread of rises up to which solids that nobody called stairs are some [m]."""
 UNLIKE = 0.015
 """Difference from the other depths by which the last tread is no tread [m]."""
+WITHOUT_LEAF = ("SLIDING", "FOLDING", "LIFTING", "ROLLINGUP", "REVOLVING")
+"""Operations of doors without a leaf that opens about a hinge."""
 _FEWEST_UNNAMED = 3
 
 
@@ -345,7 +347,7 @@ def _leaf(operation: str, width: float) -> float:
     """Width of a leaf that opens about a hinge [m]; zero: none does, NaN: not stated."""
     if not operation:
         return math.nan
-    if "SWING" not in operation:  # sliding, folding, lifting, rolling up, revolving
+    if any(word in operation for word in WITHOUT_LEAF):
         return 0.0
     return width / 2 if operation.startswith("DOUBLE_DOOR") else width
 
