@@ -335,13 +335,14 @@ def test_the_merit_of_a_plan():
 def ways(monkeypatch):
     """A plan judged off its angles: ranks of the ways off, in their order; and how many were."""
 
-    def of(ranks, plan, beaten=None):
+    def of(ranks, plan, beaten=None, passes=()):
         looked_at = []
+        drives = SimpleNamespace(is_no_failure=lambda k: k in passes)
         monkeypatch.setattr(plan_search, "off_angles", lambda question: range(len(ranks)))
         monkeypatch.setattr(
             plan_search, "_rank_of", lambda k, drives: (looked_at.append(k), ranks[k])[1]
         )
-        return _judged_off(plan, beaten, None), len(looked_at)
+        return _judged_off(plan, beaten, drives), len(looked_at)
 
     return of
 
@@ -358,6 +359,9 @@ def test_off_its_angles_the_worst_verdict_counts(ways):
     bad = judged(NO_GO)
     assert ways([NO_GO, NO_GO], bad) == (_Off(bad, bad.merit, True), 2)
     assert _Off(bad, bad.merit, True).sturdy
+    # where the worst is a CAUTION what is no NO-GO for certain is not judged
+    found, count = ways([GO, CAUTION, GO, NO_GO], plan, passes=(0, 2))
+    assert (found.worst[0], found.tested, count) == (NO_GO, True, 3)
     # what is no better than what is beaten is judged no farther
     assert ways([CAUTION, GO, GO], plan, worst) == (_Off(plan, worst, False), 1)
     assert ways([GO, GO], plan, plan.merit) == (_Off(plan, plan.merit, False), 0)

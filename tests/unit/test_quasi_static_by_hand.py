@@ -11,11 +11,11 @@ from kaidan.contact import Status
 from kaidan.models.drive_limits import steepest_for_drive, traction_limit
 from kaidan.models.quasi_static import (
     _answered,
-    _drive_margin,
     _drives_alike,
     _Extremes,
     _obstacles,
     _supply,
+    drive_margin,
     repeats,
 )
 from kaidan.models.spread import Spread
@@ -89,17 +89,17 @@ def test_the_slope_that_takes_all_traction():
 def test_the_margin_of_the_drive(required, margin):
     """The weight as traction: upright; beyond that a radian for each weight more."""
     weight = asked(max_traction=10.0 * G)
-    assert _drive_margin(weight, required) == pytest.approx(margin, nan_ok=True)
+    assert drive_margin(weight, required) == pytest.approx(margin, nan_ok=True)
 
 
 def test_the_margin_of_a_drive_by_its_sheet():
     half = asked(max_traction=5.0 * G, rolling_resistance=0.1)
-    assert _drive_margin(half, 0.2) == pytest.approx(math.asin(0.4) - math.asin(0.2))
-    assert _drive_margin(asked(max_traction=1e4), 0.2) == math.pi / 2  # at most
+    assert drive_margin(half, 0.2) == pytest.approx(math.asin(0.4) - math.asin(0.2))
+    assert drive_margin(asked(max_traction=1e4), 0.2) == math.pi / 2  # at most
     worn = asked(max_traction=5.0 * G, rolling_resistance=9.0)
-    assert _drive_margin(worn, 0.2) == pytest.approx(-math.pi / 2 - math.asin(0.2))
-    assert math.isnan(_drive_margin(asked(), 0.2))
-    assert math.isnan(_drive_margin(asked(max_traction=50.0, mass=None), 0.2))
+    assert drive_margin(worn, 0.2) == pytest.approx(-math.pi / 2 - math.asin(0.2))
+    assert math.isnan(drive_margin(asked(), 0.2))
+    assert math.isnan(drive_margin(asked(max_traction=50.0, mass=None), 0.2))
 
 
 # friction
