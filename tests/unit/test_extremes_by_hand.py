@@ -277,6 +277,8 @@ def test_brief_braking_counts_by_how_long_it_lasts():
     # at an end there is one run beside it; with none at all it is as it is
     assert braked(brief, after)[0][0] == pytest.approx(4.25)
     assert braked(before, brief)[0][3] == pytest.approx(2 + 0.25 * 6)
+    assert braked(brief, (0.105, 0.2, (0.5, 1.0)))[0][0] == pytest.approx(0.5 + 0.25 * 7.5)
+    assert braked((0.0, 0.1, (1.0, 0.5)), brief)[0][2] == pytest.approx(0.5 + 0.25 * 7.5)
     assert braked(brief)[0] == [8.0, 2.5]
 
 
@@ -288,6 +290,8 @@ def test_brief_runs_side_by_side_last_as_long_as_they_brake_no_less():
     assert braked(before, low, high, after)[0][2:6] == pytest.approx(expected)
     low, high = (0.11, 0.115, (8.0, 8.0)), (0.10, 0.11, (9.0, 9.0))
     assert braked(before, high, low, after)[0][2:6] == pytest.approx(expected[::-1])
+    first = [2 + 0.5 * 7] * 2 + [2 + 0.75 * 6] * 2
+    assert braked(high, low, after)[0][:4] == pytest.approx(first)
     # never more than it is
     two = [(0.1, 0.115, (8.0, 8.0)), (0.115, 0.13, (8.0, 8.0))]
     assert braked(before, *two, (0.13, 0.2, (2.0, 1.0)))[0][2:6] == [8.0] * 4

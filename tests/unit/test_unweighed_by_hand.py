@@ -91,7 +91,7 @@ def test_the_best_place_is_where_it_arrives_then_where_nothing_fails_then_by_its
     places_of = places((0.24, 0.48), PLACES)
     low, high = places_of[0], places_of[-1]
 
-    def best(*, low_fails=(), high_fails=(), margins=(0.1, 0.2)):
+    def best(*, low_fails=(), high_fails=(), margins=(0.1, 0.2), by=-0.1):
         def judge(along, height):
             margin, fails = (-1.0, (TIP_UPHILL,))
             if along in (low, high):
@@ -99,7 +99,7 @@ def test_the_best_place_is_where_it_arrives_then_where_nothing_fails_then_by_its
                 margin, fails = margins[k], (low_fails, high_fails)[k]
             tips = finding(TIP_DOWNHILL, margin, step=round(100 * along))
             failing = {MOMENTUM: Verdict.CAUTION}
-            each = [finding(mode, -0.1, failing=failing.get(mode, Verdict.NO_GO)) for mode in fails]
+            each = [finding(mode, by, failing=failing.get(mode, Verdict.NO_GO)) for mode in fails]
             return judged(tips, *each)
 
         return over(judge)[1][TIP_DOWNHILL].best.tolist()[0]
@@ -111,6 +111,8 @@ def test_the_best_place_is_where_it_arrives_then_where_nothing_fails_then_by_its
     assert best(low_fails=(MOMENTUM,), high_fails=(IMPACT,)) == 0.1
     assert best(low_fails=(MOMENTUM,), high_fails=(MOMENTUM,)) == 0.2
     assert best(margins=(0.0, -0.1)) == 0.0  # zero fails, by less
+    assert best(low_fails=(IMPACT,), margins=(0.3, 0.2), by=0.0) == 0.2
+    assert best(margins=(0.3, math.nan)) == 0.3  # what is not known is the least
     assert best(low_fails=(MOMENTUM,), margins=(0.3, math.nan)) == pytest.approx(
         math.nan, nan_ok=True
     )
@@ -124,13 +126,14 @@ def test_what_only_some_places_know():
 
     def judge(along, height):
         tips = finding(TIP_DOWNHILL, 0.5 if along == last else 0.1, failing=Verdict.CAUTION)
-        energy = finding(ENERGY, -0.01 if along == first else math.nan, step=round(100 * along))
+        low = [-0.01, math.nan] if along == first else [math.nan, math.nan]
+        energy = finding(ENERGY, low, step=round(100 * along))
         impact = [finding(IMPACT, -0.2)] if along == first else []
         return judged(tips, energy, *impact)
 
     _, modes = over(judge)
     assert (modes[IMPACT].best.tolist(), modes[IMPACT].failing) == ([math.inf], Verdict.CAUTION)
-    assert (modes[ENERGY].worst.tolist(), modes[ENERGY].step) == ([-0.01], 24)
+    assert (modes[ENERGY].worst[0], modes[ENERGY].step) == (-0.01, 24)
     assert modes[TIP_DOWNHILL].failing is Verdict.CAUTION
     assert SLIDES_DOWN not in modes
 
