@@ -1,23 +1,45 @@
 """What counts as help and what is tried, on conclusions made by hand."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from kaidan import Payload, Question, Robot, Stairs
+from kaidan.assessment import advice, plan_search
 from kaidan.assessment.advice import (
     LARGEST_FRICTION,
     WORTH_TELLING,
+    Candidate,
     _centroid_moved,
+    _enough_at_the_risk,
     _is_better,
+    _known_better,
+    _measured,
     _more_friction,
+    _rank,
+    _settles,
     _slower,
     _tips_over,
+    _weighed,
 )
+from kaidan.assessment.measuring import Measurement
 from kaidan.assessment.verdict import Conclusion, conclude
+from kaidan.errors import InputError
 from kaidan.models.findings import Finding, Findings
-from kaidan.modes import SLIDES_DOWN, TIP_DOWNHILL, TIP_SIDEWAYS, TIP_UPHILL, Verdict
+from kaidan.models.unweighed import Placed
+from kaidan.modes import (
+    ENERGY,
+    SLIDES_DOWN,
+    SLIDES_UP,
+    TIP_DOWNHILL,
+    TIP_SIDEWAYS,
+    TIP_UPHILL,
+    Phase,
+    Verdict,
+)
+from kaidan.text import advice as text
 
 G = 9.80665
 KENAF = Question.in_one_posture("kenaf", Stairs(rise=0.1, going=0.15), friction=1.0)
@@ -124,3 +146,250 @@ def test_a_centroid_that_is_moved_moves_that_of_robot_and_payload(load, share):
     assert f"{1e3 * shift:.0f} mm towards the front" in one.change
     if load is not None:
         assert f"{1e3 * shift * (20 + load) / load:.0f} mm" in one.change
+
+
+# what is tried
+
+
+@pytest.fixture
+def tried(monkeypatch):
+    """Names of what is tried."""
+    for name in ("flippers_flat", "flippers_raised", "more_friction", "grousers", "measured",
+                 "centroid_moved"):  # fmt: skip
+        monkeypatch.setattr(advice, f"_{name}", lambda *given, name=name: [name])
+    monkeypatch.setattr(advice, "_slower", lambda question, energy: [("slower", energy)])
+
+    def of(governs, question=KENAF, *, searched=False, phase=None, best=-0.1, energy=None):
+        concluded = Conclusion(Verdict.NO_GO, governs, phase, None, -0.2, best, np.zeros(1), ())
+        found = Findings(model="", each=() if energy is None else (finding(ENERGY, energy),))
+        each = advice._candidates(question, found, concluded, searched)
+        return [one.change if isinstance(one, Candidate) else one for one in each]
+
+    return of
+
+
+def test_what_is_tried_where_it_slips(tried):
+    """More friction and grousers; at an end it may enter or land another way."""
+    for governs in ("slides_down", "slides_up", "friction_unknown"):
+        assert tried(governs) == ["more_friction", "grousers"]
+    for phase, more in ((Phase.ENTER, True), (Phase.LAND, True), (Phase.TRAVERSE, False)):
+        turned, *others = tried("slides_down", phase=phase)
+        assert ("tail first" in turned) is more
+        assert others[-2:] == (["more_friction", "grousers"] if more else ["grousers"])
+        assert tried("slides_down", phase=phase, searched=True) == ["more_friction", "grousers"]
+    back = KENAF.changed(facing="tail-first")
+    assert "nose first" in tried("slides_down", back, phase=Phase.LAND)[0]
+
+
+def test_what_is_tried_where_it_tips(tried):
+    flat, turned, *others = tried("tip_downhill")
+    assert (flat, others) == ("flippers_flat", ["flippers_raised", "centroid_moved"])
+    assert "tail first" in turned
+    assert tried("tip_downhill", best=0.1)[-2:] == ["measured", "centroid_moved"]
+    assert tried("tip_downhill", best=0.0)[-1:] == ["centroid_moved"]
+    assert "measured" not in tried("tip_downhill", best=0.0)
+    assert "measured" in tried("tip_downhill", best=0.5)
+    assert tried("tip_downhill", searched=True) == ["centroid_moved"]
+    assert tried("drive", searched=True) == []
+    asked = KENAF.changed(acceleration=0.3)
+    assert tried("drive", asked, searched=True) == [text.STEADY]
+    assert tried("friction_unknown", asked) == ["more_friction", "grousers"]
+
+
+def test_what_is_tried_for_its_energy(tried):
+    """The margin, and the threshold that was taken off it."""
+    asked = KENAF.changed(speed=0.3)
+    slower = ("slower", pytest.approx(-0.002 + asked.energy_threshold))
+    assert tried("energy", asked, searched=True, energy=-0.002) == [slower]
+    assert tried("energy", asked, searched=True) == []
+    assert tried("drive", asked, searched=True, energy=-0.002) == []
+
+
+def test_of_what_is_measured_a_verdict_or_a_margin_that_holds_must_come():
+    go, caution = (concluded(each, 0.1) for each in (Verdict.GO, Verdict.CAUTION))
+    assert _settles(go, caution)
+    assert not _settles(caution, caution)
+    for now, then, settles in ((-0.1, 0.1, True), (0.0, 0.1, True), (0.0, 0.0, False),
+                               (-0.1, 0.0, False), (-0.2, -0.1, False), (0.1, 0.2, False),
+                               (0.5, 0.6, False)):  # fmt: skip
+        pair = concluded(Verdict.CAUTION, then), concluded(Verdict.CAUTION, now)
+        assert _settles(*pair) is settles
+
+
+@pytest.mark.parametrize(
+    ("margins", "enough"),
+    [
+        ((-0.1,), math.ceil(100 * math.tan(math.atan(0.5) + 0.1) + 1) / 100),
+        ((0.0,), 0.5),
+        ((0.1,), 0.5),
+        ((-1.2,), 0.5),  # no friction is enough
+        ((-math.inf,), 0.5),
+        ((), 0.5),
+        ((-0.1, -0.2), math.ceil(100 * math.tan(math.atan(0.5) + 0.2) + 1) / 100),
+        ((-1.1,), math.ceil(100 * math.tan(math.atan(0.5) + 1.1) + 1) / 100),
+    ],
+)
+def test_friction_enough_for_all_but_the_accepted_share(margins, enough, monkeypatch):
+    """What margins lack there is added to the angle of friction: 0.464 rad at 0.5."""
+    asked = []
+
+    def judge(question, *, known):
+        asked.append((question.friction, known))
+        slides = [
+            finding(mode, each)
+            for mode, each in zip((SLIDES_DOWN, SLIDES_UP), margins, strict=False)
+        ]
+        return Findings(model="", each=(*slides, finding(TIP_DOWNHILL, -0.4)))
+
+    monkeypatch.setattr(advice, "judge", judge)
+    found = Findings(model="")
+    assert _enough_at_the_risk(KENAF, found, 0.5) == pytest.approx(enough)
+    assert asked == [((0.5, 0.5), found)]
+
+
+def test_friction_that_is_stated_and_that_is_not():
+    needs = Findings(model="", required_friction=0.5)
+    told = [
+        next(iter(_more_friction(question, needs))).change
+        for question in (KENAF, Question.in_one_posture("kenaf", KENAF.terrain))
+    ]
+    assert told == [text.friction(0.51, known=True), text.friction(0.51, known=False)]
+
+
+def test_an_allowance_by_default_is_measured():
+    usual = KENAF.changed(theta_d=None, theta_M=None)
+    kenaf = usual.robot.model_copy(update={"theta_d": None, "theta_M": None})
+    usual = usual.changed(robot=kenaf)
+    (one,) = _measured(usual)
+    assert one.change == text.measured(["theta_d", "theta_M"])
+    assert (one.question.allowance_d.high, one.question.allowance_M.high) == (0.0, 0.0)
+    assert list(_measured(one.question)) == []
+
+
+def test_a_robot_is_weighed_at_its_best_place(monkeypatch):
+    """By the verdict, then the margin; what is not known counts as none."""
+    conclusions = {
+        0.1: concluded(Verdict.CAUTION, 0.9), 0.2: concluded(Verdict.GO, 0.1),
+        0.3: concluded(Verdict.GO, 0.3), 0.4: concluded(Verdict.GO, math.nan),
+        0.5: concluded(Verdict.GO, 0.8),
+    }  # fmt: skip
+    monkeypatch.setattr(advice, "conclude", lambda question, found: conclusions[question])
+    basis = [
+        Placed(at, 0.1, at, Findings(model="", outside="no" if at == 0.5 else ""))
+        for at in conclusions
+    ]
+    assert _weighed(Findings(model="", basis=basis)).question == 0.3
+    assert _weighed(Findings(model="", basis=basis[:1] + basis[3:])).question == 0.4
+    assert _rank(concluded(Verdict.GO, math.nan)) == (Verdict.GO.rank, 0.0)
+
+
+def measurement(what, *inputs):
+    return Measurement(what=what, inputs=inputs, share=0.5, deviation_deg=1.0)
+
+
+def test_the_doubt_of_the_sheets_that_the_margin_feels_most_is_measured_away(monkeypatch):
+    """Ranges are tried elsewhere; where it is of no sheet nothing is."""
+    monkeypatch.setattr(
+        advice, "without", lambda question, group: None if group == "stairs" else group
+    )
+    friction = measurement("friction", "friction")
+    length, stairs = measurement("length", "flat_length"), measurement("stairs", "angle")
+    (one,) = _known_better(KENAF, [friction, length, stairs])
+    assert (one.question, one.certain) == ("length", True)
+    assert list(_known_better(KENAF, [friction, stairs, length])) == []
+    assert list(_known_better(KENAF, [friction])) == []
+
+
+# what helps
+
+
+@pytest.fixture
+def helps(monkeypatch):
+    """Changes that help, of candidates by name: what they come to, and off their angles."""
+
+    def of(candidates, now=None, *, off=None, trials=1, com_range=None, tolerance=0.0):
+        now = now or concluded(Verdict.CAUTION, 0.1)
+        known, loose = [], []
+
+        def judge(question, *, known):
+            asked_known.append(known)
+            if candidates[question.name] is None:
+                raise InputError("no such posture")
+            return question.name
+
+        def off_its_angles(question, then, search):
+            loose.append(question.name)
+            return off
+
+        asked_known = known
+        each = [
+            Candidate(
+                name.rstrip("?"), SimpleNamespace(name=name, tolerance=tolerance), "?" in name
+            )
+            for name in candidates
+        ]
+        question = SimpleNamespace(trials=trials, robot=SimpleNamespace(com_range=com_range))
+        monkeypatch.setattr(advice, "_candidates", lambda *given: each[:-1])
+        monkeypatch.setattr(advice, "_known_better", lambda *given: each[-1:])
+        monkeypatch.setattr(advice, "judge", judge)
+        monkeypatch.setattr(advice, "conclude", lambda question, found: candidates[found])
+        monkeypatch.setattr(advice, "_off_its_angles", off_its_angles)
+        changes = advice.what_would_help(question, "found", now)
+        return [one.change for one in changes], set(known), loose
+
+    return of
+
+
+def test_changes_that_help_the_best_first(helps):
+    go, better, same = (
+        concluded(*each)
+        for each in ((Verdict.GO, 0.2), (Verdict.CAUTION, 0.3), (Verdict.CAUTION, 0.1))
+    )
+    each = {
+        "refused": None,
+        "same": same,
+        "better": better,
+        "go": go,
+        "go more": go._replace(margin=0.5),
+    }
+    assert helps(each) == (["go more", "go", "better"], {"found"}, [])
+    assert helps(each, com_range="range")[1] == {None}
+    assert helps(each, now=go)[0] == []
+    assert helps(each, trials=2)[0] == []
+    # what only makes a doubt certain has to settle something
+    assert helps({"better": better, "measured?": better})[0] == ["better"]
+    assert helps({"better": better, "measured?": go})[0] == ["measured", "better"]
+    # a GO counts as what it is off its angles, if these are in doubt
+    found = helps(each, off=same._replace(margin=0.9), tolerance=0.05)
+    assert found == (["go", "go more", "better"], {"found"}, ["go", "go more"])
+
+
+def test_a_plan_off_its_angles(monkeypatch):
+    then = concluded(Verdict.GO, 0.2)
+    search = SimpleNamespace(drives="drives")
+
+    def of(search, *, holds=False, sturdy=True, com_range=None):
+        asked = []
+
+        def found_of(question, *, drives):
+            asked.append((question, drives))
+            return SimpleNamespace(question="own", findings="its", sturdy=sturdy)
+
+        def holds_off(question, drives):
+            assert drives == (None if search is None else "drives")
+            return holds
+
+        question = SimpleNamespace(
+            robot=SimpleNamespace(com_range=com_range), changed=lambda best_of: best_of
+        )
+        monkeypatch.setattr(plan_search, "found_of", found_of)
+        monkeypatch.setattr(plan_search, "holds_off_its_angles", holds_off)
+        monkeypatch.setattr(advice, "conclude", lambda question, found: (question, found))
+        return advice._off_its_angles(question, then, search), asked
+
+    caution = then._replace(verdict=Verdict.CAUTION)
+    assert of(None, holds=True) == of(search, holds=True) == (then, [])
+    assert of(None) == (caution, [])
+    assert of(search, com_range="range") == (caution, [])
+    assert of(search) == (("own", "its"), [(("flippers", "facing"), "drives")])
+    assert of(search, sturdy=False)[0] == caution
