@@ -45,13 +45,13 @@ def test_pieces_are_straight_and_beside_a_change_of_contacts():
     nosing_events(path_of([], asked))
     assert asked == [0, 1, 3, 5, 6, 8]  # no turn, some way, one line of poses
     asked.clear()
-    contacts = np.array([2, 2] + [3] * 8)
+    contacts = np.array([2] * 3 + [3] * 7)
     outermost = np.array([[1, 4]] * 7 + [[1, 5]] * 3)
     nosing_events(path_of([], asked, contacts=contacts, outermost=outermost))
-    assert asked == [0, 1, 5, 6]  # changes at 1 and 6, and the pieces beside them
+    assert asked == [1, 3, 5, 6]  # changes at 2 and 6, and the pieces beside them
     asked.clear()
     nosing_events(path_of([], asked, contacts=contacts, outermost=outermost[:1].repeat(10, 0)))
-    assert asked == [0, 1]
+    assert asked == [1, 3]
 
 
 def test_an_event_lies_between_two_poses():

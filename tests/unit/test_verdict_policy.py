@@ -1,11 +1,13 @@
 """The one verdict policy, on findings made by hand."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from kaidan import Question, Stairs
+from kaidan import Assessment, Question, Stairs
+from kaidan.assessment.answer import FindingShown, _probability
 from kaidan.assessment.verdict import conclude
 from kaidan.models.findings import Finding, Findings
 from kaidan.modes import (
@@ -350,3 +352,16 @@ def test_a_centroid_that_nobody_measured_comes_before_what_follows_from_it():
     found = judged(finding(TIP_DOWNHILL, -0.5), finding(UNWEIGHED, -0.1))
     assert found.governs == "unweighed"
     assert [one.mode for one in found.doubts] == [UNWEIGHED, TIP_DOWNHILL]
+
+
+def test_shares_and_margins_of_an_answer():
+    """Of two samples one fails; margins in degrees alone are angles."""
+    assert _probability(SimpleNamespace(samples=np.array([0.1, -0.1]))) == 0.5
+    assert _probability(SimpleNamespace(samples=np.array([-0.1]))) is None
+    shown = {
+        one.mode.key: FindingShown.of(one, 0.0)
+        for one in (finding(TIP_DOWNHILL, 0.1), finding(ENERGY, 0.02))
+    }
+    answer = SimpleNamespace(findings=shown)
+    margins = {"tip_downhill": pytest.approx(math.degrees(0.1))}
+    assert Assessment.margins_deg.fget(answer) == margins
