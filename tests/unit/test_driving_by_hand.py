@@ -71,8 +71,10 @@ def test_one_flat_carries_where_one_track_lies_all_along():
         assert tread_of(robot(front, kinds=[kind])).whole
     raised = (*disc(C_L - 0.2, 0.01), *disc(C_L, 0.01))
     assert tread_of(robot(raised, kinds=[contact.TRACK])).whole
-    tapered = (*disc(C_L - L, 0.0), *disc(C_L, 0.01))
-    assert not tread_of(robot((*disc(0, 0.0), *disc(0.1, 0.2)), kinds=[1], main=tapered)).whole
+    for rear, front in ((0.0, 0.01), (0.01, 0.0)):  # a tapered track
+        main = (*disc(C_L - L, rear), *disc(C_L, front))
+        flipper = (*disc(0, 0.0), *disc(0.1, 0.2))
+        assert not tread_of(robot(flipper, kinds=[contact.FLIPPER], main=main)).whole
 
 
 def whole(body, holds=True):
