@@ -14,6 +14,7 @@ import argparse
 import ast
 import copy
 import gc
+import importlib
 import json
 import os
 import resource
@@ -183,6 +184,13 @@ def find(code: CodeType, name: str) -> CodeType:
     return code
 
 
+def load(path: Path) -> None:
+    """Import a module of ``src`` that no test has imported yet."""
+    parts = path.with_suffix("").parts
+    first = len(parts) - parts[::-1].index("src")
+    importlib.import_module(".".join(parts[first:]).removesuffix(".__init__"))
+
+
 def live(path: Path) -> dict[str, list[FunctionType]]:
     """Functions of a file that this process holds."""
     gc.unfreeze()  # what the tests have set aside
@@ -250,6 +258,7 @@ class Run:
         counts: Counter[str] = Counter()
         last: dict[str, int] = {}
         for path in self.paths:
+            load(path)
             held = live(path)
             gc.freeze()  # nothing held here is garbage
             for mutant, code in self._sampled(list(mutants(path))):

@@ -202,6 +202,10 @@ def test_a_traverse_that_is_asked_of_a_tilt_says_on_which_side_it_falls(monkeypa
         assert not found._falls_beyond(limit + 0.01)
         assert found._falls_beyond(limit - 0.05)
     assert len(tried) == len({*tried})
+    # of what is sought the largest says all
+    assert made(sought=(0.05, 0.02))._falls_beyond(0.2)
+    assert made(sought=(0.2,))._falls_beyond(0.05)
+    assert not made(sought=(0.2, 0.05))._falls_beyond(0.15)
     asked = made(sought=(0.05,), path=path_to(-1.0, NOSINGS[1] + 0.01))
     assert 0.05 < asked.falls_downhill.tilt <= 0.1
     assert asked.falls_downhill[1:] == asked.end

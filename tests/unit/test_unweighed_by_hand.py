@@ -126,14 +126,14 @@ def test_what_only_some_places_know():
 
     def judge(along, height):
         tips = finding(TIP_DOWNHILL, 0.5 if along == last else 0.1, failing=Verdict.CAUTION)
-        low = [-0.01, math.nan] if along == first else [math.nan, math.nan]
+        low = [-0.01, math.nan] if along == last else [math.nan, math.nan]
         energy = finding(ENERGY, low, step=round(100 * along))
         impact = [finding(IMPACT, -0.2)] if along == first else []
         return judged(tips, energy, *impact)
 
     _, modes = over(judge)
     assert (modes[IMPACT].best.tolist(), modes[IMPACT].failing) == ([math.inf], Verdict.CAUTION)
-    assert (modes[ENERGY].worst[0], modes[ENERGY].step) == (-0.01, 24)
+    assert (modes[ENERGY].worst[0], modes[ENERGY].step) == (-0.01, 48)
     assert modes[TIP_DOWNHILL].failing is Verdict.CAUTION
     assert SLIDES_DOWN not in modes
 
