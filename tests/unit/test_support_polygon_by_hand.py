@@ -1,0 +1,108 @@
+"""The support polygon's findings at a yaw, of margins made by hand."""
+
+import math
+
+import numpy as np
+import pytest
+
+from kaidan import Question, Robot, Stairs
+from kaidan.mechanics.oblique import body_inclination, oblique_friction
+from kaidan.models import support_polygon as module
+from kaidan.models.support_polygon import along_heading, judge, tips
+from kaidan.modes import (
+    DRIVE,
+    SLIDES_DOWN,
+    SLIDES_UP,
+    TIP_DOWNHILL,
+    TIP_SIDEWAYS,
+    TIP_UPHILL,
+    Phase,
+    Verdict,
+)
+from kaidan.robot import Drive
+
+G = 9.80665
+YAW = 0.2
+FLIGHT = Stairs(rise=0.17, going=0.29, steps=6)
+KENAF = Robot.named("kenaf")
+ROBOT = KENAF.model_copy(
+    update={
+        "mass": 20.0, "drive": Drive(max_traction=150.0),
+        "track": KENAF.track.model_copy(update={"gauge": 0.4}),
+    }
+)  # fmt: skip
+
+
+def asked(**given):
+    usual = {"friction": (0.6, 0.9), "theta_d": (0.01, 0.02), "theta_M": (0.03, 0.05), "yaw": YAW}
+    return Question.in_one_posture(ROBOT, FLIGHT, **(usual | given))
+
+
+@pytest.fixture
+def found(monkeypatch):
+    """Findings beside tipping, friction in doubt by 0.1 and -0.9, the slope by 0 and 30 mrad."""
+    samples = np.array([0.1, -0.9]), np.array([0.0, 0.03])
+    monkeypatch.setattr(module, "_supply_samples", lambda question, at: samples)
+    monkeypatch.setattr(module, "tips", lambda question, flight, *, failing: ())
+    monkeypatch.setattr(module, "energy_of", lambda question, flight, psi: 0.1 * psi)
+    monkeypatch.setattr(module, "figures_of", lambda question, flight, energy: energy)
+
+    def of(**given):
+        judged = judge(asked(**given))
+        return judged, {one.mode: one for one in judged.each}
+
+    return of
+
+
+def test_friction_and_drive_at_a_yaw(found):
+    judged, modes = found()
+    theta = math.atan2(0.17, 0.29)
+    needed = float(oblique_friction(theta_s=theta, psi=YAW, a=0.0))
+    assert judged.required_friction == pytest.approx(needed)
+    slides, angle = modes[SLIDES_DOWN], math.atan(needed)
+    assert slides.worst == pytest.approx([math.atan(0.7) - angle, -angle - 0.03])
+    assert slides.best == pytest.approx([math.atan(1.0) - angle, -angle - 0.03])
+    body = float(body_inclination(theta_s=theta, psi=YAW))
+    spare = math.asin(150.0 / (20.0 * G)) - body
+    assert modes[DRIVE].worst == pytest.approx([spare, spare - 0.03])
+    assert judged.figures == (pytest.approx(0.1 * YAW),)
+
+
+def test_braking_more_than_the_slope_does_it_slides_up(found):
+    least = G * math.sin(math.atan2(0.17, 0.29))
+    for a, mode in ((-0.999 * least, SLIDES_DOWN), (-1.001 * least, SLIDES_UP)):
+        assert mode in found(acceleration=a)[1]
+
+
+def test_tips_are_margins_less_the_allowances(monkeypatch):
+    """The grousers' angle counts downhill alone."""
+    margins = np.array([[[0.3, 0.2]], [[0.4, 0.5]], [[0.6, 0.7]]])
+    monkeypatch.setattr(module, "margins_of", lambda question, flight, psi: margins)
+    each = tips(asked(), FLIGHT, failing=Verdict.CAUTION)
+    assert [one.mode for one in each] == [TIP_DOWNHILL, TIP_UPHILL, TIP_SIDEWAYS]
+    for one, row, (worst, best) in zip(
+        each, margins[:, 0], ((0.07, 0.04), (0.02, 0.01), (0.02, 0.01)), strict=True
+    ):
+        assert one.worst == pytest.approx(row - worst)
+        assert one.best == pytest.approx(row - best)
+        assert (one.failing, one.phase) == (Verdict.CAUTION, Phase.TRAVERSE)
+
+
+def test_a_flight_along_a_heading():
+    """tan(theta) = tan(theta_s) cos(psi), nosings p / cos(psi) apart; each riser by as much."""
+    psi = 0.4
+    ends = FLIGHT.model_copy(update={"first_rise": 0.1, "last_rise": 0.2})
+    found = along_heading(ends, psi)
+    assert math.tan(found.angle) == pytest.approx(0.17 / 0.29 * math.cos(psi))
+    assert found.nosing_spacing == pytest.approx(math.hypot(0.17, 0.29) / math.cos(psi))
+    share = found.rise / 0.17
+    assert (found.first_rise, found.last_rise) == pytest.approx((0.1 * share, 0.2 * share))
+    assert along_heading(FLIGHT, psi).first_rise is None
+    uneven = Stairs(rises=(0.1, 0.15, 0.2), goings=(0.3, 0.25))
+    found = along_heading(uneven, psi)
+    for step, turned in zip(
+        ((0.15, 0.3), (0.2, 0.25)), zip(found.step_rises[1:], found.step_goings, strict=True),
+        strict=True,
+    ):  # fmt: skip
+        assert math.hypot(*turned) == pytest.approx(math.hypot(*step) / math.cos(psi))
+        assert turned[0] / turned[1] == pytest.approx(step[0] / step[1] * math.cos(psi))
