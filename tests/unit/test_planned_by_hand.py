@@ -1,0 +1,208 @@
+"""Findings and figures of a plan's parts and changes as one, by hand; nothing is driven."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from kaidan import Question, Robot
+from kaidan.models import planned as module
+from kaidan.models.contact_figures import ContactFigures, Grades, PhaseFigures, TiltFigures
+from kaidan.models.findings import Finding, Findings
+from kaidan.models.planned import Part, Planned, _of_move, _smallest, _together, findings
+from kaidan.modes import (
+    ENERGY,
+    FLIPPER_TORQUE,
+    POSTURE_CHANGE,
+    SLIDES_DOWN,
+    TIP_DOWNHILL,
+    Phase,
+    Verdict,
+)
+from kaidan.robot import Posture
+from kaidan.surface import Surface
+from kaidan.traversal.rotations import ROCKING
+
+CAUTION, NO_GO = Verdict.CAUTION, Verdict.NO_GO
+QUESTION = Question.of(Robot.named("absolem"), "ibc", friction=0.9).changed(
+    best_of=(), posture=Posture(front=0.1), changes=({"before": "land", "posture": {"front": 0.5}},)
+)
+
+
+def finding(mode, worst, best=None, **more):
+    worst = np.atleast_1d(np.asarray(worst, dtype=float))
+    best = worst if best is None else np.atleast_1d(np.asarray(best, dtype=float))
+    return Finding(mode=mode, worst=worst, best=best, model="", **more)
+
+
+def change(**given):
+    usual = {"stands": True, "rocks": 0.0, "before": Phase.LAND, "energy": 0.05,
+             "spare_torque": math.nan, "required_friction": 0.4,
+             "path": SimpleNamespace(poses=[1])}  # fmt: skip
+    return SimpleNamespace(**(usual | given))
+
+
+def test_a_plan_arrives_if_its_last_part_does_and_it_stands_at_every_change():
+    def arrives(last, *stands):
+        part = Part(None, SimpleNamespace(arrived=last))
+        return Planned(None, (part,), tuple(change(stands=each) for each in stands)).arrived
+
+    assert arrives(True, True, True)
+    assert not arrives(True, True, False)
+    assert not arrives(False, True)
+    assert arrives(True)
+
+
+def test_of_a_mode_the_smallest_margin_of_all_parts_counts():
+    """Sample by sample, at the place of the smallest; the earliest of those alike."""
+    nan = math.nan
+    some = [
+        finding(TIP_DOWNHILL, [nan, nan], failing=NO_GO, step=9),
+        finding(TIP_DOWNHILL, [0.2, 0.1], [0.3, 0.4], failing=CAUTION, step=1),
+        finding(TIP_DOWNHILL, [0.0500001, 0.3], [0.5, 0.2], failing=CAUTION, step=2),
+        finding(TIP_DOWNHILL, [0.05, nan], [0.6, nan], failing=CAUTION, step=3),
+        finding(ENERGY, [-1.0, -1.0], failing=NO_GO, step=4),
+    ]
+    found = _smallest(TIP_DOWNHILL, some)
+    assert (found.step, found.failing) == (2, CAUTION)
+    assert found.worst.tolist() == [0.05, 0.1]
+    assert found.best.tolist() == [0.3, 0.2]
+    severe = [*some, finding(TIP_DOWNHILL, [0.9, 0.9], failing=NO_GO)]
+    assert _smallest(TIP_DOWNHILL, severe).failing is NO_GO
+    assert _smallest(TIP_DOWNHILL, some[:1]).failing is NO_GO
+    assert np.isnan(_smallest(TIP_DOWNHILL, some[:1]).worst).all()
+
+
+def of_move(monkeypatch, **given):
+    monkeypatch.setattr(module.traction, "standing_margins", lambda question, move: (0.1, 0.3))
+    question = SimpleNamespace(energy_threshold=0.01)
+    return {one.mode: one for one in _of_move(question, change(**given))}
+
+
+def test_findings_of_a_change(monkeypatch):
+    found = of_move(monkeypatch)
+    assert list(found) == [POSTURE_CHANGE, SLIDES_DOWN, ENERGY]
+    assert {one.phase for one in found.values()} == {Phase.LAND}
+    assert (found[POSTURE_CHANGE].worst, found[POSTURE_CHANGE].failing) == (math.inf, CAUTION)
+    slides = found[SLIDES_DOWN]
+    assert (slides.worst.tolist(), slides.best.tolist()) == ([0.1], [0.3])
+    assert (found[ENERGY].worst.tolist(), found[ENERGY].failing) == ([pytest.approx(0.04)], CAUTION)
+    assert of_move(monkeypatch, spare_torque=-3.0)[FLIPPER_TORQUE].worst == -3.0
+    assert list(of_move(monkeypatch, path=SimpleNamespace(poses=[]))) == [POSTURE_CHANGE]
+
+
+@pytest.mark.parametrize(
+    ("stands", "rocks", "margin", "failing"),
+    [
+        (True, ROCKING, math.inf, CAUTION),
+        (True, math.nextafter(ROCKING, 1), -math.inf, CAUTION),
+        (False, 0.0, -math.inf, NO_GO),
+        (False, 1.0, -math.inf, NO_GO),
+    ],
+)
+def test_where_it_does_not_stand_or_rocks(stands, rocks, margin, failing, monkeypatch):
+    found = of_move(monkeypatch, stands=stands, rocks=rocks)[POSTURE_CHANGE]
+    assert (found.worst.tolist(), found.best.tolist()) == ([margin], [margin])
+    assert found.failing is failing
+
+
+def test_findings_of_parts_and_changes(monkeypatch):
+    """Sliding is told where most friction is required; each part is judged in its posture."""
+    parts = {
+        "first": Findings(
+            model="", required_friction=0.5, notes=("one", "two"),
+            each=(finding(TIP_DOWNHILL, 0.2, step=1), finding(SLIDES_DOWN, 0.3, step=2)),
+        ),
+        "second": Findings(
+            model="", required_friction=0.7, notes=("two", "three"),
+            each=(finding(TIP_DOWNHILL, 0.1, step=3), finding(SLIDES_DOWN, 0.4, step=4)),
+        ),
+    }  # fmt: skip
+    asked = []
+
+    def judged(question, basis):
+        asked.append(question)
+        return parts[basis.traverse]
+
+    monkeypatch.setattr(module, "findings_of", judged)
+    monkeypatch.setattr(module, "_of_move", lambda question, each: (finding(ENERGY, 0.01),))
+    alone = [QUESTION.changed(posture=Posture(front=each), changes=()) for each in (0.1, 0.5)]
+    driven = tuple(Part(*each) for each in zip(alone, parts, strict=True))
+
+    def of(question, needed=0.4):
+        return findings(question, Planned(QUESTION, driven, (change(required_friction=needed),)))
+
+    found = of(QUESTION)
+    modes = {one.mode: one for one in found.each}
+    assert list(modes) == [TIP_DOWNHILL, SLIDES_DOWN, ENERGY]
+    assert (modes[TIP_DOWNHILL].worst.tolist(), modes[TIP_DOWNHILL].step) == ([0.1], 3)
+    assert (modes[SLIDES_DOWN].worst.tolist(), modes[SLIDES_DOWN].step) == ([0.3], 4)
+    assert found.required_friction == 0.7
+    assert found.notes[:] == ("one", "two", "three")
+    assert asked == alone
+    assert of(QUESTION, 0.9).required_friction == 0.9
+    # a changed question, that has the same traverse
+    asked.clear()
+    other = QUESTION.changed(surface=Surface.of_friction(0.5))
+    of(other)
+    assert [(one.posture, one.friction, one.changes) for one in asked] == [
+        (each.posture, (0.5, 0.5), ()) for each in alone
+    ]
+    parts["second"] = Findings(model="", outside="too long")
+    assert (of(QUESTION).outside, of(QUESTION).each) == ("too long", ())
+
+
+def phase(name, friction, energy, **given):
+    usual = {
+        "phase": name, "required_friction": friction, "required_friction_step": 1,
+        "slides_below": None, "energy_margin_mm": energy, "energy_margin_step": 2,
+        "static_margin_mm": 10.0, "traction_over_weight": 0.5, "largest_rotation_deg": 1.0,
+        "belly_touches": False,
+    }  # fmt: skip
+    return PhaseFigures(**(usual | given))
+
+
+def figures(phases, *, grades=(True, True, True, 3.0, 4.0), tilt=(5.0, 6.0), **given):
+    names = tuple(Grades.model_fields)
+    usual = {
+        "grades": Grades(**dict(zip(names, grades, strict=True))),
+        "tilt": TiltFigures(to_rock_deg=tilt[0], to_fall_deg=tilt[1], reserve_deg=3.0),
+        "phases": tuple(phases), "rotations": (), "energy_threshold_mm": 1.0,
+        "speed_stated": True, "rear_length_mm": None, "margin_centroid_mm": None,
+        "traction_N": None, "power_W": None,
+    }  # fmt: skip
+    return ContactFigures(**(usual | given))
+
+
+def test_figures_of_parts_as_one():
+    one = figures(
+        [phase("enter", 0.5, 7.0), phase("land", 0.4, None, slides_below=0.2)],
+        grades=(True, True, False, 3.0, 4.0), tilt=(5.0, None), margin_centroid_mm=8.0,
+        traction_N=100.0, power_W=0.5,
+    )  # fmt: skip
+    two = figures(
+        [phase("land", 0.6, 3.0, slides_below=0.3, energy_margin_step=5, static_margin_mm=2.0,
+               traction_over_weight=0.9, largest_rotation_deg=7.0, belly_touches=True)],
+        grades=(False, True, True, 2.0, 9.0), tilt=(4.0, 2.0), margin_centroid_mm=-1.0,
+        traction_N=50.0,
+    )  # fmt: skip
+    (found,) = _together([one, two])
+    assert [*dict(found.grades).values()] == [False, True, False, 3.0, 9.0]
+    assert (found.tilt.to_rock_deg, found.tilt.to_fall_deg) == (4.0, 2.0)
+    assert (found.margin_centroid_mm, found.traction_N, found.power_W) == (-1.0, 100.0, 0.5)
+    enter, land = found.phases
+    assert (enter.phase, enter.required_friction) == ("enter", 0.5)
+    assert (land.required_friction, land.slides_below) == (0.6, 0.3)
+    assert (land.energy_margin_mm, land.energy_margin_step) == (3.0, 5)
+    assert (land.static_margin_mm, land.traction_over_weight) == (2.0, 0.9)
+    assert (land.largest_rotation_deg, land.belly_touches) == (7.0, True)
+    nothing = figures([], grades=(None, True, True, 0.0, 0.0), tilt=(None, None))
+    (found,) = _together([nothing, nothing])
+    assert found.grades.no_rotation is None
+    assert (found.tilt.to_rock_deg, found.tilt.to_fall_deg) == (None, None)
+    assert (found.margin_centroid_mm, found.traction_N, found.power_W) == (None, None, None)
+    (found,) = _together([one, nothing])
+    assert found.grades.no_rotation is True
+    assert found.grades.arrested is True
+    assert found.tilt.to_rock_deg == 5.0
