@@ -82,6 +82,56 @@ def test_the_sign_of_the_margin_is_the_polygons(count):
     assert min(seen.values()) > count / 8
 
 
+@pytest.mark.parametrize("psi", [0.3, -0.5, 0.8])
+@pytest.mark.parametrize("a", [0.0, 0.7])
+def test_at_the_slope_that_the_margin_leaves_the_load_passes_an_edge(psi, a):
+    """A milliradian less steep it is within the polygon at every progress, one more it is not."""
+    L, C_L, C_N, gauge, p, theta = 0.7, 0.3, 0.12, 0.45, 0.16, 0.4
+    robot = Robot(
+        name="r",
+        com_from_front=C_L,
+        com_height=C_N,
+        track=Track(flat_length=L, front_radius=0.05, rear_radius=0.05, gauge=gauge),
+    )
+    flight = Stairs.inclined(angle=theta, nosing_spacing=p)
+    question = Question.in_one_posture(robot, flight, friction=1.0, acceleration=a)
+    downhill, _, sideways = margins_of(question, flight, np.array([psi]))[:, 0, 0]
+    events = [(k * p / 60) for k in range(60)]
+    for y in (-gauge / 2, gauge / 2):
+        for tip, past in ((-(L - C_L), -1e-9), (C_L, 1e-9)):
+            events.append((tip + past) * math.cos(psi) - math.sin(psi) * y)
+    polygons = [corners(L, C_L, gauge, p, psi, at) for at in events]
+
+    def holds(slope):
+        load = C_N * math.tan(slope)
+        ahead = -load * math.cos(psi) - C_N * a / (G * math.cos(slope))
+        z = np.array([ahead, load * math.sin(psi)])
+        return min(inside(each, z) for each in polygons) > 0
+
+    limit = theta + min(downhill, sideways)
+    assert 0.1 < limit < 1.4
+    assert holds(limit - 1e-3)
+    assert not holds(limit + 1e-3)
+
+
+def test_energy_of_a_narrow_robot_is_that_of_a_turn_about_its_lower_track():
+    robot = Robot(
+        name="r",
+        com_from_front=0.3,
+        com_height=0.1,
+        track=Track(flat_length=0.7, front_radius=0.05, rear_radius=0.05, gauge=0.12),
+    )
+    theta, psi = 0.6, 0.4
+    flight = Stairs.inclined(angle=theta, nosing_spacing=0.2)
+    question = Question.in_one_posture(robot, flight, friction=1.0)
+    # by hand, across the heading: up leans to one side by sin(theta) sin(psi)
+    across, up = math.sin(theta) * math.sin(psi), math.cos(theta)
+    for sign in (1, -1):
+        rises = math.hypot(0.06, 0.1) * math.hypot(across, up) - 0.1 * up - 0.06 * across
+        found = energy_of(question, flight, np.array([sign * psi]))
+        assert float(found[0]) == pytest.approx(rises, abs=1e-12)
+
+
 def test_energy_is_that_of_a_turn_about_the_edge():
     """Height of the centroid turned about the edge in small steps, against the formula."""
     robot = Robot(
