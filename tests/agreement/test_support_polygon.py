@@ -95,7 +95,7 @@ def test_at_the_slope_that_the_margin_leaves_the_load_passes_an_edge(psi, a):
     )
     flight = Stairs.inclined(angle=theta, nosing_spacing=p)
     question = Question.in_one_posture(robot, flight, friction=1.0, acceleration=a)
-    downhill, _, sideways = margins_of(question, flight, np.array([psi]))[:, 0, 0]
+    downhill, uphill, sideways = margins_of(question, flight, np.array([psi]))[:, 0, 0]
     events = [(k * p / 60) for k in range(60)]
     for y in (-gauge / 2, gauge / 2):
         for tip, past in ((-(L - C_L), -1e-9), (C_L, 1e-9)):
@@ -112,6 +112,9 @@ def test_at_the_slope_that_the_margin_leaves_the_load_passes_an_edge(psi, a):
     assert 0.1 < limit < 1.4
     assert holds(limit - 1e-3)
     assert not holds(limit + 1e-3)
+    limit = theta - uphill
+    assert holds(limit + 1e-3)
+    assert not holds(limit - 1e-3)
 
 
 def test_energy_of_a_narrow_robot_is_that_of_a_turn_about_its_lower_track():

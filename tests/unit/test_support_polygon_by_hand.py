@@ -8,7 +8,8 @@ import pytest
 from kaidan import Question, Robot, Stairs
 from kaidan.mechanics.oblique import body_inclination, oblique_friction
 from kaidan.models import support_polygon as module
-from kaidan.models.support_polygon import along_heading, judge, tips
+from kaidan.models.centroid import shift_of_centroid
+from kaidan.models.support_polygon import along_heading, energy_of, judge, margins_of, tips
 from kaidan.modes import (
     DRIVE,
     SLIDES_DOWN,
@@ -86,6 +87,59 @@ def test_tips_are_margins_less_the_allowances(monkeypatch):
         assert one.worst == pytest.approx(row - worst)
         assert one.best == pytest.approx(row - best)
         assert (one.failing, one.phase) == (Verdict.CAUTION, Phase.TRAVERSE)
+
+
+def test_of_several_kinds_of_steps_the_worst_counts():
+    """Margins and rises of the whole are the least of those of each kind alone."""
+    steps = ((0.15, 0.3), (0.2, 0.25))
+    flights = [Stairs(rise=rise, going=going, steps=6) for rise, going in steps]
+    uneven = Stairs(rises=(0.1, 0.15, 0.2, 0.15), goings=(0.3, 0.25, 0.3))
+
+    def of(found, flight):
+        question = Question.in_one_posture(ROBOT, flight, friction=1.0)
+        return found(question, flight, np.array([YAW]))
+
+    for found in (margins_of, energy_of):
+        alone = np.minimum(*(of(found, each) for each in flights))
+        np.testing.assert_allclose(of(found, uneven), alone)
+
+
+def test_a_track_without_any_contact_at_times_tips():
+    """Nosings of 336 mm lie p / cos(psi) apart along it: 470 mm at a yaw of 0.774 rad."""
+    p = math.hypot(0.17, 0.29)
+    limit = math.acos(p / ROBOT.track.flat_length)
+    for yaw, alone in ((limit + 1e-6, True), (limit - 1e-6, False), (-limit - 1e-6, True)):
+        found = margins_of(asked(), FLIGHT, np.array([yaw]))
+        assert bool((found == -math.pi / 2).all()) is alone
+
+
+@pytest.mark.parametrize("facing", ["nose-first", "tail-first"])
+@pytest.mark.parametrize("a", [0.0, 0.4])
+def test_the_centroid_is_moved_by_what_a_margin_lacks(facing, a):
+    """Less the allowances: the load stands C_N (tan + a / (g cos)) behind the centroid's foot."""
+    L, C_N, p, d, M = 0.470, 0.071, 0.150, 0.02, 0.05
+    C_L = 0.196 if facing == "nose-first" else L - 0.196
+
+    def of(slope, downhill, **manner):
+        flight = Stairs.inclined(angle=slope, nosing_spacing=p)
+        question = Question.in_one_posture(
+            "kenaf", flight, theta_d=(0.0, d), theta_M=(0.0, M), facing=facing, acceleration=a,
+            **manner,
+        )  # fmt: skip
+        return shift_of_centroid(question, downhill=downhill)
+
+    def load(slope):
+        return C_N * (math.tan(slope) + a / (G * math.cos(slope)))
+
+    for slope in (0.9, 1.05, 1.15):
+        lacks = load(slope + d + M) - (L - p - C_L)
+        room = L - 2 * p - load(slope + d + M) + load(slope - d)
+        found = of(slope, True)
+        assert found == (pytest.approx(lacks, abs=1e-6) if lacks > 0 and room >= 0 else None)
+    assert of(1.43, True) is None  # the track is too short for any shift
+    assert of(1.05, True, yaw=0.1) is None
+    lacks = p - C_L - load(0.1 - d)
+    assert of(0.1, False) == (pytest.approx(lacks, abs=1e-6) if lacks > 0 else None)
 
 
 def test_a_flight_along_a_heading():
