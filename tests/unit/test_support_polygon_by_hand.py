@@ -120,10 +120,10 @@ def test_the_centroid_is_moved_by_what_a_margin_lacks(facing, a):
     L, C_N, p, d, M = 0.470, 0.071, 0.150, 0.02, 0.05
     C_L = 0.196 if facing == "nose-first" else L - 0.196
 
-    def of(slope, downhill, **manner):
-        flight = Stairs.inclined(angle=slope, nosing_spacing=p)
+    def of(slope, downhill, spacing=p, **manner):
+        flight = Stairs.inclined(angle=slope, nosing_spacing=spacing)
         question = Question.in_one_posture(
-            "kenaf", flight, theta_d=(0.0, d), theta_M=(0.0, M), facing=facing, acceleration=a,
+            ROBOT, flight, theta_d=(0.0, d), theta_M=(0.0, M), facing=facing, acceleration=a,
             **manner,
         )  # fmt: skip
         return shift_of_centroid(question, downhill=downhill)
@@ -138,8 +138,10 @@ def test_the_centroid_is_moved_by_what_a_margin_lacks(facing, a):
         assert found == (pytest.approx(lacks, abs=1e-6) if lacks > 0 and room >= 0 else None)
     assert of(1.43, True) is None  # the track is too short for any shift
     assert of(1.05, True, yaw=0.1) is None
-    lacks = p - C_L - load(0.1 - d)
-    assert of(0.1, False) == (pytest.approx(lacks, abs=1e-6) if lacks > 0 else None)
+    for slope in (0.11, 0.4):
+        lacks = 0.22 - C_L - load(slope - d)
+        found = of(slope, False, spacing=0.22)
+        assert found == (pytest.approx(lacks, abs=1e-6) if lacks > 0 else None)
 
 
 def test_a_flight_along_a_heading():
