@@ -14,6 +14,8 @@ from typing import Any
 
 MEMORY = "KAIDAN_IFC_MEMORY"
 """Variable with the bytes of memory that it may take."""
+MANY = 1000
+"""Elements from which several threads save more than they cost."""
 STAIRS = ("IfcStair", "IfcStairFlight", "IfcRamp", "IfcRampFlight")
 LEVELS = ("IfcSlab",)
 ROUND = ("IfcWall", "IfcColumn", "IfcBeam", "IfcRoof", "IfcCovering", "IfcDoor", "IfcCurtainWall")
@@ -113,7 +115,7 @@ def _shapes(model: Any, wanted: list[Any]) -> dict[int, tuple[Any, Any]]:
     found: dict[int, tuple[Any, Any]] = {}
     if not drawn:
         return found
-    threads = min(os.cpu_count() or 1, 4) if len(drawn) > 50 else 1
+    threads = min(os.cpu_count() or 1, 4) if len(drawn) > MANY else 1
     iterator = ifcopenshell.geom.iterator(settings, model, threads, include=drawn)
     if not iterator.initialize():
         return found
