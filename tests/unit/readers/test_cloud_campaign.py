@@ -8,10 +8,19 @@ from kaidan.readers.hints import Hints
 from kaidan.readers.interpreters import points as interpreter
 
 
+ONCE_WRONG = (
+    116,  # an odd landing from above, and a step of which nothing was seen
+    173,  # treads from above beside a wall
+    263,  # an odd last riser of which the landing was seen
+    3128,  # walls at both sides behind the last step
+    6120,  # a flight in two parts
+)
+
+
 def test_known_stairs_are_found():
     """Issue: no failure at up to 10 mm of noise; what lacks is said to be unseen."""
     tally = campaign.Tally()
-    for number in range(9):
+    for number in (*range(9), *ONCE_WRONG):
         campaign.judge(number, tally)
     assert tally.failures == []
     assert tally.refusals == []

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kaidan.readers.stairfit.staircase_line import StairLine, assigned
-from kaidan.readers.stairfit.steps import ALIKE_WITHIN, smooth_field
+from kaidan.readers.stairfit.steps import ALIKE_WITHIN, _last_riser, smooth_field
 
 
 def test_an_error_that_varies_smoothly_averages_out_as_draws_do():
@@ -38,3 +38,41 @@ def test_points_at_the_edges_do_not_say_which_element_they_lie_on():
     assert at.tread.tolist() == [True, True, False, False]
     assert at.riser.tolist() == [False, False, True, True]
     assert at.inner.tolist() == [True, False, True, False]
+
+
+def landing(points):
+    """Nosings of five steps of 150 by 300 mm, 0.9 m wide, with what lies above the last one."""
+    number = np.arange(5)
+    found = np.column_stack([0.3 * number, 0.15 * (number + 1.0)])
+    line = StairLine(s0=0.0, z0=0.15, going=0.3, rise=0.15, first=0, last=4)
+    tread = np.random.default_rng(1).uniform([1.2, 0.0, 0.749], [1.5, 0.9, 0.751], (900, 3))
+    s, t, z = (np.r_[one, other] for one, other in zip(points, tread.T, strict=True))
+    sigma, measured = np.full((5, 2), 1e-3), np.ones((5, 2), dtype=bool)
+    nosings, *_, length = _last_riser(found, sigma, measured, line, s, t, z, 0.003, 0.01)
+    return len(nosings), length
+
+
+def strewn(low, high, count=300):
+    """Points one riser above the last nosing, from one t to another."""
+    rng = np.random.default_rng(0)
+    s, t = rng.uniform(1.5, 2.4, count), rng.uniform(low, high, count)
+    return s, t, rng.normal(0.90, 0.002, count)
+
+
+def test_a_landing_is_as_wide_as_the_flight():
+    nosings, length = landing(strewn(0.0, 0.9))
+    assert nosings == 6
+    assert length == pytest.approx(0.9, abs=0.1)
+
+
+def test_what_stands_at_the_sides_is_no_landing():
+    """A box on 0.25 m of the width; walls at both sides; a dozen stray points between."""
+    box = strewn(0.0, 0.25)
+    walls = [
+        np.r_[one, other] for one, other in zip(strewn(0, 0.05), strewn(0.85, 0.9), strict=True)
+    ]
+    stray = [np.r_[one, other] for one, other in zip(box, strewn(0.25, 0.9, 9), strict=True)]
+    for points in (box, walls, stray):
+        nosings, length = landing(points)
+        assert nosings == 5
+        assert np.isnan(length)

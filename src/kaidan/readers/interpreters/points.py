@@ -40,6 +40,8 @@ MOST_PATCHED = 60_000
 """Points from which patches are made."""
 SAME_NOSING = 0.04
 """Distance of nosings that are one [m]."""
+CONTINUES = 0.3
+"""Distance from the place of the next nosing up to which another one is that, in steps [1]."""
 MANY_LEFT = 400
 """Points of the thinned cloud from which another flight is looked for."""
 NOISY, WIDE = 0.008, 0.18
@@ -196,7 +198,7 @@ def _with_up(
         beside = [k for k, other in enumerate(flights) if _beside(flight, other)]
         if beside:
             flights[beside[0]] = _wider(flights[beside[0]], flight)
-        elif flight.width >= NARROWEST:
+        elif flight.width >= NARROWEST and not any(_continues(flight, one) for one in flights):
             flights.append(flight)
         if left.sum() > before - 20 or left.sum() < MANY_LEFT:
             break
@@ -307,6 +309,22 @@ def _beside(one: FlightEstimate, other: FlightEstimate) -> bool:
     line_s, _, line_z = rotated(other.middle, other.heading)
     k = np.abs(s[:, None] - line_s).argmin(axis=1)
     return bool(np.median(np.hypot(s - line_s[k], z - line_z[k])) < SAME_NOSING)
+
+
+def _continues(one: FlightEstimate, other: FlightEstimate) -> bool:
+    """Whether a flight leads on from another one without a landing, as its far end does.
+
+    It is the same flight, of which too little was seen between; the other one says that its end was
+    not seen.
+    """
+    if abs(math.sin((one.heading - other.heading) / 2)) > 0.03:
+        return False
+    lower, upper = sorted((one, other), key=lambda each: float(each.middle[0, 2]))
+    s, t, z = rotated(np.vstack([lower.middle[-1], upper.middle[0]]), other.heading)
+    step = np.array([other.regular.going, other.regular.rise])
+    off = np.array([s[1] - s[0], z[1] - z[0]]) - np.arange(1, 4)[:, None] * step
+    beside = abs(t[1] - t[0]) > max(one.width, other.width) / 2
+    return bool((np.abs(off) < CONTINUES * step).all(axis=1).any()) and not beside
 
 
 def _wider(flight: FlightEstimate, beside: FlightEstimate) -> FlightEstimate:

@@ -72,15 +72,22 @@ def refined(patches: Patches, up: Array, sigma: float) -> tuple[Array, float]:
 def _by_planes(patches: Patches, up: Array, sigma: float) -> tuple[Array, float]:
     """Direction up and its doubt, with what large planes say of it (weighted least squares)."""
     weights, pulled = np.eye(3) / sigma**2, np.zeros(3)
-    for lean in leans(patches, up, math.radians(NEAR)):
+    planes = leans(patches, up, math.radians(NEAR))
+    for lean in planes:
         weight = 1.0 / (lean.sigma**2 + BEST**2)
         weights += weight * np.outer(lean.along, lean.along)
         pulled += weight * lean.angle * lean.along
     covariance = np.linalg.inv(weights)
     level = np.eye(3) - np.outer(up, up)
-    found = up + covariance @ pulled
+    moved = covariance @ pulled
     doubt = float(np.linalg.eigvalsh(level @ covariance @ level)[-1])
-    return found / np.linalg.norm(found), math.sqrt(doubt)
+    # where planes and patches contradict each other, the doubt grows by it (Birge 1932)
+    chi2 = float(moved @ moved) / sigma**2 + sum(
+        (lean.angle - float(moved @ lean.along)) ** 2 / (lean.sigma**2 + BEST**2) for lean in planes
+    )
+    found = up + moved
+    grown = math.sqrt(max(chi2 / max(len(planes), 1), 1.0))
+    return found / np.linalg.norm(found), math.sqrt(doubt) * grown
 
 
 def frame(up: Array, side: Array) -> Array:

@@ -32,10 +32,10 @@ LANES = (0.05, 0.2)
 """Widths of the lanes in which ends are sought, the second where the first holds too few [m]."""
 FEWEST_LANES = 3
 """Lanes in which an end must be seen."""
-LOCAL, ALIKE_WITHIN = 0.3, 0.15
+LOCAL, ALIKE_WITHIN = 0.28, 0.16
 """Share of the doubt of the range that differs from one direction to the next [1], and the angle
 over which its correlation falls to 1/e [rad]: what calibrating a sensor leaves is smooth."""
-FLOOR = 0.18
+FLOOR = 0.12
 """Share of the doubt of the range by which the level of the floor is off [1]: less than in one
 direction, because it is a mean over them."""
 SMALLEST = 5e-4
@@ -402,15 +402,18 @@ def _last_riser(
             found[-1, 1], sigma[-1, 1], measured[-1, 1] = height, doubt, True
         return found, sigma, measured, _reach(ahead)
     above = (s > last[0] + g + 0.03) & (s < last[0] + g + 1.2)
-    above &= (z > last[1] + 0.2 * r) & (z < last[1] + HIGHEST_LAST * r)
+    above &= (z > last[1] + 0.2 * r) & (z < last[1] + 1.7 * r)
     height, doubt, count = _densest(z[above], max(tight, 0.01))
     if count < FLOOR_SEEN:
         return found, sigma, measured, math.nan
     on = above & (np.abs(z - height) < tight)
     reach = _reach(s[on] - last[0] - g)
-    across = STRIP * np.unique(np.floor(t[on] / STRIP)).size  # not of walls at both sides
+    # strip by strip: walls at both sides, or a few stray points, are no landing
+    _, in_strip = np.unique(np.floor(t[on] / STRIP), return_counts=True)
+    across = STRIP * int((in_strip >= FEWEST_LANES).sum())
     narrow = across < LANDING_ACROSS * float(np.ptp(np.percentile(t, [2, 98])))
-    if reach < 0.1 + 0.5 * g or count < 0.5 * above.sum() or narrow:
+    high = height > last[1] + HIGHEST_LAST * r
+    if reach < 0.1 + 0.5 * g or count < 0.5 * above.sum() or narrow or high:
         return found, sigma, measured, math.nan
     face = (np.abs(s - last[0] - g) < max(2 * tight, 0.04)) & (z > last[1] + 0.1 * r)
     face &= z < height - 0.1 * r
