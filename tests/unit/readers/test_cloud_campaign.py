@@ -7,7 +7,6 @@ import cloud_campaign as campaign
 from kaidan.readers.hints import Hints
 from kaidan.readers.interpreters import points as interpreter
 
-
 ONCE_WRONG = (
     116,  # an odd landing from above, and a step of which nothing was seen
     173,  # treads from above beside a wall
