@@ -6,21 +6,35 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from kaidan import Question, Robot, Stairs
+from kaidan import Profile, Question, Robot, Stairs
 from kaidan.contact import Status
+from kaidan.mechanics.oblique import equivalent_slope_across
+from kaidan.models import planned
+from kaidan.models import quasi_static as module
 from kaidan.models.drive_limits import steepest_for_drive, traction_limit
+from kaidan.models.findings import Findings
 from kaidan.models.quasi_static import (
+    LONG_FLIGHT,
+    Basis,
     _answered,
     _drives_alike,
     _Extremes,
+    _figures,
     _obstacles,
     _supply,
     drive_margin,
+    driven_over,
+    findings_of,
+    judge,
+    profile_of,
     repeats,
 )
 from kaidan.models.spread import Spread
+from kaidan.models.support_polygon import along_heading
 from kaidan.modes import (
     DRIVE,
+    FALL_DOWNHILL,
+    FALL_UPHILL,
     HIGH_CENTRING,
     LANDING_ROOM,
     SLIDES_DOWN,
@@ -254,3 +268,137 @@ def test_which_questions_have_one_traverse():
         of(facing="tail-first"), of(KENAF.with_centroid(0.2, 0.08)),
     ):  # fmt: skip
         assert not _drives_alike(of(), other)
+
+
+FLIGHT = Stairs(rise=0.1, going=0.3)
+GAUGED = KENAF.model_copy(update={"track": KENAF.track.model_copy(update={"gauge": 0.4})})
+
+
+def question_of(robot=GAUGED, terrain=FLIGHT, **manner):
+    return Question.in_one_posture(robot, terrain, friction=0.5, **manner)
+
+
+def test_a_question_is_driven_along_its_heading_unless_it_was(monkeypatch):
+    driven = []
+    monkeypatch.setattr(module, "traverse_of", lambda question: driven.append(question) or "driven")
+    monkeypatch.setattr(module, "findings_of", lambda question, basis: (question, basis))
+    straight, turned = question_of(), question_of(yaw=0.2)
+    assert judge(straight) == (straight, Basis(straight, "driven"))
+    _, basis = judge(turned)
+    assert basis.question == turned.changed(terrain=along_heading(FLIGHT, 0.2), yaw=0.0)
+    ramp = question_of(terrain=Profile.of_points([(-2, 0), (0, 0), (1, 0.3), (3, 0.3)]))
+    assert judge(ramp)[1].question is ramp
+    # what was driven is taken over where the change plays no part
+    driven.clear()
+    known = Findings(model="", basis=Basis(straight, "known"))
+    slippery = Question.in_one_posture(GAUGED, FLIGHT, friction=0.1)
+    assert judge(slippery, known=known) == (slippery, Basis(slippery, "known"))
+    assert driven == []
+    assert judge(question_of(direction="down"), known=known)[1].traverse == "driven"
+
+
+def test_a_plan_is_driven_unless_it_was(monkeypatch):
+    monkeypatch.setattr(planned, "drive", lambda question: "driven")
+    monkeypatch.setattr(planned, "findings", lambda question, of: (question, of))
+    change = {"before": "land", "posture": {"front": 0.5}}
+    plan = Question.of(Robot.named("absolem"), FLIGHT, friction=0.5).changed(
+        best_of=(), posture={"front": 0.1}, changes=(change,)
+    )
+    known = Findings(model="", basis=Basis(plan, "known"))
+    assert judge(plan) == (plan, "driven")
+    assert judge(plan, known=known) == (plan, "known")
+    other = plan.changed(direction="down")
+    assert judge(other, known=known) == (other, "driven")
+
+
+@pytest.mark.parametrize("direction", ["up", "down"])
+def test_the_manner_in_which_it_is_driven(direction, monkeypatch):
+    asked_for = []
+    monkeypatch.setattr(module, "traverse", lambda *given, **how: asked_for.append((given, how)))
+    question = question_of(direction=direction, facing="tail-first", acceleration=0.2)
+    driven_over("profile", question, step=0.05)
+    ((given, how),) = asked_for
+    assert given == ("profile", question.outline)
+    assert how == {
+        "descending": direction == "down", "facing": "tail-first", "acceleration": 0.2,
+        "step": 0.05,
+    }  # fmt: skip
+
+
+def test_a_long_uniform_flight_is_driven_as_far_as_it_says_all():
+    long_flight = Stairs(rise=0.1, going=0.3, steps=90)
+    assert len(profile_of(question_of(terrain=long_flight)).nosings) == LONG_FLIGHT
+    ramp = Profile.of_points([(-2, 0), (0, 0), (1, 0.3), (3, 0.3)])
+    assert profile_of(question_of(terrain=ramp)) is ramp
+    assert len(profile_of(question_of(terrain=Stairs(rise=0.1, going=0.3, steps=5))).nosings) == 5
+
+
+@pytest.fixture
+def put_together(monkeypatch):
+    """Findings of a traverse of two phases, and of which phases its parts are asked."""
+    phases = tuple(
+        SimpleNamespace(
+            phase=each, required_friction=mu, traction_over_weight=0.1, required_friction_step=1
+        )
+        for each, mu in ((Phase.ENTER, 0.3), (Phase.LAND, 0.4))
+    )
+    asked_for = {}
+
+    def of(question, *, phase=None, held=None, status=Status.OK):
+        found = SimpleNamespace(status=status, phases=phases)
+        monkeypatch.setattr(module, "spread", lambda *given: "spread")
+        monkeypatch.setattr(module.traction, "supplies", lambda *given: held)
+        for name in ("_supply", "_obstacles", "balance"):
+
+            def part(*given, name=name):
+                asked_for[name] = given
+                return [SimpleNamespace(mode=name)]
+
+            monkeypatch.setattr(module, name, part)
+        return findings_of(question, Basis(question, found), phase=phase), asked_for
+
+    return of
+
+
+def test_findings_put_together(put_together):
+    found, parts = put_together(question_of())
+    assert [one.mode for one in found.each] == ["_supply", "_obstacles", "balance"]
+    assert found.required_friction == 0.4
+    assert [one.phase for one in parts["_obstacles"][3]] == [Phase.ENTER, Phase.LAND]
+    found, parts = put_together(question_of(), phase=Phase.ENTER)
+    assert found.required_friction == 0.3
+    assert [one.phase for one in parts["_obstacles"][3]] == [Phase.ENTER]
+    assert found.notes == ()
+    # at a yaw on stairs the slope across adds to it
+    turned = question_of(yaw=0.2)
+    across = float(equivalent_slope_across(theta_s=FLIGHT.angle, psi=0.2))
+    assert put_together(turned)[0].required_friction == pytest.approx(math.hypot(0.4, across))
+    held = SimpleNamespace(worst=SimpleNamespace(required=0.2))
+    assert put_together(question_of(), held=held)[0].required_friction == 0.2
+    failed, _ = put_together(question_of(), status=Status.TOO_LONG)
+    assert (failed.outside, failed.each) == (Status.TOO_LONG.message, ())
+
+
+def test_figures_of_falls_that_were_looked_for(monkeypatch):
+    monkeypatch.setattr(
+        module, "figures_of", lambda question, driven, found, phases, *, falls: (phases, falls)
+    )
+    monkeypatch.setattr(
+        module, "support_polygon",
+        SimpleNamespace(
+            energy_of=lambda question, flight, at: 2 * at,
+            figures_of=lambda question, flight, energy: energy,
+        ),
+    )  # fmt: skip
+    phases = tuple(SimpleNamespace(phase=each) for each in (Phase.ENTER, Phase.LAND))
+    found = SimpleNamespace(falls_downhill="down", falls_uphill="up", phases=phases)
+
+    def of(question, modes, phase=None):
+        return list(_figures(question, question, found, phase, modes))
+
+    turned = question_of(yaw=0.2)
+    assert of(turned, [FALL_UPHILL]) == [(phases, ("up",)), pytest.approx(0.4)]
+    assert of(turned, [FALL_UPHILL, FALL_DOWNHILL], Phase.LAND) == [(phases[1:], ("down", "up"))]
+    assert of(question_of(KENAF), []) == [(phases, ())]
+    ramp = question_of(terrain=Profile.of_points([(-2, 0), (0, 0), (1, 0.3), (3, 0.3)]))
+    assert len(of(ramp, [])) == 1
