@@ -24,7 +24,7 @@ from kaidan.readers.stairfit.staircase_line import (
     robust_plane,
     tops,
 )
-from kaidan.readers.stairfit.turning_steps import nosing_angles
+from kaidan.readers.stairfit.turning_steps import nosing_angles, turn_of
 
 FEWEST_POINTS = 12
 """Points of a tread or a riser from which its mean is taken."""
@@ -121,7 +121,8 @@ def steps_of(
     thin = max(1, len(s) // MOST_FITTED)
     s, t, z = s[::thin], t[::thin], z[::thin]
     line = fitted(line, s, t, z, tolerances=(1.5 * tight, tight, tight))
-    line = _bottom(_trimmed(line, s, t, z, tight), s, t, z, tight)
+    whole = _trimmed(line, s, t, z, tight)
+    line = _bottom(whole, s, t, z, tight)
     if line.last - line.first < 2:
         return None
     line = _without_odd(line, s, t, z, tight)
@@ -153,6 +154,9 @@ def steps_of(
     width = _width(at.step[on], t[on], line)
     covariance = independent((sigma**2 + SMALLEST**2)[:, :, None] * np.eye(2))
     covariance += LOCAL**2 * range_error**2 * smooth_field(found - eye, width[1] - width[0])
+    angles = nosing_angles(line, s, t, z, width)
+    if turn_of(angles)[0] == "curved":  # its first nosings lie elsewhere than those of a line
+        angles = nosing_angles(whole, s, t, z, width)
     away = float(np.hypot(*(found[0] - eye)))
     floor_sigma = math.hypot(floor_sigma, FLOOR * range_error * away)
     return Steps(
@@ -162,7 +166,7 @@ def steps_of(
         roughness=rms, residual=float(np.median(np.abs(off))),
         explained=explained_share(line, s, t, z, tight), depth=_depth(line, s, t, z),
         level=_level_share(line, at, s, t, z),
-        width=width, angles=nosing_angles(line, s, t, z, width),
+        width=width, angles=angles,
     )  # fmt: skip
 
 
