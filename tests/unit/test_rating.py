@@ -1,17 +1,20 @@
 """Postures rated in one call: the same figures as those of a traverse of each alone."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from kaidan import contact
 from kaidan.contact import Placement
 from kaidan.outline import Outline
-from kaidan.robot import Posture, Robot
+from kaidan.robot import Posture, Robot, Track
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
-from kaidan.traversal import Phase, traverse
-from kaidan.traversal.rating import Part, rate
+from kaidan.traversal import Phase, rating, traverse
+from kaidan.traversal.driving import span
+from kaidan.traversal.rating import Part, _tips, rate
 from kaidan.traversal.samples import trailing_end_leaves
 
 ABSOLEM = Robot.named("absolem")
@@ -56,3 +59,61 @@ def test_a_rating_is_that_of_the_traverse(descending, acceleration):
             worst = found.criterion.smallest(downhill=side) if found.whole else None
             assert margin == (math.inf if worst is None else worst.margin)
     assert arrived >= 3
+
+
+KENAF = Outline.of(Robot.named("kenaf"))
+LONGER = Track(flat_length=0.6, front_radius=0.06, rear_radius=0.06)
+UNEVEN = Profile.of_stairs(
+    Stairs(rises=(0.07, 0.09, 0.07, 0.07, 0.07, 0.05, 0.07, 0.07), goings=(0.13,) * 7)
+)
+
+
+@pytest.mark.parametrize("descending", [False, True])
+@pytest.mark.parametrize("part", ["start", "until", "both", "none"])
+def test_of_a_part_the_criterion_judges_what_is_there(descending, part):
+    """The same losses as of a traverse of that part; elsewhere the flight is worse."""
+    facing, outline = "nose-first", KENAF
+    if descending:
+        facing, outline = "tail-first", KENAF.turned_round()
+    driven = UNEVEN.reflected() if descending else UNEVEN
+    x = -0.5 if descending else 0.4
+    given = {"start": (Placement(x, 0.3, 0.3), None), "until": (None, x - 0.2),
+             "both": (Placement(x, 0.3, 0.3), x + 0.1), "none": (None, None)}[part]  # fmt: skip
+    found = traverse(
+        UNEVEN, KENAF, descending=descending, facing=facing, start=given[0], until=given[1],
+        with_margins=False, step=0.05,
+    ).criterion  # fmt: skip
+    each = [found.smallest(downhill=side) for side in (True, False)]
+    expected = tuple(math.inf if one is None else one.margin for one in each)
+    ends = span(driven, outline, *given)
+    assert _tips(driven, Part(outline, *given), ends, 0.0) == expected
+    whole = _tips(driven, Part(outline, None, None), span(driven, outline, None, None), 0.0)
+    assert (expected != whole) is (part != "none")
+
+
+def test_what_is_asked_of_the_kernel(monkeypatch):
+    """The longest way is refused if any; landings as short as the shortest robot sees them."""
+    asked, refused = {}, []
+
+    def rate_many(ground, parts, kinds, lengths, jobs, **how):
+        asked.update(jobs=jobs, lengths=lengths, **how)
+        nothing = np.zeros(len(jobs))
+        names = ("required_friction", "belly_touches", "largest_rotation", "avoidable",
+                 "impact_speed", "spare")  # fmt: skip
+        return SimpleNamespace(status=np.array([0, 1, 0]), **dict.fromkeys(names, nothing))
+
+    monkeypatch.setattr(contact, "rate_many", rate_many)
+    monkeypatch.setattr(rating, "landing_zones", lambda driven, descending, room: room)
+    monkeypatch.setattr(rating, "refuse_too_long", lambda *given: refused.append(given))
+    longer = Outline.of(Robot.named("kenaf").model_copy(update={"track": LONGER}))
+    start = Placement(0.4, 0.3, 0.3)
+    parts = [Part(KENAF, start, None), Part(longer, None, None), Part(KENAF, None, 0.5)]
+    found = rate(UNEVEN, parts, step=0.05)
+    assert [each is None for each in found] == [False, True, False]
+    assert asked["zones"] == KENAF.stance.flat_length
+    assert asked["lengths"] == [each.outline.stance.flat_length for each in parts]
+    ((_, outline, ends, step),) = refused
+    assert (outline, ends, step) == (longer, span(UNEVEN, longer, None, None), 0.05)
+    jobs = [tuple(each) for each in asked["jobs"]]
+    assert [each[:2] for each in jobs] == [(0, 0), (0, 1), (0, 2)]
+    assert [each[4] for each in jobs] == [0.3, 0.0, 0.0]
