@@ -158,3 +158,21 @@ def test_the_module_is_the_command():
     assert (done.returncode, done.stdout) == (2, b"")
     assert done.stderr.startswith(b"kaidan: no robot is called 'xxx")
     assert len(done.stderr) < 400
+
+
+END = """
+import atexit, sys, threading
+from kaidan.__main__ import end
+atexit.register(print, "done")
+if sys.argv[1:]:
+    threading.Timer(0.2, print, ["later"]).start()
+print("said")
+end(3)
+"""
+
+
+@pytest.mark.parametrize("words", [[], ["with a thread"]])
+def test_nothing_is_lost_at_the_end_of_the_process(words):
+    done = subprocess.run([sys.executable, "-c", END, *words], capture_output=True, timeout=60)
+    said = [b"said", *([b"later"] if words else []), b"done"]
+    assert (done.returncode, done.stdout.split()) == (3, said)

@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from kaidan.assessment.answer import Assessment as Assessment
-from kaidan.assessment.answer import fill_in
+from kaidan.assessment.answer import Change, fill_in
 from kaidan.assessment.plan import plan_of
 from kaidan.assessment.unweighed import stretches
 from kaidan.assessment.verdict import conclude
@@ -150,13 +150,17 @@ def judged(
     question: Question, found: Findings, *, advice: bool = True, search: "Found | None" = None
 ) -> Assessment:
     """Answer to a question from what a model found; see `answer_to`."""
-    from kaidan.assessment.advice import what_would_help
     from kaidan.assessment.measuring import to_measure
     from kaidan.text import plan as plan_text
     from kaidan.text import verdicts
 
     conclusion = conclude(question, found)
     measure = to_measure(question, found) if advice else ()
+    changes: tuple[Change, ...] = ()
+    if advice and conclusion.verdict is not Verdict.GO:
+        from kaidan.assessment.advice import what_would_help
+
+        changes = what_would_help(question, found, conclusion, measure, search=search)
     ranged = question.robot.com_range is not None and advice
     return fill_in(
         question,
@@ -168,9 +172,7 @@ def judged(
             *verdicts.notes(question, found, conclusion),
             *(() if search is None else plan_text.notes(question, search.ends)),
         ),
-        what_would_help=what_would_help(question, found, conclusion, measure, search=search)
-        if advice
-        else (),
+        what_would_help=changes,
         to_measure=measure,
         centroid=stretches(question, found) if ranged else None,
     )

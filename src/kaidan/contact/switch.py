@@ -13,7 +13,6 @@ auto   native where it was built from the source that is installed, else plain
 from __future__ import annotations
 
 import importlib
-import logging
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -32,8 +31,6 @@ Choice = Literal["auto", "plain", "native"]
 VARIABLE = "KAIDAN_KERNEL"
 CUT_UP = ("standing", "rating", "batch")
 """Modules of the kernel whose entries cut up their tables."""
-
-log = logging.getLogger("kaidan.contact")
 
 _chosen: Choice | None = None
 
@@ -124,7 +121,9 @@ def _native() -> tuple[Any, str]:
 
 @cache
 def _warn_once() -> None:
-    log.warning(
+    import logging  # takes longer than the kernel does to load
+
+    logging.getLogger("kaidan.contact").warning(
         "%s; the plain kernel answers the same, about a hundred times slower", without_native()
     )
 
