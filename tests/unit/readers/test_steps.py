@@ -40,14 +40,15 @@ def test_points_at_the_edges_do_not_say_which_element_they_lie_on():
     assert at.inner.tolist() == [True, False, True, False]
 
 
-def landing(points):
+def landing(points, alone=True):
     """Nosings of five steps of 150 by 300 mm, 0.9 m wide, with what lies above the last one."""
     number = np.arange(5)
     found = np.column_stack([0.3 * number, 0.15 * (number + 1.0)])
     line = StairLine(s0=0.0, z0=0.15, going=0.3, rise=0.15, first=0, last=4)
-    tread = np.random.default_rng(1).uniform([1.2, 0.0, 0.749], [1.5, 0.9, 0.751], (900, 3))
+    tread = np.random.default_rng(1).uniform([0.9, 0.0, 0.599], [1.2, 0.9, 0.601], (900, 3))
     s, t, z = (np.r_[one, other] for one, other in zip(points, tread.T, strict=True))
     sigma, measured = np.full((5, 2), 1e-3), np.ones((5, 2), dtype=bool)
+    measured[-1, 1] = alone
     nosings, *_, length = _last_riser(found, sigma, measured, line, s, t, z, 0.003, 0.01)
     return len(nosings), length
 
@@ -76,3 +77,19 @@ def test_what_stands_at_the_sides_is_no_landing():
         nosings, length = landing(points)
         assert nosings == 5
         assert np.isnan(length)
+
+
+def test_walls_at_both_sides_say_nothing_of_a_last_level_that_was_not_seen():
+    """25 mm above the regular level of the last nosing, 0.75 m: within an odd riser of it."""
+
+    def moved(points):
+        return points[0] - 0.27, points[1], points[2] - 0.125
+
+    one, other = strewn(0.0, 0.05), strewn(0.85, 0.9)
+    sides = [np.r_[each] for each in zip(one, other, strict=True)]
+    nosings, length = landing(moved(strewn(0.0, 0.9)), alone=False)
+    assert nosings == 5
+    assert length == pytest.approx(0.93, abs=0.05)  # to s = 2.13, from 1.2
+    nosings, length = landing(moved(sides), alone=False)
+    assert nosings == 5
+    assert np.isnan(length)

@@ -92,7 +92,10 @@ def leans(patches: Patches, up: Array, near: float) -> list[Lean]:
         )  # fmt: skip
         (ahead, *_) = [*directions(here, 1), first]
         ahead = ahead - (ahead @ up) * up
-        ahead /= np.linalg.norm(ahead)
+        length = float(np.linalg.norm(ahead))
+        if length < 0.5:  # patches that look every way have no direction
+            break
+        ahead = ahead / length
         looks = left[np.abs(patches.normal[left] @ ahead) > math.cos(math.radians(7.0))]
         if len(looks) < FEWEST:
             break

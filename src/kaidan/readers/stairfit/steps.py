@@ -387,6 +387,13 @@ def _floor(
     return level, math.hypot(sigma, SMALLEST), reach
 
 
+def _narrow(t: Array, on: NDArray[np.bool_]) -> bool:
+    """Whether a level is narrower than a landing: a box, walls at both sides, stray points."""
+    _, in_strip = np.unique(np.floor(t[on] / STRIP), return_counts=True)
+    across = STRIP * int((in_strip >= FEWEST_LANES).sum())
+    return across < LANDING_ACROSS * float(np.ptp(np.percentile(t, [2, 98])))
+
+
 def _last_riser(
     found: Array, sigma: Array, measured: NDArray[np.bool_], line: StairLine, s: Array, t: Array,
     z: Array, noise: float, tight: float,
@@ -400,11 +407,11 @@ def _last_riser(
     within = tight if alone else max(tight, ODD_UNSEEN * r)
     near = (np.abs(z - last[1]) < within) & (s > last[0] + 0.03)
     height, doubt, count = _densest(z[near], max(tight, 0.01))
-    ahead = s[near & (np.abs(z - height) < tight)] - last[0]
-    if count >= FLOOR_SEEN and _reach(ahead) > g + 0.1:
+    on = near & (np.abs(z - height) < tight)
+    if count >= FLOOR_SEEN and _reach(s[on] - last[0]) > g + 0.1 and (alone or not _narrow(t, on)):
         if not alone:
             found[-1, 1], sigma[-1, 1], measured[-1, 1] = height, doubt, True
-        return found, sigma, measured, _reach(ahead)
+        return found, sigma, measured, _reach(s[on] - last[0])
     above = (s > last[0] + g + 0.03) & (s < last[0] + g + 1.2)
     above &= (z > last[1] + 0.2 * r) & (z < last[1] + 1.7 * r)
     height, doubt, count = _densest(z[above], max(tight, 0.01))
@@ -412,10 +419,7 @@ def _last_riser(
         return found, sigma, measured, math.nan
     on = above & (np.abs(z - height) < tight)
     reach = _reach(s[on] - last[0] - g)
-    # strip by strip: walls at both sides, or a few stray points, are no landing
-    _, in_strip = np.unique(np.floor(t[on] / STRIP), return_counts=True)
-    across = STRIP * int((in_strip >= FEWEST_LANES).sum())
-    narrow = across < LANDING_ACROSS * float(np.ptp(np.percentile(t, [2, 98])))
+    narrow = _narrow(t, on)
     high = height > last[1] + HIGHEST_LAST * r
     if reach < 0.1 + 0.5 * g or count < 0.5 * above.sum() or narrow or high:
         return found, sigma, measured, math.nan
