@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from kaidan import contact
 from kaidan.traversal.samples import (
     _turns_steadily,
     _upright,
@@ -15,6 +16,8 @@ from kaidan.traversal.samples import (
 
 
 class Poses(SimpleNamespace):
+    leads_on = property(contact.Poses.leads_on.func)
+
     def __len__(self):
         return len(self.s)
 
