@@ -9,12 +9,16 @@ import math
 import numpy as np
 import pytest
 
+from amounts import fast_and_slow
 from kaidan import Profile, Question, Stairs
 from kaidan.assessment.verdict import conclude
+from kaidan.models.balance import _drawn
 from kaidan.models.drawn_falls import _changed
 from kaidan.models.quasi_static import judge
+from kaidan.models.spread import drawn_of_all, moved_profile, nosings_of, spread
 from kaidan.modes import FALL_DOWNHILL, Verdict
 from kaidan.override import overridden
+from kaidan.traversal import traverse
 
 NO_ALLOWANCES = {"theta_d": (0, 0), "theta_M": (0, 0)}
 CASES = {
@@ -180,3 +184,22 @@ def test_a_profile_with_a_covariance_is_the_list_of_its_steps(direction):
         for key, each in one.items():
             # rad, m: the points of a profile are sums of steps
             np.testing.assert_allclose(other[key].worst, each.worst, atol=1e-9, err_msg=key)
+
+
+@pytest.mark.parametrize("direction", ["up", "down"])
+@pytest.mark.parametrize("count", fast_and_slow(4, 100))
+def test_each_sample_rocks_where_its_own_traverse_does(direction, count):
+    """Nosings lost on the flight and over the landing are those of one sample."""
+    flight = Stairs.inclined(angle="40deg", nosing_spacing="150mm", steps=12)
+    question = in_doubt("kenaf", flight, (2e-3, 2e-3), NO_ALLOWANCES | {"direction": direction})
+    driven, found = judge(question).basis
+    samples = _drawn(found, spread(driven, found), found.first_rock(downhill=True), True, None)
+    drawn = drawn_of_all(driven)
+    nosings = nosings_of(driven.profile, drawn)
+    for k in range(count):
+        own = traverse(
+            moved_profile(driven.profile, nosings[k]),
+            _changed(driven.outline, *drawn[:3, k].tolist()),
+            descending=found.descending,
+        )
+        assert samples[k] == pytest.approx(own.first_rock(downhill=True).margin, abs=1e-9)

@@ -75,18 +75,18 @@ def test_tips_are_the_first_rock_of_whichever_phase_less_the_allowances():
         each = [FirstRock(rocks[downhill][one], one, 2) for one in some if one in rocks[downhill]]
         return min(each, default=None)
 
-    down, up = _tips(ASKED, found(first_rock=first_rock), over, None)
+    down, up = _tips(ASKED, ASKED, found(first_rock=first_rock), over, None)
     assert (down.mode, down.phase, down.step) == (TIP_DOWNHILL, Phase.TRAVERSE, 2)
     assert (down.failing, up.failing, up.mode) == (Verdict.CAUTION, Verdict.CAUTION, TIP_UPHILL)
     assert down.worst == pytest.approx(np.array([0.2, 0.16, 0.1]) - 0.07)
     assert down.best == pytest.approx(np.array([0.2, 0.16, 0.1]) - 0.04)
     assert up.worst == pytest.approx(np.array([0.3, 0.3, 0.29]) - 0.02)
     assert up.best == pytest.approx(np.array([0.3, 0.3, 0.29]) - 0.01)
-    (lands,) = _tips(ASKED, found(first_rock=first_rock), over, (LANDS,))
+    (lands,) = _tips(ASKED, ASKED, found(first_rock=first_rock), over, Phase.LAND)
     assert (lands.mode, lands.phase) == (TIP_DOWNHILL, Phase.LAND)
     assert lands.worst == pytest.approx(np.array([0.21, 0.16, 0.41]) - 0.07)
     rocks[True] = {}
-    (only,) = _tips(ASKED, found(first_rock=first_rock), over, None)
+    (only,) = _tips(ASKED, ASKED, found(first_rock=first_rock), over, None)
     assert only.mode is TIP_UPHILL
 
 
@@ -193,8 +193,8 @@ def test_rocking_is_what_was_seen_or_is_foretold():
     over = OVER._replace(rocking=np.array([0.0, -0.02, 0.04]))
 
     def rocks(of, foretold=0.0, phase=None, **figures):
-        run = found(criterion=SimpleNamespace(rocking=foretold), **figures)
-        each = _rocking(run, over, of, phase)
+        run = found(chains=of, criterion=SimpleNamespace(rocking=foretold), **figures)
+        each = _rocking(run, over, phase)
         return each.phase, each.step, (ROCKING - each.worst).tolist(), each.best.tolist()
 
     path = (Phase.TRAVERSE, 4, [pytest.approx(0.03)], [pytest.approx(ROCKING - 0.03)])
@@ -204,13 +204,14 @@ def test_rocking_is_what_was_seen_or_is_foretold():
         Phase.TRAVERSE, None, both, [pytest.approx(ROCKING - each) for each in (0.03, 0.03, 0.06)],
     )  # fmt: skip
     assert rocks(seen, 0.02, Phase.TRAVERSE)[1] is None
-    assert rocks(seen, 0.02, Phase.ENTER) == path
+    enters = (Phase.ENTER, 2, [pytest.approx(0.01)], [pytest.approx(ROCKING - 0.01)])
+    assert rocks(seen, 0.02, Phase.ENTER) == enters
     assert rocks(seen, 0.02, whole=False) == path
     assert rocks(seen, -0.02) == path  # 0.02 at most
     over = OVER
     assert rocks(seen, 0.03) == path  # alike
     assert rocks(seen, 0.031)[1] is None
-    still = _rocking(found(), OVER, [], None)
+    still = _rocking(found(), OVER, None)
     assert (still.worst.tolist(), still.phase) == ([math.inf], None)
 
 

@@ -56,8 +56,9 @@ def test_a_rating_is_that_of_the_traverse(descending, acceleration):
         )
         assert each.spare == pytest.approx(min((c.spare for c in chains), default=math.inf))
         for margin, side in ((each.downhill, True), (each.uphill, False)):
-            worst = found.criterion.smallest(downhill=side) if found.whole else None
-            assert margin == (math.inf if worst is None else worst.margin)
+            losses = found.criterion.losses if found.whole else ()
+            of_side = [each.margin for each in losses if each.downhill is side]
+            assert margin == min(of_side, default=math.inf)
     assert arrived >= 3
 
 
@@ -83,8 +84,10 @@ def test_of_a_part_the_criterion_judges_what_is_there(descending, part):
         UNEVEN, KENAF, descending=descending, facing=facing, start=given[0], until=given[1],
         with_margins=False, step=0.05,
     ).criterion  # fmt: skip
-    each = [found.smallest(downhill=side) for side in (True, False)]
-    expected = tuple(math.inf if one is None else one.margin for one in each)
+    expected = tuple(
+        min((each.margin for each in found.losses if each.downhill is side), default=math.inf)
+        for side in (True, False)
+    )
     ends = span(driven, outline, *given)
     assert _tips(driven, Part(outline, *given), ends, 0.0) == expected
     whole = _tips(driven, Part(outline, None, None), span(driven, outline, None, None), 0.0)

@@ -79,22 +79,25 @@ def balance(
     """
     phases = tuple(each for each in found.phases if phase in (None, each.phase))
     chains = [each for each in found.chains if each.arrested and phase in (None, each.phase)]
+    tips = _tips(question, driven, found, over, phase)
+    rotation = _rocking(found, over, phase)
     flight = question.terrain
     if question.yaw and isinstance(flight, Stairs):
         on_flight = phase in (None, Phase.TRAVERSE)
-        tips = list(support_polygon.tips(question, flight, failing=Verdict.CAUTION))
-        tips = tips if on_flight else []
         energy = _energy(driven, found, over, phases, held, flight=not on_flight)
         if on_flight:
             rise = float(support_polygon.energy_of(question, flight, np.array([question.yaw]))[0])
             energy = _least(energy, support_polygon.energy_finding(question, rise))
     else:
-        tips = _tips(driven, found, over, None if phase is None else phases)
         energy = _energy(driven, found, over, phases, held)
-    rotation = _rocking(found, over, chains, phase)
+    # a fall lies in its phase, wherever the robot rocks before
+    rocks = tips, rotation
+    if phase is not None:
+        rocks = _tips(question, driven, found, over, None), _rocking(found, over, None)
+    falls = _falls(driven, found, over, *rocks, phase)
     return [
         *tips,
-        *_falls(driven, found, over, tips, rotation, phase),
+        *falls,
         rotation,
         *_hits(driven, found, chains),
         *([] if any(one.fails(best=True).all() for one in tips) else [energy]),
@@ -102,10 +105,16 @@ def balance(
 
 
 def _tips(
-    question: Question, found: Traverse, over: Spread, phases: tuple[PhaseExtremes, ...] | None
+    question: Question, driven: Question, found: Traverse, over: Spread, phase: Phase | None
 ) -> list[Finding]:
-    """Tilt to the first rock, less the allowances."""
-    d, M = question.allowance_d, question.allowance_M
+    """Tilt to the first rock, less the allowances, of all or of one phase."""
+    flight = question.terrain
+    if question.yaw and isinstance(flight, Stairs):
+        if phase not in (None, Phase.TRAVERSE):
+            return []
+        return list(support_polygon.tips(question, flight, failing=Verdict.CAUTION))
+    phases = None if phase is None else tuple(one for one in found.phases if one.phase is phase)
+    d, M = driven.allowance_d, driven.allowance_M
     each = []
     for mode, off in (
         (TIP_DOWNHILL, (d.high + M.high, d.low + M.low)),
@@ -223,8 +232,9 @@ def _hits(question: Question, found: Traverse, chains: list[Chain]) -> list[Find
     return each
 
 
-def _rocking(found: Traverse, over: Spread, chains: list[Chain], phase: Phase | None) -> Finding:
-    """Largest rotation that a longer robot would be spared, seen on the path or foretold."""
+def _rocking(found: Traverse, over: Spread, phase: Phase | None) -> Finding:
+    """Largest rotation that a longer robot would be spared, seen or foretold, of all or a phase."""
+    chains = [each for each in found.chains if each.arrested and phase in (None, each.phase)]
     seen = _of_smallest(ROTATION, [ROCKING - one.avoidable for one in chains], chains, found)
     rocking = found.criterion.rocking + over.rocking
     unlike = found.whole and rocking.max() >= _ROUNDING

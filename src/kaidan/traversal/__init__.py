@@ -32,8 +32,8 @@ from kaidan.traversal.rotations import Rotation as Rotation
 from kaidan.traversal.rotations import chains_of, rotations_of, together
 from kaidan.traversal.samples import trailing_end_leaves
 from kaidan.traversal.static_criterion import Criterion, Tread, flights_of
+from kaidan.traversal.tilting import LARGEST, largest_survived
 from kaidan.traversal.tilting import Fall as Fall
-from kaidan.traversal.tilting import largest_survived
 
 _ALIKE = 1e-6
 """Tilt that is rounding [rad]."""
@@ -138,6 +138,14 @@ class Traverse:
         return self._fall(downhill=False)
 
     @cached_property
+    def _limiting_fall(self) -> Fall:
+        """Fall over the downhill end that no tilt to the first rock exceeds."""
+        least = min(one.margin for one in self._rocks(downhill=True, of=self.phases))
+        if math.isinf(self.falls_downhill.tilt) and least > LARGEST:
+            return self._fall(downhill=True, most=_most(least))
+        return self.falls_downhill
+
+    @cached_property
     def _survives(self) -> dict[float, bool]:
         """Whether it survives tilts that were tried, backward positive [rad]."""
         return {0.0: self.arrived}
@@ -147,7 +155,7 @@ class Traverse:
         there = way(self.profile, self.outline, self.start, self.until)
         return {**there, "acceleration": self.acceleration, "step": self.step}
 
-    def _survived(self, back: float, sought: Sequence[float] | None) -> float:
+    def _survived(self, back: float, sought: Sequence[float] | None, most: float) -> float:
         """Largest tilt that it survives, back or front, see `largest_survived` [rad]."""
         manner, known = self._manner, self._survives
 
@@ -156,23 +164,24 @@ class Traverse:
                 known[back * tilt] = contact.arrives(**manner, tilt=back * tilt)
             return known[back * tilt]
 
-        return largest_survived(survives, sought=sought)
+        return largest_survived(survives, sought=sought, most=most)
 
     def _falls_beyond(self, tilt: float) -> bool:
         """Whether no tilt up to one that counts makes it fall over its downhill end [rad]."""
         if self.sought is not None:
             tilt = min(tilt, max(self.sought))
-        return self._survived(-1.0 if self.descending else 1.0, (tilt,)) > tilt
+        back = -1.0 if self.descending else 1.0
+        return self._survived(back, (tilt,), _most(tilt)) > tilt
 
-    def _fall(self, *, downhill: bool) -> Fall:
+    def _fall(self, *, downhill: bool, most: float = LARGEST) -> Fall:
         back = 1.0 if downhill is not self.descending else -1.0
-        tilt = self._survived(back, self.sought)
+        tilt = self._survived(back, self.sought, most)
         if self.sought is not None:
             return Fall(tilt, *self.end)
         fallen = self.path
         fatal = [abs(each) for each, survives in self._survives.items()
                  if not survives and each * back > 0.0]  # fmt: skip
-        if self.arrived and fatal:
+        if self.arrived and fatal and math.isfinite(tilt):
             # of steps that are alike the first: all of them fall a little beyond
             for beyond in (tilt + _BESIDE, min(fatal)):
                 fallen = contact.traverse(**self._manner, tilt=back * beyond, with_margins=False)
@@ -249,6 +258,11 @@ class Traverse:
         return math.nan if found is None else found.margin
 
     @property
+    def over_landing(self) -> Phase:
+        """Phase in which nosings are lost with the uphill end over the upper landing."""
+        return Phase.ENTER if self.descending else Phase.LAND
+
+    @property
     def part(self) -> tuple[float, float]:
         """Part of the flight that it is over, by the place of the centroid, uphill positive [m]."""
         first = -math.inf if self.start is None else self.start.x
@@ -263,25 +277,32 @@ class Traverse:
         On the flight the criterion on nosings judges a flat that carries all along, else the poses
         do, as they do entering and landing. None: nothing was looked at.
         """
-        each = []
         of = self.phases if phases is None else phases
-        worst = self.criterion.smallest(downhill=downhill)
-        counts = phases is None or any(one.phase is Phase.TRAVERSE for one in of)
-        if self.whole and counts and worst is not None:
-            each.append(FirstRock(worst.margin, Phase.TRAVERSE, worst.nosing + 1))
-        for one in of:
-            found = one.tilt_downhill if downhill else one.tilt_uphill
-            if math.isfinite(found[0]):
-                each.append(FirstRock(found[0], one.phase, found[1]))
+        each = self._rocks(downhill=downhill, of=of)
         least = min((one.margin for one in each), default=math.inf)
         beside = each and downhill and self.arrived and self._rocks_beside_flights
         if beside and not self._falls_beyond(least + _ALIKE):
             # poses of the level traverse may be too kind: it rocks no later than it falls
-            fall = self.falls_downhill
-            each.append(FirstRock(fall.tilt, fall.phase, fall.step))
-            least = min(least, fall.tilt)
+            fall = self._limiting_fall
+            if phases is None or any(one.phase is fall.phase for one in of):
+                each.append(FirstRock(fall.tilt, fall.phase, fall.step))
+                least = min(least, fall.tilt)
         # of those that are alike the first: a pose between two phases is of both
         return next((one for one in each if one.margin < least + _ALIKE), None)
+
+    def _rocks(self, *, downhill: bool, of: tuple[PhaseExtremes, ...]) -> list[FirstRock]:
+        """Least tilts of the criterion's losses and of the poses in some phases."""
+        each = []
+        for landing, phase in ((False, Phase.TRAVERSE), (True, self.over_landing)):
+            worst = self.criterion.smallest(downhill=downhill, landing=landing)
+            counts = of is self.phases or any(one.phase is phase for one in of)
+            if self.whole and counts and worst is not None:
+                each.append(FirstRock(worst.margin, phase, worst.nosing + 1))
+        for one in of:
+            found = one.tilt_downhill if downhill else one.tilt_uphill
+            if math.isfinite(found[0]):
+                each.append(FirstRock(found[0], one.phase, found[1]))
+        return each
 
     @cached_property
     def _rocks_beside_flights(self) -> bool:
@@ -296,6 +317,11 @@ class Traverse:
         if not self.whole:
             return math.nan
         return min((each.centroid for each in self.criterion.losses), default=math.nan)
+
+
+def _most(tilt: float) -> float:
+    """Largest tilt to try, so that a robot which rocks no earlier than at `tilt` is tried [rad]."""
+    return min(max(tilt, LARGEST), math.pi / 2)
 
 
 def traverse(

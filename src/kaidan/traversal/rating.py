@@ -122,6 +122,8 @@ def _tips(
         return math.inf, math.inf
     if part.start is not None or part.until is not None:
         criterion = criterion.within(*((-ends[1], -ends[0]) if driven.falls else ends))
-    worst = [criterion.smallest(downhill=side) for side in (True, False)]
-    down, up = (math.inf if each is None else each.margin for each in worst)
+    down, up = (
+        min((each.margin for each in criterion.losses if each.downhill is side), default=math.inf)
+        for side in (True, False)
+    )
     return down, up

@@ -116,9 +116,14 @@ class Criterion:
         tops = tuple(top for top in self.tops if first <= top <= last)
         return replace(self, losses=there, tops=tops)
 
-    def smallest(self, *, downhill: bool) -> Loss | None:
-        """Loss with the smallest margin at one end; the first of those that are alike."""
-        some = [each for each in self.on_flight if each.downhill is downhill]
+    def smallest(self, *, downhill: bool, landing: bool = False) -> Loss | None:
+        """Loss with the smallest margin at one end; the first of those that are alike.
+
+        With `landing` of those with the uphill end over the landing, else of the others.
+        """
+        some = [
+            each for each in self.losses if each.downhill is downhill and each.landing is landing
+        ]
         return min(some, key=lambda each: round(each.margin, 12), default=None)
 
     @property

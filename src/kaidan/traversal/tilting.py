@@ -190,7 +190,10 @@ def _lost_between(
 
 
 def largest_survived(
-    survives: Callable[[float], bool], *, sought: Sequence[float] | None = None
+    survives: Callable[[float], bool],
+    *,
+    sought: Sequence[float] | None = None,
+    most: float = LARGEST,
 ) -> float:
     """Largest tilt that is survived, see `Fall`, to `WITHIN` [rad].
 
@@ -201,6 +204,8 @@ def largest_survived(
     sought : sequence of float, optional
         Tilts which it may only exceed or not [rad]: a smaller one is found where that says as much
         of each.
+    most : float
+        Tilt that is survived only by what no tilt fells [rad].
     """
 
     def is_open(low: float, high: float) -> bool:
@@ -211,10 +216,10 @@ def largest_survived(
         while high == math.inf and is_open(low, high):
             if not survives(tilt):
                 high = tilt
-            elif tilt >= LARGEST:
+            elif tilt >= most:
                 return math.inf
             else:
-                low, tilt = tilt, min(2.0 * tilt, LARGEST)
+                low, tilt = tilt, min(2.0 * tilt, most)
     else:
         low, high = -math.pi / 2, 0.0
         while low == -math.pi / 2 and is_open(low, high):
