@@ -104,7 +104,9 @@ def test_the_first_rock_is_the_least_of_criterion_and_poses():
     assert made(phases=(more,)).first_rock(downhill=True).phase is Phase.LAND
 
 
-def test_where_poses_judge_several_steps_it_rocks_no_later_than_it_falls(monkeypatch):
+def test_where_poses_judge_steps_or_they_differ_it_rocks_no_later_than_it_falls(
+    monkeypatch,
+):
     fall = Fall(0.15, Phase.TRAVERSE, 3)
     monkeypatch.setattr(Traverse, "_falls_beyond", lambda self, tilt: fall.tilt > tilt)
     on = extremes(Phase.TRAVERSE, 0.3, 0.4, step=2)
@@ -117,7 +119,7 @@ def test_where_poses_judge_several_steps_it_rocks_no_later_than_it_falls(monkeyp
     assert first(whole=False) == tuple(fall)
     assert first(whole=False, downhill=False) == (0.4, Phase.TRAVERSE, 2)
     assert first(whole=False, status=Status.FELL_BACKWARD).margin == 0.3
-    assert first().margin == 0.3  # all on one flight
+    assert first().margin == 0.3  # all on one flight, steps alike
     sooner = extremes(Phase.TRAVERSE, 0.15 - 2e-6, step=2)
     assert first(whole=False, phases=(sooner,)).step == 2
     step_longer = Tread(0.3, 0.1, 0.1, 0, 0.06, 0.2)  # nosings 0.316 m apart
@@ -126,7 +128,7 @@ def test_where_poses_judge_several_steps_it_rocks_no_later_than_it_falls(monkeyp
         [(-1, 0), (0, 0), (0, 0.1), (0.2, 0.1), (0.2, 0.2), (0.6, 0.2), (0.6, 0.3), (0.8, 0.3),
          (0.8, 0.4), (2, 0.4)]
     )  # fmt: skip
-    assert first(profile=two, tread=step_longer).margin == 0.3  # both of them flights
+    assert first(profile=two) == tuple(fall)  # steps differ
     kerb = [(-1, 0), (0, 0), (0, 0.1), (2, 0.1)]
     second = [(1, 0.1), (1, 0.2), (2, 0.2)]
     for points, count in (([(0, 0), (2, 0)], 0), (kerb, 1), (kerb[:3] + second, 2)):

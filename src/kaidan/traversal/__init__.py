@@ -37,6 +37,8 @@ from kaidan.traversal.tilting import Fall as Fall
 
 _ALIKE = 1e-6
 """Tilt that is rounding [rad]."""
+_EVEN = 1e-9
+"""Difference of steps that is rounding [m]."""
 _BESIDE = math.radians(0.01)
 """Tilt beyond the largest that is survived, at which it is seen where the robot falls [rad]."""
 
@@ -280,9 +282,9 @@ class Traverse:
         of = self.phases if phases is None else phases
         each = self._rocks(downhill=downhill, of=of)
         least = min((one.margin for one in each), default=math.inf)
-        beside = each and downhill and self.arrived and self._rocks_beside_flights
-        if beside and not self._falls_beyond(least + _ALIKE):
-            # poses of the level traverse may be too kind: it rocks no later than it falls
+        may_fall = each and downhill and self.arrived and self._may_fall_first
+        if may_fall and not self._falls_beyond(least + _ALIKE):
+            # it rocks no later than it falls
             fall = self._limiting_fall
             if phases is None or any(one.phase is fall.phase for one in of):
                 each.append(FirstRock(fall.tilt, fall.phase, fall.step))
@@ -305,11 +307,17 @@ class Traverse:
         return each
 
     @cached_property
-    def _rocks_beside_flights(self) -> bool:
-        """Whether poses judge some of several steps: no flat carries, or a step is longer."""
+    def _may_fall_first(self) -> bool:
+        """Whether it may fall before the first rock that is found.
+
+        So it may where steps differ, no flat carries or a step is longer than it: poses judge it.
+        """
         nosings = self.profile.nosings
+        if len(nosings) < 2:
+            return False
         on = sum(last - first + 1 for first, last in flights_of(nosings, self.tread.L))
-        return len(nosings) > 1 and not (self.whole and on == len(nosings))
+        steps = np.diff(nosings, axis=0)
+        return not self.whole or on < len(nosings) or bool(np.ptp(steps, axis=0).max() > _EVEN)
 
     @property
     def centroid_margin(self) -> float:
