@@ -1,9 +1,9 @@
 """kaidan: can this tracked robot take these stairs?"""
 
+from kaidan.lazy import when_used
+
 TYPE_CHECKING = False  # as typing has it, which takes longer to import than all of this
 if TYPE_CHECKING:
-    from typing import Any
-
     from kaidan.assessment import Assessment, assess
     from kaidan.errors import InputError, KaidanError
     from kaidan.question import Question
@@ -33,37 +33,37 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOME = {
-    "Assessment": "kaidan.assessment",
-    "agree": "kaidan.studies.cross_check",
-    "assess": "kaidan.assessment",
-    "InputError": "kaidan.errors",
-    "KaidanError": "kaidan.errors",
-    "Payload": "kaidan.robot",
-    "Posture": "kaidan.robot",
-    "Profile": "kaidan.terrain.profile",
-    "Question": "kaidan.question",
-    "Robot": "kaidan.robot",
-    "Stairs": "kaidan.terrain.stairs",
-    "Surface": "kaidan.surface",
-    "building": "kaidan.verbs.building",
-    "compare": "kaidan.verbs.comparison",
-    "design": "kaidan.verbs.design.designing",
-    "doctor": "kaidan.verbs.doctor",
-    "experiment": "kaidan.studies.experiment",
-    "margin": "kaidan.verbs.margin_curve",
-    "measure_robot": "kaidan.verbs.measure_robot",
-    "measure_stairs": "kaidan.verbs.measure_stairs",
-    "monitor": "kaidan.verbs.monitor",
-    "plane": "kaidan.verbs.d_a_plane",
-    "posture": "kaidan.verbs.posture",
-    "read": "kaidan.verbs.read",
-    "report": "kaidan.verbs.report",
-    "reproduce": "kaidan.studies.reproduction",
-    "sensitivity": "kaidan.studies.sensitivity",
-    "stream": "kaidan.sweeps",
-    "sweep": "kaidan.sweeps",
-    "traverse": "kaidan.verbs.traverse",
-    "verdicts": "kaidan.sweeps",
+    "Assessment": "assessment",
+    "agree": "studies.cross_check",
+    "assess": "assessment",
+    "InputError": "errors",
+    "KaidanError": "errors",
+    "Payload": "robot",
+    "Posture": "robot",
+    "Profile": "terrain.profile",
+    "Question": "question",
+    "Robot": "robot",
+    "Stairs": "terrain.stairs",
+    "Surface": "surface",
+    "building": "verbs.building",
+    "compare": "verbs.comparison",
+    "design": "verbs.design.designing",
+    "doctor": "verbs.doctor",
+    "experiment": "studies.experiment",
+    "margin": "verbs.margin_curve",
+    "measure_robot": "verbs.measure_robot",
+    "measure_stairs": "verbs.measure_stairs",
+    "monitor": "verbs.monitor",
+    "plane": "verbs.d_a_plane",
+    "posture": "verbs.posture",
+    "read": "verbs.read",
+    "report": "verbs.report",
+    "reproduce": "studies.reproduction",
+    "sensitivity": "studies.sensitivity",
+    "stream": "sweeps",
+    "sweep": "sweeps",
+    "traverse": "verbs.traverse",
+    "verdicts": "sweeps",
 }
 
 __all__ = [  # noqa: RUF022 - what a user meets first
@@ -101,14 +101,7 @@ __all__ = [  # noqa: RUF022 - what a user meets first
     "__version__",
 ]
 
-
-def __getattr__(name: str) -> "Any":
-    """Public names, imported when first used, so that starting costs nothing."""
-    if name not in _HOME:
-        raise AttributeError(f"module 'kaidan' has no attribute {name!r}")
-    from importlib import import_module
-
-    return getattr(import_module(_HOME[name]), name)
+__getattr__ = when_used("kaidan", _HOME)
 
 
 def __dir__() -> list[str]:

@@ -222,7 +222,7 @@ class Draw:
             ["", LONG, "kenav", "ibc", "no/such", folder] if slow else ["kenaf", "absolem", name]
         )
         words += [self.random.choice(robots)] if slow or self.random.random() < 0.95 else []
-        if path[0] in PLANNED and words[-1] == "absolem":
+        if path[0] in PLANNED and words[-1] == "absolem" and self.random.random() < 0.95:
             words[-1] = "kenaf"
         shape = ["--angle", "35deg", "--nosing-spacing", "150mm"]
         terrains = [
@@ -262,7 +262,7 @@ OPTIONS = {
 }
 SLOW = ("experiment", "calibrate", "physics", "agree", "posture", "compare", "campaign")
 PLANNED = ("report", "sensitivity")
-"""Commands that take seconds for the best plan of flippers, and none for a robot without."""
+"""Commands of seconds for the best plan of flippers; one in twenty is of a robot with any."""
 NO_TERRAIN = ("margin", "robots", "stairs", "surfaces", "schema", "new")
 FILES = 20
 SLOW_OPTIONS = ("--follow", "--figure", "--animation", "--pose-map", "--scheduler", "--help")

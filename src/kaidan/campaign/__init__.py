@@ -4,11 +4,12 @@
 `Store` and `Workers` together.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from kaidan.lazy import when_used
 
 if TYPE_CHECKING:
-    from kaidan.campaign.campaign import PlanProgress, carry_out, progress_of, resume
+    from kaidan.campaign.campaign import PlanProgress, carry_out, progress_of, resume, rows_of
     from kaidan.campaign.cluster import DaskWorkers
     from kaidan.campaign.job import CRASHED, FAILED, Work
     from kaidan.campaign.local import LocalWorkers, Workers
@@ -19,18 +20,36 @@ if TYPE_CHECKING:
     from kaidan.campaign.threads import ThreadWorkers
     from kaidan.campaign.trials import TRIALS
 
-_MODULES = {
-    "campaign": ("PlanProgress", "carry_out", "progress_of", "resume"),
-    "cluster": ("DaskWorkers",),
-    "job": ("CRASHED", "FAILED", "Work"),
-    "local": ("LocalWorkers", "Workers"),
-    "plans": ("Condition", "Grid", "Plan", "Setting", "VerificationTest"),
-    "query": ("State", "export", "read_batches", "read_table", "state_of"),
-    "runner": ("Kept", "Tally", "conduct"),
-    "store": ("Store",),
-    "threads": ("ThreadWorkers",),
-    "trials": ("TRIALS",),
+_HOME = {
+    "PlanProgress": "campaign",
+    "carry_out": "campaign",
+    "progress_of": "campaign",
+    "resume": "campaign",
+    "rows_of": "campaign",
+    "DaskWorkers": "cluster",
+    "CRASHED": "job",
+    "FAILED": "job",
+    "Work": "job",
+    "LocalWorkers": "local",
+    "Workers": "local",
+    "Condition": "plans",
+    "Grid": "plans",
+    "Plan": "plans",
+    "Setting": "plans",
+    "VerificationTest": "plans",
+    "State": "query",
+    "export": "query",
+    "read_batches": "query",
+    "read_table": "query",
+    "state_of": "query",
+    "Kept": "runner",
+    "Tally": "runner",
+    "conduct": "runner",
+    "Store": "store",
+    "ThreadWorkers": "threads",
+    "TRIALS": "trials",
 }
+"""Public names and the module of each: a process of a campaign imports what it does, no more."""
 
 __all__ = [
     "CRASHED",
@@ -58,13 +77,8 @@ __all__ = [
     "read_batches",
     "read_table",
     "resume",
+    "rows_of",
     "state_of",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    """Names when they are first used: each process of a campaign imports what it does, no more."""
-    for module, names in _MODULES.items():
-        if name in names:
-            return getattr(import_module(f"{__name__}.{module}"), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__getattr__ = when_used("kaidan.campaign", _HOME)

@@ -1,15 +1,17 @@
 """A whole campaign from a plan: store, workers, progress."""
 
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from kaidan.campaign.cluster import DaskWorkers
 from kaidan.campaign.id_set import Known
+from kaidan.campaign.job import Work
 from kaidan.campaign.local import LocalWorkers, Workers
 from kaidan.campaign.plans import Grid, VerificationTest, as_stored, plan_from
 from kaidan.campaign.progress import Progress
-from kaidan.campaign.query import read_batches
+from kaidan.campaign.query import read_batches, read_table
 from kaidan.campaign.runner import Tally, conduct
 from kaidan.campaign.store import Store
 from kaidan.campaign.store_files import about_store, refusal
@@ -58,6 +60,47 @@ def carry_out(
     ):
         opened.note_plan(as_stored(plan))
         return conduct(plan.specs(), opened, hands, listener=bar)
+
+
+def rows_of(
+    work: Work,
+    specs: Sequence[Any],
+    store: str | Path,
+    columns: Sequence[str],
+    *,
+    workers: int | None = None,
+    progress: bool = False,
+) -> list[dict[str, Any]]:
+    """Rows of some specs, on all processors of this machine; those in the store are not done again.
+
+    Parameters
+    ----------
+    work : Work
+        What is done with each.
+    specs : sequence
+    store : str or Path
+        Folder of the results; made if it does not exist, resumed if it does.
+    columns : sequence of str
+        Of the table.
+    workers : int, optional
+        Processes; without one each processor gets one.
+    progress : bool
+        Whether to show on standard error how it goes, if that is a terminal.
+
+    Returns
+    -------
+    list of dict
+        In the order of the specs.
+    """
+    with (
+        Store(Path(store), work) as opened,
+        LocalWorkers(work, workers) as hands,
+        Progress(len(specs), shown=progress) as bar,
+    ):
+        conduct(specs, opened, hands, listener=bar)
+    table = read_table(store, ["id", *columns]).to_pylist()
+    found = {row.pop("id"): row for row in table}
+    return [found[work.identity(spec)] for spec in specs]
 
 
 def resume(

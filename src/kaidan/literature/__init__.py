@@ -10,7 +10,9 @@ Newman 1994), ``balance`` and ``equilibria`` (after Magid et al. 2010), ``rollov
 ``guarded_drive`` (after Ohno et al. 2009), ``subtracks`` (after Okada et al. 2010, 2011).
 """
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from kaidan.lazy import when_used
 
 if TYPE_CHECKING:
     from kaidan.literature.balance import balance_along
@@ -55,14 +57,7 @@ __all__ = [  # noqa: RUF022 - in the order of the systems
     "follow_terrain",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    """Public names, imported when first used."""
-    if name not in _HOME:
-        raise AttributeError(f"module 'kaidan.literature' has no attribute {name!r}")
-    from importlib import import_module
-
-    return getattr(import_module(f"kaidan.literature.{_HOME[name]}"), name)
+__getattr__ = when_used("kaidan.literature", _HOME)
 
 
 def __dir__() -> list[str]:

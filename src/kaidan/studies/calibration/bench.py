@@ -6,19 +6,9 @@ A `Bench` remembers every trial that it ran; with a store it finds them there ne
 import math
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from kaidan.campaign import (
-    TRIALS,
-    Condition,
-    LocalWorkers,
-    Setting,
-    Store,
-    VerificationTest,
-    conduct,
-)
-from kaidan.campaign import read_table as rows_of
-from kaidan.campaign.progress import Progress
+from kaidan.campaign import TRIALS, Condition, Setting, VerificationTest, rows_of
 from kaidan.physics import TrialSpec
 from kaidan.physics import run as simulate
 from kaidan.robot import Robot
@@ -151,19 +141,12 @@ def in_store(folder: Path, *, workers: int | None = None, progress: bool = False
     """Runner on all processors that keeps its trials in a campaign's store, and resumes it."""
 
     def run(specs: Sequence[TrialSpec]) -> list[Figures]:
-        with (
-            Store(folder, TRIALS) as store,
-            LocalWorkers(TRIALS, workers) as hands,
-            Progress(len(specs), shown=progress) as bar,
-        ):
-            conduct(specs, store, hands, listener=bar)
-        table: dict[str, list[Any]] = rows_of(
-            folder, ["id", "outcome", "largest_extra_deg", "nosings_passed"]
-        ).to_pydict()
-        extras = [math.nan if each is None else each for each in table["largest_extra_deg"]]
-        passed = [each or 0 for each in table["nosings_passed"]]
-        figures = zip(table["outcome"], extras, passed, strict=True)
-        found = dict(zip(table["id"], figures, strict=True))
-        return [found[TRIALS.identity(spec)] for spec in specs]
+        columns = ("outcome", "largest_extra_deg", "nosings_passed")
+        rows = rows_of(TRIALS, specs, folder, columns, workers=workers, progress=progress)
+        extras = [row["largest_extra_deg"] for row in rows]
+        return [
+            (row["outcome"], math.nan if extra is None else extra, row["nosings_passed"] or 0)
+            for row, extra in zip(rows, extras, strict=True)
+        ]
 
     return run

@@ -15,9 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.answer import Answer, Part
-from kaidan.campaign import LocalWorkers, Store, Work, conduct, read_table
+from kaidan.campaign import Work, rows_of
 from kaidan.campaign.plans import seed_of
-from kaidan.campaign.progress import Progress
 from kaidan.campaign.trials import physics_version, text
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.models.quasi_static import traverse_of
@@ -327,14 +326,9 @@ def in_store(folder: Path, *, workers: int | None = None, progress: bool = False
     """Runner on all processors that keeps its trials in a campaign's store, and resumes it."""
 
     def run(specs: Sequence[TrialSpec]) -> list[Engaged]:
-        with (
-            Store(folder, ENGAGEMENT) as store,
-            LocalWorkers(ENGAGEMENT, workers) as hands,
-            Progress(len(specs), shown=progress) as bar,
-        ):
-            conduct(specs, store, hands, listener=bar)
-        table = read_table(folder, ["id", *Engaged._fields]).to_pylist()
-        found = {row.pop("id"): Engaged(**row) for row in table}
-        return [found[ENGAGEMENT.identity(spec)] for spec in specs]
+        rows = rows_of(
+            ENGAGEMENT, specs, folder, Engaged._fields, workers=workers, progress=progress
+        )
+        return [Engaged(**row) for row in rows]
 
     return run
