@@ -48,12 +48,25 @@ class UnknownNameError(InputError):
 
     def __init__(self, kind: str, name: str, known: Iterable[str], elsewhere: str = "") -> None:
         known = sorted(known)
-        close = get_close_matches(name.strip().lower(), known, n=1)
-        hint = f" Did you mean {close[0]!r}?" if close else ""
+        meant = _meant(name, known)
+        hint = f" Did you mean {' or '.join(map(repr, meant))}?" if meant else ""
         super().__init__(
             f"no {kind} is called {shown(name)} and no such file exists{elsewhere}.{hint} "
             f"Known: {', '.join(known)}."
         )
+
+
+def _meant(name: str, known: list[str]) -> list[str]:
+    """A name mistyped by a letter or two; else those that share a word; else the closest."""
+    name = name.strip().lower().replace("_", "-").replace(" ", "-")
+    words = set(name.split("-"))
+    shared = {each: len(words & set(each.split("-"))) for each in known}
+    most = max(1, *shared.values())
+    return (
+        get_close_matches(name, known, n=1, cutoff=0.85)
+        or [each for each, count in shared.items() if count == most]
+        or get_close_matches(name, known, n=1)
+    )
 
 
 def needed(module: str, purpose: str, extra: str) -> Any:

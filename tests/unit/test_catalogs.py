@@ -194,6 +194,21 @@ def test_unknown_names_list_the_known_ones():
     )
 
 
+@pytest.mark.parametrize(
+    ("kind", "name", "meant"),
+    [
+        (Robot, "packbot", "'packbot-510'"),
+        (Robot, "iRobot PackBot 510", "'packbot-510'"),
+        (Robot, "marmote", "'marmotte'"),
+        (Stairs, "UK", "'uk-general' or 'uk-private' or 'uk-utility'"),
+        (Stairs, "osha ship", "'osha-ship'"),
+    ],
+)
+def test_a_part_of_a_name_finds_the_names_that_have_it(kind, name, meant):
+    with pytest.raises(UnknownNameError, match=rf" Did you mean {meant}\? Known: "):
+        kind.named(name)
+
+
 def test_a_gross_robot_says_why_it_cannot_be_judged():
     with pytest.raises(InputError) as caught:
         Robot.named("teodor")

@@ -100,7 +100,8 @@ def load(kind: Kind, name: str, read: Callable[..., T]) -> T:
         if path.suffix.lower() == ".toml" or not {"/", os.sep}.isdisjoint(name):
             raise InputError(f"{short(name)}: no such file")
         elsewhere = [f", but a {_SINGULAR[each]} is" for each in _SINGULAR if stem in names(each)]
-        raise UnknownNameError(_SINGULAR[kind], name, names(kind), "".join(elsewhere))
+        known = [each for folder in folders for each in names(folder)]
+        raise UnknownNameError(_SINGULAR[kind], name, known, "".join(elsewhere))
     origin = short(name)
     text = text_of(path)
     try:
