@@ -451,7 +451,8 @@ REFUSALS = {
     "robot": (
         ["kenav", "ibc"],
         "no robot is called 'kenav' and no such file exists. Did you mean 'kenaf'? Known: "
-        "absolem, absolem-flat, csiro-dtr, kenaf, marmotte, marv, ozbot-atr, superdroid-hd2.",
+        "absolem, absolem-flat, csiro-dtr, kenaf, marmotte, marv, ozbot-atr, packbot-510, quince, "
+        "superdroid-hd2, talon, taurob-tracker.",
     ),
     "folder": (["/", "ibc"], "/: cannot be read: a folder, not a TOML file"),
     "endless": (["/dev/zero", "ibc"], "/dev/zero: cannot be read: not a regular file"),

@@ -54,6 +54,21 @@ def test_it_fits_one_screen_and_the_verdict_comes_first(case):
     assert len(shown(*CASES[case], "--details")) > LINES
 
 
+def test_of_what_is_no_go_even_so_nothing_is_to_be_measured_or_done():
+    slope = ("--nosing-spacing", "150mm", "--friction", "2", "--uncertainty", "com_height=5mm")
+    go, no_go = (
+        shown("kenaf", "--angle", angle, *slope, "--details") for angle in ("45deg", "60deg")
+    )
+    assert [any(line.startswith("  measure  ") for line in lines) for lines in (go, no_go)] == [
+        1,
+        0,
+    ]
+    planned = shown("quince", "osha-ship", "--friction", "1", "--details")
+    assert planned[0].startswith("NO-GO")
+    assert "  The best plan, NO-GO even so" in planned
+    assert "  What to do" not in planned
+
+
 def test_a_picture_is_offered_after_a_no_go_and_the_command_draws_it(monkeypatch, tmp_path):
     words = CASES["NO-GO"]
     monkeypatch.chdir(tmp_path)

@@ -106,6 +106,11 @@ def test_of_a_no_go_only_what_fails_in_the_best_case_governs():
     assert (found.verdict, found.governs) == (NO_GO, "slides_down")
 
 
+def test_of_a_no_go_the_smallest_margin_in_the_best_case_governs():
+    found = judged(finding(TIP_DOWNHILL, -0.2, -0.2), finding(SLIDES_DOWN, -0.3, -0.05))
+    assert (found.verdict, found.governs) == (NO_GO, "tip_downhill")
+
+
 def test_ties_go_to_the_first_of_the_vocabulary():
     each = [finding(mode, -0.1) for mode in (SLIDES_UP, SLIDES_DOWN, TIP_UPHILL, TIP_DOWNHILL)]
     assert judged(*each).governs == "tip_downhill"

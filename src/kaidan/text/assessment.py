@@ -39,7 +39,7 @@ def text(answer: "Assessment") -> str:
     slip = None if answer.traction is None else traction.slip(answer.traction)
     if slip is not None:
         lines.append(_row("grousers", slip))
-    if answer.question.uncertain and measuring.matters(answer.to_measure):
+    if answer.question.uncertain and _to_measure(answer):
         lines.append(_row("measure", measuring.first(answer.to_measure)))
     unknown = unknown_line(answer)
     if unknown:
@@ -86,12 +86,17 @@ def unknown_line(answer: "Assessment") -> str:
     return "; ".join(each)
 
 
+def _to_measure(answer: "Assessment") -> bool:
+    """Whether to say what to measure first: nothing measured turns what fails in the best case."""
+    return answer.verdict != "no-go" and measuring.matters(answer.to_measure)
+
+
 def details(answer: "Assessment") -> str:
     """Answer as a page for people: everything that was found."""
     question = answer.question
     lines = [headline(answer), f"  {answer.reason}"]
     if answer.plan is not None:
-        lines += ["", "  What to do", *(f"    {line}" for line in plan.lines(answer.plan))]
+        lines += plan.section(answer.plan, answer.verdict)
     if answer.what_would_help:
         lines += ["", "  What would help"]
         lines += [f"    {change_line(change, answer)}" for change in answer.what_would_help]
@@ -110,7 +115,7 @@ def details(answer: "Assessment") -> str:
                 f"{answer.failure_probability:.3f} (accepted: {question.risk:g})",
             )
         )
-    if measuring.matters(answer.to_measure):
+    if _to_measure(answer):
         lines.append(_row("measure", measuring.first(answer.to_measure)))
     lines.append(_row("allowances", _allowances(answer)))
     lines.append(_row("friction", friction_line(answer)))

@@ -42,6 +42,12 @@ def lines(plan: "PlanShown") -> list[str]:
     return each
 
 
+def section(plan: "PlanShown", verdict: str) -> list[str]:
+    """Plan under its heading: what is NO-GO even so is nothing to do."""
+    heading = "The best plan, NO-GO even so" if verdict == "no-go" else "What to do"
+    return ["", f"  {heading}", *(f"    {line}" for line in lines(plan))]
+
+
 def notes(question: "Question", ends: Sequence[str]) -> tuple[str, ...]:
     """What was tried to find a plan, where that is less than people may take it for.
 

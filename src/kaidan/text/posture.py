@@ -26,9 +26,7 @@ def text(answer: "PostureAnswer") -> str:
             f"  after     {_with(after)}: {_outcome(after)}",
             f"            {after.reason}",
             f"            ask again with --facing {after.facing} --flippers={after.flippers}",
-            "",
-            "  What to do",
-            *(f"    {line}" for line in plan.lines(answer.plan)),
+            *plan.section(answer.plan, answer.after.verdict),
         ]
     lines += ["", "  By phase", *(_phase(each) for each in answer.phases)]
     notes = _notes(answer)

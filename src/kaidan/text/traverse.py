@@ -31,7 +31,7 @@ def text(found: "TraverseReport") -> str:
         f"  {answer.reason}",
     ]
     if answer.plan is not None and plan.line(answer.plan):
-        lines += ["", "  What to do", *(f"    {line}" for line in plan.lines(answer.plan))]
+        lines += plan.section(answer.plan, answer.verdict)
     if answer.contact is not None:
         lines += ["", *(f"  {line}" for line in grade_lines(answer.contact.grades))]
         lines += ["", table([_phase(each) for each in answer.contact.phases], _PHASES)]
