@@ -17,7 +17,7 @@ from kaidan.figures.comparison_figure import comparison_figure
 from kaidan.question import Question
 from kaidan.robot import Robot
 from kaidan.terrain.stairs import Stairs
-from kaidan.verbs.comparison import Comparison, compare
+from kaidan.verbs.comparison import WORTH_A_PROCESS, Comparison, compare
 
 
 def run(*arguments, **options):
@@ -169,3 +169,13 @@ def test_any_size_can_be_drawn_and_its_words_stay_apart():
             assert box.x0 >= 0
             assert box.x1 <= figure.bbox.width
             assert not any(box.overlaps(other) for other in boxes[:index])
+
+
+def test_processes_say_what_one_says():
+    robots, stairs = (
+        ["kenaf", "marmotte", "csiro-dtr", "absolem-flat"],
+        ["ibc", "ada", "osha", "din-general"],
+    )
+    alone, shared = (compare(robots, stairs, friction=0.8, workers=each) for each in (1, 2))
+    assert len(alone.cells) == 2 * WORTH_A_PROCESS
+    assert shared == alone

@@ -69,7 +69,7 @@ class _Slot:
 
     def _open(self) -> ProcessPoolExecutor:
         self.pool = ProcessPoolExecutor(
-            1, multiprocessing.get_context("spawn"), initializer=_become_worker
+            1, multiprocessing.get_context("spawn"), initializer=become_worker
         )
         self.ready = self.pool.submit(_nothing)
         return self.pool
@@ -209,8 +209,8 @@ def processors() -> int:
     return os.cpu_count() or 1
 
 
-def _become_worker() -> None:
-    """Leave Ctrl-C to the campaign, use one processor, and do not outlive the campaign."""
+def become_worker() -> None:
+    """Leave Ctrl-C to who started the process, use one processor, and end when that one does."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
         os.environ.setdefault(name, "1")

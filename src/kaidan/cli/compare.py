@@ -1,13 +1,10 @@
 """``kaidan compare``: many robots against many stairs."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from kaidan.cli import options, output
-
-if TYPE_CHECKING:
-    pass
 
 RobotNames = Annotated[
     list[str] | None,
@@ -23,6 +20,10 @@ FlippersWhere = Annotated[
         help="As in assess; flat lays them in line with the track where there are some [best, for "
         "each pair]."
     ),
+]
+Workers = Annotated[
+    int | None,
+    typer.Option(min=1, max=1024, help="Processes of the contact model [one a processor]."),
 ]
 
 
@@ -44,6 +45,7 @@ def compare(
     theta_m: options.ThetaM = None,
     risk: options.Risk = 0.01,
     model: options.Model = "contact",
+    workers: Workers = None,
     figure: output.FigureFiles = None,
     csv: output.CsvFile = None,
     as_json: options.AsJson = False,
@@ -63,6 +65,7 @@ def compare(
         direction=direction,
         facing=facing,
         flippers=flippers,
+        workers=workers,
         theta_d=theta_d,
         theta_M=theta_m,
         risk=risk,

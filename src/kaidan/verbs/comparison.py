@@ -1,7 +1,9 @@
 """Many robots on many stairs: one verdict and one margin a pair."""
 
 import math
-from collections.abc import Sequence
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 from kaidan import catalog
@@ -9,12 +11,15 @@ from kaidan.answer import Answer, Part
 from kaidan.assessment import with_plan
 from kaidan.assessment.verdict import conclude
 from kaidan.errors import InputError
-from kaidan.modes import Direction, Facing, Verdict
+from kaidan.modes import CONTACT, Direction, Facing, Verdict
 from kaidan.progress import progress
 from kaidan.question import Question
 from kaidan.robot import Robot
 from kaidan.spelling import sheet_of
 from kaidan.terrain.stairs import Stairs
+
+WORTH_A_PROCESS = 8
+"""Cells of the contact model that repay the start of a process."""
 
 
 class Cell(Part):
@@ -98,6 +103,7 @@ def compare(
     stairs: Sequence[Any] | None = None,
     *,
     flippers: Any = None,
+    workers: int | None = 1,
     **manner: Any,
 ) -> Comparison:
     """Set many robots against many stairs: a verdict and a margin for each pair.
@@ -111,6 +117,9 @@ def compare(
     flippers : Posture or {"best", "flat", "stowed"}, optional
         Posture of the flippers, flat where there are some. Without one the best for each pair,
         which end leads too where *facing* is not stated.
+    workers : int, optional
+        Processes that share the cells of the contact model (a script that asks for more than one
+        needs ``if __name__ == "__main__":``); None: one for each processor.
     **manner
         As in `kaidan.assess`.
 
@@ -145,7 +154,8 @@ def compare(
         for robot in known
     ]
     first = questions[0]
-    cells = [_cell(question) for question in progress(questions, "traverses judged")]
+    with _judging(questions, workers) as judging:
+        cells = [next(judging) for _ in progress(questions, "traverses judged")]
     directions = {each.direction for each in questions}
     return Comparison(
         model=first.model,
@@ -166,6 +176,32 @@ def laid(robot: Robot, flippers: Any) -> Any:
     bare = robot.front_flippers is None and robot.rear_flippers is None
     is_flat = isinstance(flippers, str) and flippers.strip() == "flat"
     return "stowed" if bare and is_flat else flippers
+
+
+@contextmanager
+def _judging(questions: Sequence[Question], workers: int | None) -> Iterator[Iterator[Cell]]:
+    """Cells of some questions one by one; many share several processes."""
+    from kaidan.campaign.local import processors
+
+    most = sum(each.model == CONTACT.name for each in questions) // WORTH_A_PROCESS
+    count = min(processors() if workers is None else workers, most)
+    if count < 2:
+        yield map(_cell, questions)
+        return
+    import multiprocessing
+    import threading
+    from concurrent.futures import ProcessPoolExecutor
+
+    from kaidan.campaign.local import become_worker
+
+    # a copy of a process knows its modules already; safe on Linux, where no thread is at work
+    copies = sys.platform == "linux" and threading.active_count() == 1
+    ways = multiprocessing.get_context("fork" if copies else "spawn")
+    with ProcessPoolExecutor(count, ways, initializer=become_worker) as pool:
+        try:
+            yield pool.map(_cell, questions)
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
 
 
 def _no_centroid(name: str) -> NoCentroid:
