@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 STRIDE = 0.03
-"""Length of a drive of the search, and of a cell in which one pose is kept [m]."""
+"""Length of a drive of the search, and of a cell in which one pose of a heading is kept [m]."""
 TURN = np.radians(5.0)
 """Largest turn of one step of the search [rad]."""
 BEYOND = np.radians(60.0)
@@ -157,7 +157,7 @@ def manoeuvre(
     >>> case = dict(start=(0.02, 0.5, 0.0), goal=Goal(0.0, 1.7, np.pi, 1.0), landing=landing,
     ...              walls=walls_of(room))
     >>> manoeuvre(Footprint(0.35, 0.35, 0.5), **case).moves
-    6
+    8
     >>> manoeuvre(Footprint(1.0, 1.0, 0.5), **case) is None
     True
 
@@ -174,9 +174,10 @@ def manoeuvre(
     if abs(turn) > ABOUT_FACE and np.isclose(abs(turn), np.pi):
         goals = {-steps, steps}
         low, high = -steps - spare, steps + spare
-    origin = np.minimum(landing.min(axis=0), start[:2]) - STRIDE
-    size = np.ceil((landing.max(axis=0) - origin) / STRIDE).astype(int) + 2
-    seen = np.zeros((high - low + 1, *size), dtype=bool)
+    corners = np.vstack([landing, start[:2]])
+    reach = float(np.linalg.norm(corners - start[:2], axis=1).max())
+    half = int(reach / STRIDE) + 2
+    seen = np.zeros((high - low + 1, 2 * half, 2 * half), dtype=bool)
     poses = [np.array([start])]
     turns = [np.zeros(1, dtype=np.int64)]
     parents = [np.full(1, -1)]
@@ -201,7 +202,7 @@ def manoeuvre(
             (new_k[goes_on] >= low) & (new_k[goes_on] <= high) & inside(new[goes_on, :2], landing)
         ]
         total += len(k)
-        cell = np.floor((new[fine, :2] - origin) / STRIDE).astype(int)
+        cell = half + _cell(new[fine], start)
         code = np.ravel_multi_index((new_k[fine] - low, cell[:, 0], cell[:, 1]), seen.shape)
         fresh = fine[~seen.ravel()[code]]
         code = code[~seen.ravel()[code]]
@@ -217,6 +218,17 @@ def manoeuvre(
         parents.append(parent[keep])
         kind = new_kind[keep]
     return None
+
+
+def _cell(at: Array, start: tuple[float, float, float]) -> NDArray[np.int64]:
+    """Cell of each pose along and across its own heading, from the start, shape (n, 2).
+
+    A drive leads along a row of them, however little the heading differs from another.
+    """
+    cos, sin = np.cos(at[:, 2]), np.sin(at[:, 2])
+    dx, dy = (at[:, :2] - start[:2]).T
+    along_across = np.column_stack([dx * cos + dy * sin, dy * cos - dx * sin])
+    return np.floor(along_across / STRIDE + 0.5).astype(np.int64)
 
 
 def _arrived(

@@ -145,6 +145,15 @@ def test_a_turn_with_the_tail_over_the_flight_needs_less_than_the_circle():
     assert np.all(found.poses[:, 0] > 0)
 
 
+def test_a_robot_moves_aside_by_angles_that_take_it_less_than_a_cell_aside_in_a_stride():
+    """OzBot in its lane is 884 - 750 mm short of the middle of the circle in which it turns."""
+    asked, _ = half_turn(2.0, lane=1.5, gap=0.0)
+    found = manoeuvre(Footprint(0.803, 0.780, 0.738), **asked)
+    assert found is not None
+    _, y, _ = found.poses.T
+    assert y.max() > 1.5
+
+
 def test_the_largest_circle_of_a_rectangle_and_of_a_triangle():
     rectangle = np.array([(0, 0), (2, 0), (2, 1.2), (0, 1.2)])
     assert inscribed_circle(walls_of(rectangle), rectangle)[2] == pytest.approx(0.6, abs=0.005)
