@@ -4,8 +4,8 @@ The whole of it is done as `kaidan experiment kenaf --workers 2` does it, from a
 fresh store. Each trial is noted with its process, begin and end. The busy share is that of the time
 from when the last worker has begun its first trial (the start: processes begin and import) to when
 the first one has ended its last (the end: nothing is left to hand out). What a worker does between
-two trials counts as idle. On a machine with other work a trial that waits for a processor counts
-as busy, and the times say little: run it on a quiet one.
+two trials counts as idle. Waiting for a processor, which other work has, counts as neither where
+the system tells it (Linux); the times say little on such a machine: run it on a quiet one.
 """
 
 import argparse
@@ -14,12 +14,14 @@ import statistics
 import tempfile
 import time
 from dataclasses import replace
+from itertools import pairwise
 from math import radians
 from pathlib import Path
 from typing import Any
 
 from kaidan.campaign import TRIALS, LocalWorkers, Store, conduct, read_table
 from kaidan.campaign import trials as in_mujoco
+from kaidan.campaign.job import Kind
 from kaidan.physics import TrialSpec, YieldingBelt, run
 from kaidan.question import Question
 from kaidan.studies.experiment import plan_of
@@ -29,40 +31,55 @@ from record import finish, options
 
 
 def timed(spec: TrialSpec) -> dict[str, Any]:
-    began, processor = time.monotonic(), time.process_time()
+    began, queued_began, processor = time.monotonic(), queued(), time.process_time()
     found = in_mujoco.run(spec)
     spent = time.process_time() - processor
-    return found | {"pid": os.getpid(), "began": began, "ended": time.monotonic(), "spent": spent}
+    return found | {
+        "pid": os.getpid(),
+        "began": began,
+        "ended": time.monotonic(),
+        "queued_began": queued_began,
+        "queued_ended": queued(),
+        "spent": spent,
+    }
 
 
-TIMED = replace(
-    TRIALS,
-    name="timed trials",
-    run=timed,
-    columns={
-        **TRIALS.columns,
-        "pid": "count",
-        "began": "number",
-        "ended": "number",
-        "spent": "number",
-    },
-)
+def queued() -> float:
+    """How long this process waited for a processor until now [s]; 0 where nothing tells it."""
+    file = Path("/proc/self/schedstat")
+    return 1e-9 * int(file.read_text().split()[1]) if file.exists() else 0.0
+
+
+NOTED: dict[str, Kind] = {
+    "pid": "count",
+    "began": "number",
+    "ended": "number",
+    "queued_began": "number",
+    "queued_ended": "number",
+    "spent": "number",
+}
+TIMED = replace(TRIALS, name="timed trials", run=timed, columns={**TRIALS.columns, **NOTED})
 
 
 def idle_share(rows: list[dict[str, Any]], workers: int) -> float:
     """Share of the workers' time, apart from start and end, in which they run no trial."""
-    spans: dict[int, list[tuple[float, float]]] = {}
-    for row in rows:
-        spans.setdefault(row["pid"], []).append((row["began"], row["ended"]))
-    assert len(spans) == workers, "a worker did nothing"
-    low = max(min(began for began, _ in each) for each in spans.values())
-    high = min(max(ended for _, ended in each) for each in spans.values())
-    busy = sum(
-        max(0.0, min(ended, high) - max(began, low))
-        for each in spans.values()
-        for began, ended in each
-    )
-    return 1.0 - busy / (workers * (high - low))
+    trials: dict[int, list[dict[str, Any]]] = {}
+    for row in sorted(rows, key=lambda row: row["began"]):
+        trials.setdefault(row["pid"], []).append(row)
+    assert len(trials) == workers, "a worker did nothing"
+    low = max(each[0]["began"] for each in trials.values())
+    high = min(each[-1]["ended"] for each in trials.values())
+    busy = idle = 0.0
+    for each in trials.values():
+        for row in each:
+            lasted = row["ended"] - row["began"]
+            within = max(0.0, min(row["ended"], high) - max(row["began"], low)) / lasted
+            busy += within * (lasted - row["queued_ended"] + row["queued_began"])
+        for row, later in pairwise(each):
+            if row["ended"] >= low and later["began"] <= high:
+                idle += later["began"] - row["ended"]
+                idle -= later["queued_began"] - row["queued_ended"]
+    return idle / (busy + idle)
 
 
 def milliseconds_a_second(runs: int) -> float:
@@ -94,8 +111,7 @@ def main() -> None:
         with Store(Path(folder), TIMED) as store, LocalWorkers(TIMED, workers) as hands:
             conduct(plan.specs(), store, hands)
         conducting = time.process_time() - spent
-        rows = read_table(folder, ["id", "outcome", "largest_extra_deg", "pid", "began", "ended",
-                                   "spent"]).to_pylist()  # fmt: skip
+        rows = read_table(folder, ["id", "outcome", "largest_extra_deg", *NOTED]).to_pylist()
     spent = time.process_time()
     # identities are of the timed work; the verification looks for those of its own
     own = {TIMED.identity(spec): TRIALS.identity(spec) for spec in plan.specs()}

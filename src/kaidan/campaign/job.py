@@ -4,6 +4,7 @@ import hashlib
 import os
 import socket
 import threading
+import time
 from collections.abc import Callable, Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass
@@ -77,6 +78,8 @@ class Reply:
     figures: Row
     stop: str = ""
     """Why no further trial makes sense on this worker; empty where it does."""
+    lasted: float = 0.0
+    """Time that it took [s]."""
 
 
 @dataclass(frozen=True)
@@ -111,7 +114,7 @@ def perform(work: Work, spec: Any, version: str) -> Reply:
         An exception is the outcome `failed`; a missing package or another version stops the
         campaign, since it would befall every trial.
     """
-    host = socket.gethostname()
+    began, host = time.monotonic(), socket.gethostname()
     here = work.version()
     if here != version:
         return Reply({}, f"the worker on {host} has {here}, the campaign {version}")
@@ -124,4 +127,4 @@ def perform(work: Work, spec: Any, version: str) -> Reply:
     except Exception as error:  # bad news is data
         text = f"{type(error).__name__}: {error}"
         row["error"] = text.encode("utf-8", "replace").decode("utf-8")
-    return Reply(row)
+    return Reply(row, lasted=time.monotonic() - began)

@@ -1,5 +1,6 @@
 """Workers on this machine: processes, each replaced when it dies."""
 
+import math
 import multiprocessing
 import os
 import signal
@@ -17,8 +18,10 @@ from kaidan.errors import InputError
 
 TRIES = 3
 """Times that a trial may kill its worker before it is given up."""
-_AHEAD = 2
-"""Tasks a worker has at most: the one it runs and the next, so that it never waits."""
+AT_HAND = 0.5
+"""Work that a worker has before it, so that it does not wait while results are stored [s]."""
+FEWEST, MOST = 2, 64
+"""Tasks that a worker has at least, the one it runs and the next, and at most."""
 
 
 class Workers(Protocol):
@@ -108,6 +111,7 @@ class LocalWorkers:
         self._suspects: deque[Task] = deque()
         self._deaths: dict[str, int] = {}
         self._stillborn = 0
+        self._lasts = AT_HAND  # a task, of late [s]
 
     def __enter__(self) -> Self:
         return self
@@ -128,8 +132,9 @@ class LocalWorkers:
     def room(self) -> int:
         """How many more tasks it wants now."""
         self._place_suspects()
-        free = sum(0 if slot.alone else _AHEAD - len(slot.futures) for slot in self._slots)
-        return max(0, free - _AHEAD * len(self._suspects))
+        ahead = min(max(FEWEST, math.ceil(AT_HAND / self._lasts)), MOST)
+        free = sum(0 if slot.alone else ahead - len(slot.futures) for slot in self._slots)
+        return max(0, free - ahead * len(self._suspects))
 
     def submit(self, task: Task) -> None:
         """Take a task."""
@@ -141,7 +146,21 @@ class LocalWorkers:
         self._place_suspects()
         futures = [future for slot in self._slots for future in slot.futures]
         wait(futures, timeout, FIRST_COMPLETED)
-        return [ended for slot in self._slots for ended in self._ended(slot)]
+        ended = [ended for slot in self._slots for ended in self._ended(slot)]
+        self._share()
+        return ended
+
+    def _share(self) -> None:
+        """Give workers that have fewer tasks those that others have not begun."""
+        slots = [slot for slot in self._slots if not slot.alone]
+        while slots and not self._suspects:
+            least, most = (pick(slots, key=lambda s: len(s.futures)) for pick in (min, max))
+            if len(most.futures) - len(least.futures) < 2:
+                return
+            waiting = next((each for each in reversed(most.futures) if each.cancel()), None)
+            if waiting is None:
+                return
+            least.take(self.work, most.futures.pop(waiting), self.version)
 
     def _place_suspects(self) -> None:
         for slot in self._slots:
@@ -162,7 +181,9 @@ class LocalWorkers:
                 text = f"{type(error).__name__}: {error}"
                 ended.append(self._end(task, Reply({"outcome": FAILED, "error": text})))
             else:
-                ended.append(self._end(task, future.result()))
+                reply = future.result()
+                self._lasts += 0.2 * (max(reply.lasted, 1e-6) - self._lasts)
+                ended.append(self._end(task, reply))
         if dead:
             dead += slot.futures.values()
             slot.futures.clear()

@@ -34,6 +34,7 @@ from kaidan.campaign.store_files import (
     journal_path,
     journal_rows,
     journals_of,
+    load_parts,
     parts_of,
     refusal,
     schema_of,
@@ -151,6 +152,7 @@ class Store:
         """Force the journal to disk, or settle it, if it is time."""
         now = time.monotonic()
         if self._journal is None:
+            load_parts()  # while workers begin
             return
         delay = min(LATE, max(SOON, (now - self._begun) / 20))
         if len(self._rows) >= ROWS or now - self._part_begun >= delay:

@@ -9,6 +9,7 @@ import io
 import json
 import re
 from collections.abc import Iterator, Sequence
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -59,6 +60,13 @@ def _checksum(data: bytes) -> str:
 
 
 # Parts
+
+
+@cache
+def load_parts() -> None:
+    """Load what writes parts, up to a second's work: pyarrow imports pandas where it is there."""
+    arrow("pyarrow.parquet")
+    arrow().array([])
 
 
 def write_part(folder: Path, number: int, rows: Sequence[Row], schema: Any) -> None:

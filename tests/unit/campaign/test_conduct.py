@@ -11,6 +11,7 @@ pytest.importorskip("pyarrow")
 
 from campaign_cases import FAKE, local_campaign, noted, specs, start, wait_until
 from kaidan.campaign import LocalWorkers, Store, conduct, read_table
+from kaidan.campaign.local import MOST
 from kaidan.campaign.progress import Progress
 from kaidan.errors import InputError
 
@@ -108,6 +109,16 @@ def test_another_version_at_the_worker_ends_the_campaign(tmp_path):
             conduct(specs(2), store, workers)
 
 
+def test_a_worker_that_is_held_up_hands_its_tasks_over(tmp_path):
+    """The one that is held up keeps what it has begun and, at most, what lies in its pipe."""
+    plan = [{"n": n, "seconds": 2.0 if n == 40 else 0.01} for n in range(100)]
+    local_campaign(tmp_path, plan)
+    table = read_table(tmp_path, ["n", "pid"]).to_pylist()
+    held_up = next(row["pid"] for row in table if row["n"] == 40)
+    assert sorted(row["n"] for row in table) == list(range(100))
+    assert sum(row["pid"] == held_up and row["n"] > 40 for row in table) <= 2
+
+
 def test_planning_is_lazy(tmp_path):
     """A plan of any length: never more asked for than is done and in flight."""
     asked = []
@@ -127,7 +138,7 @@ def test_planning_is_lazy(tmp_path):
 
         def advance(self, done, skipped):
             self.done += done
-            assert len(asked) <= self.done + 2 * 2
+            assert len(asked) <= self.done + 2 * MOST
             if self.done >= 20:
                 raise EnoughError
 

@@ -15,13 +15,18 @@ def test_idle_is_what_lies_between_trials_apart_from_start_and_end(monkeypatch):
     spec = importlib.util.spec_from_file_location("experiment_benchmark", FOLDER / "experiment.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    spans = {1: [(0.0, 2.0), (2.5, 6.0), (6.0, 9.0)], 2: [(1.0, 4.0), (4.0, 8.0)]}
+    # begins and ends, and how long each process had waited for a processor by then
+    spans = {
+        1: [(0.0, 2.0, 0.0, 0.0), (2.5, 6.0, 0.0, 0.0), (6.0, 9.0, 0.0, 0.0)],
+        2: [(1.0, 4.0, 0.0, 0.5), (5.0, 8.0, 1.25, 1.25)],
+    }
     rows = [
-        {"pid": pid, "began": began, "ended": ended}
-        for pid, each in spans.items()
-        for began, ended in each
+        dict(zip(("began", "ended", "queued_began", "queued_ended"), each, strict=True), pid=pid)
+        for pid, several in spans.items()
+        for each in several
     ]
-    # from 1 s, when the second has begun, to 8 s, when it has nothing more: 0.5 of 14 s
-    assert module.idle_share(rows, 2) == pytest.approx(0.5 / 14.0)
+    # from 1 s, when the second has begun, to 8 s, when it has nothing more: the first is idle for
+    # 0.5 s and the second for 1 s, of which it waits 0.75 s for a processor; in all 14 s less 1.25
+    assert module.idle_share(rows, 2) == pytest.approx(0.75 / 12.75)
     with pytest.raises(AssertionError, match="a worker did nothing"):
         module.idle_share(rows, 3)
