@@ -11,8 +11,6 @@ Example (see docs/mutation.md)::
 """
 
 import argparse
-import ast
-import copy
 import gc
 import importlib
 import json
@@ -22,166 +20,24 @@ import signal
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
-from dataclasses import asdict, dataclass
-from functools import _lru_cache_wrapper
+from collections.abc import Callable, Iterator
+from dataclasses import asdict
+from functools import _lru_cache_wrapper, partial
 from pathlib import Path
 from types import CodeType, FrameType, FunctionType
+from typing import Any
 
 import pytest
 
-LEAST_LIMIT = 2.0
+from compiled_mutants import CompiledMutants
+from mutants import HANGS, KILLED, SURVIVES, UNTESTED, Mutant, answers, mutants
+
+LEAST_LIMIT = 1.0
 """CPU time that a test may take at least before a mutant counts as one that hangs [s]."""
 SLOWER = 8.0
 """A mutant hangs if a test takes this many times its usual CPU time."""
 MEMORY = 4 << 30
 """Address space of a mutant [B]."""
-KILLED, HANGS, SURVIVES, UNTESTED = "killed", "hangs", "survives", "untested"
-
-COMPARISONS = {
-    ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt,
-    ast.Eq: ast.NotEq, ast.NotEq: ast.Eq, ast.Is: ast.IsNot, ast.IsNot: ast.Is,
-    ast.In: ast.NotIn, ast.NotIn: ast.In,
-}  # fmt: skip
-OPERATORS = {
-    ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult,
-    ast.FloorDiv: ast.Div, ast.Mod: ast.Div, ast.Pow: ast.Mult, ast.LShift: ast.RShift,
-    ast.RShift: ast.LShift, ast.BitAnd: ast.BitOr, ast.BitOr: ast.BitAnd,
-}  # fmt: skip
-NAMES = {
-    "max": "min", "min": "max", "all": "any", "any": "all", "argmax": "argmin", "argmin": "argmax",
-    "maximum": "minimum", "minimum": "maximum", "floor": "ceil", "ceil": "floor",
-    "sin": "cos", "cos": "sin",
-}  # fmt: skip
-
-
-@dataclass
-class Mutant:
-    """One change of one function."""
-
-    file: str
-    function: str
-    line: int
-    before: str
-    after: str
-    outcome: str = ""
-    by: str = ""
-    """Test that notices it."""
-
-    @property
-    def key(self) -> tuple[str, str, int, str, str]:
-        return (self.file, self.function, self.line, self.before, self.after)
-
-    @property
-    def lives(self) -> bool:
-        """Whether no test notices it."""
-        return self.outcome in (SURVIVES, UNTESTED)
-
-
-def answers(path: Path) -> list[Mutant]:
-    """Mutants of a file of answers; none if there is no file."""
-    lines = path.read_text().splitlines() if path.exists() else []
-    return [Mutant(**json.loads(line)) for line in lines]
-
-
-def changes(node: ast.AST) -> Iterator[ast.AST]:
-    """Nodes that may stand in the place of a node, each one change away from it."""
-    if isinstance(node, ast.Compare):
-        for k, operator in enumerate(node.ops):
-            other = copy.deepcopy(node)
-            other.ops[k] = COMPARISONS[type(operator)]()
-            yield other
-    elif isinstance(node, ast.BoolOp):
-        other = copy.deepcopy(node)
-        other.op = ast.Or() if isinstance(node.op, ast.And) else ast.And()
-        yield other
-    elif isinstance(node, ast.BinOp | ast.AugAssign) and type(node.op) in OPERATORS:
-        other = copy.deepcopy(node)
-        other.op = OPERATORS[type(node.op)]()
-        yield other
-    elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.Not):
-        yield copy.deepcopy(node.operand)
-    elif isinstance(node, ast.Constant) and isinstance(node.value, bool):
-        yield ast.Constant(not node.value)
-    elif isinstance(node, ast.Constant) and isinstance(node.value, int | float):
-        yield ast.Constant(node.value + 1)
-    elif isinstance(node, ast.Name | ast.Attribute):
-        name = node.id if isinstance(node, ast.Name) else node.attr
-        if isinstance(node.ctx, ast.Load) and name in NAMES:
-            other = copy.deepcopy(node)
-            setattr(other, "id" if isinstance(node, ast.Name) else "attr", NAMES[name])
-            yield other
-    elif isinstance(node, ast.Break):
-        yield ast.Continue()
-    elif isinstance(node, ast.Continue):
-        yield ast.Break()
-
-
-def functions(tree: ast.Module) -> Iterator[tuple[str, ast.FunctionDef]]:
-    """Functions and methods of a module by qualified name; what is nested belongs to the outer."""
-    for node in tree.body:
-        if isinstance(node, ast.FunctionDef):
-            yield node.name, node
-        elif isinstance(node, ast.ClassDef):
-            for inner in node.body:
-                if isinstance(inner, ast.FunctionDef):
-                    yield f"{node.name}.{inner.name}", inner
-
-
-def mutants(path: Path) -> Iterator[tuple[Mutant, CodeType]]:
-    """Every mutant of a file, with the code of its function."""
-    tree = ast.parse(path.read_text())
-    for name, function in functions(tree):
-        for statement in function.body:
-            for parent in ast.walk(statement):
-                yield from _of_statement(path, tree, name, parent)
-            if not isinstance(statement, ast.Expr):  # as children the loop above has them
-                yield from _replaced(path, tree, name, function, "body", statement)
-
-
-def _of_statement(
-    path: Path, tree: ast.Module, name: str, parent: ast.AST
-) -> Iterator[tuple[Mutant, CodeType]]:
-    if isinstance(parent, ast.AnnAssign):
-        fields: tuple[str, ...] = ("value",)  # no type is changed
-    else:
-        fields = parent._fields
-    for field in fields:
-        value = getattr(parent, field, None)
-        for child in value if isinstance(value, list) else [value]:
-            if isinstance(child, ast.AST):
-                yield from _replaced(path, tree, name, parent, field, child)
-
-
-def _replaced(
-    path: Path, tree: ast.Module, name: str, parent: ast.AST, field: str, child: ast.AST
-) -> Iterator[tuple[Mutant, CodeType]]:
-    """Mutants in which a child of a node is another."""
-    for other in changes(child):
-        ast.copy_location(other, child)
-        before, after = ast.unparse(child), ast.unparse(other)
-        value = getattr(parent, field)
-        if isinstance(value, list):
-            place = next(k for k, each in enumerate(value) if each is child)
-            value[place] = other
-        else:
-            setattr(parent, field, other)
-        ast.fix_missing_locations(tree)
-        code = find(compile(tree, str(path), "exec"), name)
-        if isinstance(value, list):
-            value[place] = child
-        else:
-            setattr(parent, field, child)
-        yield Mutant(path.name, name, child.lineno, before, after), code  # type: ignore[attr-defined]
-
-
-def find(code: CodeType, name: str) -> CodeType:
-    """Code of a function by qualified name."""
-    for part in name.split("."):
-        code = next(
-            each for each in code.co_consts if isinstance(each, CodeType) and each.co_name == part
-        )
-    return code
 
 
 def load(path: Path) -> None:
@@ -204,6 +60,20 @@ def live(path: Path) -> dict[str, list[FunctionType]]:
 def caches() -> list[_lru_cache_wrapper]:
     """Functions that remember their answers, but for those that are frozen."""
     return [each for each in gc.get_objects() if isinstance(each, _lru_cache_wrapper)]
+
+
+def all_caches() -> list[_lru_cache_wrapper]:
+    """Those that are frozen too; all that there is by now is frozen."""
+    gc.unfreeze()
+    held = caches()
+    gc.freeze()
+    return held
+
+
+def empty(held: list[_lru_cache_wrapper]) -> None:
+    """Let functions forget what they remember."""
+    for each in held:
+        each.cache_clear()
 
 
 class Lines:
@@ -230,6 +100,35 @@ class Lines:
         return self.line
 
 
+class ExchangedMutants:
+    """Mutants of some files, each with the code of one function exchanged in this process."""
+
+    def __init__(self, paths: list[Path]) -> None:
+        self.paths = paths
+
+    def of_file(self, path: Path) -> Iterator[tuple[Mutant, object, Callable[[], None]]]:
+        """Each mutant of a file, its line, and what makes this process run it."""
+        load(path)
+        held = live(path)
+        for mutant, code in mutants(path):
+            change = partial(exchange, held[mutant.function], code)
+            yield mutant, f"{path}:{mutant.line}", change
+
+    def reached(self, ask: Callable[[], object]) -> list[object]:
+        """Lines that are passed over."""
+        lines = Lines(self.paths)
+        sys.settrace(lines.call)
+        ask()
+        sys.settrace(None)
+        return [f"{file}:{line}" for file, line in lines.seen]
+
+
+def exchange(held: list[FunctionType], code: CodeType) -> None:
+    """Give functions another code."""
+    for each in held:
+        each.__code__ = code.replace(co_freevars=each.__code__.co_freevars)
+
+
 class Run:
     """Pytest plugin that runs mutants in place of the tests."""
 
@@ -240,6 +139,9 @@ class Run:
         self.again = None
         if chosen.again is not None:
             self.again = {each.key for each in answers(chosen.again) if each.lives}
+        self.mutants: ExchangedMutants | CompiledMutants = ExchangedMutants(self.paths)
+        if chosen.compiled:
+            self.mutants = CompiledMutants(self.paths, self.out.parent)
         self.failed = False
 
     def pytest_configure(self) -> None:
@@ -258,22 +160,18 @@ class Run:
         counts: Counter[str] = Counter()
         last: dict[str, int] = {}
         for path in self.paths:
-            load(path)
-            held = live(path)
-            gc.freeze()  # nothing held here is garbage
-            for mutant, code in self._sampled(list(mutants(path))):
+            every = self._sampled(list(self.mutants.of_file(path)))
+            empty(all_caches())  # answers of the unchanged code, worked out by an import
+            for mutant, at, change in every:
                 if mutant.key in done or self.only not in mutant.function:
                     continue
                 if self.again is not None and mutant.key not in self.again:
                     continue
-                at = [str(path), mutant.line]
-                chosen = [k for k, (_, lines) in usual.items() if at in lines]
+                chosen = [k for k, (_, reached) in usual.items() if at in reached]
                 chosen.sort(key=lambda k: (k != last.get(mutant.function), usual[k][0]))
                 mutant.outcome = UNTESTED
                 if chosen:
-                    mutant.outcome, killer = self._try(
-                        held[mutant.function], code, items, chosen, usual
-                    )
+                    mutant.outcome, killer = self._try(change, items, chosen, usual)
                     if killer is not None:
                         mutant.by, last[mutant.function] = items[killer].nodeid, killer
                 counts[mutant.outcome] += 1
@@ -285,42 +183,36 @@ class Run:
         print(dict(counts))
         return True
 
-    def _sampled(self, every: list[tuple[Mutant, CodeType]]) -> list[tuple[Mutant, CodeType]]:
+    def _sampled(self, every: list[Any]) -> list[Any]:
         """As many mutants as asked for, spread evenly over the file; all if none are asked for."""
         count = min(self.sample or len(every), len(every))
         print(f"{count} of {len(every)} mutants", flush=True)
         return [every[k * len(every) // count] for k in range(count)]
 
-    def _baseline(self, items: list[pytest.Item]) -> dict[int, tuple[float, list[list[object]]]]:
-        """Time and lines of each test, worked out in a fork so that no cache here is filled."""
+    def _baseline(self, items: list[pytest.Item]) -> dict[int, tuple[float, set[object]]]:
+        """Time of each test and what it reaches, in a fork so that no cache is filled."""
         read, write = os.pipe()
         if os.fork() == 0:
             os.close(read)
             self._quiet()
             usual: dict[int, tuple[float, list[object]]] = {}
-            gc.unfreeze()  # what the tests have set aside
-            held = caches()
-            gc.freeze()
+            held = all_caches()
             for k, item in enumerate(items):
                 start = time.process_time()
-                failed = self._ask(item, None)
+                failed = self._ask(item)
                 took = time.process_time() - start
                 if failed or took > self.longest:
                     continue
-                for each in (*held, *caches()):
-                    each.cache_clear()  # so that its lines are passed again
-                lines = Lines(self.paths)
-                sys.settrace(lines.call)
-                self._ask(item, None)
-                sys.settrace(None)
-                if lines.seen:
-                    usual[k] = (took, sorted(lines.seen))
+                empty([*held, *caches()])  # so that all of it is passed again
+                reached = self.mutants.reached(partial(self._ask, item))
+                if reached:
+                    usual[k] = (took, reached)
             with os.fdopen(write, "w") as pipe:
                 json.dump(usual, pipe)
             os._exit(0)
         os.close(write)
         with os.fdopen(read) as pipe:
-            usual = {int(k): tuple(each) for k, each in json.load(pipe).items()}
+            usual = {int(k): (took, set(each)) for k, (took, each) in json.load(pipe).items()}
         os.wait()
         total = sum(each[0] for each in usual.values())
         print(
@@ -328,10 +220,10 @@ class Run:
         )
         return usual
 
-    def _ask(self, item: pytest.Item, nextitem: pytest.Item | None) -> bool:
+    def _ask(self, item: pytest.Item) -> bool:
         """Whether a test fails."""
         self.failed = False
-        item.config.hook.pytest_runtest_protocol(item=item, nextitem=nextitem)
+        item.config.hook.pytest_runtest_protocol(item=item, nextitem=None)
         return self.failed
 
     def _quiet(self) -> None:
@@ -339,7 +231,11 @@ class Run:
         os.dup2(null, 1)
         os.dup2(null, 2)
 
-    def _try(self, held, code, items, chosen, usual):
+    def _try(
+        self, change: Callable[[], None], items: list[pytest.Item], chosen: list[int],
+        usual: dict[int, tuple[float, set[object]]],
+    ) -> tuple[str, int | None]:  # fmt: skip
+        """Outcome of a mutant, in a fork, and the test that notices it."""
         read, write = os.pipe()
         child = os.fork()
         if child == 0:
@@ -347,30 +243,23 @@ class Run:
             os.setsid()
             self._quiet()
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-            for each in held:
-                each.__code__ = code.replace(co_freevars=each.__code__.co_freevars)
-            at = chosen[0]
-
-            def hangs(*_: object) -> None:
-                os.write(write, f"{HANGS} {at}".encode())
-                os._exit(0)
-
-            signal.signal(signal.SIGVTALRM, hangs)
+            change()
             for at in chosen:
+                os.write(write, f"{at} ".encode())
                 limit = max(LEAST_LIMIT, SLOWER * usual[at][0])
                 signal.setitimer(signal.ITIMER_VIRTUAL, limit)
-                if self._ask(items[at], None):
-                    os.write(write, f"{KILLED} {at}".encode())
-                    os._exit(0)
-            os.write(write, SURVIVES.encode())
+                if self._ask(items[at]):
+                    os._exit(1)
             os._exit(0)
         os.close(write)
         with os.fdopen(read) as pipe:
-            answer = pipe.read().split()
-        os.waitpid(child, 0)
-        if not answer:
-            return KILLED, chosen[0]  # the process itself did not survive
-        return answer[0], int(answer[1]) if len(answer) > 1 else None
+            tried = pipe.read().split()
+        _, status = os.waitpid(child, 0)
+        if status == 0:
+            return SURVIVES, None
+        # whatever else ends it: the process itself did not survive
+        hangs = os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGVTALRM
+        return HANGS if hangs else KILLED, int(tried[-1])
 
 
 def main() -> None:
@@ -389,8 +278,14 @@ def main() -> None:
     arguments.add_argument(
         "--native", action="store_true", help="on the native kernel: for code outside it"
     )
+    arguments.add_argument(
+        "--compiled", action="store_true",
+        help="modules of the kernel: all their mutants in one native kernel, kept beside OUT",
+    )  # fmt: skip
     chosen = arguments.parse_args(sys.argv[1:split])
-    os.environ["KAIDAN_KERNEL"] = "native" if chosen.native else "plain"
+    os.environ["KAIDAN_KERNEL"] = "plain"
+    if chosen.native or chosen.compiled:
+        os.environ["KAIDAN_KERNEL"] = "native"
     tests = sys.argv[split + 1 :]
     pytest.main(
         ["-q", "-s", "-p", "no:cacheprovider", "-p", "no:xdist", *tests], plugins=[Run(chosen)]

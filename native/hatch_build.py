@@ -48,8 +48,11 @@ class NativeKernel(BuildHookInterface[Any]):
             self.work.cleanup()
 
 
-def compiled(root: Path, work: Path) -> Path:
-    """Write, translate and compile the typed source of the kernel; return the library."""
+def compiled(root: Path, work: Path, text: str | None = None) -> Path:
+    """Write, translate and compile the typed source of the kernel (or a text in its place).
+
+    Returns the library.
+    """
     from Cython.Build import cythonize
     from setuptools import Distribution, Extension
 
@@ -57,7 +60,7 @@ def compiled(root: Path, work: Path) -> Path:
     from typed_source import typed_source
 
     source = work / "_native.pyx"
-    source.write_text(typed_source(), encoding="utf-8")
+    source.write_text(text or typed_source(), encoding="utf-8")
     # one rounding for each operation, as in Python: none fused
     options = [] if sys.platform == "win32" else ["-O2", "-ffp-contract=off", "-g0"]
     extension = Extension(

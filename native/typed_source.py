@@ -23,7 +23,7 @@ import inspect
 import math
 from collections.abc import Callable
 from types import ModuleType
-from typing import Any, get_args, get_origin, get_type_hints
+from typing import Any, Protocol, get_args, get_origin, get_type_hints
 
 from kaidan.contact.entries import KERNEL_MODULES, KERNEL_PACKAGE
 from kaidan.contact.source_mark import source_mark
@@ -53,20 +53,49 @@ SOURCE = "{mark}"
 
 """
 
+CHECKED = """\
+from libc.stdlib cimport abort
 
-def typed_source() -> str:
+cdef inline Py_ssize_t within(Py_ssize_t index, Py_ssize_t count) noexcept nogil:
+    if index < 0 or index >= count:
+        abort()
+    return index
+
+"""
+
+
+class Change(Protocol):
+    """What a mutation run changes: indices are checked then, every function has a wrapper."""
+
+    def head(self) -> str:
+        """What comes before the functions, asked for last."""
+
+    def function(
+        self, tree: ast.FunctionDef, types: Types, function: Callable[..., Any]
+    ) -> ast.FunctionDef:
+        """A function with its changes."""
+
+
+def typed_source(change: Change | None = None) -> str:
     """Text of the typed module."""
+    functions = kernel_functions()
+    compiled = [_compiled(f, functions, change) for f in functions.values()]
+    wrappers = [_wrapper(f) for f in functions.values() if change or hasattr(f, "_kaidan_entry")]
+    head = HEAD.format(math=", ".join(MATH), mark=source_mark())
+    if change:
+        head += CHECKED + change.head()
+    return head + "\n\n".join(compiled + wrappers) + "\n"
+
+
+def kernel_functions() -> dict[str, Any]:
+    """Functions of the kernel by name, in the order in which they are defined."""
     modules = [importlib.import_module(f"{KERNEL_PACKAGE}.{name}") for name in KERNEL_MODULES]
-    functions = {
+    return {
         name: value
         for module in modules
         for name, value in vars(module).items()
         if inspect.isfunction(value) and value.__module__ == module.__name__
     }
-    compiled = [_compiled(f, functions) for f in functions.values()]
-    wrappers = [_wrapper(f) for f in functions.values() if hasattr(f, "_kaidan_entry")]
-    head = HEAD.format(math=", ".join(MATH), mark=source_mark())
-    return head + "\n\n".join(compiled + wrappers) + "\n"
 
 
 def _hints(function: Callable[..., Any]) -> dict[str, Any]:
@@ -92,7 +121,9 @@ def _type(hint: Any) -> str:
     return SCALARS[hint]
 
 
-def _compiled(function: Callable[..., Any], functions: dict[str, Any]) -> str:
+def _compiled(
+    function: Callable[..., Any], functions: dict[str, Any], change: Change | None = None
+) -> str:
     hints = _hints(function)
     answer = _type(hints.pop("return"))
     tree = ast.parse(inspect.getsource(function)).body[0]
@@ -104,7 +135,9 @@ def _compiled(function: Callable[..., Any], functions: dict[str, Any]) -> str:
     module = importlib.import_module(function.__module__)
     types = Types(module, functions, {name: _type(hint) for name, hint in hints.items()})
     declared = types.declarations(tree)
-    typing = _Typing(module, functions, widths, stored | set(hints))
+    if change:
+        tree = change.function(tree, types, function)
+    typing = _Typing(module, functions, widths, stored | set(hints), change is not None)
     body = tree.body[1:] if ast.get_docstring(tree) else tree.body
     lines = [ast.unparse(ast.fix_missing_locations(typing.visit(each))) for each in body]
     lines = [*declared, *lines]
@@ -263,9 +296,10 @@ class _Typing(ast.NodeTransformer):
 
     def __init__(
         self, module: ModuleType, functions: dict[str, Any], widths: dict[str, int | None],
-        local: set[str],
+        local: set[str], checked: bool,
     ) -> None:  # fmt: skip
         self.module, self.functions, self.widths, self.local = module, functions, widths, local
+        self.checked = checked
 
     def visit_Assign(self, node: ast.Assign) -> ast.AST:
         value, target = node.value, node.targets[0]
@@ -322,6 +356,10 @@ class _Typing(ast.NodeTransformer):
             index = ast.BinOp(ast.BinOp(row, ast.Mult(), ast.Constant(width)), ast.Add(), column)
         else:
             index = self.visit(index)
+        if self.checked:
+            rows = ast.Attribute(node.value, "rows", ast.Load())
+            count = ast.BinOp(rows, ast.Mult(), ast.Constant(width))
+            index = ast.Call(ast.Name("within", ast.Load()), [index, count], [])
         at = ast.Attribute(node.value, "at", ast.Load())
         return ast.Subscript(at, index, node.ctx)
 

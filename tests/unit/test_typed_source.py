@@ -89,3 +89,18 @@ def test_no_column_of_the_kernel_is_left_to_a_look_up():
     assert "math." not in text
     assert "POSE_" not in text
     assert text.count("\ncdef ") > 60
+
+
+class Unchanged:
+    """A change that changes nothing."""
+
+    def head(self):
+        return ""
+
+    def function(self, tree, types, function):
+        return tree
+
+
+def test_a_changed_kernel_checks_its_indices(odd):
+    assert "body.at[part * " in _compiled(odd.radius, {})
+    assert "body.at[within(part * " in _compiled(odd.radius, {}, Unchanged())
