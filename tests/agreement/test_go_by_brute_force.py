@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from test_tilted_gravity import brute
 
+from amounts import fast_and_slow
 from kaidan import Question, Robot, Stairs, assess
 from kaidan.assessment.plan_search import off_angles
 from kaidan.assessment.verdict import conclude
@@ -17,6 +18,7 @@ from kaidan.models import planned, quasi_static
 from kaidan.modes import Verdict
 from kaidan.robot import Track
 from kaidan.terrain.profile import Profile
+from kaidan.traversal.rotations import ROCKING
 
 OVER = math.radians(0.15)
 """What small turns and round ends add [rad]."""
@@ -54,7 +56,13 @@ def terrains(rng, L):
     return Profile.of_points([(-3, 0), (-0.2, 0), *bumps, (1.8, 0), (4.8, 0)])
 
 
-def gos(seed, count):
+def turns_farther(found):
+    """Whether a robot that is a GO turns by more than the rig did, by inclination alone none."""
+    turn = found.criterion.turn if found.whole else 0.0
+    return max((turn, *(chain.avoidable for chain in found.chains))) > ROCKING
+
+
+def gos(seed, count, of=lambda found: True):
     rng = np.random.default_rng(seed)
     while count:
         robot = robots(rng)
@@ -62,7 +70,7 @@ def gos(seed, count):
             robot, terrains(rng, robot.track.flat_length), friction=3.0
         )
         found = quasi_static.judge(question)
-        if conclude(question, found).verdict is Verdict.GO:
+        if conclude(question, found).verdict is Verdict.GO and of(found.basis.traverse):
             count -= 1
             yield question, found.basis.traverse
 
@@ -92,8 +100,8 @@ def planned_gos(asked):
 
 def check(some):
     for question, found in some:
-        rocking = found.criterion.rocking if found.whole else 0.0
-        told = {True: rocking, False: rocking}
+        turn = found.criterion.turn if found.whole else 0.0
+        told = {True: turn, False: turn}
         for chain in found.chains:
             for each in chain.rotations:
                 side = each.leading_end_down
@@ -123,6 +131,12 @@ def test_many_planned_gos_by_brute_force():
     check(planned_gos([(on_grousers("marv"), "ibc", {"surface": "concrete-dry"})]))
     check(planned_gos([("absolem", stairs, {"friction": mu}) for stairs, mu in slopes.items()]))
     check(planned_gos([("absolem", "ibc-dwelling", way) for way in ways]))
+
+
+@pytest.mark.parametrize(("seed", "count"), fast_and_slow((3, 3), (4, 300)))
+def test_go_that_turns_farther_than_the_rig_by_brute_force(seed, count):
+    """From one side of the mean slope to the other: docs/theory/uneven.md."""
+    check(gos(seed, count, turns_farther))
 
 
 @pytest.mark.slow

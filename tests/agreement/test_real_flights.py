@@ -155,7 +155,7 @@ def check_go(seed, count):
         path = traverse_of(question)
         rocking = max((each.avoidable for each in path.chains), default=0.0)
         if path.whole:
-            rocking = max(rocking, path.criterion.rocking)
+            rocking = max(rocking, path.criterion.turn)
         outcome, back, _ = brute(path, 0.0, finer=32.0)  # its own turns are well below 0.15 deg
         assert outcome == 0.0
         # the tail comes down by no more; where the nose does, the terrain may oblige it to

@@ -154,7 +154,7 @@ def check_odd_last_steps(seed, count):
         margin = found.downhill_margin
         outcome, back, _ = brute(found, margin - math.radians(0.1))
         assert outcome == 0.0
-        assert back <= found.criterion.rocking + math.radians(0.15), math.degrees(back)
+        assert back <= found.criterion.turn + math.radians(0.15), math.degrees(back)
         flight = found.criterion.smallest(downhill=True)
         if flight is not None and flight.margin > found.falls_downhill.tilt + math.radians(0.2):
             outcome, back, _ = brute(found, flight.margin - math.radians(0.1))

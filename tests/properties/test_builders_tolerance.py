@@ -9,8 +9,9 @@ from amounts import fast_and_slow
 from kaidan import Question, Robot, Stairs
 from kaidan.assessment.verdict import conclude
 from kaidan.models import quasi_static
-from kaidan.modes import ENERGY, ROTATION, Phase, Verdict
+from kaidan.modes import ENERGY, MOMENTUM, ROTATION, TIPS, Phase, Verdict
 from kaidan.traversal.rotations import ROCKING
+from kaidan.traversal.static_criterion import mean_slope
 
 DIN, IBC = 0.0025, 0.00475
 """Half of 5 mm from step to step (DIN 18065), half of 9.5 mm within a flight (IBC) [m]."""
@@ -20,6 +21,7 @@ PAIRS = [
     (("absolem-flat", "din-general", 1.5), DIN),
     (("ozbot-atr", "uk-general", 1.5), IBC),
     (KENAF, DIN),
+    (KENAF, IBC),
 ]
 
 
@@ -58,30 +60,32 @@ def test_within_tolerance_200_stay_a_go(pair, most):
     check(pair, most, 200)
 
 
-def test_where_95_mm_are_too_much_the_robot_really_rotates():
-    """On nosings 150 mm apart; the kernel that drives it knows nothing of the criterion."""
+def test_where_the_tolerance_is_too_much_the_robot_really_rotates():
+    """Twice IBC's on nosings 150 mm apart; the kernel that drives it knows nothing of the rule."""
     some = 0
-    for found, concluded in drawn(KENAF, IBC, 20):
+    for found, concluded in drawn(KENAF, 2 * IBC, 20):
         if concluded.verdict is not Verdict.GO:
             some += 1
             failing = {each.mode for each in found.each if each.fails().any()}
-            turns = found.basis.traverse.path.rotations.angle
-            assert failing <= {ROTATION, ENERGY}
-            assert turns.max() > ROCKING or failing == {ENERGY}
+            assert failing <= {ROTATION, ENERGY, MOMENTUM, *TIPS}
+            if ROTATION in failing:
+                traverse = found.basis.traverse
+                assert traverse.path.rotations.angle.max() > ROCKING
+                assert off_the_slope(traverse).max() > ROCKING - math.radians(0.15)
     assert some >= 3
 
 
 @pytest.mark.parametrize("count", fast_and_slow(12, 200))
 def test_what_turns_by_more_is_no_further_off_the_mean_slope(count):
     """docs/theory/uneven.md: each turn goes from one side of the mean slope to the other."""
+    some = 0
     for found, concluded in drawn(KENAF, IBC, count):
-        if concluded.verdict is Verdict.GO:
-            continue
         traverse = found.basis.traverse
-        assert traverse.criterion.rocking > ROCKING
-        on_flight = np.asarray(traverse.phase_of_pose) == Phase.TRAVERSE.value
-        off = traverse.path.poses.inclination[on_flight] - mean_slope(traverse)
-        assert np.abs(off).max() < ROCKING
+        assert concluded.verdict is Verdict.GO
+        if traverse.criterion.turn > ROCKING:
+            some += 1
+            assert off_the_slope(traverse).max() < ROCKING
+    assert some >= count // 5
 
 
 @pytest.mark.slow
@@ -92,21 +96,22 @@ def test_what_turns_by_more_climbs_in_mujoco():
 
     tried = 0
     for seed, (found, concluded) in enumerate(drawn(KENAF, IBC, 200)):
-        if concluded.verdict is Verdict.GO or tried == 60:
-            continue
-        tried += 1
         traverse = found.basis.traverse
+        if traverse.criterion.turn <= ROCKING or tried == 60:
+            continue
+        assert concluded.verdict is Verdict.GO
+        tried += 1
         nosings = len(traverse.profile.nosings) - 7  # the uphill end stays on the flight
         result = record(
             TrialSpec(question=found.basis.question, track=SmoothBelt(), nosings=nosings, seed=seed)
         ).result
-        on_flight = np.asarray(traverse.phase_of_pose) == Phase.TRAVERSE.value
-        poses = traverse.path.poses.inclination[on_flight] - mean_slope(traverse)
         assert result.outcome is Outcome.CLIMBED
-        assert result.largest_extra_deg < math.degrees(poses.max()) + 0.25
+        assert result.largest_extra_deg < math.degrees(off_the_slope(traverse).max()) + 0.25
     assert tried == 60
 
 
-def mean_slope(traverse):
-    along, up = traverse.profile.nosings[-1] - traverse.profile.nosings[0]
-    return math.atan2(up, along)
+def off_the_slope(traverse):
+    """How far poses on the flight are off its mean slope [rad]."""
+    on_flight = np.asarray(traverse.phase_of_pose) == Phase.TRAVERSE.value
+    inclination = traverse.path.poses.inclination[on_flight]
+    return np.abs(inclination - mean_slope(traverse.profile.nosings))

@@ -110,7 +110,7 @@ def test_the_scale_does_not_matter(robot, flight, descending, facing, k):
     first_rocks_alike(one, two)
     for mine, theirs in zip(one.rotations, two.rotations, strict=True):
         assert theirs.angle == pytest.approx(mine.angle, abs=1e-6)
-        assert theirs.avoidable == pytest.approx(mine.avoidable, abs=1e-6)
+        assert theirs.rocking == pytest.approx(mine.rocking, abs=1e-6)
         assert theirs.drop == pytest.approx(k * mine.drop, abs=1e-6 * k)
         # free rotation: speeds grow as the root of the lengths
         expected = math.sqrt(k) * mine.impact_speed

@@ -44,7 +44,7 @@ def given(mode, worst, best=None, **more):
 
 def chain(phase=Phase.ENTER, step=1, **figures):
     usual = {
-        "angle": 0.1, "avoidable": 0.0, "impact_speed": 0.2, "spare": 0.03,
+        "angle": 0.1, "rocking": 0.0, "impact_speed": 0.2, "spare": 0.03,
         "spare_after_impact": 0.04, "arrested": True,
     }  # fmt: skip
     return SimpleNamespace(phase=phase, step=step, **(usual | figures))
@@ -189,7 +189,7 @@ def test_without_any_rotation(status, margin):
 
 
 def test_rocking_is_what_was_seen_or_is_foretold():
-    seen = [chain(avoidable=0.01, step=2), chain(avoidable=0.03, step=4, phase=Phase.TRAVERSE)]
+    seen = [chain(rocking=0.01, step=2), chain(rocking=0.03, step=4, phase=Phase.TRAVERSE)]
     over = OVER._replace(rocking=np.array([0.0, -0.02, 0.04]))
 
     def rocks(of, foretold=0.0, phase=None, **figures):

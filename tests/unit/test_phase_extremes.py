@@ -234,12 +234,12 @@ def loss(**given):
 def test_rises_about_the_contact_that_stays_by_hand():
     """Less what rocking frees, never below zero; steps are counted from 1."""
     each = (loss(), loss(downhill=False, nosing=0, landing=True), loss(freed=0.005))
-    assert rises_about_stays(Criterion(each, 0.0), False) == (
+    assert rises_about_stays(Criterion(each), False) == (
         Rise(True, pytest.approx(0.003), 4, Phase.TRAVERSE),
         Rise(False, pytest.approx(0.003), 1, Phase.LAND),
         Rise(True, 0.0, 4, Phase.TRAVERSE),
     )
-    down = rises_about_stays(Criterion(each, 0.0), True)  # the upper landing is where it enters
+    down = rises_about_stays(Criterion(each), True)  # the upper landing is where it enters
     assert [one.phase for one in down] == [Phase.TRAVERSE, Phase.ENTER, Phase.TRAVERSE]
 
 

@@ -32,7 +32,7 @@ GO, CAUTION, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.CAUTION, Verdi
 ONE = Robot.model_validate(Robot.named("absolem").model_dump() | {"rear_flippers": None})
 FLIGHT = Stairs(rise=0.17, going=0.29, steps=6)
 RATED = Rated(
-    required_friction=0.5, belly_touches=False, rotation=0.2, avoidable=0.0, impact_speed=0.1,
+    required_friction=0.5, belly_touches=False, rotation=0.2, rocking=0.0, impact_speed=0.1,
     spare=0.01, downhill=0.3, uphill=0.25,
 )  # fmt: skip
 
@@ -77,13 +77,13 @@ def test_ways_in_which_a_drive_fails():
     tolerated = ONE.tolerated_impact
     for given in (
         {"required_friction": 0.6}, {"downhill": 0.07}, {"uphill": 0.02}, {"spare": 0.0},
-        {"avoidable": math.nextafter(ROCKING, 1)}, {"impact_speed": tolerated},
+        {"rocking": math.nextafter(ROCKING, 1)}, {"impact_speed": tolerated},
         {"belly_touches": True},
     ):  # fmt: skip
         assert of(RATED._replace(**given)).failing == -1
     for given in (
         {"required_friction": 0.599}, {"downhill": 0.071}, {"uphill": 0.021}, {"spare": 1e-9},
-        {"avoidable": ROCKING}, {"impact_speed": 0.999 * tolerated},
+        {"rocking": ROCKING}, {"impact_speed": 0.999 * tolerated},
     ):  # fmt: skip
         assert of(RATED._replace(**given)).failing == 0
     assert of(RATED._replace(downhill=0.0, uphill=0.0, belly_touches=True)).failing == -2

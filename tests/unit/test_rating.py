@@ -15,6 +15,7 @@ from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Phase, rating, traverse
 from kaidan.traversal.driving import span
 from kaidan.traversal.rating import Part, _tips, rate
+from kaidan.traversal.rotations import slopes_of_flights
 from kaidan.traversal.samples import trailing_end_leaves
 
 ABSOLEM = Robot.named("absolem")
@@ -50,7 +51,7 @@ def test_a_rating_is_that_of_the_traverse(descending, acceleration):
         assert each.belly_touches == margins.belly_touches.any()
         chains = found.chains
         assert each.rotation == pytest.approx(max((c.angle for c in chains), default=0.0))
-        assert each.avoidable == pytest.approx(max((c.avoidable for c in chains), default=0.0))
+        assert each.rocking == pytest.approx(max((c.rocking for c in chains), default=0.0))
         assert each.impact_speed == pytest.approx(
             max((c.impact_speed for c in chains), default=0.0)
         )
@@ -94,14 +95,34 @@ def test_of_a_part_the_criterion_judges_what_is_there(descending, part):
     assert (expected != whole) is (part != "none")
 
 
+@pytest.mark.parametrize("descending", [False, True])
+def test_rocking_is_that_of_the_traverse(descending):
+    """On flights where most turns are from one side of the mean slope to the other."""
+    rng = np.random.default_rng(0)
+    longer = Outline.of(Robot.named("kenaf").model_copy(update={"track": LONGER}))
+    beside = 0
+    for _ in range(6):
+        rises, goings = (each + rng.uniform(-8e-3, 8e-3, 10) for each in (0.096, 0.115))
+        flight = Profile.of_stairs(Stairs(rises=tuple(rises), goings=tuple(goings[1:])))
+        parts = [Part(KENAF), Part(longer)]
+        for part, each in zip(parts, rate(flight, parts, descending=descending), strict=True):
+            found = traverse(flight, part.outline, descending=descending)
+            assert (each is not None) == found.arrived
+            if each is not None:
+                of_chains = [chain.rocking for chain in found.chains]
+                assert each.rocking == pytest.approx(max(of_chains, default=0.0))
+                beside += max(chain.avoidable for chain in found.chains) > each.rocking + 1e-3
+    assert beside
+
+
 def test_what_is_asked_of_the_kernel(monkeypatch):
     """The longest way is refused if any; landings as short as the shortest robot sees them."""
     asked, refused = {}, []
 
-    def rate_many(ground, parts, kinds, lengths, jobs, **how):
-        asked.update(jobs=jobs, lengths=lengths, **how)
+    def rate_many(ground, parts, kinds, lengths, flights, jobs, **how):
+        asked.update(jobs=jobs, lengths=lengths, flights=flights, **how)
         nothing = np.zeros(len(jobs))
-        names = ("required_friction", "belly_touches", "largest_rotation", "avoidable",
+        names = ("required_friction", "belly_touches", "largest_rotation", "rocking",
                  "impact_speed", "spare")  # fmt: skip
         return SimpleNamespace(status=np.array([0, 1, 0]), **dict.fromkeys(names, nothing))
 
@@ -115,6 +136,7 @@ def test_what_is_asked_of_the_kernel(monkeypatch):
     assert [each is None for each in found] == [False, True, False]
     assert asked["zones"] == KENAF.stance.flat_length
     assert asked["lengths"] == [each.outline.stance.flat_length for each in parts]
+    assert asked["flights"] == [slopes_of_flights(UNEVEN, each) for each in asked["lengths"]]
     ((_, outline, ends, step),) = refused
     assert (outline, ends, step) == (longer, span(UNEVEN, longer, None, None), 0.05)
     jobs = [tuple(each) for each in asked["jobs"]]

@@ -17,6 +17,7 @@ from kaidan.traversal.rotations import (
     ROCKING,
     _beyond_the_edge,
     rotations_of,
+    slopes_of_flights,
     together,
 )
 
@@ -213,6 +214,7 @@ def rotation(**given):
         "drop": 0.02,
         "impact_speed": 0.7,
         "avoidable": 0.01,
+        "theta_s": math.nan,
         "pivot": 64,
         "arrested_by": 130,
         "spare": 0.1,
@@ -259,6 +261,42 @@ def test_what_is_obliged_may_rock_besides(avoidable, obliged):
     assert not rocks.obliged  # all of it could be avoided
     assert not Chain((rocks,)).obliged
     assert not rotation(avoidable=avoidable, arrested_by=None).obliged
+
+
+def test_of_a_turn_on_a_flight_no_more_rocks_than_is_off_its_slope():
+    """By hand: from 0.03 beyond the slope of 0.5 rad to 0.04 short of it."""
+    turn = {"start": 0.53, "reached": 0.46, "angle": 0.07, "avoidable": 0.07}
+    assert rotation(**turn).rocking == pytest.approx(0.07)  # on no flight
+    on = rotation(**turn, theta_s=0.5)
+    assert on.rocking == pytest.approx(0.04)
+    assert not on.obliged  # all of it could be avoided
+    assert rotation(**turn | {"avoidable": 0.01}, theta_s=0.5).rocking == pytest.approx(0.01)
+    assert rotation(**turn | {"avoidable": 0.06}, theta_s=0.5).obliged
+    assert not rotation(**turn | {"avoidable": 0.06}).obliged
+    back = rotation(start=0.46, reached=0.48, angle=0.02, avoidable=0.02, theta_s=0.5)
+    chain = Chain((on, back))
+    assert (chain.inclinations, chain.theta_s) == ((0.46, 0.53), 0.5)
+    assert chain.rocking == pytest.approx(0.04)
+    off = rotation(**turn)
+    for chain in (Chain((on, off)), Chain((off, on)), Chain((off, off))):
+        assert math.isnan(chain.theta_s)
+        assert chain.rocking == pytest.approx(0.14)
+
+
+def test_flights_with_a_mean_slope():
+    """Three nosings, two, and three again; the way down alike."""
+    stairs = [(0, 0), (0, 1), (3, 1), (3, 2), (6, 2), (6, 2.5), (9, 2.5)]
+    second = [(15, 2.5), (15, 3.5), (18, 3.5), (18, 4.5), (24, 4.5)]
+    third = [(24, 5.5), (27, 5.5), (27, 7.5), (30, 7.5), (30, 8.5), (40, 8.5)]
+    points = 0.1 * np.array([(-9, 0), *stairs, *second, *third])
+    profile = Profile.of_points(points)
+    (first, one), (last, other) = ((each[:2], each[2]) for each in slopes_of_flights(profile, 0.5))
+    assert first == pytest.approx((0.0, 0.6), abs=1.1e-6)
+    assert last == pytest.approx((2.4, 3.0), abs=1.1e-6)
+    assert one == pytest.approx(math.atan2(1.5, 6))
+    assert other == pytest.approx(math.atan2(3, 6))
+    down = slopes_of_flights(profile.reflected(), 0.5)
+    assert [each[2] for each in down] == pytest.approx([-other, -one])
 
 
 def test_what_is_together():
@@ -308,8 +346,15 @@ def test_drops_are_along_effective_gravity(acceleration):
     assert record.rate_before == pytest.approx(rate, rel=1e-9)
 
 
+ON_IT = math.atan2(0.1, 0.3)
+
+
 @pytest.mark.parametrize("sense", [1, -1])
-def test_a_rotation_on_a_slope_by_hand(sense):
+@pytest.mark.parametrize(
+    ("begin", "end", "slope"),
+    [(0.0, 0.6, ON_IT), (-1e-3, 0.6, math.nan), (0.0, 0.601, math.nan), (0.0, 2.0, math.nan)],
+)
+def test_a_rotation_on_a_slope_by_hand(sense, begin, end, slope):
     """From (0, 0.5) to (0.1, 0.3) on a path that rises by 0.5 rad, at 2 m/s^2 along it.
 
     Effective gravity has a cos(0.5) ahead and G + a sin(0.5) up; it is arrested by what carries at
@@ -321,7 +366,8 @@ def test_a_rotation_on_a_slope_by_hand(sense):
     )  # fmt: skip
     poses = SimpleNamespace(
         path_direction=np.array([0.0, 0.5, 0.0]),
-        front_point=np.array([(-1, 0), (0.35, 0), (2, 0)]),
+        front_point=np.array([(-1, 0), (0.35, 0), (end, 0)]),
+        rear_point=np.array([(-2, 0), (begin, 0), (0.1, 0)]),
         front=np.array([64, 65, 66]), rear=np.array([128, 129, 130]),
     )  # fmt: skip
     path = SimpleNamespace(
@@ -338,6 +384,7 @@ def test_a_rotation_on_a_slope_by_hand(sense):
     assert found.spare == pytest.approx(3.0 / gravity - drop)
     assert found.spare_after_impact == pytest.approx(2.0 / gravity)
     assert (found.phase, found.step, found.path) == (Phase.TRAVERSE, 2, 1.5)
+    assert found.theta_s == pytest.approx(slope, nan_ok=True)  # nosings at 0, 0.3 and 0.6 m
     assert found.leading_end_down is (sense < 0)
     assert found.arrested_by == (66 if sense < 0 else 130)
 

@@ -14,6 +14,7 @@ from kaidan.modes import Phase
 from kaidan.traversal.static_criterion import (
     Criterion,
     Loss,
+    Seesaw,
     Tread,
     flights_of,
     static_criterion,
@@ -76,8 +77,8 @@ def test_each_loss_and_gain_of_a_short_flight_by_hand():
         spare = lever - sign * up
         rise = math.hypot(lever, C_N) - sign * lever * 0.6 - C_N * 0.8
         place = 0.8 * place - 0.6 * C_N
-        figures = (sign * slope, lever, margin, spare, 0.0, rise, 0.0, contacts, landing, place)
-        return (downhill, nosing, *figures)
+        figures = (sign * slope, lever, margin, spare, 0.0, 0.0, rise)
+        return (downhill, nosing, *figures, 0.0, contacts, landing, place)
 
     expected = [
         *(by_hand(True, i, 1.5 - C_L, 2, i + down, i == 2) for i in range(3)),
@@ -89,7 +90,7 @@ def test_each_loss_and_gain_of_a_short_flight_by_hand():
         pytest.approx(each, abs=1e-12) for each in expected
     ]
     assert found.tops == (pytest.approx(3.2),)
-    assert found.seesaw == pytest.approx(0.0, abs=1e-12)
+    assert found.seesaw == pytest.approx((0.0, 0.0), abs=1e-12)
     assert found.holds is True
     assert not found.alone
 
@@ -108,24 +109,24 @@ def test_the_last_loss_over_the_landing():
 
 def test_what_a_criterion_says_of_its_losses():
     """By hand: over the landing nothing counts for the flight."""
-    loss = Loss(True, 1, 0.5, 0.1, 0.2, 0.05, 0.01, 0.004, 0.001, 2, False, 1.0)
-    lands = loss._replace(margin=-0.1, contacts=1, landing=True, rocking=0.03)
-    found = Criterion((loss, lands), 0.02, (1.0, 2.0))
-    assert (found.holds, found.alone, found.rocking) == (True, False, 0.03)
-    assert Criterion((lands,), 0.0).holds is None
+    loss = Loss(True, 1, 0.5, 0.1, 0.2, 0.05, 0.015, 0.01, 0.004, 0.001, 2, False, 1.0)
+    lands = loss._replace(margin=-0.1, contacts=1, landing=True, turn=0.05, rocking=0.03)
+    found = Criterion((loss, lands), Seesaw(0.04, 0.02), (1.0, 2.0))
+    assert (found.holds, found.alone, found.turn, found.rocking) == (True, False, 0.05, 0.03)
+    assert Criterion((lands,)).holds is None
     for margin, holds in ((0.0, False), (-0.1, False), (0.1, True)):
-        both = Criterion((loss, loss._replace(margin=margin)), 0.0)
+        both = Criterion((loss, loss._replace(margin=margin)))
         assert both.holds is holds
-    one = Criterion((loss, loss._replace(contacts=1)), 0.02)
-    assert (one.alone, one.rocking) == (True, 0.02)
+    one = Criterion((loss, loss._replace(contacts=1)), Seesaw(0.04, 0.02))
+    assert (one.alone, one.turn, one.rocking) == (True, 0.04, 0.02)
     # both ends count
     for part, losses, tops in (((1.0, 2.0), 2, (1.0, 2.0)), ((1.1, 1.9), 0, ()), ((0, 1), 2, (1,))):
         within = found.within(*part)
         assert (len(within.losses), within.tops) == (losses, tops)
     # of those that are alike the first
     alike = [loss._replace(nosing=k, margin=0.2 + 4e-13 * m) for k, m in ((1, 1), (2, 0), (3, 3))]
-    assert Criterion(tuple(alike), 0.0).smallest(downhill=True).nosing == 1
-    assert Criterion(tuple(alike), 0.0).smallest(downhill=False) is None
+    assert Criterion(tuple(alike)).smallest(downhill=True).nosing == 1
+    assert Criterion(tuple(alike)).smallest(downhill=False) is None
 
 
 def test_landings_cut_the_nosings_into_flights():
@@ -165,6 +166,24 @@ def test_every_other_nosing_higher_by_h_rocks_by_hand(h):
     even = static_criterion(flight(slope, p), KENAF).smallest(downhill=True).margin
     uneven = found.smallest(downhill=True).margin
     assert even - 2.5 * h / p <= uneven <= even + 1e-12
+
+
+def test_no_more_rocks_than_is_off_the_mean_slope_by_hand():
+    """Of five nosings 1 m apart the middle one stands out by h, at right angles to the slope.
+
+    As the tip leaves the one below it, the flat turns about it from atan(h) beyond the slope to as
+    much short of it, and see-saws so.
+    """
+    slope, h = math.atan2(3, 4), 0.02
+    nosings = flight(slope, 1.0, 5)
+    nosings[2] += h * np.array([-0.6, 0.8])
+    tread = Tread(2.5, 0.75, 0.4, 0.0, 0.0, 1.0)
+    found = static_criterion(nosings, tread)
+    assert found.turn == pytest.approx(2 * math.atan(h))
+    assert found.rocking == pytest.approx(math.atan(h))
+    (loss,) = (each for each in found.losses if each.downhill and each.turn > 0.03)
+    assert (loss.nosing, loss.rocking) == (1, pytest.approx(math.atan(h)))
+    assert found.seesaw == pytest.approx((2 * math.atan(h), math.atan(h)))
 
 
 def test_a_micrometre_moves_nothing():

@@ -21,7 +21,7 @@ OUTLINE = Outline.of(Robot.named("kenaf"))
 STEPS = Profile.of_stairs(Stairs(rise=0.1, going=0.3, steps=4))  # nosings 0.3162 m apart
 NOSINGS = STEPS.nosings[:, 0]
 PHASES = np.array(["enter", "enter", "traverse"])
-LOSS = Loss(True, 2, 0.5, 0.1, 0.2, 0.05, 0.01, 0.004, 0.001, 2, False, 1.0)
+LOSS = Loss(True, 2, 0.5, 0.1, 0.2, 0.05, 0.01, 0.01, 0.004, 0.001, 2, False, 1.0)
 
 
 class Rows(SimpleNamespace):
@@ -43,7 +43,7 @@ def made(**given):
     figures = {
         "status": Status.OK, "descending": False, "profile": STEPS, "outline": OUTLINE,
         "acceleration": 0.5, "path": path_to(0.0, 1.0), "tread": Tread(0.5, 0.2, 0.1, 0, 0.06, 0.2),
-        "criterion": Criterion((LOSS,), 0.0), "whole": True,
+        "criterion": Criterion((LOSS,)), "whole": True,
         "phase_of_pose": np.array(["enter", "land"]), "phases": (), "start": None, "until": None,
         "step": 0.02, "sought": None,
     }  # fmt: skip
@@ -96,7 +96,7 @@ def test_the_first_rock_is_the_least_of_criterion_and_poses():
     assert found.first_rock(downhill=True, phases=(on, lands)) == of_criterion
     assert found.first_rock(downhill=True, phases=(lands,)) == (0.25, Phase.LAND, 4)
     assert found.first_rock(downhill=False, phases=(lands,)) is None
-    assert math.isnan(made(criterion=Criterion((), 0.0)).downhill_margin)
+    assert math.isnan(made(criterion=Criterion(())).downhill_margin)
     # of those that are alike the first, whichever is a hair less
     hair = extremes(Phase.LAND, 0.2 - 5e-7, step=4)
     assert made(phases=(hair,)).first_rock(downhill=True) == of_criterion
@@ -112,7 +112,7 @@ def test_where_poses_judge_steps_or_they_differ_it_rocks_no_later_than_it_falls(
     on = extremes(Phase.TRAVERSE, 0.3, 0.4, step=2)
 
     def first(downhill=True, phases=(on,), **given):
-        found = made(phases=phases, criterion=Criterion((), 0.0), **given)
+        found = made(phases=phases, criterion=Criterion(()), **given)
         found.__dict__["falls_downhill"] = fall
         return found.first_rock(downhill=downhill)
 
@@ -148,13 +148,13 @@ def test_what_holds_on_the_flight(downhill, uphill, holds):
     assert made(whole=False, phases=phases, profile=one).holds is holds
     assert made(whole=False, phases=phases[:1], profile=one).holds is None
     assert made(phases=phases).holds is True  # of the criterion
-    assert made(criterion=Criterion((LOSS._replace(margin=0.0),), 0.0)).holds is False
+    assert made(criterion=Criterion((LOSS._replace(margin=0.0),))).holds is False
 
 
 def test_how_far_the_centroid_may_move():
-    both = Criterion((LOSS, LOSS._replace(centroid=-0.03)), 0.0)
+    both = Criterion((LOSS, LOSS._replace(centroid=-0.03)))
     assert made(criterion=both).centroid_margin == -0.03
-    assert math.isnan(made(criterion=Criterion((), 0.0)).centroid_margin)
+    assert math.isnan(made(criterion=Criterion(())).centroid_margin)
     assert math.isnan(made(criterion=both, whole=False).centroid_margin)
 
 

@@ -201,7 +201,7 @@ class Scores:
         failing = (
             slides <= 0,
             min(tips) <= 0,
-            rated.avoidable > ROCKING,
+            rated.rocking > ROCKING,
             rated.impact_speed >= self.question.robot.tolerated_impact,
             rated.spare <= 0,
             rated.belly_touches,

@@ -84,10 +84,10 @@ JOB_COLUMNS = 8
 ) = range(14)  # fmt: skip
 SUMMARY_COLUMNS = 14
 
-# Ratings of a batch: status, friction, belly; of rotations angle, what could be avoided [rad],
+# Ratings of a batch: status, friction, belly; of rotations angle, rocking [rad],
 # speed of an impact [m/s], rise to spare [m].
 (
-    RATED_STATUS, RATED_FRICTION, RATED_BELLY, RATED_ANGLE, RATED_AVOIDABLE, RATED_IMPACT,
+    RATED_STATUS, RATED_FRICTION, RATED_BELLY, RATED_ANGLE, RATED_ROCKING, RATED_IMPACT,
     RATED_SPARE,
 ) = range(7)  # fmt: skip
 RATING_COLUMNS = 7
@@ -95,6 +95,10 @@ RATING_COLUMNS = 7
 # Points, and zones of a place: smallest and largest x, smallest and largest z [m].
 POINT_COLUMNS = 2
 ZONE_COLUMNS = 4
+
+# Flights: first and last x [m], mean slope [rad].
+FLIGHT_BEGIN, FLIGHT_END, FLIGHT_SLOPE = range(3)
+FLIGHT_COLUMNS = 3
 
 # Poses settled one by one: found, height [m], inclination [rad], the two features.
 SETTLED_FOUND, SETTLED_Z, SETTLED_PHI, SETTLED_REAR, SETTLED_FRONT = range(5)

@@ -43,9 +43,9 @@ class Ratings(_Table):
         return self._column(at.RATED_ANGLE)
 
     @property
-    def avoidable(self) -> FloatArray:
-        """Largest part of such an angle to which the path does not oblige [rad]."""
-        return self._column(at.RATED_AVOIDABLE)
+    def rocking(self) -> FloatArray:
+        """Largest part of such an angle that counts as rocking [rad]."""
+        return self._column(at.RATED_ROCKING)
 
     @property
     def impact_speed(self) -> FloatArray:
@@ -63,6 +63,7 @@ def rate_many(
     parts: Sequence[ArrayLike],
     kinds: ArrayLike,
     flats: ArrayLike,
+    flights: Sequence[ArrayLike],
     jobs: Sequence[Job],
     *,
     step: float,
@@ -78,6 +79,8 @@ def rate_many(
         Points (n, 2) [m].
     parts, kinds, flats
         Underside (m, 6) of each robot [m], what each part is, length of each robot's flat [m].
+    flights
+        Flights as each robot sees them (k, 3): first and last x [m], mean slope [rad].
     jobs
         Each of a robot, by its number.
     step
@@ -95,7 +98,7 @@ def rate_many(
     Examples
     --------
     >>> step, robot = [[-4, 0], [0, 0], [0, 0.1], [4, 0.1]], [[-0.3, 0, 0.06, 0.2, 0, 0.06]]
-    >>> found = rate_many(step, [robot], [0], [0.5], [Job(0, 0, -1.0, 1.0)], step=0.02,
+    >>> found = rate_many(step, [robot], [0], [0.5], [[]], [Job(0, 0, -1.0, 1.0)], step=0.02,
     ...                   zones=[], edges=[[0, 0.1]], rough=0.01)
     >>> found.status.tolist(), found.belly_touches.tolist()
     ([0], [False])
@@ -103,10 +106,12 @@ def rate_many(
     ground, bodies = ground_of(terrain), [body_of(each, kinds) for each in parts]
     longest = max(each.x_end - each.x_start for each in jobs)
     size = most_poses(longest, step, len(ground))
+    on = [np.array(each, dtype=np.float64).reshape(-1, at.FLIGHT_COLUMNS) for each in flights]
     ratings = np.full((len(jobs), at.RATING_COLUMNS), math.nan)
     kernel().rate_many(
         ground, np.concatenate(bodies), np.cumsum([len(each) for each in bodies]),
         np.array(flats, dtype=np.float64),
+        np.cumsum([len(each) for each in on]), np.concatenate(on),
         np.array(jobs, dtype=np.float64).reshape(-1, at.JOB_COLUMNS),
         step, STANDARD_GRAVITY, TOUCH, rough,
         np.array(zones, dtype=np.float64).reshape(-1, at.ZONE_COLUMNS),

@@ -27,6 +27,7 @@ from kaidan.contact.columns import (
     CONVEX,
     DISC,
     EVENT_COLUMNS,
+    FLIGHT_COLUMNS,
     GROUND_COLUMNS,
     JOB_COLUMNS,
     LENGTH,
@@ -70,6 +71,7 @@ SummaryTable = Annotated[FloatArray, SUMMARY_COLUMNS]
 RatingTable = Annotated[FloatArray, RATING_COLUMNS]
 PointTable = Annotated[FloatArray, POINT_COLUMNS]
 ZoneTable = Annotated[FloatArray, ZONE_COLUMNS]
+FlightTable = Annotated[FloatArray, FLIGHT_COLUMNS]
 PassedTable = Annotated[FloatArray, PASSED_COLUMNS]
 ConeTable = Annotated[FloatArray, CONE_COLUMNS]
 SettledTable = Annotated[FloatArray, SETTLED_COLUMNS]

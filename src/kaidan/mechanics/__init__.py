@@ -9,6 +9,7 @@ equation has no solution. Read the modules in the order of the paper:
 ``plane`` (the states A-D and the five areas of the d-a plane), ``margin`` (19-24), ``loads``
 (how the contacts share the weight), ``measures`` (published stability measures),
 ``transitions`` (entering, riser start, crest), ``rearing`` (a tail in the corner of a tread),
+``rocking`` (what of a turn counts on a flight),
 ``drive`` (traction, torque, power), ``oblique``
 (approach with a yaw), ``margins`` (every failure mode at once), ``weighing`` (the centroid from
 scales, tape and level), ``grousers`` and ``cones`` (what a belt with grousers holds),

@@ -233,9 +233,9 @@ def _hits(question: Question, found: Traverse, chains: list[Chain]) -> list[Find
 
 
 def _rocking(found: Traverse, over: Spread, phase: Phase | None) -> Finding:
-    """Largest rotation that a longer robot would be spared, seen or foretold, of all or a phase."""
+    """Largest rocking, seen or foretold, of all or of one phase."""
     chains = [each for each in found.chains if each.arrested and phase in (None, each.phase)]
-    seen = _of_smallest(ROTATION, [ROCKING - one.avoidable for one in chains], chains, found)
+    seen = _of_smallest(ROTATION, [ROCKING - one.rocking for one in chains], chains, found)
     rocking = found.criterion.rocking + over.rocking
     unlike = found.whole and rocking.max() >= _ROUNDING
     if phase not in (None, Phase.TRAVERSE) or not unlike:

@@ -49,6 +49,12 @@ class RotationFigures(Part):
     """Nosing at which it begins, counted from the bottom."""
     angle_deg: float
     """How far it rotates in all, tail down positive [deg]."""
+    rocking_deg: float
+    """What of it counts as rocking: what the terrain does not oblige it to, on a flight no more
+    than `beyond_slope_deg` [deg]."""
+    beyond_slope_deg: float | None
+    """How far its inclinations are off the mean slope of the flight, at most [deg]; null where it
+    does not begin and end on one flight."""
     reached_deg: float
     """Inclination of the body farthest out, uphill end up positive [deg]."""
     drop_mm: float
@@ -200,6 +206,8 @@ def _rotation(each: "Chain") -> RotationFigures:
         phase=each.phase.value,
         step=each.step,
         angle_deg=math.degrees(each.angle),
+        rocking_deg=math.degrees(each.rocking),
+        beyond_slope_deg=math.degrees(each.beyond_slope),
         reached_deg=math.degrees(each.reached),
         drop_mm=1e3 * each.drop,
         impact_speed=each.impact_speed,

@@ -10,6 +10,7 @@ from kaidan.text.words import place
 
 if TYPE_CHECKING:
     from kaidan.assessment.verdict import Conclusion
+    from kaidan.models.contact_figures import RotationFigures
     from kaidan.models.findings import Finding, Findings
     from kaidan.question import Question
     from kaidan.robot import Stance
@@ -102,9 +103,9 @@ def _tips(
             f"It holds only while the acceleration follows the position (area E); at a constant "
             f"one it tips {label}, {-margin:.1f} deg beyond the limit."
         )
-    rotation = _rotation(found, finding, free=False)
-    if rotation > 0:
-        return _arrested(rotation, found, conclusion)
+    largest = max(_rotations(found, finding), key=_angle, default=None)
+    if largest is not None:
+        return _arrested(_angle(largest), "", found, conclusion)
     grades = _figure(found, "grades")
     arrives = grades is None or grades.arrested
     return (
@@ -123,18 +124,20 @@ def _figure(found: "Findings", name: str) -> Any:
     return getattr(_part(found, name), name, None)
 
 
-def _rotation(found: "Findings", finding: "Finding", *, free: bool) -> float:
-    """Largest rotation in the phase of a finding, of all or of those that nothing obliges to."""
+def _rotations(found: "Findings", finding: "Finding") -> "list[RotationFigures]":
+    """Rotations in the phase of a finding that are arrested."""
     rotations = _figure(found, "rotations") or ()
-    some = [each for each in rotations if each.arrested and not (free and each.obliged)]
-    here = [abs(each.angle_deg) for each in some if each.phase == finding.phase]
-    return max(here, default=0.0)
+    return [each for each in rotations if each.arrested and each.phase == finding.phase]
 
 
-def _arrested(rotation: float, found: "Findings", conclusion: "Conclusion") -> str:
+def _angle(each: "RotationFigures") -> float:
+    return abs(each.angle_deg)
+
+
+def _arrested(rotation: float, beyond: str, found: "Findings", conclusion: "Conclusion") -> str:
     digits = 1 if rotation >= 0.1 else 2
     return (
-        f"It rocks by {rotation:.{digits}f} deg until the next contact arrests it"
+        f"It rocks by {rotation:.{digits}f} deg{beyond} until the next contact arrests it"
         f"{_place(conclusion)}{_to_fall(found)}."
     )
 
@@ -168,9 +171,12 @@ def _falls(
 def _rotates(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
-    rotation = _rotation(found, finding, free=True)
-    if rotation > 0:
-        return _arrested(rotation, found, conclusion)
+    free = [each for each in _rotations(found, finding) if not each.obliged]
+    if free:
+        worst = max(free, key=lambda each: (round(each.rocking_deg, 9), _angle(each)))
+        off = worst.beyond_slope_deg
+        beyond = "" if off is None else f", to {off:.1f} deg beyond the slope of the flight,"
+        return _arrested(_angle(worst), beyond, found, conclusion)
     more = -finding.mode.shown(finding.margin(question.risk))
     return (
         f"Uneven nosings may rock it by {more:.1f} deg more than tracks yield{_place(conclusion)}"

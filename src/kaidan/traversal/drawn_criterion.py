@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.oblique_support import edge_energy
+from kaidan.mechanics.rocking import rocking
 from kaidan.traversal.static_criterion import ROUNDING, Array, Tread, flights_of
 
 Bools = NDArray[np.bool_]
@@ -156,7 +157,7 @@ class _Losses:
 
     def _lose(self, downhill: bool) -> None:
         x, z, (L, C_L, C_N) = self.x, self.z, self.on
-        going = np.ones(x.shape[1], dtype=np.bool_)
+        going, theta_s = np.ones(x.shape[1], dtype=np.bool_), _mean_slope(x, z)
         for i in range(len(x) - 2):
             before, s = self._steepest(i, L)
             going &= s > i
@@ -183,8 +184,10 @@ class _Losses:
             x_s, z_s = (np.take_along_axis(each, s[None], axis=0)[0] for each in (x, z))
             settles = np.where(alone, before, on_flat)
             onto_r = np.arctan2(z_s - z[r], x_s - x[r])
-            turn = np.abs(np.where(s == r, settles, onto_r) - before)
-            self.rocking = np.where(counts, np.maximum(self.rocking, turn), self.rocking)
+            stands = np.where(s == r, settles, onto_r)
+            turn = np.abs(stands - before)
+            rocks = rocking(turn=turn, before=before, after=stands, theta_s=theta_s)
+            self.rocking = np.where(counts, np.maximum(self.rocking, rocks), self.rocking)
             freed = self._freed(i, before, (x_s, z_s), np.where(s == r, -turn, turn))
             rise = self._rise(steepest, after, left - C_L) - freed
             self.rise = _least(self.rise, rise, on_flight)
@@ -290,16 +293,22 @@ def _least(so_far: Array, one: Array, counts: Bools) -> Array:
     return np.asarray(np.where(counts, np.minimum(so_far, one), so_far))
 
 
+def _mean_slope(x: Array, z: Array) -> Array:
+    """Slope of the line through the first and the last nosing of each draw [rad]."""
+    return np.asarray(np.arctan2(z[-1] - z[0], x[-1] - x[0]))
+
+
 def _seesaw(x: Array, z: Array, on: DrawnTread, a: float) -> Array:
     """Largest rocking about a nosing that the gravity line passes, of each draw."""
-    most = np.zeros(x.shape[1])
+    most, theta_s = np.zeros(x.shape[1]), _mean_slope(x, z)
     for k in range(1, len(x) - 1):
         theta = np.arctan2(z[k + 1] - z[k - 1], x[k + 1] - x[k - 1])
         foot = on.C_L + on.C_N * (np.tan(theta) + a / (STANDARD_GRAVITY * np.cos(theta)))
         ahead = _extreme(x, z, k, foot, 1)
         behind = -_extreme(x, z, k, on.L - foot, -1)
         known = np.isfinite(ahead) & np.isfinite(behind)
-        most = np.where(known, np.maximum(most, behind - ahead), most)
+        rocks = rocking(turn=behind - ahead, before=behind, after=ahead, theta_s=theta_s)
+        most = np.where(known, np.maximum(most, rocks), most)
     return most
 
 

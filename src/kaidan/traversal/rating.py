@@ -11,6 +11,7 @@ from kaidan.terrain.polyline import ROUGHNESS
 from kaidan.terrain.profile import Profile
 from kaidan.traversal.driving import criterion_of, ground_for, refuse_too_long, span, whole_of
 from kaidan.traversal.phases import landing_zones
+from kaidan.traversal.rotations import slopes_of_flights
 
 
 class Part(NamedTuple):
@@ -30,8 +31,8 @@ class Rated(NamedTuple):
     belly_touches: bool
     rotation: float
     """Largest of those that follow one another at once [rad]."""
-    avoidable: float
-    """Largest part of one to which the path does not oblige [rad]."""
+    rocking: float
+    """Largest part of one that counts as rocking [rad]."""
     impact_speed: float
     """Largest [m/s]."""
     spare: float
@@ -86,6 +87,7 @@ def rate(
         [each.parts for each in outlines],
         outlines[0].kinds,
         [each.stance.flat_length for each in outlines],
+        [slopes_of_flights(driven, each.stance.flat_length) for each in outlines],
         [
             Job(0, k, *ends, _inclination(part), along, part.outline.gyration)
             for k, (part, ends) in enumerate(zip(parts, spans, strict=True))
@@ -98,7 +100,7 @@ def rate(
     arrives = (ratings.status == Status.OK).tolist()
     figures = zip(
         ratings.required_friction.tolist(), ratings.belly_touches.tolist(),
-        ratings.largest_rotation.tolist(), ratings.avoidable.tolist(),
+        ratings.largest_rotation.tolist(), ratings.rocking.tolist(),
         ratings.impact_speed.tolist(), ratings.spare.tolist(), strict=True,
     )  # fmt: skip
     return [

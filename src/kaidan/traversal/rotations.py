@@ -9,6 +9,7 @@ r"""Rotations of a traverse: how far, how hard they end, and whether the path ob
             ..E  \B    flat's length lies under it; what it turns beyond is avoidable
 
 A chain is what follows at once, with no way driven in between: it is one motion of the robot.
+Of what is avoidable counts as rocking on a flight no more than the inclinations are off its slope.
 """
 
 import math
@@ -22,17 +23,21 @@ from numpy.typing import NDArray
 
 from kaidan import contact
 from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.mechanics.rocking import rocking
 from kaidan.terrain.polyline import ROUGHNESS
 from kaidan.terrain.profile import Profile
 from kaidan.traversal.phases import Phase, step_at
+from kaidan.traversal.static_criterion import flights_of, mean_slope
 
 ROCKING = contact.ROCKING
-"""Rotation beyond the next edge that nothing is made of [rad]."""
+"""Rocking that nothing is made of [rad]."""
 TAKEN_UP = math.radians(0.01)
 """Rotation that the rubber takes up, so that it begins none [rad]: an end half a metre off moves by
 less than 0.1 mm."""
 _ROUNDING = 1e-8
 """Rotation that is rounding [rad]: of one of 1e-17 rad a mirror would decide what it obliges to."""
+PLACE = 1e-6
+"""Length by which a contact may lie beside a nosing that it is on [m]."""
 AT_ONCE = 0.01
 """Way of the centroid between two rotations of a chain, at most, over the flat's length [1]."""
 
@@ -61,6 +66,8 @@ class Rotation:
     avoidable: float
     """Part of the angle that a longer robot, or another place of the centroid, would spare [rad]:
     what it turns beyond the line to the next edge, all of it where the trailing end comes down."""
+    theta_s: float
+    """Mean slope of the flight on which it begins and ends, as driven [rad]; NaN: on none."""
     pivot: int
     """Contact that it begins about, read by `kaidan.contact.Feature.of`."""
     arrested_by: int | None
@@ -70,6 +77,11 @@ class Rotation:
     even though the impact took nothing of the momentum."""
     spare_after_impact: float
     """The same less what a plastic impact leaves of the momentum [m]."""
+
+    @property
+    def rocking(self) -> float:
+        """What of it counts as rocking [rad]."""
+        return Chain((self,)).rocking
 
     @property
     def arrested(self) -> bool:
@@ -85,7 +97,7 @@ class Rotation:
         than the flat. The next nosing of a flight, or the far edge of a short gap, would have.
         A rotation of which all could be avoided is rocking at most, and nothing obliges to it.
         """
-        return self.arrested and _obliges(self.angle, self.avoidable)
+        return Chain((self,)).obliged
 
 
 @dataclass(frozen=True)
@@ -141,9 +153,34 @@ class Chain:
         return sum(each.avoidable for each in self.rotations)
 
     @property
+    def inclinations(self) -> tuple[float, float]:
+        """Smallest and largest inclination at which a rotation begins or ends [rad]."""
+        each = [at for one in self.rotations for at in (one.start, one.reached)]
+        return min(each), max(each)
+
+    @property
+    def theta_s(self) -> float:
+        """Mean slope of the flight on which it stays, as driven [rad]; NaN: on none."""
+        slopes = {each.theta_s for each in self.rotations}
+        return slopes.pop() if len(slopes) == 1 else math.nan
+
+    @property
+    def beyond_slope(self) -> float:
+        """How far its inclinations are off that slope at most [rad]; NaN: on no flight."""
+        return max(abs(each - self.theta_s) for each in self.inclinations)
+
+    @property
+    def rocking(self) -> float:
+        """What of all angles counts as rocking [rad]."""
+        before, after = self.inclinations
+        turn = self.avoidable
+        return float(rocking(turn=turn, before=before, after=after, theta_s=self.theta_s))
+
+    @property
     def obliged(self) -> bool:
         """Whether the path obliges to all of it, but for `ROCKING`."""
-        return self.arrested and _obliges(self.angle, self.avoidable)
+        free = self.angle - self.avoidable > _ROUNDING
+        return self.arrested and self.rocking <= ROCKING and free
 
     @property
     def arrested(self) -> bool:
@@ -170,11 +207,6 @@ class Chain:
     def spare_after_impact(self) -> float:
         """Least of all [m]."""
         return min(each.spare_after_impact for each in self.rotations)
-
-
-def _obliges(angle: float, avoidable: float) -> bool:
-    """Whether the path obliges to a rotation, or to a chain of them, but for `ROCKING`."""
-    return avoidable <= ROCKING and angle - avoidable > _ROUNDING
 
 
 def rotations_of(
@@ -207,6 +239,7 @@ def rotations_of(
     tuple of Rotation
     """
     found = []
+    on_flights = slopes_of_flights(profile, flat_length)
     for record, speed in zip(path.rotations, path.impact_speeds().tolist(), strict=True):
         row = path.row_before(record.s)
         psi = float(path.poses.path_direction[row])
@@ -215,9 +248,10 @@ def rotations_of(
         start, end = record.start, record.end
         drop = (up * (start.z - end.z) + ahead * (start.x - end.x)) / gravity
         down = record.sense < 0
-        arrested_by = None
+        arrested_by, theta_s = None, math.nan
         if record.arrested:
             arrested_by = int((path.poses.front if down else path.poses.rear)[row + 1])
+            theta_s = _slope_under(path.poses, row, on_flights)
         found.append(
             Rotation(
                 phase=Phase(str(phase[row])),
@@ -230,6 +264,7 @@ def rotations_of(
                 drop=drop,
                 impact_speed=speed,
                 avoidable=_beyond_the_edge(record, profile, flat_length) if down else record.angle,
+                theta_s=theta_s,
                 pivot=record.pivot,
                 arrested_by=arrested_by,
                 spare=record.barrier / gravity - drop,
@@ -237,6 +272,31 @@ def rotations_of(
             )
         )
     return tuple(found)
+
+
+def slopes_of_flights(profile: Profile, flat_length: float) -> list[tuple[float, float, float]]:
+    """Where each flight of a profile begins and ends, and its mean slope [m, m, rad].
+
+    Two nosings have but the slope of their chord, so that no mean is known.
+    """
+    each = []
+    for first, last in flights_of(profile.nosings, flat_length):
+        if last - first < 2:
+            continue
+        nosings = profile.nosings[first : last + 1]
+        ends = float(nosings[0, 0]) - PLACE, float(nosings[-1, 0]) + PLACE
+        each.append((*ends, mean_slope(nosings)))
+    return each
+
+
+def _slope_under(
+    poses: contact.Poses, row: int, on_flights: list[tuple[float, float, float]]
+) -> float:
+    """Mean slope of the flight on which both contacts of a pose and of the next stand [rad]."""
+    rear = poses.rear_point[row : row + 2, 0].min()
+    front = poses.front_point[row : row + 2, 0].max()
+    on = (slope for begin, end, slope in on_flights if begin <= rear and front <= end)
+    return next(on, math.nan)
 
 
 def chains_of(rotations: Sequence[Rotation], groups: Sequence[range]) -> tuple[Chain, ...]:

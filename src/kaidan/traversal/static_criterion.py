@@ -10,7 +10,7 @@
 Every nosing under the flat counts, with no tolerance. Each loss of a nosing is judged with both
 inclinations, before and after it: on uneven nosings the flat may still stand on a high one as its
 tip leaves, steeper than where it would settle. The uphill end is the mirror image. On nosings all
-alike it is the closed form: docs/theory/uneven.md derives it.
+alike it is the closed form: docs/theory/uneven.md derives it, and how much of a turn is rocking.
 """
 
 import math
@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.oblique_support import edge_energy
+from kaidan.mechanics.rocking import rocking
 
 Array = NDArray[np.float64]
 
@@ -69,8 +70,10 @@ class Loss(NamedTuple):
     """Slope that it could be steeper (uphill end: gentler) before it tips [rad]."""
     centroid: float
     """How far the centroid may move towards that end [m]."""
-    rocking: float
+    turn: float
     """Angle between the inclinations before and after [rad]."""
+    rocking: float
+    """What of it counts as rocking [rad]."""
     rise: float
     """Rise of the centroid on its way over the pivot [m]."""
     freed: float
@@ -83,13 +86,24 @@ class Loss(NamedTuple):
     """Centroid, along [m]."""
 
 
+class Seesaw(NamedTuple):
+    """The largest about any nosing under the centroid, from behind it to ahead."""
+
+    turn: float = 0.0
+    """Angle [rad]."""
+    rocking: float = 0.0
+    """What of it counts as rocking [rad]."""
+
+
+NO_SEESAW = Seesaw()
+
+
 @dataclass(frozen=True)
 class Criterion:
     """What the criterion says of a flight."""
 
     losses: tuple[Loss, ...]
-    seesaw: float
-    """Largest rocking about a nosing under the centroid [rad]."""
+    seesaw: Seesaw = NO_SEESAW
     tops: tuple[float, ...] = ()
     """Place of the last nosing of each flight [m]."""
 
@@ -127,9 +141,14 @@ class Criterion:
         return min(some, key=lambda each: round(each.margin, 12), default=None)
 
     @property
+    def turn(self) -> float:
+        """Largest angle by which it turns [rad]."""
+        return max((self.seesaw.turn, *(each.turn for each in self.losses)))
+
+    @property
     def rocking(self) -> float:
         """Largest rocking [rad]."""
-        return max((self.seesaw, *(each.rocking for each in self.losses)))
+        return max((self.seesaw.rocking, *(each.rocking for each in self.losses)))
 
 
 def static_criterion(nosings: Array, tread: Tread, *, acceleration: float = 0.0) -> Criterion:
@@ -159,15 +178,16 @@ def _of_nosings(table: bytes, tread: Tread, acceleration: float) -> Criterion:
     nosings = np.frombuffer(table).reshape(-1, 2)
     losses: list[Loss] = []
     tops: list[float] = []
-    seesaw = 0.0
+    seesaws = [NO_SEESAW]
     for first, last in flights_of(nosings, tread.L):
         flight = nosings[first : last + 1]
         tops.append(float(flight[-1, 0]))
         losses += _losses(flight, tread, acceleration, first, downhill=True)
         mirrored = flight[::-1] * np.array([-1.0, 1.0])
         losses += _losses(mirrored, tread.mirrored(), -acceleration, last, downhill=False)
-        seesaw = max(seesaw, _seesaw(flight, tread, acceleration))
-    return Criterion(tuple(losses), seesaw, tuple(tops))
+        seesaws += _seesaws(flight, tread, acceleration)
+    turns, rocks = zip(*seesaws, strict=True)
+    return Criterion(tuple(losses), Seesaw(max(turns), max(rocks)), tuple(tops))
 
 
 def flights_of(nosings: Array, L: float) -> list[tuple[int, int]]:
@@ -179,11 +199,17 @@ def flights_of(nosings: Array, L: float) -> list[tuple[int, int]]:
     return [(a + 1, b) for a, b in pairwise(cuts) if b > a + 1]
 
 
+def mean_slope(nosings: Array) -> float:
+    """Slope of the line through the first and the last nosing of a flight [rad]."""
+    along, up = nosings[-1] - nosings[0]
+    return math.atan2(up, along)
+
+
 def _losses(P: Array, tread: Tread, a: float, number: int, *, downhill: bool) -> list[Loss]:
     """Losses and gains judged at the tip that lies towards -x, of nosings in order of x."""
     x, z = P.T.tolist()
     losses = []
-    end = x[-1]
+    end, theta_s = x[-1], mean_slope(P)
     for i in range(len(x) - 2):
         before = _steepest(x, z, i, tread.L)
         assert before is not None  # the next nosing of a flight is within reach
@@ -195,13 +221,14 @@ def _losses(P: Array, tread: Tread, a: float, number: int, *, downhill: bool) ->
             break  # the centroid has passed the last nosing: the end comes down on the landing
         after = _settled(x, z, r, left, tread.R)
         slope, contacts = (before[0], 1) if after is None else after
-        rocking, freed = _rocking(x, z, i, before[1], tread)
+        turn, stands, freed = _turning(x, z, i, before[1], tread)
         losses.append(
             _loss(
                 max(slope, before[0]),
                 left - tread.C_L,
                 slope,
-                rocking,
+                turn,
+                float(rocking(turn=turn, before=before[0], after=stands, theta_s=theta_s)),
                 freed,
                 contacts,
                 tread,
@@ -236,6 +263,7 @@ def _gains(
                 slope,
                 0.0,
                 0.0,
+                0.0,
                 m - r,
                 tread,
                 a,
@@ -252,7 +280,8 @@ def _loss(
     steepest: float,
     lever: float,
     settled: float,
-    rocking: float,
+    turn: float,
+    rocks: float,
     freed: float,
     contacts: int,
     tread: Tread,
@@ -278,7 +307,8 @@ def _loss(
         lever,
         limit - steepest,
         centroid,
-        rocking,
+        turn,
+        rocks,
         rise,
         freed,
         contacts,
@@ -331,17 +361,20 @@ def _settled(
     return slope, count
 
 
-def _rocking(x: list[float], z: list[float], i: int, s: int, tread: Tread) -> tuple[float, float]:
-    """Rocking as nosing i is lost, and what it frees of the centroid's height [rad, m]."""
+def _turning(
+    x: list[float], z: list[float], i: int, s: int, tread: Tread
+) -> tuple[float, float, float]:
+    """How far it turns as nosing i is lost, inclination then, and height freed [rad, rad, m]."""
     before = _slope(x, z, i, s)
     r = i + 1
     if r == s:
-        after = _steepest(x, z, r, tread.L - math.dist((x[i], z[i]), (x[r], z[r])))
-        turn = abs(before - (before if after is None else after[0]))
+        next_one = _steepest(x, z, r, tread.L - math.dist((x[i], z[i]), (x[r], z[r])))
+        after = before if next_one is None else next_one[0]
     else:
-        turn = abs(_slope(x, z, r, s) - before)
+        after = _slope(x, z, r, s)
+    turn = abs(after - before)
     if turn == 0.0:
-        return 0.0, 0.0
+        return 0.0, after, 0.0
     # the centroid on its circle about s, then the impact on r
     com = _com(x, z, i, before, tread)
     arm = (com[0] - x[s], com[1] - z[s])
@@ -353,7 +386,7 @@ def _rocking(x: list[float], z: list[float], i: int, s: int, tread: Tread) -> tu
     kappa = 0.0
     if shared > 0:
         kappa = shared**2 / ((k2 + new[0] ** 2 + new[1] ** 2) * (k2 + far[0] ** 2 + far[1] ** 2))
-    return turn, kappa * drop
+    return turn, after, kappa * drop
 
 
 def _com(x: list[float], z: list[float], i: int, slope: float, tread: Tread) -> tuple[float, float]:
@@ -368,18 +401,22 @@ def _turned(arm: tuple[float, float], angle: float) -> tuple[float, float]:
     return c * arm[0] - s * arm[1], s * arm[0] + c * arm[1]
 
 
-def _seesaw(P: Array, tread: Tread, a: float) -> float:
-    """Largest rocking about a nosing that the gravity line passes."""
+def _seesaws(P: Array, tread: Tread, a: float) -> list[Seesaw]:
+    """See-saws about the nosings that the gravity line passes."""
     x, z = P.T.tolist()
-    most = 0.0
+    theta_s = mean_slope(P)
+    found = []
     for k in range(1, len(x) - 1):
         theta = _slope(x, z, k - 1, k + 1)
         foot = tread.C_L + tread.C_N * (math.tan(theta) + a / (STANDARD_GRAVITY * math.cos(theta)))
         ahead = [_slope(x, z, k, j) for j in _within(x, z, k, foot, 1)]
         behind = [_slope(x, z, j, k) for j in _within(x, z, k, tread.L - foot, -1)]
         if ahead and behind:
-            most = max(most, min(behind) - max(ahead))
-    return most
+            before, after = min(behind), max(ahead)
+            turn = max(before - after, 0.0)
+            rocks = rocking(turn=turn, before=before, after=after, theta_s=theta_s)
+            found.append(Seesaw(turn, float(rocks)))
+    return found
 
 
 def _within(x: list[float], z: list[float], k: int, reach: float, step: int) -> list[int]:

@@ -4,7 +4,7 @@ r"""Traverses rated: the largest figures of each, worked out where its poses are
 
     drive -> poses, rotations      of a traverse that arrives: friction, belly
                   |                of its rotations, those that follow at once together:
-                  `-> a row        angle, what is avoidable, speed of impact, rise to spare
+                  `-> a row        angle, rocking, speed of impact, rise to spare
 """
 
 from __future__ import annotations
@@ -25,6 +25,9 @@ from kaidan.contact.columns import (
     END_PHI,
     END_X,
     END_Z,
+    FLIGHT_BEGIN,
+    FLIGHT_END,
+    FLIGHT_SLOPE,
     FRICTION,
     FRONT_X,
     FRONT_Z,
@@ -43,13 +46,14 @@ from kaidan.contact.columns import (
     POSE_S,
     RATE_BEFORE,
     RATED_ANGLE,
-    RATED_AVOIDABLE,
     RATED_BELLY,
     RATED_FRICTION,
     RATED_IMPACT,
+    RATED_ROCKING,
     RATED_SPARE,
     RATED_STATUS,
     REAR_LEAN,
+    REAR_X,
     ROTATION_ANGLE,
     ROTATION_S,
     ROTATION_SENSE,
@@ -68,6 +72,7 @@ from kaidan.contact.tables import (
     BodyTable,
     ContactTable,
     EventTable,
+    FlightTable,
     FloatRow,
     GroundTable,
     IntArray,
@@ -130,6 +135,21 @@ def beyond_the_edge(
         return 0.0
     below: float = min(line, rotations[row, START_PHI]) - rotations[row, END_PHI]
     return max(below, 0.0)
+
+
+def flight_at(poses: PoseTable, row: int, flights: FlightTable) -> int:
+    """Flight on which both contacts of a pose and of the next stand; -1: none."""
+    rear = min(poses[row, REAR_X], poses[row + 1, REAR_X])
+    front = max(poses[row, FRONT_X], poses[row + 1, FRONT_X])
+    for k in range(flights.shape[0]):
+        if flights[k, FLIGHT_BEGIN] <= rear and front <= flights[k, FLIGHT_END]:
+            return k
+    return -1
+
+
+def rocking(turn: float, before: float, after: float, theta_s: float) -> float:
+    """What of a turn counts as rocking on a flight, see :mod:`kaidan.mechanics.rocking` [rad]."""
+    return min(turn, max(abs(before - theta_s), abs(after - theta_s)))
 
 
 @entry
@@ -235,18 +255,23 @@ def rate_rotations(
     flat: float,
     rough: float,
     edges: PointTable,
+    flights: FlightTable,
     found: ContactTable,
     ratings: RatingTable,
     job: int,
 ) -> None:
     """Write the extremes over the chains of rotations that follow one another at once."""
     most = 0.0
-    avoidable = 0.0
+    rocks = 0.0
     speed = 0.0
     spare = math.inf
     angle = 0.0
     avoids = 0.0
     fallen = 0.0
+    lowest = math.inf
+    highest = -math.inf
+    flight = -1
+    begins = True
     for row in range(count):
         if row > 0:
             w_x = rotations[row, START_X] - rotations[row - 1, END_X]
@@ -255,7 +280,11 @@ def rate_rotations(
                 angle = 0.0
                 avoids = 0.0
                 fallen = 0.0
-        psi = poses[row_before(poses, n_pose, rotations[row, ROTATION_S]), POSE_PSI]
+                lowest = math.inf
+                highest = -math.inf
+                begins = True
+        at = row_before(poses, n_pose, rotations[row, ROTATION_S])
+        psi = poses[at, POSE_PSI]
         ahead = a * math.cos(psi)
         up = g + a * math.sin(psi)
         size = math.sqrt(ahead * ahead + up * up)
@@ -267,13 +296,26 @@ def rate_rotations(
             avoids += beyond_the_edge(rotations, row, edges, flat, rough)
         else:
             avoids += rotations[row, ROTATION_ANGLE]
+        lowest = min(lowest, rotations[row, START_PHI], rotations[row, END_PHI])
+        highest = max(highest, rotations[row, START_PHI], rotations[row, END_PHI])
+        stands = -1
+        if rotations[row, OUTCOME] == RotationOutcome.ARRESTED:
+            stands = flight_at(poses, at, flights)
+        if begins:
+            flight = stands
+        elif stands != flight:
+            flight = -1
+        begins = False
         if rotations[row, OUTCOME] == RotationOutcome.ARRESTED:
             speed = max(speed, impact_speed(ground, body, rotations, row, found))
         spare = min(spare, rotations[row, BARRIER] / size - fallen)
         most = max(most, angle)
-        avoidable = max(avoidable, avoids)
+        if flight < 0:
+            rocks = max(rocks, avoids)
+        else:
+            rocks = max(rocks, rocking(avoids, lowest, highest, flights[flight, FLIGHT_SLOPE]))
     ratings[job, RATED_ANGLE] = most
-    ratings[job, RATED_AVOIDABLE] = avoidable
+    ratings[job, RATED_ROCKING] = rocks
     ratings[job, RATED_IMPACT] = speed
     ratings[job, RATED_SPARE] = spare
 
@@ -284,6 +326,8 @@ def rate_many(
     bodies: BodyTable,
     ends: IntArray,
     flats: FloatRow,
+    flight_ends: IntArray,
+    flights: FlightTable,
     jobs: JobTable,
     step: float,
     g: float,
@@ -306,6 +350,9 @@ def rate_many(
         Terrain.
     bodies, ends, flats
         Body tables one below the other, the row after the end of each, length of its flat [m].
+    flight_ends, flights
+        Flights as each robot sees them one below the other, the row after those of each: first and
+        last x [m], mean slope [rad].
     jobs
         As in :func:`kaidan.contact.kernel.batch.traverse_many`; the terrain and the reference
         inclination play no part.
@@ -322,8 +369,8 @@ def rate_many(
     ratings
         To be filled, a row a job: status; of one that arrives the largest required friction but
         where the trailing end leaves an edge as it lands, whether the belly touches (0, 1), and of
-        rotations that follow at once the largest angle, the largest that no edge obliges to [rad],
-        the largest speed of an impact [m/s], the least rise to spare [m].
+        rotations that follow at once the largest angle, the largest rocking [rad], the largest
+        speed of an impact [m/s], the least rise to spare [m].
     """
     for job in range(jobs.shape[0]):
         robot = int(jobs[job, JOB_ROBOT])
@@ -331,6 +378,9 @@ def rate_many(
         if robot > 0:
             first = ends[robot - 1]
         body = bodies[first : ends[robot]]
+        begin = 0
+        if robot > 0:
+            begin = flight_ends[robot - 1]
         a = jobs[job, JOB_ACCELERATION]
         status, n_pose, _, n_rotation = drive(
             ground, body, jobs[job, JOB_START], jobs[job, JOB_END], jobs[job, JOB_PHI], step, a, g,
@@ -352,5 +402,5 @@ def rate_many(
         ratings[job, RATED_BELLY] = belly
         rate_rotations(
             ground, body, poses, n_pose, rotations, n_rotation, a, g, flats[robot], rough,
-            edges, found, ratings, job,
+            edges, flights[begin : flight_ends[robot]], found, ratings, job,
         )  # fmt: skip
