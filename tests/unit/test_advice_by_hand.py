@@ -162,7 +162,7 @@ def tried(monkeypatch):
     def of(governs, question=KENAF, *, searched=False, phase=None, best=-0.1, energy=None):
         concluded = Conclusion(Verdict.NO_GO, governs, phase, None, -0.2, best, np.zeros(1), ())
         found = Findings(model="", each=() if energy is None else (finding(ENERGY, energy),))
-        each = advice._candidates(question, found, concluded, searched)
+        each = advice._candidates(question, found, concluded, object() if searched else None)
         return [one.change if isinstance(one, Candidate) else one for one in each]
 
     return of

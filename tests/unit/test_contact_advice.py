@@ -130,6 +130,20 @@ def test_the_same_friction_that_it_says_it_needs():
     assert answer.required_friction >= math.tan(math.radians(40)) - 1e-9
 
 
+def test_the_friction_that_a_found_plan_needs_off_its_angles_too():
+    """At its angles it needs less: two degrees off them the flippers reach a riser otherwise."""
+    short = Stairs(name="short", rise=0.178, going=0.279, steps=4)
+    answer = kaidan.assess("absolem", short)
+    assert answer.governs == "friction_unknown"
+    first = answer.what_would_help[0]
+    needed = float(re.search(r"(\d\.\d\d) or more", first.change)[1])
+    assert (first.verdict, needed > answer.required_friction + 0.02) == ("go", True)
+    plan = {"flippers": answer.question.flippers, "facing": answer.question.facing}
+    for friction, verdict in ((needed, "go"), (answer.required_friction + 0.02, "caution")):
+        then = kaidan.assess("absolem", short, **plan, flipper_tolerance="2deg", friction=friction)
+        assert then.verdict == verdict
+
+
 def test_head_straight_at_a_yaw_only():
     assert "Head straight along the stairs" in told("at a yaw")
     assert "Head straight along the stairs" not in told("beyond the limit")

@@ -95,7 +95,7 @@ def what_would_help(
     better = []
     known = found if question.robot.com_range is None else None
     candidates = (
-        *_candidates(question, found, conclusion, search is not None),
+        *_candidates(question, found, conclusion, search),
         *_known_better(question, measure),
     )
     for change, changed, certain in candidates:
@@ -151,10 +151,10 @@ def _settles(then: Conclusion, now: Conclusion) -> bool:
 
 
 def _candidates(
-    question: Question, found: Findings, conclusion: Conclusion, searched: bool
+    question: Question, found: Findings, conclusion: Conclusion, search: "Found | None"
 ) -> Iterator[Candidate]:
     """Only what can change what governs, because each may be driven anew."""
-    governs = conclusion.governs
+    governs, searched = conclusion.governs, search is not None
     if governs == UNWEIGHED.key:
         yield _weighed(found)
         return
@@ -174,7 +174,7 @@ def _candidates(
             )
             yield from _flippers_raised(question)
     if slips:
-        yield from _more_friction(question, found)
+        yield from _more_friction(question, found, search)
         yield from _grousers(question)
     energy = found.of(ENERGY)
     if governs == ENERGY.key and energy is not None:
@@ -228,10 +228,18 @@ def _flippers_raised(question: Question) -> Iterator[Candidate]:
     yield Candidate(text.raised(end, RAISED), question.changed(posture=posture))
 
 
-def _more_friction(question: Question, found: Findings) -> Iterator[Candidate]:
+def _more_friction(
+    question: Question, found: Findings, search: "Found | None" = None
+) -> Iterator[Candidate]:
+    """Friction that is enough, off the angles of the flippers too."""
     required = found.required_friction
     if not math.isfinite(required):
         return
+    if question.tolerance:
+        from kaidan.assessment.plan_search import friction_off_its_angles
+
+        drives = None if search is None else search.drives
+        required = max(required, friction_off_its_angles(question, drives))
     enough = math.ceil(100 * required + 1) / 100
     if question.uncertain and enough <= LARGEST_FRICTION:
         enough = _enough_at_the_risk(question, found, enough)

@@ -278,6 +278,22 @@ def holds_off_its_angles(question: Question, drives: Drives | None = None) -> bo
     return _judged_off(_judged(shortened(middle), drives), None, drives).sturdy
 
 
+def friction_off_its_angles(question: Question, drives: Drives | None = None) -> float:
+    """Friction that a stated plan requires off its angles, judged as the search judges [1].
+
+    Parameters
+    ----------
+    question : Question
+        Its `tolerance` is how far off they are; 0: nothing is required there.
+    drives : Drives, optional
+        Of a similar question.
+    """
+    drives = Drives() if drives is None else drives
+    middle = shortened(question.changed(robot=question.robot.middle))
+    each = (drives.rank(off).required_friction for off in off_angles(middle))
+    return max((one for one in each if math.isfinite(one)), default=0.0)
+
+
 def _best_off(search: Search, hopes: Sequence[Hope], count: int) -> list[Plan]:
     """Plans of the largest merit off their angles, which is never larger than at them."""
     best: list[tuple[Merit, Merit, Plan]] = []
