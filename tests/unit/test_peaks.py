@@ -1,13 +1,16 @@
-"""Peaks of a figure between poses, on figures made by hand; no kernel."""
+"""Peaks of a figure between poses, on figures made by hand."""
 
 import math
+from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from kaidan import contact
-from kaidan.traversal.peaks import AT_ONCE, PIECES, ROUNDS, peaks_between, promise
+from kaidan.contact import PIECES
+from kaidan.contact.kernel.peaks import promised, slope
+from kaidan.traversal.peaks import AT_ONCE, ROUNDS, peaks_between
 
 NAN = math.nan
 
@@ -120,7 +123,6 @@ def test_the_search_ends():
 
 def test_lines_through_the_neighbours_bound_a_figure():
     """By hand."""
-    s = np.array([[0.0], [1.0], [2.0], [3.0]])
     cases = [
         ([0.0, 1.0, 1.0, 0.0], 1.5),  # up 1, down 1: they meet halfway
         ([0.0, 1.0, 0.5, 0.0], 1.0),  # down from the pose on
@@ -132,4 +134,5 @@ def test_lines_through_the_neighbours_bound_a_figure():
         ([NAN, 1.0, 2.0, 3.0], 2.0),
     ]
     for height, expected in cases:
-        assert promise(s, np.array([height]).T)[0] == pytest.approx(expected, abs=1e-12), height
+        slopes = [slope(0.0, 1.0, one, other) for one, other in pairwise(height)]
+        assert promised(1.0, *height[1:3], *slopes) == pytest.approx(expected, abs=1e-12), height

@@ -3,6 +3,7 @@
 from kaidan.contact.codes import (
     BELLY,
     FLIPPER,
+    PIECES,
     ROCKING,
     TRACK,
     Event,
@@ -41,11 +42,13 @@ from kaidan.contact.switch import (
 )
 from kaidan.contact.tables import body_table, ground_table, mirror
 from kaidan.contact.traversing import STEP, arrives, plain_seconds, traverse, traverse_many
+from kaidan.contact.ways import Ways
 
 __all__ = [
     "BELLY",
     "FLIPPER",
     "ONE_PLACE",
+    "PIECES",
     "ROCKING",
     "STEP",
     "TRACK",
@@ -74,6 +77,7 @@ __all__ = [
     "Summaries",
     "Tilts",
     "TouchingHeights",
+    "Ways",
     "arrives",
     "body_table",
     "cone_margins",

@@ -27,6 +27,8 @@ from kaidan.contact.columns import (
 #: Rotation that counts as rocking [rad]: the paper's rig turned that far by the yield of its
 #: tracks, and held.
 ROCKING = math.radians(2.6)
+#: Pieces into which a way between two poses is cut, on which a figure may be the largest.
+PIECES = 8
 
 
 class Status(IntEnum):

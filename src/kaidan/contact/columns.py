@@ -116,3 +116,12 @@ CONE_COLUMNS = 10
 # part, row of the pose before, share of the way to the next.
 PASSED_S, PASSED_REACHED, PASSED_POINT, PASSED_PART, PASSED_ROW, PASSED_SHARE = range(6)
 PASSED_COLUMNS = 6
+
+# Ways between two poses of a path: row before it, group, place of the pose behind, of both ends and
+# of the pose ahead [m], the figure there, NaN where the path does not lead on to it; how high the
+# figure may be in between.
+(
+    WAY_ROW, WAY_GROUP, WAY_S_BEHIND, WAY_S_BEGIN, WAY_S_END, WAY_S_AHEAD,
+    WAY_BEHIND, WAY_BEGIN, WAY_END, WAY_AHEAD, WAY_PROMISE,
+) = range(11)  # fmt: skip
+WAY_COLUMNS = 11

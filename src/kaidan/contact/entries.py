@@ -28,6 +28,7 @@ KERNEL_MODULES = (
     "forces",
     "cones",
     "passings",
+    "peaks",
     "slipping",
     "margins",
     "energy_margins",

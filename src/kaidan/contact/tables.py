@@ -44,6 +44,7 @@ from kaidan.contact.columns import (
     TILT_COLUMNS,
     U_X,
     U_Z,
+    WAY_COLUMNS,
     X1,
     X2,
     Z1,
@@ -75,6 +76,7 @@ FlightTable = Annotated[FloatArray, FLIGHT_COLUMNS]
 PassedTable = Annotated[FloatArray, PASSED_COLUMNS]
 ConeTable = Annotated[FloatArray, CONE_COLUMNS]
 SettledTable = Annotated[FloatArray, SETTLED_COLUMNS]
+WayTable = Annotated[FloatArray, WAY_COLUMNS]
 #: Numbers that belong together, in the kernel: four, or x, z, cosine, sine and a point, or x, z and
 #: inclination, tangent (3) of the line of poses, rear and front contact, or of a part's side
 #: whether it faces down, its normal, and how far the pivot lies beyond its line.
