@@ -187,7 +187,9 @@ def first_order(drawn: Array, values: Array) -> float:
     ordered = values[np.argsort(drawn)]
     size, longer = divmod(len(values), SLICES)
     ends = longer * (size + 1)
-    slices = ordered[:ends].reshape(longer, size + 1), ordered[ends:].reshape(-1, size)
+    slices = [ordered[ends:].reshape(-1, size)]
+    if longer:
+        slices.insert(0, ordered[:ends].reshape(longer, size + 1))
     sizes = np.repeat([size + 1, size], [longer, SLICES - longer])
     means, variances = (
         np.concatenate([getattr(each, name)(axis=1) for each in slices]) for name in ("mean", "var")

@@ -197,12 +197,12 @@ def margins_of(question: Question, flight: Stairs, psi: Array, *, certain: bool 
     at = nominal(question, flight)
     if not certain:
         at = next(draws(question, at))  # one flight has few steps: one block
-    return _margins(at, gauge_of(question), psi, question.acceleration)
+    edges = _edges(at, gauge_of(question), psi)
+    return _margins(at, gauge_of(question), edges, question.acceleration)
 
 
-def _margins(at: Draws, gauge: float, psi: Array, a: float) -> Array:
-    yaw = np.abs(psi)[:, None, None]
-    edges = _edges(at, gauge, yaw)
+def _margins(at: Draws, gauge: float, edges: "_Edges", a: float) -> Array:
+    yaw = edges.yaw
     kappa = np.cos(yaw) + _END * (edges.left - edges.right) * np.sin(yaw) / gauge
     slack = _END * edge_slack(x=edges.x, kappa=kappa, C_N=at.C_N, theta_s=at.theta_s, a=a)
     limit = edge_limit(x=edges.x, kappa=kappa, C_N=at.C_N, a=a)
@@ -232,12 +232,12 @@ def energy_of(question: Question, flight: Stairs, psi: Array) -> Array:
     array, shape (k,)
         Rise [m].
     """
-    return _energy(nominal(question, flight), gauge_of(question), psi, question.acceleration)
+    at, gauge = nominal(question, flight), gauge_of(question)
+    return _energy(at, gauge, _edges(at, gauge, psi), question.acceleration)
 
 
-def _energy(at: Draws, gauge: float, psi: Array, a: float) -> Array:
-    yaw = np.abs(psi)[:, None, None]
-    edges = _edges(at, gauge, yaw)
+def _energy(at: Draws, gauge: float, edges: "_Edges", a: float) -> Array:
+    yaw = edges.yaw
     slope = (edges.left - edges.right) / gauge * _END
     over = edge_energy(x=edges.x, slope=slope, C_N=at.C_N, theta_s=at.theta_s, psi=yaw, a=a)
     # over the lower track: its line lies along the heading
@@ -250,6 +250,8 @@ def _energy(at: Draws, gauge: float, psi: Array, a: float) -> Array:
 
 _END = np.array([1.0, 1.0, -1.0, -1.0])[:, None, None, None]
 """Which end each edge is at: 1 downhill, -1 uphill."""
+_SIDES = np.array([1.0, -1.0])[:, None, None, None]
+"""Of the yaw, as the left and as the right track have it."""
 
 
 class _Edges(NamedTuple):
@@ -260,16 +262,19 @@ class _Edges(NamedTuple):
     left: Array
     x: Array
     """Their middle downhill of the centroid [m]."""
+    yaw: Array
+    """Without its sign, shape (yaws, 1, 1) [rad]."""
 
 
 def _edges(at: Draws, gauge: float, psi: Array) -> _Edges:
-    q = at.p / np.cos(psi)
-    near, far = (other_offset(p=at.p, psi=side * psi, gauge=gauge) for side in (1, -1))
+    yaw = np.abs(psi)[:, None, None]
+    q = at.p / np.cos(yaw)
+    near, far = other_offset(p=at.p, psi=_SIDES * yaw, gauge=gauge)
     # downhill just after a loss on the right, on the left; uphill just before a gain on either
-    right, left = np.stack([q, far, q, near]), np.stack([near, q, far, q])
+    right, left = np.array([q, far, q, near]), np.array([near, q, far, q])
     middle = (left + right) / 2
     x = np.concatenate([at.L - at.C_L - middle[:2], middle[2:] - at.C_L])
-    return _Edges(right, left, x)
+    return _Edges(right, left, x, yaw)
 
 
 def yaw_limit(question: Question, flight: Stairs) -> float | None:
@@ -325,9 +330,11 @@ def _holding(question: Question, flight: Stairs) -> Callable[[Array], NDArray[np
     d, M, threshold = question.allowance_d, question.allowance_M, question.energy_threshold
 
     def holds(psi: Array) -> NDArray[np.bool_]:
-        down, up, side = _margins(drawn, gauge, psi, a)
+        edges = _edges(at, gauge, psi)
+        of_drawn = edges if drawn is at else _edges(drawn, gauge, psi)
+        down, up, side = _margins(drawn, gauge, of_drawn, a)
         worst = np.minimum(np.minimum(down - d.high - M.high, up - d.high), side - d.high)
-        steady = _energy(at, gauge, psi, a) > threshold
+        steady = _energy(at, gauge, edges, a) > threshold
         return np.asarray(steady & (each_at_risk(worst, question.risk) > 0))
 
     return holds

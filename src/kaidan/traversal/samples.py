@@ -175,12 +175,15 @@ def _upright(path: contact.Path) -> tuple[Rows, Array]:
         Row before each, and the share of the arclength to the next.
     """
     psi = path.poses.path_direction
-    swept = _turn(psi[:-1], psi[1:])
+    along = np.cos(psi)
+    # between two directions on one side of upright the path does not pass it
+    some = np.flatnonzero(path.poses.leads_on & (along[:-1] * along[1:] < _ALIKE))
+    swept = _turn(psi[some], psi[some + 1])
     rows, shares = [], []
     for upright in (math.pi / 2, -math.pi / 2):
-        away = _turn(psi[:-1], upright)
-        passed = path.poses.leads_on & (away * swept > 0) & (np.abs(away) < np.abs(swept))
-        rows.append(np.flatnonzero(passed))
+        away = _turn(psi[some], upright)
+        passed = (away * swept > 0) & (np.abs(away) < np.abs(swept))
+        rows.append(some[passed])
         shares.append(away[passed] / swept[passed])
     return np.concatenate(rows), np.concatenate(shares)
 

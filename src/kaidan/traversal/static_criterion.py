@@ -135,10 +135,15 @@ class Criterion:
 
         With `landing` of those with the uphill end over the landing, else of the others.
         """
-        some = [
-            each for each in self.losses if each.downhill is downhill and each.landing is landing
-        ]
-        return min(some, key=lambda each: round(each.margin, 12), default=None)
+        return self._smallest.get((downhill, landing))
+
+    @cached_property
+    def _smallest(self) -> dict[tuple[bool, bool], Loss]:
+        """Loss with the smallest margin by end and landing."""
+        found: dict[tuple[bool, bool], Loss] = {}
+        for each in sorted(self.losses, key=lambda each: round(each.margin, 12)):
+            found.setdefault((each.downhill, each.landing), each)
+        return found
 
     @property
     def turn(self) -> float:

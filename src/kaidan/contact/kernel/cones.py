@@ -65,7 +65,11 @@ def cones_hold(one: Four, two: Four, three: Four, four: Four, t: float) -> bool:
     """Whether some inner force keeps both forces within cones narrower by arctan(t)."""
     least, most = narrowed(one, t, -math.inf, math.inf)
     least, most = narrowed(two, t, least, most)
+    if least > most:
+        return False
     least, most = narrowed(three, t, least, most)
+    if least > most:
+        return False
     least, most = narrowed(four, t, least, most)
     return least <= most
 
