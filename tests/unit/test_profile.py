@@ -193,8 +193,84 @@ def test_a_noisy_scan_has_the_nosings_of_its_flight():
     profile = Profile.of_points(points)
     at = [(0.0, 0.18), (0.28, 0.36), (0.56, 0.54)]
     np.testing.assert_allclose(profile.nosings, at, atol=0.015)  # the roughness it is blind to
-    assert 0.003 < profile.roughness <= 0.015
+    assert 0.006 < profile.roughness <= 0.015  # from a bump to a dent
     assert Profile.of_points(corners).roughness == 0.0
+
+
+def more_points(points, count, rng):
+    """The same line with points added on it."""
+    at = rng.integers(0, len(points) - 1, count)
+    share = rng.random(count)
+    added = points[at] + share[:, None] * (points[at + 1] - points[at])
+    places = np.concatenate([np.arange(len(points)), at + share])
+    return np.concatenate([points, added])[np.argsort(places, kind="stable")]
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_points_of_a_low_flight_have_its_nosings_wherever_they_lie(seed):
+    """Also with points on the lines, up and down, and with all points off by a micrometre."""
+    rng = np.random.default_rng(seed)
+    rise, going = rng.uniform(0.02, 0.06), rng.uniform(0.02, 0.4)
+    flight = Profile.of_stairs(Stairs(rise=rise, going=going, steps=int(rng.integers(2, 12))))
+    for like in (flight, flight.reflected()):
+        for added in (0, 1, 200):
+            line = more_points(like.points, added, rng)
+            profile = Profile.of_points(line)
+            np.testing.assert_allclose(profile.edges, like.edges, atol=ROUNDING)
+            assert profile.roughness < ROUNDING
+            moved = Profile.of_points(line + rng.uniform(-1e-6, 1e-6, line.shape))
+            # of the points above and before a corner any may be the farthest, all within 2 um
+            np.testing.assert_allclose(moved.edges, like.edges, atol=4e-6)
+
+
+@pytest.mark.parametrize(
+    ("line", "nosings", "roughness"),
+    [
+        # by hand: a lip on a floor
+        ([(-1, 0), (0, 0), (0, 0.014), (1, 0.014)], [], 0.014),
+        ([(-1, 0), (0, 0), (0, 0.015), (1, 0.015)], [], 0.015),
+        ([(-1, 0), (0, 0), (0, 0.016), (1, 0.016)], [(0, 0.016)], 0.0),
+        # a sill, its far edge no nosing
+        ([(-1, 0), (0, 0), (0, 0.02), (0.01, 0.02), (0.01, 0), (1, 0)], [(0, 0.02)], 0.0),
+        # a lip of 5 mm on a tread, one before a riser
+        (
+            [
+                (-1, 0),
+                (0, 0),
+                (0, 0.2),
+                (0.1, 0.2),
+                (0.1, 0.205),
+                (0.3, 0.205),
+                (0.3, 0.4),
+                (1, 0.4),
+            ],
+            [(0, 0.2), (0.3, 0.4)],
+            0.005,
+        ),
+        # a tread of 14 mm parts no riser
+        (
+            [(-1, 0), (0, 0), (0, 0.1), (0.014, 0.1), (0.014, 0.2), (1, 0.2)],
+            [(0.014, 0.2)],
+            0.014,
+        ),
+        # 60 deg: 0.035 (1 - cot 60) = 14.8 mm, 0.036 (1 - cot 60) = 15.2 mm
+        ([(-1, 0), (0, 0), (0.035 / 3**0.5, 0.035), (1, 0.035)], [], 0.0148),
+        ([(-1, 0), (0, 0), (0.036 / 3**0.5, 0.036), (1, 0.036)], [(0.0208, 0.036)], 0.0),
+        # a chamfer at 45 deg: its lower end, whatever lies on it
+        ([(-1, 0), (0, 0), (0, 0.1), (0.01, 0.11), (0.02, 0.12), (1, 0.12)], [(0, 0.1)], 0.0),
+        ([(0, 0), (0.5, 0.5), (1, 1)], [], 0.0),
+        # a dent of 10 mm in a ramp is rough, the ramp is not
+        ([(-1, 0), (0, 0.2), (0, 0.19), (0, 0.2), (1, 0.4)], [], 0.01),
+    ],
+    ids=[
+        *("lip", "limit", "riser", "sill", "tread", "narrow", "leans", "steeper"),
+        *("chamfer", "ramp", "dent"),
+    ],
+)
+def test_what_stands_out_by_more_than_15_mm_is_a_nosing(line, nosings, roughness):
+    profile = Profile.of_points(line)
+    np.testing.assert_allclose(profile.nosings, np.reshape(nosings, (-1, 2)), atol=5e-5)
+    assert profile.roughness == pytest.approx(roughness, abs=5e-5)
 
 
 def test_what_falls_is_driven_down_or_given_the_other_way_round():

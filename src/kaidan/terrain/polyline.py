@@ -14,8 +14,11 @@ STEEP = math.radians(45.0)
 """Slope from which a part of the terrain is a riser and no tread [rad]: stairs have risers near
 90 degrees and treads near 0, and no code allows a flight steeper than 70 degrees."""
 ROUGHNESS = 15e-3
-"""Height of bumps and dents that make no nosing [m]: five times the noise of a scan of 3 mm, less
-than the lowest riser of a uniform flight, 20 mm. They are driven over all the same."""
+"""Prominence of bumps and dents that make no nosing [m]: less than the lowest riser of a uniform
+flight, 20 mm, and what a scan with a noise of 3 mm and a point every centimetre does not reach.
+They are driven over all the same."""
+_ROUNDING = 1e-9
+"""Length that is rounding [m]."""
 MOST_PAIRS = 10_000_000
 """Pairs of segments that are checked for crossings: about a second's work."""
 LARGEST_EXTENT = 1e4
@@ -54,42 +57,64 @@ def measured_line(points: ArrayLike) -> Array:
 
 
 def convex_corners(points: Array) -> tuple[NDArray[np.int64], NDArray[np.int64], float]:
-    """Corners between a part steeper than 45 degrees and one less steep, and roughness.
+    """Corners that stand out by more than `ROUGHNESS`, and the largest bump or dent that does not.
+
+    ::
+
+                o_________     o  peak of z - x: the line leads up to it steeper than
+                |                 45 degrees, and on from it less steep
+        ________|
+
+    A corner that rises is a peak of ``z - x`` along the line, one that falls a peak of ``z + x``.
+    Its prominence is how far it stands above the higher of the two lowest places that lie between
+    it and higher ones, or the ends of the line, on either side. So it depends on the line alone,
+    not on where points lie on it, and moving all points by d changes it by 2 sqrt(2) d at most.
 
     Returns
     -------
     rising, falling, roughness
         Rows of the points at the upper end of a steep part that rises, and of one that falls;
-        largest distance of a point from the coarser line [m].
+        largest prominence of peaks and dents of z, z - x and z + x that are up to `ROUGHNESS` [m].
     """
-    kept, roughness = _coarser(points, ROUGHNESS)
-    steps = np.diff(points[kept], axis=0)
-    steep = np.abs(np.arctan2(steps[:, 1], steps[:, 0])) > STEEP
-    up = steps[:, 1] > 0
-    rising = np.flatnonzero(steep[:-1] & up[:-1] & ~steep[1:]) + 1
-    falling = np.flatnonzero(~steep[:-1] & steep[1:] & ~up[1:]) + 1
-    return kept[rising], kept[falling], roughness
+    x, z = points.T
+    rising, climbing = _peaks(z - x)
+    falling, descending = _peaks((z + x)[::-1])
+    return rising, (len(x) - 1 - falling)[::-1], max(climbing, descending, _peaks(z)[1])
 
 
-def _coarser(points: Array, tolerance: float) -> tuple[NDArray[np.int64], float]:
-    """Points of a coarser line, and how far from it the others are (Douglas & Peucker 1973)."""
-    last = len(points) - 1
-    kept, spans, left = [0, last], [(0, last)], 0.0
-    while spans:
-        begin, end = spans.pop()
-        if end - begin < 2:
-            continue
-        away, chord = points[begin + 1 : end] - points[begin], points[end] - points[begin]
-        along = np.clip(away @ chord / max(float(chord @ chord), 1e-300), 0.0, 1.0)
-        apart = np.hypot(*(away - along[:, None] * chord).T)
-        farthest = int(np.argmax(apart))
-        if apart[farthest] > tolerance:
-            middle = begin + 1 + farthest
-            kept.append(middle)
-            spans += [(begin, middle), (middle, end)]
-        else:
-            left = max(left, float(apart[farthest]))
-    return np.unique(kept), left
+def _peaks(u: Array) -> tuple[NDArray[np.int64], float]:
+    """Rows of the peaks more prominent than `ROUGHNESS`, and the largest prominence below it.
+
+    Pairs of turning points are taken out, the inner ones first (rainflow counting, Matsuishi &
+    Endo 1968), until those that are left are farther apart.
+    """
+    rows = np.r_[0, np.flatnonzero(np.diff(u)) + 1]
+    rises = np.diff(u[rows]) > 0
+    turns = rows[np.r_[0, np.flatnonzero(rises[1:] != rises[:-1]) + 1, -1]]
+    left: list[int] = []
+    heights: list[float] = []
+    ignored = 0.0
+    for row, height in zip(turns.tolist(), u[turns].tolist(), strict=True):
+        left.append(row)
+        heights.append(height)
+        while len(left) > 3:
+            apart = abs(heights[-2] - heights[-3])
+            outer = min(abs(heights[-1] - heights[-2]), abs(heights[-3] - heights[-4]))
+            if apart > min(outer, ROUGHNESS + _ROUNDING):
+                break
+            ignored = max(ignored, apart)
+            del left[-3:-1], heights[-3:-1]
+    ways = np.diff(heights)
+    small = np.sort(np.abs(ways))[:-1]  # the largest is the height of the whole line
+    ignored = max(ignored, float(small[small <= ROUGHNESS + _ROUNDING].max(initial=0.0)))
+    high = np.flatnonzero(np.minimum(ways[:-1], -ways[1:]) > ROUGHNESS + _ROUNDING) + 1
+    # the first point of a flat top
+    found = [left[k] for k in high]
+    for k, row in enumerate(found):
+        while u[row - 1] > u[found[k]] - _ROUNDING:
+            row -= 1
+        found[k] = row
+    return np.array(found, dtype=np.int64), ignored
 
 
 def upper_envelope(line: Array) -> tuple[Array, bool]:

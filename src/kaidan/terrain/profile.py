@@ -59,7 +59,7 @@ class Profile:
     open_risers: bool
     """Whether risers are open, so that their faces stand here but carry nothing."""
     roughness: float = 0.0
-    """Largest distance of a point from the coarser line on which the nosings were found [m]."""
+    """Largest prominence of a bump or dent that makes no nosing [m]."""
     name: str = "profile"
     """What people call it."""
     covariance: Array | None = None
@@ -135,8 +135,10 @@ class Profile:
         Returns
         -------
         Profile
-            Nosings are the convex corners between a part steeper than 45 degrees and one less
-            steep, but for a roughness of 15 mm. Repeated points are dropped.
+            Nosings are the peaks of ``z - x`` that stand out by more than 15 mm: convex corners
+            between a part steeper than 45 degrees and one less steep, wherever points lie on the
+            line between them. A vertical riser before a level tread stands out by the smaller of
+            its height and the tread's depth. Repeated points are dropped.
 
         Raises
         ------

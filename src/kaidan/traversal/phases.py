@@ -39,7 +39,7 @@ def flights_span(profile: Profile, descending: bool) -> tuple[float, float]:
         return uneven_span(profile)
     first, last = float(profile.nosings[0, 0]), float(profile.nosings[-1, 0])
     if descending:  # the foot of the last riser, rough as the landing may be
-        floor = profile.points[-1, 1] + max(_LEVEL, profile.roughness)
+        floor = profile.points[-1, 1] + profile.roughness + _LEVEL
         last = max(
             last,
             float(profile.points[profile.points[:, 1] > floor, 0].max(initial=last)),
@@ -55,7 +55,7 @@ def phases_of(
     Between two flights lies a landing where a nosing is `room` or more, the length of the flat,
     from the next: there the robot lands from the one and enters the other.
     """
-    on = max(_ON, profile.roughness)
+    on = profile.roughness + _ON
     start_level = profile.points[0, 1]
     first, _ = flights_span(profile, descending)
     rear, front = path.poses.rear_point, path.poses.front_point
@@ -87,7 +87,7 @@ def landing_zones(
     profile: Profile, descending: bool, room: float
 ) -> list[tuple[float, float, float, float]]:
     """Where the front contact stands of a robot that lands: smallest and largest x and z [m]."""
-    on, end = max(_ON, profile.roughness), float(profile.points[-1, 1])
+    on, end = profile.roughness + _ON, float(profile.points[-1, 1])
     _, last = flights_span(profile, descending)
     zones = [(last + on, math.inf, -math.inf, math.inf), (last - on, math.inf, end - on, end + on)]
     for (x_0, z_0), (x_1, z_1) in _between(profile, room):
@@ -136,7 +136,7 @@ def over_the_top(
     if len(profile.nosings) == 0:
         return np.zeros(len(path.poses), dtype=np.bool_)
     upper = path.poses.rear_point if descending else path.poses.front_point
-    on = max(_ON, profile.roughness)
+    on = profile.roughness + _ON
     over = (
         upper[:, 0] <= profile.nosings[0, 0] + on
         if descending
