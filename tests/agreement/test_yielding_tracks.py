@@ -245,6 +245,50 @@ def test_a_tail_that_grips_the_first_riser_takes_more_than_its_grip_carries_on_a
     assert conclude(question, judge(question)).verdict is not Verdict.GO
 
 
+def stalls_from(*, x, C_N, p, mu, nosings=4):
+    """Slope from which t_0 and t_1 together cannot keep the pull (docs/theory/yielding.md)."""
+    c = 0.5 * (nosings - 3)
+
+    def missing(tan):
+        q = (x - C_N * tan) / p
+        n_0 = 1 / nosings + 12 * c * (c - q) / (nosings * (nosings**2 - 1))
+        return tan - mu * (n_0 + q)
+
+    return math.degrees(math.atan(brentq(missing, 0.0, x / C_N)))
+
+
+def test_loads_of_the_estimate_of_a_stall_are_those_of_a_rigid_flat():
+    # by hand: four nosings, gravity's line through t_0: 0.4, 0.3, 0.2, 0.1 of the weight; so with
+    # q = 0 it stalls from tan a = 0.3 mu, which is 0.9 for a friction of 3
+    found = stalls_from(x=0.9, C_N=0.999999, p=1e3, mu=3.0)
+    assert math.tan(math.radians(found)) == pytest.approx(0.9, abs=1e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("C_N", "x"), [(0.071, 0.124), (0.060, 0.124), (0.050, 0.124)])
+def test_a_stall_begins_near_its_estimate(C_N, x):
+    """2.5 deg: 0.2, 0.2 and 1.7 were found; up to 3.6 at other frictions, as the page says."""
+    pytest.importorskip("numba")
+    from kaidan import Question, Robot, Stairs
+    from kaidan.physics import TrialSpec, YieldingBelt, run
+    from kaidan.robot import Track
+
+    p, mu = 0.150, 4.0
+    estimate = stalls_from(x=x, C_N=C_N, p=p, mu=mu)
+    ends = []
+    for slope in (estimate - 2.5, estimate + 2.5):
+        track = Track(flat_length=0.470, front_radius=0.002, rear_radius=0.002)
+        robot = Robot(
+            name="sharp", mass=20.0, com_from_front=0.470 - p - x, com_height=C_N, track=track
+        )
+        stairs = Stairs.inclined(angle=math.radians(slope), nosing_spacing=p)
+        question = Question.in_one_posture(robot, stairs, friction=mu, speed=0.005)
+        belt = YieldingBelt(stiffness=6e4, shear_ratio=0.35, damping_ratio=1.0)
+        spec = TrialSpec(question=question, track=belt, ground="noses", start_offset=0.3)
+        ends.append(run(spec).outcome.value)
+    assert ends == ["climbed", "stalled"]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("p", [0.180, 0.200, 0.220])
 @pytest.mark.parametrize("ratio", [1.0, 0.35])

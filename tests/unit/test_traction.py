@@ -65,6 +65,19 @@ def test_a_smooth_belt_is_judged_by_friction_alone():
     )
 
 
+def test_an_answer_that_relies_on_grousers_says_from_which_speed_their_rule_is_not_known():
+    told = [
+        any("The rule of grousers knows no speed" in note for note in answer.notes)
+        for answer in (
+            assess(robot(**GROUSERS, **HARD), FLIGHT, friction=0.6, speed=0.19),
+            assess(robot(**GROUSERS, **HARD), FLIGHT, friction=0.6, speed=0.2),
+            assess(robot(**GROUSERS, **HARD), FLIGHT, friction=0.6, speed=0.2, direction="down"),
+            assess(robot(), FLIGHT, friction=0.6, speed=0.2),
+        )
+    ]
+    assert told == [False, True, False, False]
+
+
 def test_grousers_hold_where_friction_does_not():
     smooth, answer = asked(), asked(**GROUSERS, **HARD)
     assert smooth.findings["slides_down"].holds is False

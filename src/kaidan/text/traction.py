@@ -7,6 +7,11 @@ if TYPE_CHECKING:
     from kaidan.question import Question
 
 
+SPINS = 0.2
+"""Speed from which driven grousers spun at a first riser in MuJoCo [m/s]: 2 of 241 GOs, and none
+slower (docs/physics.md)."""
+
+
 def usual() -> str:
     """Grousers that an answer compares with."""
     return "grousers of 10 mm every 40 mm"
@@ -42,6 +47,11 @@ def notes(question: "Question", found: "TractionFigures") -> tuple[str, ...]:
             f"Where friction alone does not hold it, it {slips}: a tip stands on the tread behind "
             "a nosing. Left and right may hold one after the other, and the robot yaw meanwhile."
         )
+        if question.direction == "up" and (question.speed or 0.0) >= SPINS:
+            each.append(
+                "The rule of grousers knows no speed: in simulations some spun at this speed at a "
+                "first riser higher than the end's radius. Meet it at 0.1 m/s."
+            )
     if track.has_grousers:
         unknown = [
             name
