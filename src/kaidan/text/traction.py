@@ -8,7 +8,7 @@ if TYPE_CHECKING:
 
 
 SPINS = 0.2
-"""Speed from which driven grousers spun at a first riser in MuJoCo [m/s]: 2 of 241 GOs, and none
+"""Speed from which driven grousers spun at a first riser in MuJoCo [m/s]: 2 of 256 GOs, and none
 slower (docs/physics.md)."""
 
 
