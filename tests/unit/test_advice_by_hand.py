@@ -18,6 +18,7 @@ from kaidan.assessment.advice import (
     _known_better,
     _measured,
     _more_friction,
+    _nosings,
     _rank,
     _settles,
     _slower,
@@ -247,6 +248,45 @@ def test_friction_enough_for_all_but_the_accepted_share(margins, enough, monkeyp
     assert asked == [((0.5, 0.5), found)]
 
 
+@pytest.mark.parametrize(
+    ("low", "high", "up_to", "told"),
+    [
+        (None, None, 16, 16),  # 2 to 25 mm by default
+        (None, None, 2, 2),
+        (None, None, 24, 24),
+        (None, None, 1, None),  # not with the smallest either
+        (None, 0.0175, 16, 16),
+        (0.0055, 0.0085, 7, 7),  # between 5.5 and 8.5 mm
+        (0.0055, 0.0085, 5, None),
+        (0.004, 0.004, 3, None),  # no range
+    ],
+)
+def test_the_largest_radius_of_the_nosings_by_hand(low, high, up_to, told):
+    gripping = KENAF.robot.track.model_copy(update={"belt": "grousers"})
+    asked = KENAF.changed(
+        robot=KENAF.robot.model_copy(update={"track": gripping}),
+        terrain=Stairs(rise=0.1, going=0.15, nosing_radius_low=low, nosing_radius_high=high),
+    )
+    slips = concluded(Verdict.CAUTION)._replace(governs="slides_down")
+
+    def judged(question):
+        smallest, largest = question.terrain.nosing_radii
+        assert smallest <= largest
+        return concluded(Verdict.GO if 1e3 * largest < up_to + 0.5 else Verdict.CAUTION)
+
+    each = list(_nosings(asked, slips, judged))
+    radii = [round(1e3 * one.question.terrain.nosing_radius_high) for one in each]
+    assert radii == [told] * (told is not None)
+    assert [one.change for one in each] == [text.nosings(each) for each in radii]
+    assert all(one.then.verdict is Verdict.GO for one in each)
+    # smooth belts, another reason, friction too little at best: nothing of nosings helps
+    for question, now in (
+        (asked.changed(robot=KENAF.robot), slips), (asked, slips._replace(governs="tip_downhill")),
+        (asked, slips._replace(margin_best=-0.1)),
+    ):  # fmt: skip
+        assert list(_nosings(question, now, judged)) == []
+
+
 def test_friction_that_is_stated_and_that_is_not():
     needs = Findings(model="", required_friction=0.5)
     told = [
@@ -331,6 +371,7 @@ def helps(monkeypatch):
         question = SimpleNamespace(trials=trials, robot=SimpleNamespace(com_range=com_range))
         monkeypatch.setattr(advice, "_candidates", lambda *given: each[:-1])
         monkeypatch.setattr(advice, "_known_better", lambda *given: each[-1:])
+        monkeypatch.setattr(advice, "_nosings", lambda *given: [])
         monkeypatch.setattr(advice, "judge", judge)
         monkeypatch.setattr(advice, "conclude", lambda question, found: candidates[found])
         monkeypatch.setattr(advice, "_off_its_angles", off_its_angles)

@@ -97,6 +97,23 @@ def test_every_change_keeps_its_promise(name):
         assert then.margin_deg == pytest.approx(change.margin_deg, abs=ONCE), change
 
 
+def test_the_nosings_up_to_which_grousers_hold():
+    """OzBot with grousers of 10 mm every 40 mm holds up to some radius, and no millimetre more."""
+    robot, _ = changed(Robot.named("ozbot-atr"), "Belts with grousers of 10 mm every 40 mm", {})
+    stairs = Stairs.named("uk-general")
+    answer = assess(robot, stairs, surface="concrete-dry")
+    assert answer.verdict == "caution"
+    (told,) = (each for each in answer.what_would_help if "nosings" in each.change)
+    radius = int(
+        re.fullmatch(r"Make sure that the nosings' radius is (\d+) mm or less", told.change)[1]
+    )
+    for more, verdict in ((0, "go"), (1, "caution")):
+        known = stairs.model_copy(update={"nosing_radius_high": 1e-3 * (radius + more)})
+        then = assess(robot, known, surface="concrete-dry")
+        assert then.verdict == verdict
+        assert (then.margin_deg == pytest.approx(told.margin_deg, abs=ONCE)) is (more == 0)
+
+
 def told(name):
     robot, stairs, question = QUESTIONS[name]
     return [each.change for each in assess(robot, stairs, **question).what_would_help]

@@ -1,7 +1,7 @@
 """What would help: the same question with something changed, judged by the same model again."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from kaidan.allowance import Allowance
@@ -35,6 +35,7 @@ from kaidan.question import Question
 from kaidan.robot import Posture
 from kaidan.sheet import bounds
 from kaidan.surface import Surface
+from kaidan.terrain.stairs import Stairs
 from kaidan.text import advice as text
 from kaidan.text import measuring
 from kaidan.text import unweighed as weighing
@@ -62,6 +63,8 @@ class Candidate(NamedTuple):
     question: Question
     certain: bool = False
     """Whether it only makes a doubt certain: help where that settles something."""
+    then: Conclusion | None = None
+    """Its conclusion, where it is known."""
 
 
 def what_would_help(
@@ -94,17 +97,23 @@ def what_would_help(
         return ()
     better = []
     known = found if question.robot.com_range is None else None
+
+    def judged(changed: Question) -> Conclusion:
+        then = conclude(changed, judge(changed, known=known))
+        if then.verdict is Verdict.GO and changed.tolerance:
+            return _off_its_angles(changed, then, search)
+        return then
+
     candidates = (
         *_candidates(question, found, conclusion, search),
+        *_nosings(question, conclusion, judged),
         *_known_better(question, measure),
     )
-    for change, changed, certain in candidates:
+    for change, changed, certain, then in candidates:
         try:
-            then = conclude(changed, judge(changed, known=known))
+            then = judged(changed) if then is None else then
         except InputError:  # a posture or a place of the centroid that the robot cannot have
             continue
-        if then.verdict is Verdict.GO and changed.tolerance:
-            then = _off_its_angles(changed, then, search)
         if _is_better(then, conclusion) and (not certain or _settles(then, conclusion)):
             better.append((then, change))
     better.sort(key=lambda each: _rank(each[0]))
@@ -275,6 +284,40 @@ def _grousers(question: Question) -> Iterator[Candidate]:
     )
     robot = question.robot.model_copy(update={"track": belts})
     yield Candidate(text.grousers(), question.changed(robot=robot))
+
+
+def _nosings(
+    question: Question, conclusion: Conclusion, judged: Callable[[Question], Conclusion]
+) -> Iterator[Candidate]:
+    """Largest radius of the nosings, in whole mm, up to which grousers make it a GO."""
+    flight = question.terrain
+    if not isinstance(flight, Stairs) or not question.robot.track.has_grousers:
+        return
+    if conclusion.governs not in _SLIPS or not conclusion.margin_best > 0:
+        return
+    stairs: Stairs = flight
+
+    def up_to(mm: int) -> Candidate:
+        radii = {"nosing_radius_low": min(stairs.nosing_radii[0], 1e-3 * mm)}
+        radii["nosing_radius_high"] = 1e-3 * mm
+        changed = question.changed(terrain=stairs.model_copy(update=radii))
+        return Candidate(text.nosings(mm), changed, then=judged(changed))
+
+    def is_go(one: Candidate) -> bool:
+        return one.then is not None and one.then.verdict is Verdict.GO
+
+    smallest, largest = (1e3 * each for each in stairs.nosing_radii)
+    holds, fails = math.ceil(smallest - 1e-9), math.ceil(largest - 1e-9)
+    if holds >= fails or not is_go(best := up_to(holds)):
+        return
+    while fails - holds > 1:
+        middle = (holds + fails) // 2
+        tried = up_to(middle)
+        if is_go(tried):
+            holds, best = middle, tried
+        else:
+            fails = middle
+    yield best
 
 
 def _slower(question: Question, energy: float) -> Iterator[Candidate]:

@@ -32,6 +32,11 @@ def grousers() -> str:
     return f"Belts with {usual()}"
 
 
+def nosings(radius: int) -> str:
+    """Have round nosings of at most some radius [mm]."""
+    return f"Make sure that the nosings' radius is {radius} mm or less"
+
+
 def slower(speed: float) -> str:
     """Drive at a speed [m/s]."""
     return f"Drive at {speed:.2f} m/s or less"
