@@ -224,6 +224,8 @@ def carrying_tilt(
     hint
     """
     most = lean(ground, body, pivot, x, z, phi, sense, kappa)
+    if tolerance <= 0.0 and pivot & KIND_MASK == VERTEX:  # the robot rocks onto nothing
+        return most, 0.0, hint
     rocking = 0.0
     total = 0.0
     for _ in range(20):
