@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from kaidan import Question, Robot, Stairs
-from kaidan.assessment import plan_search
+from kaidan.assessment import plan_scores, plan_search
 from kaidan.assessment.plan_hopes import Hope, Search
 from kaidan.assessment.plan_scores import ENOUGH, ROUNDING, UNKNOWN, Score, Scores
 from kaidan.assessment.plan_search import (
@@ -70,6 +70,32 @@ def test_the_score_of_a_drive():
     assert nobody(RATED._replace(required_friction=0.9)).margin == pytest.approx(
         math.degrees(math.atan(1.0) - math.atan(0.9))
     )
+
+
+def test_what_one_friction_rated_serves_another(monkeypatch):
+    """Friction plays no part in a drive; what does is rated anew."""
+    drives = []
+
+    def rate(profile, parts, **how):
+        drives.extend(parts)
+        return real(profile, parts, **how)
+
+    real = plan_scores.rate
+    monkeypatch.setattr(plan_scores, "rate", rate)
+    plan_scores.rated_on.cache_clear()
+    both, posture = Robot.named("absolem"), Posture(front="flat", rear="flat")
+    first = scores(robot=both).of(Phase.ENTER, posture)
+    other = scores(robot=both, friction=0.9)
+    assert other.of(Phase.ENTER, posture).margin > first.margin
+    assert len(drives) == 1
+    other.of(Phase.LAND, posture)
+    scores(robot=both, facing="tail-first").of(Phase.ENTER, posture)
+    scores(robot=both, direction="down").of(Phase.ENTER, posture)
+    scores(Stairs(rise=0.16, going=0.29, steps=6), robot=both).of(Phase.ENTER, posture)
+    assert len(drives) == 5
+    monkeypatch.setattr(plan_scores, "MANY", 0)  # of too many all are forgotten
+    scores(robot=both).of(Phase.TRAVERSE, posture)
+    assert len(other._rated) == 1
 
 
 def test_ways_in_which_a_drive_fails():

@@ -357,7 +357,8 @@ def test_off_its_angles_the_worst_verdict_counts(ways):
     found, count = ways([CAUTION, NO_GO, GO], plan)
     assert (found.worst[0], found.tested, count) == (NO_GO, True, 2)  # there is nothing worse
     bad = judged(NO_GO)
-    assert ways([NO_GO, NO_GO], bad) == (_Off(bad, bad.merit, True), 2)
+    # a NO-GO is no worse off its angles
+    assert ways([NO_GO, NO_GO], bad) == (_Off(bad, bad.merit, True), 0)
     assert _Off(bad, bad.merit, True).sturdy
     # where the worst is a CAUTION what is no NO-GO for certain is not judged
     found, count = ways([GO, CAUTION, GO, NO_GO], plan, passes=(0, 2))

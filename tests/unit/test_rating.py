@@ -115,8 +115,29 @@ def test_rocking_is_that_of_the_traverse(descending):
     assert beside
 
 
+def test_each_robot_is_rated_with_the_landings_that_are_as_long_as_it(monkeypatch):
+    """So what is rated beside it changes nothing."""
+    asked, kernel = [], contact.rate_many
+
+    def rate_many(*given, **how):
+        asked.append((given[3], how["zones"]))
+        return kernel(*given, **how)
+
+    monkeypatch.setattr(contact, "rate_many", rate_many)
+    longer = Outline.of(Robot.named("kenaf").model_copy(update={"track": LONGER}))
+    short, long = KENAF.stance.flat_length, longer.stance.flat_length
+    nosings = [(0.0, 0.1), (0.5 * (short + long), 0.2)]
+    terrain = Profile.of_points([(-9, 0), (0, 0), nosings[0], (nosings[1][0], 0.1), nosings[1],
+                                 (9, 0.2)])  # fmt: skip
+    parts = [Part(KENAF), Part(longer), Part(KENAF)]
+    found = rate(terrain, parts)
+    assert [lengths for lengths, _ in asked] == [[short, short], [long]]
+    assert [len(zones) for _, zones in asked] == [3, 2]
+    assert found == [rate(terrain, [each])[0] for each in parts]
+
+
 def test_what_is_asked_of_the_kernel(monkeypatch):
-    """The longest way is refused if any; landings as short as the shortest robot sees them."""
+    """The longest way is refused if any."""
     asked, refused = {}, []
 
     def rate_many(ground, parts, kinds, lengths, flights, jobs, **how):
@@ -127,14 +148,14 @@ def test_what_is_asked_of_the_kernel(monkeypatch):
         return SimpleNamespace(status=np.array([0, 1, 0]), **dict.fromkeys(names, nothing))
 
     monkeypatch.setattr(contact, "rate_many", rate_many)
-    monkeypatch.setattr(rating, "landing_zones", lambda driven, descending, room: room)
+    monkeypatch.setattr(rating, "landing_zones", lambda driven, descending, room: [(1.0,) * 4])
     monkeypatch.setattr(rating, "refuse_too_long", lambda *given: refused.append(given))
     longer = Outline.of(Robot.named("kenaf").model_copy(update={"track": LONGER}))
     start = Placement(0.4, 0.3, 0.3)
     parts = [Part(KENAF, start, None), Part(longer, None, None), Part(KENAF, None, 0.5)]
     found = rate(UNEVEN, parts, step=0.05)
     assert [each is None for each in found] == [False, True, False]
-    assert asked["zones"] == KENAF.stance.flat_length
+    assert asked["zones"] == ((1.0,) * 4,)
     assert asked["lengths"] == [each.outline.stance.flat_length for each in parts]
     assert asked["flights"] == [slopes_of_flights(UNEVEN, each) for each in asked["lengths"]]
     ((_, outline, ends, step),) = refused

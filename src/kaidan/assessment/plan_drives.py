@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kaidan import contact
+from kaidan.assessment.plan_scores import outline_key, terrain_key
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.models import judge, planned
 from kaidan.models.findings import Findings
@@ -111,9 +112,7 @@ class Drives:
         sought, **how
             As for `kaidan.traversal.traverse`.
         """
-        outline = question.outline
-        terrain = profile.points.tobytes(), profile.nosings.tobytes(), profile.roughness
-        body = outline.parts.tobytes(), outline.kinds.tobytes(), outline.stance, outline.gyration
+        terrain, body = terrain_key(profile), outline_key(question.outline)
         manner = question.direction, question.facing, question.acceleration
         known = self._known.setdefault((terrain, body, manner, tuple(sorted(how.items()))), {})
         if sought not in known:

@@ -4,8 +4,8 @@ So a posture that is good for landing is found although it would never have come
 """
 
 import math
-from collections.abc import Iterable
-from functools import cached_property
+from collections.abc import Hashable, Iterable
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 from kaidan import contact
@@ -29,6 +29,11 @@ UNKNOWN = 1.0
 """Friction by which postures are compared where nobody states one [1]."""
 ROUNDING = 0.05
 """Difference of margins that is none [deg]."""
+MANY = 4096
+"""Ratings on one terrain beyond which they are forgotten."""
+UNRATED = "unrated"
+TERRAINS = 16
+"""Terrains, with the direction and the acceleration, of which ratings are remembered."""
 
 
 class Score(NamedTuple):
@@ -59,6 +64,26 @@ class Score(NamedTuple):
 
 
 FAILED = Score(passes=False, failing=-9, margin=-90.0, drop=-90.0)
+
+
+@lru_cache(maxsize=TERRAINS)
+def rated_on(
+    terrain: Hashable,
+    down: bool,
+    acceleration: float,
+) -> dict[Hashable, Rated | None]:
+    """Ratings that are remembered of one terrain, by outline, start and end."""
+    return {}
+
+
+def terrain_key(profile: Profile) -> Hashable:
+    """What tells a terrain from others."""
+    return profile.points.tobytes(), profile.nosings.tobytes(), profile.roughness
+
+
+def outline_key(outline: Outline) -> tuple[Hashable, ...]:
+    """What tells an underside from others."""
+    return outline.parts.tobytes(), outline.kinds.tobytes(), outline.stance, outline.gyration
 
 
 class Scores:
@@ -99,26 +124,35 @@ class Scores:
 
     def work_out(self, wanted: Iterable[tuple[Phase, Posture]]) -> None:
         """Work out some scores together."""
-        drives: list[tuple[tuple[Phase, Posture], Part]] = []
+        drives: list[tuple[tuple[Phase, Posture], Hashable, Part]] = []
         for key in dict.fromkeys(wanted):
             if key in self.known:
                 continue
             outline = self._outline(key[1])
             if outline is None:
                 self.known[key] = FAILED
+                continue
+            part = Part(outline, *self.stretch(key[0]))
+            way: Hashable = (*outline_key(outline), part.start, part.until)
+            before = self._rated.get(way, UNRATED)
+            if isinstance(before, str):
+                drives.append((key, way, part))
             else:
-                drives.append((key, Part(outline, *self.stretch(key[0]))))
+                self.known[key] = self._score(before)
         if not drives:
             return
         rated = rate(
             self.profile,
-            [part for _, part in drives],
+            [part for *_, part in drives],
             descending=self._down,
             acceleration=self.question.acceleration,
             step=COARSE,
         )
-        for (key, _), each in zip(drives, rated, strict=True):
-            self.known[key] = FAILED if each is None else self._score(each)
+        if len(self._rated) > MANY:
+            self._rated.clear()
+        for (key, way, _), each in zip(drives, rated, strict=True):
+            self._rated[way] = each
+            self.known[key] = self._score(each)
 
     def bound(self, phase: Phase) -> float:
         """Margin that no posture exceeds by friction alone, as long as the flat carries [deg]."""
@@ -192,8 +226,15 @@ class Scores:
         d, M = self.question.allowance_d.high, self.question.allowance_M.high
         return d + M, d
 
-    def _score(self, rated: Rated) -> Score:
-        """Score of a phase that is driven to its end."""
+    @cached_property
+    def _rated(self) -> dict[Hashable, Rated | None]:
+        """What this process rated on the same terrain before: friction plays no part in it."""
+        return rated_on(terrain_key(self.profile), self._down, self.question.acceleration)
+
+    def _score(self, rated: Rated | None) -> Score:
+        """Score of a phase, which is driven to its end or not."""
+        if rated is None:
+            return FAILED
         low, high = self._friction
         downhill, uphill = self._allowances
         slides = math.atan(low) - math.atan(rated.required_friction)

@@ -317,8 +317,13 @@ def _rank_of(question: Question, drives: Drives) -> int:
 def _judged_off(
     plan: Judged, beaten: Standing | None, drives: Drives, search: Search | None = None
 ) -> _Off:
-    """A plan judged off its angles, as long as its verdict may be better than what is beaten."""
+    """A plan judged off its angles, as long as its verdict may be better than what is beaten.
+
+    One that is NO-GO at its angles is no worse off them.
+    """
     worst = plan.merit
+    if worst[0] <= -Verdict.NO_GO.rank:
+        return _Off(plan, worst, tested=True)
     each = list(off_angles(plan.question))
     for off in each if search is None else search.weakest_first(each):
         if beaten is not None and worst <= beaten:

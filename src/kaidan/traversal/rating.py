@@ -13,6 +13,9 @@ from kaidan.traversal.driving import criterion_of, ground_for, refuse_too_long, 
 from kaidan.traversal.phases import landing_zones
 from kaidan.traversal.rotations import slopes_of_flights
 
+Zones = tuple[tuple[float, float, float, float], ...]
+"""Places of the front contact at which a robot lands, see `landing_zones`."""
+
 
 class Part(NamedTuple):
     """A robot over a part of a profile; see `kaidan.traversal.traverse`."""
@@ -78,6 +81,22 @@ def rate(
     """
     driven = profile.reflected() if descending else profile
     along = -acceleration if descending else acceleration
+    together: dict[Zones, list[int]] = {}
+    for k, each in enumerate(parts):
+        at = tuple(landing_zones(driven, descending, each.outline.stance.flat_length))
+        together.setdefault(at, []).append(k)
+    found: dict[int, Rated | None] = {}
+    for zones, which in together.items():
+        found |= zip(
+            which, _rated(driven, [parts[k] for k in which], zones, along, step), strict=True
+        )
+    return [found[k] for k in range(len(parts))]
+
+
+def _rated(
+    driven: Profile, parts: Sequence[Part], zones: Zones, along: float, step: float
+) -> list[Rated | None]:
+    """The same of robots that land in the same zones."""
     spans = [span(driven, each.outline, each.start, each.until) for each in parts]
     longest = max(range(len(parts)), key=lambda k: spans[k][1] - spans[k][0])
     refuse_too_long(driven, parts[longest].outline, spans[longest], step)
@@ -93,7 +112,7 @@ def rate(
             for k, (part, ends) in enumerate(zip(parts, spans, strict=True))
         ],
         step=step,
-        zones=landing_zones(driven, descending, min(each.stance.flat_length for each in outlines)),
+        zones=zones,
         edges=driven.edges,
         rough=ROUGHNESS,
     )
