@@ -1,0 +1,53 @@
+"""Postures in turn on a slope: the tracks stay where they are, the centroid goes with them."""
+
+import math
+
+import numpy as np
+import pytest
+
+from kaidan.contact import Status, stand_in_turn
+
+SLOPE, START = 0.3, 0.25
+RADIUS = 0.06
+GROUND = [(-3, -3 * math.tan(SLOPE)), (3, 3 * math.tan(SLOPE))]
+MIDDLES = [(-0.05, -0.04), (0.08, -0.02), (0.02, 0.03)]
+"""Middle of the tracks from the centroid, which each posture moves [m]."""
+SETTLED = 1e-9  # m, rad: as far as poses are settled
+
+
+def track(along, above):
+    return [[along - 0.25, above, RADIUS, along + 0.25, above, RADIUS]]
+
+
+def stood(middles, x=0.4, inclination=START):
+    return stand_in_turn(GROUND, [track(*m) for m in middles], [0], middles, x, inclination)
+
+
+def test_the_tracks_stay_where_they_are():
+    path = stood(MIDDLES)
+    along, above = MIDDLES[0]
+    tracks = 0.4 + math.cos(START) * along - math.sin(START) * above
+    c, s = math.cos(SLOPE), math.sin(SLOPE)
+    x = [tracks - c * a + s * b for a, b in MIDDLES]
+    height = tracks * math.tan(SLOPE) + RADIUS / c
+    assert path.status == Status.OK
+    assert path.x.tolist() == pytest.approx(x, abs=SETTLED)
+    assert path.z.tolist() == pytest.approx(
+        [height - s * a - c * b for a, b in MIDDLES], abs=SETTLED
+    )
+    assert path.inclination.tolist() == pytest.approx([SLOPE] * 3, abs=SETTLED)
+
+
+def test_each_posture_has_the_margins_of_a_robot_that_stands_in_it():
+    path = stood(MIDDLES)
+    for k, middle in enumerate(MIDDLES):
+        alone = stood([middle], path.x[k], SLOPE)
+        # margins hang on the place by rounding only
+        np.testing.assert_allclose(path.margins.table[k], alone.margins.table[0], atol=1e-7)
+
+
+@pytest.mark.parametrize("count", [0, 1, 2])
+def test_it_ends_before_the_first_posture_without_a_pose(count):
+    path = stood([*MIDDLES[:count], (0.5, -0.04), MIDDLES[2]])
+    assert path.status == Status.NO_START
+    assert len(path.x) == count
