@@ -10,8 +10,8 @@ from kaidan.contact import Status, stand_in_turn
 SLOPE, START = 0.3, 0.25
 RADIUS = 0.06
 GROUND = [(-3, -3 * math.tan(SLOPE)), (3, 3 * math.tan(SLOPE))]
-MIDDLES = [(-0.05, -0.04), (0.08, -0.02), (0.02, 0.03)]
-"""Middle of the tracks from the centroid, which each posture moves [m]."""
+MIDDLES = [(-0.24, -0.04), (0.2, -0.03), (0.02, 0.03)]
+"""Middle of the tracks from the centroid, which each posture moves [m]: first over one end."""
 SETTLED = 1e-9  # m, rad: as far as poses are settled
 
 
@@ -35,6 +35,10 @@ def test_the_tracks_stay_where_they_are():
     assert path.z.tolist() == pytest.approx(
         [height - s * a - c * b for a, b in MIDDLES], abs=SETTLED
     )
+    assert path.s.tolist() == [0.0] * 3
+    assert path.poses.leg.tolist() == [0.0] * 3
+    friction = path.margins.required_friction.tolist()
+    assert friction == pytest.approx([math.tan(SLOPE)] * 3, abs=SETTLED)
     assert path.inclination.tolist() == pytest.approx([SLOPE] * 3, abs=SETTLED)
 
 

@@ -164,10 +164,11 @@ def test_a_fall_about_two_edges_ends_90_degrees_on(mirrored):
     assert (phi, turned) == (near(0.1 - math.pi / 2), near(math.pi / 2))
 
 
-def test_contacts_are_one_where_their_points_are():
-    """The vertex 1 and the end that stands on it; another vertex 3 um, or 1 m, away."""
-    ground = ground_table([(-2, 0), (0, 0), (3e-6, -1), (5, -1)])
+@pytest.mark.parametrize("off", [(3e-6, -1e-6), (1e-6, -3e-6)])
+def test_contacts_are_one_where_their_points_are(off):
+    """An edge, the end that stands on it, and another edge 3 um farther or lower."""
+    ground = ground_table([(-2, 0.5), (1, 0.5), (1 + off[0], 0.5 + off[1]), (5, -1)])
     body = body_table(PARTS)
-    pose = (HALF, ABOVE, 0.0)  # its rear end on the edge
+    pose = (1 + HALF, 0.5 + ABOVE, 0.0)  # its rear end on the edge
     assert same_place(ground, body, 64, 1, *pose)
-    assert not same_place(ground, body, 64, 2, *pose)
+    assert not same_place(ground, body, 64, 128, *pose)

@@ -1,0 +1,51 @@
+"""Poses that a grouser holds while the robot slips, against all poses of the slip at once."""
+
+import numpy as np
+import pytest
+
+from kaidan.contact.columns import POSE_COLUMNS, POSE_LEG, POSE_S
+from kaidan.contact.kernel.slipping import held_while_slipping
+
+SLOTS = 2
+
+
+def by_all_poses(s, legs, points, standing, friction, sense, way):
+    """The best contact at which a grouser stands, by the worst pose to which it slips on it."""
+    found = []
+    for row in range(len(s)):
+        best = friction[row]
+        for point, own in zip(points[row], standing[row], strict=True):
+            if point < 0:
+                continue
+            worst = max(friction[row], own)
+            there = row + sense
+            while 0 <= there < len(s) and legs[there] == legs[row] and abs(s[there] - s[row]) < way:
+                same = [
+                    m for p, m in zip(points[there], standing[there], strict=True) if p == point
+                ]
+                worst = min(worst, max([friction[there], *same]))
+                there += sense
+            best = max(best, worst)
+        found.append(best)
+    return found
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_the_best_contact_by_its_worst_pose(sense):
+    """Small whole numbers, so that margins, ways and points are often equal."""
+    rng = np.random.default_rng(8)
+    for _ in range(300):
+        count = int(rng.integers(1, 9))
+        s = np.cumsum(rng.integers(0, 3, count)).astype(float)
+        legs = np.sort(rng.integers(0, 2, count))
+        points = rng.integers(-1, 3, (count, SLOTS))
+        standing = rng.integers(-3, 5, (count, SLOTS)).astype(float)
+        friction = rng.integers(-4, 3, count).astype(float)
+        way = float(rng.integers(1, 6))
+        poses = np.zeros((count, POSE_COLUMNS))
+        poses[:, POSE_S], poses[:, POSE_LEG] = s, legs
+        found = np.full(count, np.nan)
+        held_while_slipping(
+            poses, points.ravel(), standing.ravel(), friction, SLOTS, sense, way, found
+        )
+        assert found.tolist() == by_all_poses(s, legs, points, standing, friction, sense, way)
