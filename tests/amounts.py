@@ -13,13 +13,18 @@ def few_of(count, fast):
     return [k if k < fast else pytest.param(k, marks=pytest.mark.slow) for k in range(count)]
 
 
+def slow(case):
+    """A case by name alone."""
+    return pytest.param(case, marks=pytest.mark.slow)
+
+
 def fast_and_slow(few, many):
     """An amount for every run, and the whole one by name."""
     whole = many if isinstance(many, tuple) else (many,)
     return [few, pytest.param(*whole, marks=pytest.mark.slow)]
 
 
-def examples(whole):
+def examples(whole, share=SHARE):
     """Examples of a property: a part of them, but for a profile that looks at all of them."""
     every_run = os.environ.get("HYPOTHESIS_PROFILE", "same") == "same"
-    return -(-whole // SHARE) if every_run else whole
+    return -(-whole // share) if every_run else whole

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+LANDING = 4.0
+"""Length of the landings of random terrains [m]."""
+
 
 def steps(rise, going, n, low=3.0, high=3.0):
     """n steps with treads, first riser at x = 0, between landings."""
@@ -66,11 +69,15 @@ def random_robot(rng, flippers=True, least_radius=0.01):
 
 
 def random_terrain(rng):
-    """Steps, random polylines or scanned steps, with 4 m of landing at both ends."""
+    """Steps, random polylines or scanned steps, with `LANDING` at both ends."""
     kind = rng.integers(3)
     if kind == 0:
         return steps(
-            rng.uniform(0.05, 0.3), rng.uniform(0.1, 0.4), int(rng.integers(1, 10)), 4.0, 4.0
+            rng.uniform(0.05, 0.3),
+            rng.uniform(0.1, 0.4),
+            int(rng.integers(1, 10)),
+            LANDING,
+            LANDING,
         )
     if kind == 1:
         x = np.cumsum(rng.uniform(0, 0.2, 60))
@@ -78,7 +85,9 @@ def random_terrain(rng):
     else:
         s = steps(rng.uniform(0.05, 0.25), rng.uniform(0.15, 0.4), int(rng.integers(1, 8)))
         x, z = scanned(s, rng)
-    return np.concatenate([[[x[0] - 4, z[0]]], np.stack([x, z], 1), [[x[-1] + 4, z[-1]]]])
+    return np.concatenate(
+        [[[x[0] - LANDING, z[0]]], np.stack([x, z], 1), [[x[-1] + LANDING, z[-1]]]]
+    )
 
 
 def scanned(terrain, rng, spacing=0.01, noise=0.003):

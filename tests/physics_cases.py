@@ -2,6 +2,8 @@
 
 import math
 
+import pytest
+
 from kaidan.physics import Outcome, TrialSpec, run
 from kaidan.question import Question
 from kaidan.robot import Robot, Track
@@ -9,6 +11,10 @@ from kaidan.terrain.stairs import Stairs
 
 SPACINGS = (0.150, 0.180, 0.200, 0.220)
 """Of the paper's verification test [m]."""
+ENDS_IN_EVERY_RUN = [
+    pytest.param(each, marks=pytest.mark.slow if each in SPACINGS[1:3] else ()) for each in SPACINGS
+]
+"""Two of them in every run, all among the slow tests."""
 FORMULA = dict(zip(SPACINGS, (60.205, 52.936, 46.185, 37.255), strict=True))
 """theta_s_sup = atan((L - p - C_L)/C_N) [deg]."""
 QUASI_STATIC = dict(zip(SPACINGS, (62.48, 57.70, 53.85, 49.31), strict=True))

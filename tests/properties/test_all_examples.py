@@ -7,22 +7,30 @@ from pathlib import Path
 
 import pytest
 
-FOLDER = Path(__file__).parent
+TESTS = Path(__file__).parents[1]
 FILES = sorted(
-    path.name for path in FOLDER.glob("test_*.py") if "max_examples=examples(" in path.read_text()
+    str(path.relative_to(TESTS))
+    for path in TESTS.rglob("test_*.py")
+    if path != Path(__file__) and "max_examples=examples(" in path.read_text(encoding="utf-8")
 )
 
 
 def test_there_are_some():
-    assert "test_bad_input.py" in FILES
+    assert "properties/test_bad_input.py" in FILES
+    assert Path(__file__).name not in {Path(name).name for name in FILES}  # it would run itself
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", FILES)
 def test_all_examples(name):
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", name],
-        cwd=FOLDER,
+        [
+            sys.executable,
+            *["-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "-m"],
+            "not slow",
+            name,
+        ],
+        cwd=TESTS,
         env=os.environ | {"HYPOTHESIS_PROFILE": "whole"},
         capture_output=True,
         encoding="utf-8",

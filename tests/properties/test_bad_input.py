@@ -19,7 +19,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from typer.testing import CliRunner
 
-from amounts import examples
+from amounts import SHARE, examples
 from kaidan import Assessment, InputError, Payload, Posture, Robot, Stairs, assess, sweep, verdicts
 from kaidan.allowance import Allowance
 from kaidan.cli import app, main
@@ -29,10 +29,10 @@ SCHEMA = jsonschema.Draft202012Validator(Assessment.json_schema())
 WORDS = {verdict.label.split()[0]: verdict.exit_code for verdict in Verdict}
 
 
-def fuzz(whole, /, **strategies):
+def fuzz(whole, /, share=SHARE, **strategies):
     """Warnings are errors here too."""
     return lambda test: settings(
-        max_examples=examples(whole),
+        max_examples=examples(whole, share),
         deadline=None,
         suppress_health_check=list(HealthCheck),
     )(given(**strategies)(test))
@@ -290,7 +290,7 @@ def assert_process(code, out, err):
         assert all(character.isprintable() or character == "\n" for character in out)
 
 
-@fuzz(500, words=lines())
+@fuzz(500, share=10, words=lines())  # each line is driven, and often planned
 def test_any_command_line(words):
     result = CliRunner().invoke(app, ["assess", *words])
     if isinstance(result.exception, InputError):

@@ -353,7 +353,7 @@ def fuzz(seeds, folder, monkeypatch):
 
 
 def test_random_calls_end_in_an_answer_or_in_one_line(tmp_path, monkeypatch):
-    fuzz(range(800), tmp_path, monkeypatch)
+    fuzz(range(400), tmp_path, monkeypatch)
 
 
 @pytest.mark.slow

@@ -175,13 +175,14 @@ def test_the_same_from_python(store):
     assert str(found).splitlines() == output.splitlines()[:-2]
 
 
-def test_without_a_track_it_is_the_one_that_was_fitted_and_says_so():
-    words = ["experiment", "kenaf", "--spacings", "150mm", "--angles", "50deg", "--trials", "1",
+def test_without_a_track_it_is_the_one_that_was_fitted_and_says_so(tmp_path):
+    words = ["experiment", "kenaf", "--spacings", "150mm", "--angles", "70deg", "--trials", "1",
              "--workers", "1"]  # fmt: skip
-    lines = told(*words).output.splitlines()
+    kept = [*words, "--store", str(tmp_path / "store")]
+    lines = told(*kept).output.splitlines()
     assert lines[0] == "kenaf: 1 trials; yielding-belt, 0.1 m/s, friction 3, seed 0"
     assert lines[1].startswith("  The track is the one fitted to the paper's text")
-    told_by = json.loads(told(*words, "--json").output)
+    told_by = json.loads(told(*kept, "--json").output)
     # 4.1 mm under 20 kg; the sheet's own figures come before it
     assert told_by["stiffness_N_m"] == pytest.approx(20 * 9.80665 / 0.0041)
     assert told_by["track_from"] == "fit"

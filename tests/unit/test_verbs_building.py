@@ -139,7 +139,7 @@ def test_a_door_that_opens_to_the_flight_takes_its_leaf(
 ):
     """It stands 1.2 m before the foot, and its leaf takes its width of that; else 3 m are free."""
     path = house_with_a_door(operation, degrees, schema).write(folder / "leaf.ifc")
-    found = building(path, ["absolem"], friction=1.0)
+    found = building(path, ["absolem"], flippers="flat", friction=1.0)
     sheet = found.flights[0].sheet
     assert (sheet.lower_landing, sheet.lower_leaf) == pytest.approx((landing, leaf), abs=1e-6)
     assert sheet.upper_leaf == 0.0

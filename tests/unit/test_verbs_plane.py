@@ -284,7 +284,7 @@ def test_the_needed_speed_is_the_threshold():
 @pytest.mark.parametrize("facing", ["nose-first", "tail-first"])
 @pytest.mark.parametrize("options", [{}, {"friction": 0.6}, {"friction": 2.0, "theta_d": None}])
 @pytest.mark.parametrize("robot", fast_and_slow("controlled", "kenaf"))
-@pytest.mark.parametrize("first", fast_and_slow(2, 5))
+@pytest.mark.parametrize("first", fast_and_slow(1, 5))
 def test_any_plane_can_be_drawn(direction, facing, options, robot, first):
     robot = controlled() if robot == "controlled" else robot
     for angle, p in ((25, 0.47 / 3), (60, 0.2), (12, 0.1), (8, 0.2), (40, 0.23))[:first]:

@@ -15,7 +15,7 @@ pytest.importorskip("numba", reason="skipped: numba not installed")
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.physics import Outcome, YieldingBelt, run
 from kaidan.physics.planar import RubberBody
-from physics_cases import SPACINGS, climbs_up_to, margin, outcome, spec
+from physics_cases import ENDS_IN_EVERY_RUN, climbs_up_to, margin, outcome, spec
 
 SOFT = 1.7e4
 REQUIRED = {10.0: (61.6, 0.7), 3.0: (58.3, 1.0), 1.0: (54.6, 1.0), 0.35: (53.8, 1.0)}
@@ -34,7 +34,7 @@ def test_margins_of_another_simulation(ratio):
     assert lost - 0.1 == pytest.approx(required, abs=tolerance + 0.1)
 
 
-@pytest.mark.parametrize("spacing", SPACINGS)
+@pytest.mark.parametrize("spacing", ENDS_IN_EVERY_RUN)
 def test_rigid_limit_is_the_smooth_belt(spacing):
     pytest.importorskip("mujoco")
     # damped as MuJoCo's contacts are, so that neither bounces; 0.2 deg: the acceptance's

@@ -4,9 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from amounts import examples
 from kaidan.errors import InputError
 from kaidan.literature.heading import (
     difference_limit,
@@ -212,6 +213,7 @@ def test_it_converges_through_noise_and_replays():
     assert not np.array_equal(run.heading, other.heading)
 
 
+@settings(max_examples=examples(100))
 @given(st.floats(0.01, 1.2), st.floats(0.0, 3.0))
 def test_mirror(start, divergence):
     # property: to the right as to the left
