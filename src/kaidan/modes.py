@@ -131,6 +131,7 @@ FLIPPER_TORQUE = failure_mode("flipper_torque", "N m", "too little torque to mov
 POSTURE_TOLERANCE = failure_mode("posture_tolerance", "", "flippers some degrees off their angles")
 """Of a plan that was found: off its angles its verdict is worse."""
 LANDING_ROOM = failure_mode("landing_room", "m", "a landing shorter than the robot")
+TURNING = failure_mode("turning", "", "too little room to turn on a landing")
 NARROW = failure_mode("narrow", "m", "a flight narrower than the robot needs")
 FOOT_UNSEEN = failure_mode("foot_unseen", "", "a first riser that nobody saw")
 """Of a scan: the flight may begin lower, or with a higher riser."""

@@ -323,6 +323,7 @@ def test_every_mode_of_the_model_is_among_the_cases():
     elsewhere = {"stuck", "posture_change", "flipper_torque", "posture_tolerance", "unweighed"}
     elsewhere |= {"narrow", "low"}  # of every model: test_clearance_findings.py
     elsewhere |= {"foot_unseen"}  # likewise, of scans: test_clearance_findings.py
+    elsewhere |= {"turning"}  # likewise: test_landing_turns.py
     elsewhere |= {"twist"}  # likewise: test_twisted_flights.py
     assert governs | elsewhere == set(FAILURE_MODES)
 

@@ -59,7 +59,7 @@ def asked(*, speed=0.0, mass=10.0, direction="up", a=0.0, angle=0.5, belly=None,
     return SimpleNamespace(
         robot=robot, speed=speed, direction=direction, acceleration=a, friction=(0.5, 0.8),
         stance=SimpleNamespace(mass=mass), profile=SimpleNamespace(angle=angle),
-        leaves=(0.7, 0.9), rolling_resistance=robot.drive.rolling_resistance,
+        leaves=(0.7, 0.9), landings=(), rolling_resistance=robot.drive.rolling_resistance,
     )  # fmt: skip
 
 

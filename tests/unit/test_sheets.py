@@ -284,8 +284,9 @@ def test_what_is_no_table_is_no_sheet(data):
             "first_rise, last_rise, rises, goings, cross_slopes, skews, nosing_overhang, "
             "nosing_radius_low, "
             "nosing_radius_high, open_risers, width, headroom, lower_landing, "
-            "upper_landing, lower_leaf, upper_leaf, foot_seen, head_seen, direction, uncertainty, "
-            "sources, notes",
+            "upper_landing, lower_leaf, upper_leaf, lower_landing_width, upper_landing_width, "
+            "lower_turn, upper_turn, lower_passage, upper_passage, foot_seen, head_seen, "
+            "direction, uncertainty, sources, notes",
         ),
         (
             {"rise": PLACEHOLDER, "going": PLACEHOLDER},

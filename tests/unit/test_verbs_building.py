@@ -89,6 +89,16 @@ def test_absolem_raises_its_flippers_to_turn_on_a_landing_of_1_2_m(answer):
     )
 
 
+def test_flights_of_a_staircase_are_judged_with_the_landing_between(house):
+    """As one staircase: the rectangle of 1.2 by 2.2 m."""
+    found = kaidan.assess("absolem", f"{house}#Stair A", flippers="flat", friction=1.0)
+    (turn,) = found.turns
+    assert (turn.way, turn.flippers, turn.landing) == ("spin", "stowed", "landing above Stair A-1")
+    lower = found.question.flights[0]
+    sizes = (lower.upper_landing, lower.upper_landing_width)
+    assert (lower.upper_turn, sizes) == ("half", pytest.approx((1.2, 2.2), abs=1e-6))
+
+
 def test_ozbot_does_not_turn_there_and_that_binds(answer):
     """1.77 m of circle, 1.58 m of length: not in 1.2 m."""
     (turn,) = [each for each in answer.turns if each.robot == "ozbot-atr"]
@@ -102,14 +112,26 @@ def test_ozbot_does_not_turn_there_and_that_binds(answer):
 
 
 @pytest.mark.parametrize(
-    ("landing", "way_", "changed"),
-    [(1.4, "spin", False), (0.92, "spin", True), (0.6, "none", False)],
+    ("landing", "width", "way_", "changed"),
+    [(1.5, 1.5, "spin", False), (0.97, 1.0, "spin", True), (0.6, 1.0, "none", False)],
 )
-def test_the_landing_decides_how_absolem_turns(folder, landing, way_, changed):
-    path = half_turn_house(landing).write(folder / f"landing{landing}.ifc")
+def test_the_landing_decides_how_absolem_turns(folder, landing, width, way_, changed):
+    """Flat it sweeps 1.41 m with 30 mm all round, so that it needs half of that from each wall."""
+    path = half_turn_house(landing, width=width).write(folder / f"landing{landing}.ifc")
     found = building(path, ["absolem"], friction=1.0)
     (turn,) = found.turns
     assert (turn.way, turn.changed) == (way_, changed)
+
+
+@pytest.mark.parametrize(("degrees", "way_"), [(90.0, "none"), (-90.0, "spin")])
+def test_a_door_that_opens_onto_a_landing_is_in_the_way_of_a_turn(folder, degrees, way_):
+    """Of 1.2 m a leaf of 0.9 m leaves 0.3 m before the flight."""
+    h = half_turn_house(1.2)
+    leaf = h.slab([(-0.45, -0.025), (0.45, -0.025), (0.45, 0.025), (-0.45, 0.025)], 2.1, 2.1)
+    h.add("IfcDoor", "L", [leaf], at=(3.9, 0, 1.5), degrees=degrees, OverallWidth=900.0,
+          OverallHeight=2100.0, OperationType="SINGLE_SWING_LEFT")  # fmt: skip
+    (turn,) = building(h.write(folder / f"door{degrees}.ifc"), ["absolem"], friction=1.0).turns
+    assert turn.way == way_
 
 
 def test_a_door_that_is_too_narrow_binds(folder):

@@ -17,6 +17,7 @@ from kaidan.models.closed_form_figures import ClosedFormFigures
 from kaidan.models.contact_figures import ContactFigures, PhaseName
 from kaidan.models.dynamic_figures import PhysicsFigures
 from kaidan.models.findings import Finding, Findings, at_risk
+from kaidan.models.landings import LandingTurn, turns_of
 from kaidan.models.support_polygon import SupportPolygonFigures
 from kaidan.models.traction_figures import TractionFigures
 from kaidan.modes import (
@@ -157,6 +158,8 @@ class Assessment(Answer):
     """What the support polygon of both tracks knows; null without the tracks' distance."""
     physics: PhysicsFigures | None
     """What the trial in MuJoCo knows; null if another model answers."""
+    turns: tuple[LandingTurn, ...]
+    """How it turns on each landing where the way turns, from bottom to top; empty: on none."""
     plan: PlanShown | None
     """What to do with flippers, arm or payload, and which end leads; null where one posture was
     stated."""
@@ -265,6 +268,7 @@ def fill_in(
         closed_form=_of(found, ClosedFormFigures),
         support_polygon=_of(found, SupportPolygonFigures),
         physics=_of(found, PhysicsFigures),
+        turns=turns_of(question),
         plan=plan,
         what_would_help=what_would_help,
         to_measure=to_measure,

@@ -43,7 +43,7 @@ class Footprint(NamedTuple):
 
 
 class Goal(NamedTuple):
-    """The foot of the next flight."""
+    """Where the way goes on: the foot of the next flight, or a passage."""
 
     x: float
     y: float
@@ -52,6 +52,8 @@ class Goal(NamedTuple):
     """Of the flight [rad]."""
     width: float
     """Clear width of the flight [m]."""
+    level: bool = False
+    """Whether a level passage begins there instead, into which the front may reach."""
 
 
 class Manoeuvre(NamedTuple):
@@ -241,9 +243,90 @@ def _arrived(
     off = np.abs(dy * cos - dx * sin)
     return np.asarray(
         np.isin(k, list(goals))
-        & (np.abs(ahead) <= STRIDE)
+        & (ahead <= STRIDE)
+        & ((ahead >= -STRIDE) | goal.level)
         & (off <= (goal.width - footprint.width) / 2)
     )
+
+
+def on_the_spot(
+    footprint: Footprint,
+    *,
+    start: tuple[float, float, float],
+    goal: Goal,
+    landing: Array,
+    walls: Array,
+) -> Manoeuvre | None:
+    """Drive on, turn on the spot, drive across, turn again, drive on; None: the circle has no room.
+
+    Where a robot has room for the circle that it sweeps, on the line by which it arrives, on that
+    by which it goes on, and between. The shortest drive across is taken. Parameters and what is
+    returned are those of `manoeuvre`.
+
+    Examples
+    --------
+    >>> landing = np.array([(0, 0), (1.2, 0), (1.2, 2.2), (0, 2.2)])
+    >>> room = np.array([(-1, 0), (1.2, 0), (1.2, 2.2), (0, 2.2), (0, 1), (-1, 1)])
+    >>> found = on_the_spot(Footprint(0.35, 0.35, 0.5), start=(0.02, 0.5, 0.0), landing=landing,
+    ...                     goal=Goal(0.0, 1.7, np.pi, 1.0), walls=walls_of(room))
+    >>> found.moves, found.reversals
+    (5, 0)
+
+    References
+    ----------
+    Derived: docs/theory/clearance.md.
+    """
+    radius = np.hypot(max(footprint.front, footprint.rear), footprint.width / 2)
+    long = float(np.ptp(landing, axis=0).sum())
+    here, there = np.array(start[:2]), np.array([goal.x, goal.y])
+    ahead, onward = _ahead(start[2]), _ahead(goal.heading)
+    along = np.arange(0.0, long, STRIDE / 6)
+    back = along + (0.0 if goal.level else footprint.front)
+    sine = float(ahead[0] * onward[1] - ahead[1] * onward[0])
+    if abs(sine) > 1e-6:  # the lines meet
+        off = there - here
+        meets = float(off[0] * onward[1] - off[1] * onward[0]) / sine
+        before = float((here + meets * ahead - there) @ -onward)
+        along, back = np.append(along, max(meets, 0.0)), np.append(back, max(before, back[0]))
+    first, last = here + along[:, None] * ahead, there - back[:, None] * onward
+    first, last = (
+        each[inside(each, landing) & (_to_walls(each, walls) >= radius)] for each in (first, last)
+    )
+    if not (len(first) and len(last)):
+        return None
+    apart = np.linalg.norm(first[:, None] - last, axis=2)
+    i, j = np.unravel_index(int(np.argmin(apart)), apart.shape)
+    across = last[j] - first[i]
+    between = first[i] + np.linspace(0.0, 1.0, 2 + int(apart[i, j] / STRIDE))[:, None] * across
+    if not (inside(between, landing) & (_to_walls(between, walls) >= radius)).all():
+        return None
+    heading = start[2]
+    if apart[i, j] > 1e-6:
+        heading = float(np.arctan2(across[1], across[0]))
+    legs = [
+        _leg(here, first[i], start[2]),
+        _leg(first[i], last[j], heading),
+        _leg(last[j], there - (0.0 if goal.level else footprint.front) * onward, goal.heading),
+    ]
+    poses = np.vstack(legs)
+    if blocked(footprint, poses, walls).any():
+        return None
+    turns = np.diff([start[2], heading, goal.heading])
+    spins = int((np.abs(np.sin(turns / 2)) > 1e-6).sum())
+    drives = sum(len(leg) > 1 for leg in legs)
+    return Manoeuvre(poses, drives + spins, 0)
+
+
+def _ahead(heading: float) -> Array:
+    return np.array([np.cos(heading), np.sin(heading)])
+
+
+def _leg(start: Array, end: Array, heading: float) -> Array:
+    """Poses of a drive straight on, or of none, a stride apart."""
+    length = float(np.linalg.norm(end - start))
+    shares = np.linspace(0.0, 1.0, 1 + int(np.ceil(length / STRIDE - 1e-6)))[:, None]
+    at = start + shares * (end - start)
+    return np.column_stack([at, np.full(len(at), heading)])
 
 
 def _path(

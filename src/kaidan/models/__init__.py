@@ -40,6 +40,10 @@ def judge(question: "Question", *, known: "Findings | None" = None) -> "Findings
         from kaidan.models.clearance import findings_of
 
         found = replace(found, each=(*found.each, *findings_of(question, room, found.model)))
+    if question.landings:
+        from kaidan.models.landings import finding_of
+
+        found = replace(found, each=(*found.each, finding_of(question, found.model)))
     if not all(flight.foot_seen for flight in question.flights):
         from kaidan.models.findings import Finding
 

@@ -320,7 +320,9 @@ def _obstacles(
     if phase in (None, Phase.LAND):
         leaves, length = question.leaves, sum(found.outline.reach)
         ends = zip(found.profile.landings, leaves[:: -1 if found.descending else 1], strict=True)
-        room = min(float(run_up_margin(depth=d, length=length, leaf=leaf)) for d, leaf in ends)
+        inner = (each for each in question.landings if each.end == "between")
+        deep = [*ends, *((min(each.lengths), 0.0) for each in inner)]
+        room = min(float(run_up_margin(depth=d, length=length, leaf=leaf)) for d, leaf in deep)
         each.append(Finding.certain(LANDING_ROOM, room, failing=Verdict.CAUTION, model=_NAME))
     return each
 

@@ -32,6 +32,7 @@ from kaidan.spelling import (
     terrain_of,
     word_of,
 )
+from kaidan.terrain.landings import Landing, landings_of
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 
@@ -311,6 +312,11 @@ class Question(QuestionFields):
         """Leaves of doors that open onto the lower and onto the upper landing [m]; zero: none."""
         flights = self.flights
         return (flights[0].lower_leaf, flights[-1].upper_leaf) if flights else (0.0, 0.0)
+
+    @property
+    def landings(self) -> tuple[Landing, ...]:
+        """Landings on which the way turns, from bottom to top; none of a profile."""
+        return landings_of(self.flights)
 
     @property
     def uneven_across(self) -> bool:

@@ -25,6 +25,7 @@ def refuse_impossible(question: "Question") -> None:
         )
     for each in question.postures.values():  # refuses what the robot cannot have
         question.robot.stance(each, question.payload)
+    _ = question.landings  # refuses sheets that contradict each other
     _ = question.profile  # refuses one that falls to a robot that goes up
     fastest = question.robot.drive.max_speed
     if question.speed is not None and fastest is not None and question.speed > fastest:

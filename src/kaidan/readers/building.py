@@ -17,6 +17,10 @@ Array = NDArray[np.float64]
 OPPOSITE = math.cos(math.radians(45.0))
 """Cosine of the angle from which a door faces another way than the flight."""
 
+SAME_FLOOR, WALL = 0.3, 0.6
+"""Difference of the levels of a sill and its floor, and thickness of a wall with a door, at most
+[m]."""
+
 
 @dataclass(frozen=True)
 class Storey:

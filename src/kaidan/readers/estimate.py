@@ -7,11 +7,14 @@ from types import MappingProxyType
 from typing import Any
 
 from kaidan.errors import InputError
-from kaidan.readers.flight import UNSEEN_LANDING, FlightEstimate
+from kaidan.readers.flight import MICROMETRE, FlightEstimate
 from kaidan.readers.kinds import Array, Provenance
 from kaidan.terrain.profile import Profile
-from kaidan.terrain.stairs import Stairs
+from kaidan.terrain.stairs import UNSTATED_LANDING, Stairs
 from kaidan.text.refusals import sentence
+
+STRAIGHT_ON = math.radians(15.0)
+"""Angle between two flights up to which the robot goes straight on [rad]."""
 
 
 @dataclass(frozen=True)
@@ -67,8 +70,12 @@ class StairsEstimate:
             )
 
     def stairs(self) -> tuple[Stairs, ...]:
-        """Data sheets of the flights from bottom to top, as a question takes them."""
-        return tuple(
+        """Data sheets of the flights from bottom to top, as a question takes them.
+
+        A landing between two flights has the turn of the way on it, the nearer of a quarter and a
+        half, where it was seen to be as wide as both flights side by side.
+        """
+        sheets = [
             flight.stairs(
                 self.name if len(self.flights) == 1 else f"{self.name}-{number + 1}",
                 lower=below.depth,
@@ -77,7 +84,11 @@ class StairsEstimate:
             for number, (flight, below, above) in enumerate(
                 zip(self.flights, self.landings, self.landings[1:], strict=False)
             )
-        )
+        ]
+        inner = enumerate(zip(sheets[:-1], self.landings[1:-1], strict=True))
+        for number, (sheet, landing) in inner:
+            sheets[number] = _turning(sheet, landing)
+        return tuple(sheets)
 
     def profile(self, flight: int = 0, *, lateral: float = 0.0) -> Profile:
         """Terrain of one flight with its landings.
@@ -105,5 +116,18 @@ class Found:
     """What was interpreted, for drawing: one of `kinds`; None: nothing was read."""
 
 
+def _turning(sheet: Stairs, landing: LandingEstimate) -> Stairs:
+    """Sheet of the flight below a landing with the turn on it, as far as both agree."""
+    if abs(landing.turn) < STRAIGHT_ON or not math.isfinite(landing.width):
+        return sheet
+    stated = {name: getattr(sheet, name) for name in sheet.model_fields_set}
+    stated["upper_turn"] = "half" if abs(landing.turn) > math.radians(135.0) else "quarter"
+    stated["upper_landing_width"] = round(landing.width, MICROMETRE)
+    try:
+        return Stairs(**stated)
+    except InputError:  # its width or depth was not seen, or is less than both flights take
+        return sheet
+
+
 def _or_unseen(length: float) -> float:
-    return length if math.isfinite(length) else UNSEEN_LANDING
+    return length if math.isfinite(length) else UNSTATED_LANDING

@@ -22,7 +22,12 @@ from kaidan.readers.kinds import Array
 from kaidan.terrain.doubt import factor
 from kaidan.terrain.polyline import frozen
 from kaidan.terrain.profile import Profile
-from kaidan.terrain.stairs import MOST_TWISTED, Stairs, StairsUncertainty
+from kaidan.terrain.stairs import (
+    MOST_TWISTED,
+    UNSTATED_LANDING,
+    Stairs,
+    StairsUncertainty,
+)
 
 UNCHECKED = 0.0095 / math.sqrt(12.0)
 """Standard deviation of single steps below which a reader cannot see [m]: evenly within the 9.5 mm
@@ -37,8 +42,6 @@ CERTAIN = 3.0
 """Standard uncertainties from which something stands out of its doubt."""
 _LEVEL = math.tan(math.radians(0.2))
 """Slope across or skew of a nosing below which it is none [1]."""
-UNSEEN_LANDING = 2.0
-"""Length of a landing that was not seen [m], as in a sheet that does not state it."""
 
 
 @dataclass(frozen=True)
@@ -330,8 +333,8 @@ class FlightEstimate:
         name: str = "profile",
         *,
         lateral: float = 0.0,
-        lower: float = UNSEEN_LANDING,
-        upper: float = UNSEEN_LANDING,
+        lower: float = UNSTATED_LANDING,
+        upper: float = UNSTATED_LANDING,
     ) -> Profile:
         """Terrain under a line along the heading, with all of its doubt.
 

@@ -54,6 +54,10 @@ SHAPE = {
     "upper_landing": "length",
     "lower_leaf": "length",
     "upper_leaf": "length",
+    "lower_landing_width": "length",
+    "upper_landing_width": "length",
+    "lower_passage": "length",
+    "upper_passage": "length",
     "width": "length",
     "headroom": "length",
 }

@@ -12,6 +12,14 @@ from kaidan.terrain.stairs import Stairs
 Array = NDArray[np.float64]
 
 
+def behind(flights: Sequence[Stairs], number: int) -> float:
+    """Length of the landing behind a flight [m]: its own, else as the next sheet states it."""
+    following = flights[number + 1 : number + 2]
+    if flights[number].upper_landing is None and following:
+        return following[0].landings[0]
+    return flights[number].landings[1]
+
+
 def line_of_flights(flights: Sequence[Stairs]) -> tuple[Array, Array, Array | None]:
     """Points, nosings and the covariance of the nosings, see `kaidan.terrain.profile.Profile`.
 
@@ -38,12 +46,12 @@ def line_of_flights(flights: Sequence[Stairs]) -> tuple[Array, Array, Array | No
     [[0.0, 0.2], [0.3, 0.4]]
     """
     x = z = 0.0
-    points = [(-max(flights[0].lower_landing, 1e-3), 0.0), (0.0, 0.0)]
+    points = [(-max(flights[0].landings[0], 1e-3), 0.0), (0.0, 0.0)]
     nosings: list[tuple[float, float]] = []
     sigma: list[tuple[float, float]] = []
     common: list[Array] = []
-    for flight in flights:
-        treads = (*flight.step_goings, max(flight.upper_landing, 1e-3))
+    for number, flight in enumerate(flights):
+        treads = (*flight.step_goings, max(behind(flights, number), 1e-3))
         sigma += [(0.0, flight.uncertainty.rise)]
         sigma += [(flight.uncertainty.going, flight.uncertainty.rise)] * (len(treads) - 1)
         if len(flights) > 1:  # the common doubt of one flight alone goes with its angle

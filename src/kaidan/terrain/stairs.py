@@ -39,8 +39,16 @@ _MOST_RISERS = 10_000
 _STEEPEST = 1.5533
 """Past 89 degrees no goings are left [rad]."""
 
+UNSTATED_LANDING = 2.0
+"""Length of a landing where the sheet states none [m]."""
+BESIDE = 0.1
+"""By how much a landing may be measured narrower than what lies side by side on it [m]."""
+
 MOST_TWISTED = 400
 """Most risers of a flight whose nosings have slopes across or skews."""
+
+Turn = Literal["none", "quarter", "half"]
+"""Turn of the way on a landing."""
 
 _CrossSlope = Annotated[float, Field(ge=-0.35, le=0.35)]
 _Skew = Annotated[float, Field(ge=-0.8, le=0.8)]
@@ -137,13 +145,47 @@ class Stairs(Sheet):
     headroom: float | None = quantity(
         "m", 0.2, 100.0, "least plumb height above the line of the nosings", default=None
     )
-    lower_landing: float = quantity("m", 0.0, 100.0, "length of the lower landing", default=2.0)
-    upper_landing: float = quantity("m", 0.0, 100.0, "length of the upper landing", default=2.0)
+    lower_landing: float | None = quantity(
+        "m", 0.0, 100.0, "length of the lower landing, along the flight; none: 2 m", default=None
+    )
+    upper_landing: float | None = quantity(
+        "m", 0.0, 100.0, "length of the upper landing, along the flight; none: 2 m", default=None
+    )
     lower_leaf: float = quantity(
         "m", 0.0, 5.0, "leaf of a door opposite that opens onto the lower landing", default=0.0
     )
     upper_leaf: float = quantity(
         "m", 0.0, 5.0, "leaf of a door opposite that opens onto the upper landing", default=0.0
+    )
+    lower_landing_width: float | None = quantity(
+        "m", 0.0, 100.0, "clear width of the lower landing, across the flight", default=None
+    )
+    upper_landing_width: float | None = quantity(
+        "m", 0.0, 100.0, "clear width of the upper landing, across the flight", default=None
+    )
+    lower_turn: Turn = Field(
+        default="none",
+        description="turn of the way on the lower landing, 90 or 180 degrees: it takes width, "
+        "lower_landing and lower_landing_width",
+    )
+    upper_turn: Turn = Field(
+        default="none",
+        description="turn of the way on the upper landing, 90 or 180 degrees: it takes width, "
+        "upper_landing and upper_landing_width",
+    )
+    lower_passage: float | None = quantity(
+        "m",
+        0.1,
+        100.0,
+        "clear width of the level passage by which the way comes to that turn; none: by stairs",
+        default=None,
+    )
+    upper_passage: float | None = quantity(
+        "m",
+        0.1,
+        100.0,
+        "clear width of the level passage by which the way goes on from that turn; none: by stairs",
+        default=None,
     )
     foot_seen: bool = Field(
         default=True, description="whether the level before the first riser is known, so its height"
@@ -199,12 +241,38 @@ class Stairs(Sheet):
             raise self.refuse(
                 f"nosing_radius_low = {low:g} is more than nosing_radius_high = {high:g}"
             )
+        for end in ("lower", "upper"):
+            self._refuse_landing(end)
         if self.nosing_overhang >= min(self.step_goings):
             raise self.refuse(
                 f"nosing_overhang = {self.nosing_overhang:g} m is not less than the going "
                 f"{min(self.step_goings):g} m"
             )
         return self
+
+    def _refuse_landing(self, end: str) -> None:
+        """Refuse a turn on a landing that does not hold what lies side by side on it."""
+        turn, passage, depth, across = (
+            getattr(self, f"{end}_{of}") for of in ("turn", "passage", "landing", "landing_width")
+        )
+        if turn == "none":
+            if passage is not None:
+                raise self.refuse(f"{end}_passage goes with {end}_turn = quarter or half")
+            return
+        needed = {"width": self.width, f"{end}_landing": depth, f"{end}_landing_width": across}
+        missing = [name for name, value in needed.items() if value is None]
+        if missing:
+            raise self.refuse(f"{end}_turn = {turn} needs {' and '.join(missing)} too")
+        assert self.width is not None
+        beyond = self.width if passage is None else passage
+        beside = self.width + (beyond if turn == "half" else 0.0)
+        if across < beside - BESIDE:
+            what = "the flight and what lies beside it take" if turn == "half" else "the flight is"
+            raise self.refuse(f"{end}_landing_width = {across:g} m, but {what} {beside:g} m wide")
+        if turn == "quarter" and passage is not None and depth < passage - BESIDE:
+            raise self.refuse(
+                f"{end}_landing = {depth:g} m, but {end}_passage is {passage:g} m wide"
+            )
 
     @classmethod
     def named(cls, name: str) -> Self:
@@ -272,6 +340,15 @@ class Stairs(Sheet):
             return self.goings
         assert self.going is not None
         return (self.going,) * (self.steps - 1)
+
+    @property
+    def landings(self) -> tuple[float, float]:
+        """Lengths of the lower and the upper landing, as stated or by default [m]."""
+        lower, upper = self.lower_landing, self.upper_landing
+        return (
+            UNSTATED_LANDING if lower is None else lower,
+            UNSTATED_LANDING if upper is None else upper,
+        )
 
     @property
     def regular_steps(self) -> tuple[tuple[float, float], ...]:

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
         CellShown,
         DoorShown,
         FlightShown,
-        TurnShown,
         WayShown,
     )
 
@@ -118,31 +117,6 @@ def no_way(start: str) -> str:
     return f"no straight flights lead there from {start}."
 
 
-def turning(turn: "TurnShown") -> str:
-    """Why a robot does not get round on a landing."""
-    if turn.way == "unknown":
-        what = "the landing is not drawn" if turn.room_m is None else "its width is not stated"
-        if turn.circle_m is None:
-            what = "the width of the robot is not stated"
-        return f"Whether it can turn by {abs(turn.turn_deg):.0f} deg is not known: {what}."
-    return (
-        f"It cannot turn by {abs(turn.turn_deg):.0f} deg: it sweeps {_m(turn.circle_m)}, the "
-        f"landing has {_m(turn.room_m)}, and no manoeuvre was found."
-    )
-
-
-def turned(turn: "TurnShown", floor: str) -> str:
-    """How a robot turns on a landing."""
-    place = floor if floor.startswith("landing") else f"floor {floor}"
-    how = (
-        f"it sweeps {_m(turn.circle_m)} of {_m(turn.room_m)}"
-        if turn.way == "spin"
-        else f"back and forth in {turn.moves} moves"
-    )
-    raised = f"change the flippers to {turn.flippers} and " if turn.changed else ""
-    return f"On the {place} {raised}turn by {abs(turn.turn_deg):.0f} deg: {how}."
-
-
 def posture_for(flippers: str, flight: str) -> str:
     """Posture to take up before a flight."""
     return f"Before {flight} set the flippers to {flippers}."
@@ -155,10 +129,6 @@ def door(best: "DoorShown", straight: float, needed: float) -> str:
         f"mm; the robot needs {straight * 1e3:.0f} mm of width going straight, "
         f"{needed * 1e3:.0f} mm off line."
     )
-
-
-def _m(value: float | None) -> str:
-    return "an unknown circle" if value is None else f"{value:.2f} m"
 
 
 def _count(number: int, what: str) -> str:

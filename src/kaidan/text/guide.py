@@ -41,6 +41,11 @@ Find rise, going, slope and spacing of stairs, with their doubt, and write their
 Measure from floor to floor (--total-rise), and level from the first nosing to the last
 (--total-going); count the risers. First and last riser often differ: --first-rise, --last-rise.
 Check three single rises and goings somewhere: --rise 171mm --rise 168mm ...
+
+Where the way turns on a landing, measure that landing too and state it in the sheet: its clear
+length along the flight and width across it (upper_landing, upper_landing_width), the clear width
+of the flight (width), the turn (upper_turn = "quarter" or "half"), the leaf of a door opposite that
+opens onto it (upper_leaf), and where a level passage goes on from there its width (upper_passage).
 """
 
 DRAWINGS = {"robot": ROBOT_DRAWING, "stairs": STAIRS_DRAWING, "surface": ""}

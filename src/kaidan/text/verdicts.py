@@ -4,8 +4,8 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from kaidan.modes import FAILURE_MODES, MODELS, SUPPLIES, Undecided, Verdict
-from kaidan.text import dynamic, traction, unweighed
+from kaidan.modes import FAILURE_MODES, MODELS, SUPPLIES, TURNING, Undecided, Verdict
+from kaidan.text import dynamic, traction, turning, unweighed
 from kaidan.text.words import place
 
 if TYPE_CHECKING:
@@ -244,6 +244,19 @@ def _unseen(
     )
 
 
+def _turns(
+    question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
+) -> str:
+    from kaidan.models.landings import turns_of
+
+    turns = turns_of(question)
+    ways = ("none", "unknown")  # the worse first, then those with no room to spare
+    worst = min(
+        turns, key=lambda one: ways.index(one.way) if one.way in ways else 2 if one.tight else 3
+    )
+    return turning.turning(worst, worst.landing)
+
+
 def _drive(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
@@ -332,6 +345,7 @@ _SAYINGS: dict[str, _Saying] = {
     "energy": _energy,
     "high_centring": _belly,
     "landing_room": _room,
+    "turning": _turns,
     "foot_unseen": _unseen,
     "posture_change": _changes,
     "flipper_torque": _torque,
@@ -352,6 +366,7 @@ def notes(question: "Question", found: "Findings", conclusion: "Conclusion") -> 
         if fails and finding.mode.key != conclusion.governs and say is not None:
             own = conclusion._replace(phase=finding.phase, step=finding.step)
             each.append(say(question, found, own, finding))
+    each += [line for line in landing_lines(question) if TURNING.key != conclusion.governs]
     each += found.notes
     for name, value in (("theta_d", question.allowance_d), ("theta_M", question.allowance_M)):
         if value.source == "default":
@@ -365,6 +380,19 @@ def notes(question: "Question", found: "Findings", conclusion: "Conclusion") -> 
     if question.robot.notes:
         each.append(" ".join(question.robot.notes.split()))
     return tuple(each)
+
+
+def landing_lines(question: "Question") -> list[str]:
+    """What to do on landings where the robot turns otherwise than on the spot, as it climbs."""
+    if not question.landings:
+        return []
+    from kaidan.models.landings import turns_of
+
+    return [
+        turning.turned(each, each.landing)
+        for each in turns_of(question)
+        if each.way in ("corner", "manoeuvre") or (each.way == "spin" and each.changed)
+    ]
 
 
 def _of_drive(question: "Question", stance: "Stance") -> list[str]:

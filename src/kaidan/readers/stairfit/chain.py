@@ -67,5 +67,5 @@ def _landing(below: FlightEstimate, above: FlightEstimate, turn: float) -> Landi
         depth = float((above.middle[0] - below.middle[-1])[:2] @ ahead)
         return LandingEstimate(depth, below.width, level, turn)
     side = np.array([-math.sin(below.heading), math.cos(below.heading)])
-    ends = np.vstack([below.left, below.right, above.left, above.right])[:, :2] @ side
+    ends = np.vstack([below.left[-1], below.right[-1], above.left[0], above.right[0]])[:, :2] @ side
     return LandingEstimate(below.room_behind, float(np.ptp(ends)), level, turn)

@@ -19,8 +19,6 @@ from kaidan.sweeps.swept import Swept
 from kaidan.verbs.comparison import laid
 
 _QUANTILES = (0.05, 0.5, 0.95)
-_UNSTATED = {"lower_landing": 2.0, "upper_landing": 2.0, "width": None}
-"""What a flight has where its row says nothing, while another row does."""
 
 
 def stock_study(
@@ -119,8 +117,7 @@ def _columns(stock: Stock) -> dict[str, Along]:
         each: list[Any] = values.tolist()
         if not known.all():
             each = [
-                value if there else _UNSTATED[name]
-                for value, there in zip(each, known.tolist(), strict=True)
+                value if there else None for value, there in zip(each, known.tolist(), strict=True)
             ]
         found[name] = Along("flight", each)
     return found

@@ -3,12 +3,12 @@
 from typing import Any, ClassVar, Literal
 
 from kaidan.answer import Answer, Part
+from kaidan.models.landings import TurnFigures
 from kaidan.modes import Direction, Facing, Verdict
 from kaidan.terrain.stairs import Stairs
 
 Binding = Literal["stability", "friction", "width", "headroom", "turning", "landing", "doors", ""]
 """What decides, in a word."""
-TurnWay = Literal["straight", "spin", "manoeuvre", "none", "unknown"]
 
 
 class StoreyShown(Part):
@@ -131,7 +131,7 @@ class CellShown(Part):
     """In the best case [deg]."""
 
 
-class TurnShown(Part):
+class TurnShown(TurnFigures):
     """How one robot gets from one flight to the next on a landing."""
 
     robot: str
@@ -141,23 +141,8 @@ class TurnShown(Part):
     """Identity of the flight by which it comes."""
     to_flight: str
     """Identity of the next one."""
-    turn_deg: float
-    """Angle between them, to the left positive [deg]."""
-    way: TurnWay
-    """Straight on, on the spot, by a manoeuvre, not at all; unknown: its width, or the landing,
-    is."""
-    flippers: str
-    """Posture in which it turns, as the option is written."""
-    changed: bool
-    """Whether that is another posture than the one in which it climbs."""
-    circle_m: float | None
-    """Circle that it sweeps on the spot in that posture [m]; null: of unknown width."""
-    room_m: float | None
-    """Largest circle inside the landing [m]; null: the landing is not drawn."""
-    moves: int
-    """Drives and turns of the manoeuvre."""
     path: tuple[tuple[float, float, float], ...]
-    """Poses of the manoeuvre: x, y [m], heading [rad]."""
+    """Poses on the way: x, y [m], heading [rad]."""
     footprint: tuple[float, float, float] | None
     """From the turning centre to front and rear, and width [m]."""
 

@@ -10,7 +10,7 @@ from kaidan.assessment import with_plan
 from kaidan.assessment.verdict import conclude
 from kaidan.modes import SUPPLIES, Undecided, Verdict
 from kaidan.question import Question
-from kaidan.readers.building import Building, Flight
+from kaidan.readers.building import SAME_FLOOR, WALL, Building, Flight
 from kaidan.readers.interpreters.building import room_on
 from kaidan.readers.kinds import Array
 from kaidan.robot import Robot
@@ -18,15 +18,13 @@ from kaidan.terrain.stairs import Stairs
 from kaidan.text import verdicts
 from kaidan.verbs.building.answer import Binding, CellShown
 
-SAME_FLOOR, WALL = 0.3, 0.6
-"""Difference of the levels of a sill and its floor, and thickness of a wall with a door, at most
-[m]."""
 DEEPEST = 5.0
 """Length of a landing beyond which it makes no difference [m]."""
 _BINDS: dict[str, Binding] = {
     "narrow": "width",
     "low": "headroom",
     "landing_room": "landing",
+    "turning": "turning",
     Undecided.FRICTION_UNKNOWN.value: "friction",
     **{mode.key: "friction" for mode in SUPPLIES},
 }

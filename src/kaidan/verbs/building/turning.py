@@ -5,28 +5,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from kaidan.mechanics.clearance import spin_circle
-from kaidan.mechanics.turning import (
-    Footprint,
-    Goal,
-    Manoeuvre,
-    inscribed_circle,
-    manoeuvre,
-    walls_of,
-)
+from kaidan.mechanics.turning import Goal, walls_of
+from kaidan.models.landings import KEPT, LANE, Room, Turned, shown, turned
 from kaidan.outline import Outline, footprint_of
-from kaidan.readers.building import Building, Flight
+from kaidan.readers.building import SAME_FLOOR, WALL, Building, Flight, Floor
+from kaidan.readers.estimate import STRAIGHT_ON
 from kaidan.readers.kinds import Array
 from kaidan.robot import Posture, Robot
-from kaidan.verbs.building.answer import TurnShown, TurnWay
-
-STRAIGHT_ON = math.radians(15.0)
-"""Angle between two flights up to which the robot goes straight on [rad]."""
-KEPT = 0.1
-"""Distance that the turning centre keeps from the flight below while it turns [m]: the centroid may
-lie behind it, and beyond the nosing the robot would tip back down."""
-LANE = 1.5
-"""Length of the flight over which the robot's tail may still hang [m]."""
+from kaidan.verbs.building.answer import TurnShown
 
 
 def turn_on(
@@ -49,39 +35,19 @@ def turn_on(
         (name, footprint_of(robot, Outline.of(robot, Posture.parse(name, robot))))
         for name in _postures(robot, flippers)
     ]
-    name, footprint = tried[0]
-    room: float | None = None
-    way: TurnWay = "unknown"
-    found: Manoeuvre | None = None
-    if abs(turn) < STRAIGHT_ON:
-        way = "straight"
-    elif floor.outlines and math.isfinite(footprint.width):
-        landing = max(floor.outlines, key=lambda one: _area(one))
-        walls = np.vstack([_room(landing, before), floor.walls])
-        room = float(2 * inscribed_circle(np.vstack([walls_of(landing), floor.walls]), landing)[2])
-        way = "none"
-        for posture, covered in tried:
-            spins = _circle(covered) <= room
-            found = None if spins else _driven(covered, before, after, landing, walls)
-            if spins or found is not None:
-                way = "spin" if spins else "manoeuvre"
-                name, footprint = posture, covered
-                break
-    circle = _circle(footprint)
+    (climbing, footprint), *_ = tried
+    found = Turned("straight", False, climbing, footprint, None, None)
+    if abs(turn) >= STRAIGHT_ON:
+        found = turned(tried, _room(building, floor, before, after) if floor.outlines else None)
+    footprint = found.footprint
     return TurnShown(
         robot=robot.name,
         floor=floor.key,
         from_flight=before.identity,
         to_flight=after.identity,
-        turn_deg=math.degrees(turn),
-        way=way,
-        flippers=name if robot.flippers() else "",
-        changed=name != tried[0][0],
-        circle_m=circle,
-        room_m=room,
-        moves=found.moves if found else 0,
-        path=[tuple(pose) for pose in found.poses.tolist()] if found else (),
+        path=[tuple(pose) for pose in found.path.poses.tolist()] if found.path else (),
         footprint=tuple(footprint) if math.isfinite(footprint.width) else None,
+        **shown(found, climbing, turn, flippers=bool(robot.flippers())),
     )
 
 
@@ -93,8 +59,42 @@ def _postures(robot: Robot, flippers: str) -> Iterator[str]:
         yield "stowed"
 
 
-def _circle(footprint: Footprint) -> float:
-    return float(spin_circle(front=footprint.front, rear=footprint.rear, w=footprint.width))
+def _room(building: Building, floor: Floor, before: Flight, after: Flight) -> Room:
+    """Room on a landing from the head of one flight to the foot of the next."""
+    landing = max(floor.outlines, key=_area)
+    standing = np.vstack([floor.walls, *_leaves(building, floor, landing)])
+    ahead = _ahead(before.estimate.heading)
+    edge = float(before.estimate.middle[-1, :2] @ ahead)
+    start = before.lane[1:3].mean(axis=0)
+    start = start + (edge - float(start @ ahead)) * ahead
+    foot = after.lane[[0, 3]].mean(axis=0)
+    goal = Goal(float(foot[0]), float(foot[1]), after.estimate.heading, float(after.estimate.width))
+    return Room(
+        start=(float(start[0]), float(start[1]), before.estimate.heading),
+        level=False,
+        goal=goal,
+        landing=landing,
+        inside=np.vstack([walls_of(landing), standing]),
+        walls=np.vstack([_sides(landing, before), standing]),
+        kept=_beyond(landing, ahead, edge + KEPT),
+    )
+
+
+def _leaves(building: Building, floor: Floor, landing: Array) -> Iterator[Array]:
+    """Sides of what the leaves of doors sweep of a landing, taken as rectangles, shape (3, 4)."""
+    low, high = landing.min(axis=0), landing.max(axis=0)
+    for door in building.doors:
+        middle, near = np.array([door.x, door.y]), door.leaf + WALL
+        if not (door.leaf > 0.0 and abs(door.level - floor.level) < SAME_FLOOR):
+            continue
+        if (middle < low - near).any() or (middle > high + near).any():
+            continue
+        opens = np.array(door.opens)
+        half = door.width / 2 * np.array([-opens[1], opens[0]])
+        for way in (opens, -opens) if door.both else (opens,):
+            out = middle + door.leaf * way
+            corners = [middle - half, out - half, out + half, middle + half]
+            yield np.hstack([corners[:-1], corners[1:]])
 
 
 def _area(outline: Array) -> float:
@@ -106,7 +106,7 @@ def _ahead(heading: float) -> Array:
     return np.array([math.cos(heading), math.sin(heading)])
 
 
-def _room(landing: Array, before: Flight) -> Array:
+def _sides(landing: Array, before: Flight) -> Array:
     """Sides of the landing, but for the one across the flight below, and sides of its lane."""
     foot_right, head_right, head_left, _ = before.lane
     ahead = _ahead(before.estimate.heading)
@@ -135,29 +135,6 @@ def _outside(
         s0, s1 = max(0.0, s0), min(1.0, s1)
         if s1 - s0 > 1e-9:
             yield np.hstack([a + s0 * (b - a), a + s1 * (b - a)])
-
-
-def _driven(
-    footprint: Footprint, before: Flight, after: Flight, landing: Array, walls: Array
-) -> Manoeuvre | None:
-    """Manoeuvre from the head of one flight to the foot of the next."""
-    ahead = _ahead(before.estimate.heading)
-    start = before.lane[1:3].mean(axis=0)
-    edge = float(before.estimate.middle[-1, :2] @ ahead)
-    start = start + (KEPT + 0.01 + edge - float(start @ ahead)) * ahead
-    kept = _beyond(landing, ahead, edge + KEPT)
-    if len(kept) == 0:
-        return None
-    foot = after.lane[[0, 3]].mean(axis=0)
-    return manoeuvre(
-        footprint,
-        start=(float(start[0]), float(start[1]), before.estimate.heading),
-        goal=Goal(
-            float(foot[0]), float(foot[1]), after.estimate.heading, float(after.estimate.width)
-        ),
-        landing=kept,
-        walls=walls,
-    )
 
 
 def _beyond(outline: Array, ahead: Array, distance: float) -> Array:

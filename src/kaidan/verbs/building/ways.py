@@ -13,6 +13,7 @@ from kaidan.outline import Outline, footprint_of, height_of
 from kaidan.readers.building import Building, Flight
 from kaidan.robot import Posture, Robot
 from kaidan.text import building as text
+from kaidan.text import turning
 from kaidan.verbs.building.answer import (
     Binding,
     CellShown,
@@ -22,6 +23,8 @@ from kaidan.verbs.building.answer import (
     WayShown,
 )
 
+TURNED = ("spin", "corner", "manoeuvre")
+"""Ways in which a robot turns on a landing."""
 NEAR = 2.5
 """Distance from the end of a flight up to which a door is one of its floor's [m]."""
 FRAME = 0.1
@@ -192,10 +195,10 @@ def _turning(
         return  # there is room to go round, or it is a way there and back
     lower, upper = (before, leg) if leg.up else (leg, before)
     shown = turn(lower.flight, upper.flight)
-    if shown.way in ("straight", "spin", "manoeuvre"):
+    if shown.way not in ("none", "unknown") and not shown.tight:
         return
     verdict = Verdict.NO_GO if shown.way == "none" else Verdict.CAUTION
-    yield Hindrance(verdict, "turning", floor.name, text.turning(shown), -math.inf)
+    yield Hindrance(verdict, "turning", floor.name, turning.turning(shown), -math.inf)
 
 
 def _doors(robot: Robot, doors: Sequence[DoorShown], flippers: str) -> Iterator[Hindrance]:
@@ -236,8 +239,9 @@ def _postures(
             lower, upper = (before, leg) if leg.up else (leg, before)
             if not floor.storey:
                 shown = turn(lower.flight, upper.flight)
-                if shown.way in ("spin", "manoeuvre"):
-                    yield text.turned(shown, floor.name)
+                place = floor.name if floor.name.startswith("landing") else f"floor {floor.name}"
+                if shown.way in TURNED:
+                    yield turning.turned(shown, place)
                     at = shown.flippers if shown.changed else at
         if climbing and climbing != at:
             yield text.posture_for(climbing, leg.flight.name)

@@ -1,0 +1,52 @@
+"""How a robot turns on a landing, or why it does not."""
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from kaidan.models.landings import TurnFigures
+
+
+def turning(turn: "TurnFigures", landing: str = "") -> str:
+    """Why a robot does not get round on a landing, or only just.
+
+    Parameters
+    ----------
+    turn : TurnFigures
+    landing : str
+        Which landing, where the reader does not know.
+    """
+    by = f"turn by {abs(turn.turn_deg):.0f} deg{f' on the {landing}' if landing else ''}"
+    if turn.way == "unknown":
+        what = "the landing is not drawn" if turn.room_m is None else "its width is not stated"
+        if turn.circle_m is None:
+            what = "the width of the robot is not stated"
+        return f"Whether it can {by} is not known: {what}."
+    if turn.way == "none":
+        circles = f"it sweeps {_m(turn.circle_m)}, the landing has {_m(turn.room_m)}"
+        return f"It cannot {by}: {circles}, and no manoeuvre was found."
+    return f"It can {by} only where it is less than 30 mm off: {_how(turn)}."
+
+
+def turned(turn: "TurnFigures", landing: str) -> str:
+    """How a robot turns on a landing.
+
+    Parameters
+    ----------
+    turn : TurnFigures
+    landing : str
+        Which landing, or the name of a floor.
+    """
+    raised = f"change the flippers to {turn.flippers} and " if turn.changed else ""
+    return f"On the {landing} {raised}turn by {abs(turn.turn_deg):.0f} deg: {_how(turn)}."
+
+
+def _how(turn: "TurnFigures") -> str:
+    if turn.way == "spin":
+        return f"it sweeps {_m(turn.circle_m)} of {_m(turn.room_m)}"
+    if turn.way == "corner":
+        return "round the corner in one go"
+    return f"back and forth in {turn.moves} moves"
+
+
+def _m(value: float | None) -> str:
+    return "an unknown circle" if value is None else f"{value:.2f} m"
