@@ -84,6 +84,15 @@ def test_who_cannot_turn_gets_no_go():
     assert json.loads(answer.to_json())["turns"][0]["way"] == "none"
 
 
+@pytest.mark.parametrize("flippers", ["flat", "best"])
+def test_with_a_plan_that_is_found_it_is_said_too(flippers):
+    answer = kaidan.assess(
+        "absolem", flight(**HALF), flippers=flippers, model="contact", friction=1
+    )
+    assert [each.way for each in answer.turns] == ["spin"]
+    assert answer.findings["turning"].holds
+
+
 def test_without_room_to_be_off_it_is_no_go_yet():
     sizes = {"upper_landing": 1.32, "upper_landing_width": 3.0, "width": 1.5}
     answer = kaidan.assess(BOX, flight(**HALF | sizes), **SURE)

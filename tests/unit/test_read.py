@@ -245,6 +245,19 @@ def test_the_command_writes_a_sheet_for_each_flight(monkeypatch, hall, tmp_path,
     assert run(words) == 2
 
 
+def test_flights_of_all_staircases_are_drawn_up_to_a_number(monkeypatch, hall):
+    pytest.importorskip("matplotlib")
+    from kaidan.figures.read_figure import MOST_FLIGHTS, read_figure
+
+    reads(monkeypatch, staircase(2), staircase(MOST_FLIGHTS))
+    figure = read_figure(kaidan.read(hall))
+    heads = [axes.get_title(loc="left").partition(":")[0] for axes in figure.axes[::3]]
+    assert heads[:3] == [f"staircase {k}" for k in ("1, flight 1", "1, flight 2", "2, flight 1")]
+    assert len(heads) == MOST_FLIGHTS
+    said = [text.get_text() for text in figure.texts]
+    assert any(each.endswith(", 2 more flights not drawn") for each in said)
+
+
 def test_a_refusal_is_a_result_with_a_code_of_its_own(monkeypatch, hall, tmp_path, capsys):
     ramp = Refusal("ramp", {"angle_deg": 30.0, "residual_mm": 4.0}, HERE)
     reads(monkeypatch, refusals=(ramp,))

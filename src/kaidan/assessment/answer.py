@@ -17,7 +17,7 @@ from kaidan.models.closed_form_figures import ClosedFormFigures
 from kaidan.models.contact_figures import ContactFigures, PhaseName
 from kaidan.models.dynamic_figures import PhysicsFigures
 from kaidan.models.findings import Finding, Findings, at_risk
-from kaidan.models.landings import LandingTurn, turns_of
+from kaidan.models.landings import LandingTurn, LandingTurns
 from kaidan.models.support_polygon import SupportPolygonFigures
 from kaidan.models.traction_figures import TractionFigures
 from kaidan.modes import (
@@ -268,7 +268,7 @@ def fill_in(
         closed_form=_of(found, ClosedFormFigures),
         support_polygon=_of(found, SupportPolygonFigures),
         physics=_of(found, PhysicsFigures),
-        turns=turns_of(question),
+        turns=_turns(found),
         plan=plan,
         what_would_help=what_would_help,
         to_measure=to_measure,
@@ -279,6 +279,11 @@ def fill_in(
 
 def _of(found: Findings, kind: type[Any]) -> Any:
     return next((each for each in found.figures if isinstance(each, kind)), None)
+
+
+def _turns(found: Findings) -> tuple[LandingTurn, ...]:
+    of: LandingTurns | None = _of(found, LandingTurns)
+    return () if of is None else of.turns
 
 
 def _interval(conclusion: Conclusion) -> tuple[float, float] | None:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from kaidan.verbs.read_robot import RobotRead
     from kaidan.verbs.read_stairs import FlightRead, StaircaseRead
 
-MOST_FLIGHTS = 4
+MOST_FLIGHTS = 6
 """Flights that one picture shows."""
 
 
@@ -67,12 +67,12 @@ def _robot(robot: "RobotRead") -> Figure:
             reach = np.array([[end, at[name]], [end, 0.0]])
             axes.plot(*reach.T, color=look.BLACK, linewidth=0.8, zorder=7)
             axes.plot(end, at[name], ls="", marker="+", ms=5, color=look.BLACK, zorder=7)
-    axes.plot([-C_L, -C_L], [0.0, C_N], color=look.BLACK, lw=0.8, ls="-.", zorder=8)
-    axes.plot(-C_L, C_N, ls="", marker="o", ms=7, mfc="white", mec=look.BLACK, zorder=9)
-    axes.plot(-C_L, C_N, ls="", marker=".", ms=4, color=look.BLACK, zorder=9)
     every = np.concatenate([*view.tracks, *view.flippers, *view.body])
     low, high = every.min(axis=0), every.max(axis=0)
     unit = float(high[0] - low[0]) / 14
+    axes.plot([-C_L, -C_L], [-0.7 * unit, C_N], color=look.BLACK, lw=0.8, ls="-.", zorder=8)
+    axes.plot(-C_L, C_N, ls="", marker="o", ms=7, mfc="white", mec=look.BLACK, zorder=9)
+    axes.plot(-C_L, C_N, ls="", marker=".", ms=4, color=look.BLACK, zorder=9)
     down = np.array([0.0, -1.0])
     dimension(
         axes, np.array([-L, -1.9 * unit]), np.array([0.0, -1.9 * unit]),
@@ -82,9 +82,12 @@ def _robot(robot: "RobotRead") -> Figure:
         axes, np.array([-C_L, -0.7 * unit]), np.array([0.0, -0.7 * unit]),
         f"$C_L$  {1e3 * C_L:.0f} mm", down, 0.45 * unit,
     )  # fmt: skip
-    label(axes, np.array([-C_L - 0.4 * unit, C_N + 0.2 * unit]), f"$C_N$  {1e3 * C_N:.0f} mm",
+    beside = low[0] - 0.8 * unit  # clear of the robot, whatever stands about the centroid
+    axes.plot([beside, -C_L], [C_N, C_N], color=look.BLACK, lw=0.5, ls=":", zorder=8)
+    dimension(axes, np.array([beside, 0.0]), np.array([beside, C_N]), "", down)
+    label(axes, np.array([beside - 0.25 * unit, C_N / 2]), f"$C_N$  {1e3 * C_N:.0f} mm",
           align="right")  # fmt: skip
-    axes.set_xlim(low[0] - 0.6 * unit, high[0] + 0.6 * unit)
+    axes.set_xlim(beside - 2.9 * unit, high[0] + 0.6 * unit)
     axes.set_ylim(-3.0 * unit, max(high[1], C_N) + 0.8 * unit)
     mass = f"{at['mass']:.1f} kg, " if "mass" in at else ""
     R = [f"{1e3 * at[f'track.{end}_radius']:.0f}" for end in ("front", "rear")]
@@ -97,28 +100,34 @@ def _robot(robot: "RobotRead") -> Figure:
 
 
 def _stairs(found: "FileAnswer") -> Figure:
-    staircase = found.staircases[0]
-    flights = staircase.flights[:MOST_FLIGHTS]
-    height = 2.9 * len(flights) + 0.9
+    several = len(found.staircases) > 1
+    every = [
+        (each, row, f"staircase {number}, flight {row + 1}: " if several else "")
+        for number, each in enumerate(found.staircases, start=1)
+        for row in range(len(each.flights))
+    ]
+    drawn = every[:MOST_FLIGHTS]
+    height = 2.9 * len(drawn) + 0.9
     figure = look.blank(height)
     grid = figure.add_gridspec(
-        2 * len(flights), 2, width_ratios=(2.4, 1.0), left=0.08, right=0.985, hspace=0.75,
+        2 * len(drawn), 2, width_ratios=(2.4, 1.0), left=0.08, right=0.985, hspace=0.75,
         top=1 - 0.75 / height, bottom=0.45 / height, wspace=0.28,
     )  # fmt: skip
-    for row, flight in enumerate(flights):
-        _profile(figure.add_subplot(grid[2 * row : 2 * row + 2, 0]), flight)
-        _plan(figure.add_subplot(grid[2 * row, 1]), staircase, row)
-        _residuals(figure.add_subplot(grid[2 * row + 1, 1]), flight)
-    more = len(staircase.flights) - len(flights)
+    for k, (staircase, row, whose) in enumerate(drawn):
+        _profile(figure.add_subplot(grid[2 * k : 2 * k + 2, 0]), staircase.flights[row], whose)
+        _plan(figure.add_subplot(grid[2 * k, 1]), staircase, row)
+        _residuals(figure.add_subplot(grid[2 * k + 1, 1]), staircase.flights[row])
+    more = len(every) - len(drawn)
+    name = f"{len(found.staircases)} staircases" if several else found.staircases[0].name
     look.title(
-        figure, 0.1, look.named(f"{staircase.name}: {found.title}", 70),
-        "steps over the data, bars of one standard uncertainty; plan; residuals from uniform steps"
-        + (f"; {more} more flights" if more else ""),
+        figure, 0.1, look.named(f"{name}: {found.title}", 70)
+        + (f", {more} more flight{'' if more == 1 else 's'} not drawn" if more else ""),
+        "steps over the data, bars of one standard uncertainty; plan; residuals from uniform steps",
     )  # fmt: skip
     return figure
 
 
-def _profile(axes: Axes, flight: "FlightRead") -> None:
+def _profile(axes: Axes, flight: "FlightRead", whose: str) -> None:
     """Steps over the file's points; each nosing with bars of one standard uncertainty."""
     nosings, sigmas = np.array(flight.nosings), np.array(flight.sigmas)
     if flight.points:
@@ -137,8 +146,8 @@ def _profile(axes: Axes, flight: "FlightRead") -> None:
     axes.set_ylabel("height [m]")
     if flight.rise_m is not None and flight.going_m is not None:
         axes.set_title(
-            f"{flight.steps} steps, {1e3 * flight.rise_m:.1f} / {1e3 * flight.going_m:.1f} mm, "
-            f"{flight.angle_deg:.1f}°", loc="left",
+            f"{whose}{flight.steps} steps, {1e3 * flight.rise_m:.1f} / "
+            f"{1e3 * flight.going_m:.1f} mm, {flight.angle_deg:.1f}°", loc="left",
         )  # fmt: skip
 
 
@@ -174,4 +183,5 @@ def _residuals(axes: Axes, flight: "FlightRead") -> None:
     axes.set_ylim(-1.15 * reach, 1.15 * reach)
     axes.set_xlabel("nosing")
     axes.set_ylabel("residual [mm]")
-    axes.legend(loc="upper right", ncols=2, frameon=False, handletextpad=0.1, columnspacing=0.6)
+    axes.legend(loc="lower right", bbox_to_anchor=(1.02, 0.96), ncols=2, frameon=False,
+                handletextpad=0.1, columnspacing=0.6)  # fmt: skip

@@ -41,9 +41,9 @@ def judge(question: "Question", *, known: "Findings | None" = None) -> "Findings
 
         found = replace(found, each=(*found.each, *findings_of(question, room, found.model)))
     if question.landings:
-        from kaidan.models.landings import finding_of
+        from kaidan.models import landings
 
-        found = replace(found, each=(*found.each, finding_of(question, found.model)))
+        found = landings.beside(question, found)
     if not all(flight.foot_seen for flight in question.flights):
         from kaidan.models.findings import Finding
 

@@ -6,6 +6,7 @@ corrections. What is shown is the first way that holds in the worst case, else i
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any, Literal, NamedTuple
 
@@ -24,7 +25,7 @@ from kaidan.mechanics.turning import (
     walls_of,
 )
 from kaidan.models.clearance import OFF_LINE
-from kaidan.models.findings import Finding
+from kaidan.models.findings import Finding, Findings, Later
 from kaidan.modes import TURNING, Phase
 from kaidan.outline import Outline, footprint_of
 from kaidan.question import Question
@@ -90,6 +91,13 @@ class LandingTurn(TurnFigures):
 
     landing: str
     """Which landing."""
+
+
+class LandingTurns(Part):
+    """How the robot turns on all landings of hand-entered stairs."""
+
+    turns: tuple[LandingTurn, ...]
+    """From bottom to top."""
 
 
 class Turned(NamedTuple):
@@ -282,21 +290,27 @@ def room_of(landing: Landing) -> Room:
     )
 
 
-def finding_of(question: Question, model: str) -> Finding:
-    """Whether the robot turns on all landings where the way turns.
+def beside(question: Question, found: Findings) -> Findings:
+    """Findings of a model with whether the robot turns on all landings where the way turns.
 
     Parameters
     ----------
     question : Question
-    model : str
-        Model beside whose findings it stands.
+    found : Findings
+        Of any model.
+
+    Returns
+    -------
+    Findings
     """
     turns = turns_of(question)
     worst = any(each.way in ("none", "unknown") or each.tight for each in turns)
     best = any(each.way == "none" for each in turns)
-    return Finding(
+    finding = Finding(
         mode=TURNING,
         worst=np.array([-math.inf if worst else math.inf]),
         best=np.array([-math.inf if best else math.inf]),
-        model=model,
+        model=found.model,
     )
+    figures = Later(lambda: (*found.figures, LandingTurns(turns=turns)))
+    return replace(found, each=(*found.each, finding), figures=figures)

@@ -3,9 +3,8 @@
 from typing import TYPE_CHECKING
 
 from kaidan.modes import FAILURE_MODES, SLIDES_DOWN, SLIDES_UP, Verdict
-from kaidan.text import dynamic, limits, measuring, plan, traction
+from kaidan.text import dynamic, limits, measuring, plan, traction, turning
 from kaidan.text.unweighed import rows, thresholds
-from kaidan.text.verdicts import landing_lines
 from kaidan.text.words import place, subject
 
 if TYPE_CHECKING:
@@ -23,7 +22,7 @@ def text(answer: "Assessment") -> str:
     lines = [headline(answer), f"  {answer.reason}"]
     if answer.plan is not None and plan.line(answer.plan):
         lines.append(_row("posture", plan.line(answer.plan)))
-    lines += [_row("landing", line) for line in landing_lines(answer.question)]
+    lines += [_row("landing", line) for line in turning.lines(answer.turns)]
     if answer.centroid is not None:
         lines.append(_row("weighed", thresholds(answer.centroid)))
     if answer.what_would_help:

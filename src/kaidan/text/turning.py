@@ -3,7 +3,9 @@
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from kaidan.models.landings import TurnFigures
+    from collections.abc import Sequence
+
+    from kaidan.models.landings import LandingTurn, TurnFigures
 
 
 def turning(turn: "TurnFigures", landing: str = "") -> str:
@@ -38,6 +40,22 @@ def turned(turn: "TurnFigures", landing: str) -> str:
     """
     raised = f"change the flippers to {turn.flippers} and " if turn.changed else ""
     return f"On the {landing} {raised}turn by {abs(turn.turn_deg):.0f} deg: {_how(turn)}."
+
+
+def reason(turns: "Sequence[LandingTurn]") -> str:
+    """Why the worst of some turns fails: the first that fails, is not known, or has no room."""
+    ways = {"none": 0, "unknown": 1}
+    worst = min(turns, key=lambda one: ways.get(one.way, 2 if one.tight else 3))
+    return turning(worst, worst.landing)
+
+
+def lines(turns: "Sequence[LandingTurn]") -> list[str]:
+    """What to do on landings where the robot turns otherwise than on the spot as it climbs."""
+    return [
+        turned(each, each.landing)
+        for each in turns
+        if each.way in ("corner", "manoeuvre") or (each.way == "spin" and each.changed)
+    ]
 
 
 def _how(turn: "TurnFigures") -> str:

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from kaidan.modes import FAILURE_MODES, MODELS, SUPPLIES, TURNING, Undecided, Verdict
+from kaidan.modes import FAILURE_MODES, MODELS, SUPPLIES, Undecided, Verdict
 from kaidan.text import dynamic, traction, turning, unweighed
 from kaidan.text.words import place
 
@@ -247,14 +247,8 @@ def _unseen(
 def _turns(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
-    from kaidan.models.landings import turns_of
-
-    turns = turns_of(question)
-    ways = ("none", "unknown")  # the worse first, then those with no room to spare
-    worst = min(
-        turns, key=lambda one: ways.index(one.way) if one.way in ways else 2 if one.tight else 3
-    )
-    return turning.turning(worst, worst.landing)
+    turns = _figure(found, "turns")
+    return f"It may fail by {finding.mode.label}." if turns is None else turning.reason(turns)
 
 
 def _drive(
@@ -366,7 +360,7 @@ def notes(question: "Question", found: "Findings", conclusion: "Conclusion") -> 
         if fails and finding.mode.key != conclusion.governs and say is not None:
             own = conclusion._replace(phase=finding.phase, step=finding.step)
             each.append(say(question, found, own, finding))
-    each += [line for line in landing_lines(question) if TURNING.key != conclusion.governs]
+    each += turning.lines(_figure(found, "turns") or ())
     each += found.notes
     for name, value in (("theta_d", question.allowance_d), ("theta_M", question.allowance_M)):
         if value.source == "default":
@@ -380,19 +374,6 @@ def notes(question: "Question", found: "Findings", conclusion: "Conclusion") -> 
     if question.robot.notes:
         each.append(" ".join(question.robot.notes.split()))
     return tuple(each)
-
-
-def landing_lines(question: "Question") -> list[str]:
-    """What to do on landings where the robot turns otherwise than on the spot, as it climbs."""
-    if not question.landings:
-        return []
-    from kaidan.models.landings import turns_of
-
-    return [
-        turning.turned(each, each.landing)
-        for each in turns_of(question)
-        if each.way in ("corner", "manoeuvre") or (each.way == "spin" and each.changed)
-    ]
 
 
 def _of_drive(question: "Question", stance: "Stance") -> list[str]:
