@@ -17,7 +17,7 @@ from kaidan.models.closed_form_figures import ClosedFormFigures
 from kaidan.models.contact_figures import ContactFigures, PhaseName
 from kaidan.models.dynamic_figures import PhysicsFigures
 from kaidan.models.findings import Finding, Findings, at_risk
-from kaidan.models.landings import LandingTurn, LandingTurns
+from kaidan.models.landing_figures import LandingTurn, LandingTurns
 from kaidan.models.support_polygon import SupportPolygonFigures
 from kaidan.models.traction_figures import TractionFigures
 from kaidan.modes import (

@@ -8,12 +8,11 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.answer import Part
 from kaidan.mechanics.clearance import corner_margin, spin_circle
 from kaidan.mechanics.turning import (
     Footprint,
@@ -26,6 +25,7 @@ from kaidan.mechanics.turning import (
 )
 from kaidan.models.clearance import OFF_LINE
 from kaidan.models.findings import Finding, Findings, Later
+from kaidan.models.landing_figures import LandingTurn, LandingTurns, TurnWay
 from kaidan.modes import TURNING, Phase
 from kaidan.outline import Outline, footprint_of
 from kaidan.question import Question
@@ -40,7 +40,6 @@ LANE = 1.5
 """Length of the flight over which the robot's tail may still hang [m]."""
 PASSAGE = 3.0
 """Length of a level passage in which it may manoeuvre [m]."""
-TurnWay = Literal["straight", "spin", "corner", "manoeuvre", "none", "unknown"]
 
 
 class Room(NamedTuple):
@@ -62,42 +61,6 @@ class Room(NamedTuple):
     corner: tuple[float, float, float] | None = None
     """Of two ways at a right angle, one of them level: clear widths, and the length of the landing
     along the flight [m]."""
-
-
-class TurnFigures(Part):
-    """How a robot turns on a landing."""
-
-    turn_deg: float
-    """Angle between both ways, to the left positive [deg]."""
-    way: TurnWay
-    """Straight on, on the spot, round the corner in one go, by a manoeuvre, not at all; unknown:
-    its width, or the landing, is."""
-    tight: bool
-    """Whether it has no room to be 30 mm off."""
-    flippers: str
-    """Posture in which it turns, as the option is written."""
-    changed: bool
-    """Whether that is another posture than the one in which it climbs."""
-    circle_m: float | None
-    """Circle that it sweeps on the spot in that posture [m]; null: of unknown width."""
-    room_m: float | None
-    """Largest circle inside the landing [m]; null: the landing is not drawn."""
-    moves: int
-    """Drives and turns, each until the next begins."""
-
-
-class LandingTurn(TurnFigures):
-    """How the robot turns on a landing of hand-entered stairs."""
-
-    landing: str
-    """Which landing."""
-
-
-class LandingTurns(Part):
-    """How the robot turns on all landings of hand-entered stairs."""
-
-    turns: tuple[LandingTurn, ...]
-    """From bottom to top."""
 
 
 class Turned(NamedTuple):
@@ -162,7 +125,7 @@ def _back_and_forth(footprint: Footprint, room: Room) -> tuple[TurnWay, Manoeuvr
 
 
 def _asked(footprint: Footprint, room: Room) -> dict[str, Any]:
-    """What a search is asked, for a footprint that arrives on the landing."""
+    """Arguments of a search for a footprint that arrives on the landing."""
     x, y, heading = room.start
     into = -footprint.front if room.level else KEPT + 0.01
     start = (x + into * math.cos(heading), y + into * math.sin(heading), heading)

@@ -72,7 +72,7 @@ class StairsEstimate:
     def stairs(self) -> tuple[Stairs, ...]:
         """Data sheets of the flights from bottom to top, as a question takes them.
 
-        A landing between two flights has the turn of the way on it, the nearer of a quarter and a
+        A landing between two flights has the turn on it, the nearer of a quarter and a
         half, where it was seen to be as wide as both flights side by side.
         """
         sheets = [

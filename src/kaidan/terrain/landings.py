@@ -29,13 +29,13 @@ class Landing(NamedTuple):
     turn: Turn
     """quarter or half."""
     depth: float
-    """Clear, along the way by which one arrives, less the leaf of a door opposite [m]."""
+    """Clear, in line with the arrival, less the leaf of a door opposite [m]."""
     width: float
     """Clear, across it [m]."""
     arrives: float
-    """Clear width of the way by which one arrives [m]."""
+    """Clear width of the flight or passage by which one arrives [m]."""
     leaves: float
-    """Clear width of the way by which one goes on [m]."""
+    """Clear width of the flight or passage by which one goes on [m]."""
     level: Literal["", "arrives", "leaves"]
     """Which of both is a level passage; empty: both are stairs."""
 

@@ -48,7 +48,7 @@ MOST_TWISTED = 400
 """Most risers of a flight whose nosings have slopes across or skews."""
 
 Turn = Literal["none", "quarter", "half"]
-"""Turn of the way on a landing."""
+"""Turn on a landing, by a quarter or a half."""
 
 _CrossSlope = Annotated[float, Field(ge=-0.35, le=0.35)]
 _Skew = Annotated[float, Field(ge=-0.8, le=0.8)]
@@ -165,12 +165,12 @@ class Stairs(Sheet):
     )
     lower_turn: Turn = Field(
         default="none",
-        description="turn of the way on the lower landing, 90 or 180 degrees: it takes width, "
+        description="turn on the lower landing, 90 or 180 degrees: it takes width, "
         "lower_landing and lower_landing_width",
     )
     upper_turn: Turn = Field(
         default="none",
-        description="turn of the way on the upper landing, 90 or 180 degrees: it takes width, "
+        description="turn on the upper landing, 90 or 180 degrees: it takes width, "
         "upper_landing and upper_landing_width",
     )
     lower_passage: float | None = quantity(

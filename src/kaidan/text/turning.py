@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from kaidan.models.landings import LandingTurn, TurnFigures
+    from kaidan.models.landing_figures import LandingTurn, TurnFigures
 
 
 def turning(turn: "TurnFigures", landing: str = "") -> str:

@@ -3,7 +3,7 @@
 from typing import Any, ClassVar, Literal
 
 from kaidan.answer import Answer, Part
-from kaidan.models.landings import TurnFigures
+from kaidan.models.landing_figures import TurnFigures
 from kaidan.modes import Direction, Facing, Verdict
 from kaidan.terrain.stairs import Stairs
 

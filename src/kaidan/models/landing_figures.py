@@ -1,0 +1,43 @@
+"""How a robot turns on landings."""
+
+from typing import Literal
+
+from kaidan.answer import Part
+
+TurnWay = Literal["straight", "spin", "corner", "manoeuvre", "none", "unknown"]
+
+
+class TurnFigures(Part):
+    """How a robot turns on a landing."""
+
+    turn_deg: float
+    """Angle between both ways, to the left positive [deg]."""
+    way: TurnWay
+    """Straight on, on the spot, round the corner in one go, by a manoeuvre, not at all; unknown:
+    its width, or the landing, is."""
+    tight: bool
+    """Whether it has no room to be 30 mm off."""
+    flippers: str
+    """Posture in which it turns, as the option is written."""
+    changed: bool
+    """Whether that is another posture than the one in which it climbs."""
+    circle_m: float | None
+    """Circle that it sweeps on the spot in that posture [m]; null: of unknown width."""
+    room_m: float | None
+    """Largest circle inside the landing [m]; null: the landing is not drawn."""
+    moves: int
+    """Drives and turns, each until the next begins."""
+
+
+class LandingTurn(TurnFigures):
+    """How the robot turns on a landing of hand-entered stairs."""
+
+    landing: str
+    """Which landing."""
+
+
+class LandingTurns(Part):
+    """How the robot turns on all landings of hand-entered stairs."""
+
+    turns: tuple[LandingTurn, ...]
+    """From bottom to top."""
