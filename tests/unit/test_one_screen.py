@@ -69,6 +69,13 @@ def test_of_what_is_no_go_even_so_nothing_is_to_be_measured_or_done():
     assert "  What to do" not in planned
 
 
+def test_the_margin_of_a_robot_that_is_too_wide_is_no_margin_of_tipping():
+    stairs = kaidan.Stairs(name="narrow", rise=0.17, going=0.29, steps=4, width=0.5)
+    answer = kaidan.assess("ozbot-atr", stairs, friction=1.2)
+    assert (answer.verdict, answer.governs) == ("no-go", "narrow")
+    assert "  margin          -90.0 deg (narrow: no slope would do), on 30.4 deg" in str(answer)
+
+
 def test_a_picture_is_offered_after_a_no_go_and_the_command_draws_it(monkeypatch, tmp_path):
     words = CASES["NO-GO"]
     monkeypatch.chdir(tmp_path)

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 LINES = 8
 """Most lines of the answer on one screen."""
+NO_SLOPE = -90.0
+"""Margin of what no slope of the stairs would mend [deg]."""
 
 
 def text(answer: "Assessment") -> str:
@@ -186,6 +188,9 @@ def margin_line(answer: "Assessment") -> str:
 
 def _against(answer: "Assessment", margin: float) -> str:
     """Failure mode whose margin of slope it is, in brackets; several are uncertain together."""
+    decides = FAILURE_MODES.get(answer.governs)
+    if margin == NO_SLOPE and decides is not None and decides.unit != "rad":
+        return f" ({answer.governs}: no slope would do)"
     each = {
         key: abs(one.margin - margin)
         for key, one in answer.findings.items()
