@@ -4,7 +4,7 @@ import { fresh, h } from "./dom.js";
 import { scaleOf } from "./units.js";
 
 // Slider and number field of one figure. `get` gives the SI value, `set(value, done)` takes it;
-// `done` is false while the slider is under way.
+// `done` is false while the slider is under way. An emptied number field gives null: the sheet's value.
 export function slider({ label, kind, low, high, step, get, set }) {
   const id = fresh("figure");
   const { factor, digits, unit } = scaleOf(kind);
@@ -15,6 +15,7 @@ export function slider({ label, kind, low, high, step, get, set }) {
   const number = h("input", { type: "number", ...common, step: "any", "aria-label": label, inputmode: "decimal", placeholder: "–" });
   const take = (input, done) => {
     const value = Number(input.value);
+    if (input.value === "" && !input.validity.badInput) return set(null, done);
     if (input.value === "" || !Number.isFinite(value)) return;
     (input === range ? number : range).value = input.value;
     set(value / factor, done);

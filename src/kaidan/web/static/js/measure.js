@@ -3,7 +3,7 @@
 import { Refused, ask } from "./api.js";
 import { button } from "./controls.js";
 import { fresh, h, replace } from "./dom.js";
-import { said, t } from "./i18n.js";
+import { has, said, t } from "./i18n.js";
 import { scaleOf } from "./units.js";
 
 const RADIANS = Math.PI / 180;
@@ -61,7 +61,7 @@ export function guide(kind, use) {
   }
 
   return h("details", {}, h("summary", {}, t(`${kind}.guide`)),
-    h("ol", {}, [1, 2, 3].map((each) => h("li", {}, t(`guide.${kind}_${each}`)))),
+    h("ol", {}, [1, 2, 3, 4].map((each) => `guide.${kind}_${each}`).filter(has).map((each) => h("li", {}, t(each)))),
     h("div", { class: "measured" }, h("label", { for: name.id }, t("saved.name")), name),
     inputs.map((each) => each.node), button(t("measure.work_out"), workOut, { class: "main" }), outcome);
 }

@@ -36,12 +36,22 @@ export function valueOf(sheet, name) {
   return name.split(".").reduce((place, part) => place?.[part], sheet) ?? null;
 }
 
+// Sheet of stairs with changed figures. Where the way goes straight on there is no passage; a passage
+// of no width is none.
+export function stairsWithFigures(sheet) {
+  const made = withFigures(sheet, state.stairsFigures);
+  for (const end of ["lower", "upper"]) {
+    if (!made[`${end}_passage`] || (made[`${end}_turn`] ?? "none") === "none") delete made[`${end}_passage`];
+  }
+  return made;
+}
+
 // Stairs as a body has them: a name, a sheet, flights, or points.
 export function terrainOf(sheet) {
   if (Array.isArray(sheet)) return sheet;
   const changed = Object.keys(state.stairsFigures).length > 0;
   if (!changed) return state.stairs.startsWith("~") ? sheet : state.stairs;
-  const made = withFigures(sheet, state.stairsFigures);
+  const made = stairsWithFigures(sheet);
   if (!state.stairs.startsWith("~")) made.name = `${made.name} (own figures)`;
   return made;
 }

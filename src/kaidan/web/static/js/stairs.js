@@ -3,8 +3,9 @@
 import { button, choice, fileButton, picker, slider } from "./controls.js";
 import { h, replace, s } from "./dom.js";
 import { t } from "./i18n.js";
+import { landingsOf } from "./landings.js";
 import { guide } from "./measure.js";
-import { catalogue, terrainOf, valueOf, withFigures } from "./question.js";
+import { catalogue, stairsWithFigures, terrainOf, valueOf } from "./question.js";
 import { change, clear, packed, state, unpacked } from "./state.js";
 import { nameOf, save, sheetsOf } from "./storage.js";
 import { shown } from "./units.js";
@@ -24,7 +25,10 @@ export function stairsPanel(current) {
   const drawing = h("div", { class: "drawing" });
   const found = h("div", {});
   const slope = h("p", { class: "quiet" });
-  const details = h("details", {}, h("summary", {}, t("stairs.figures")), drawing, slope, figures);
+  const ends = h("div", {});
+  const landings = h("details", {}, h("summary", {}, t("landing.heading")), h("p", { class: "quiet" }, t("landing.about")), ends);
+  const buttons = h("div", { class: "buttons" });
+  const details = h("details", {}, h("summary", {}, t("stairs.figures")), drawing, slope, figures, landings, buttons);
   const pick = picker({
     label: t("stairs.heading"), empty: t("stairs.choose"), get: () => state.stairs,
     groups: () => {
@@ -43,34 +47,39 @@ export function stairsPanel(current) {
     label: t("stairs.direction"), options: [["up", t("stairs.up")], ["down", t("stairs.down")]],
     get: () => state.direction, set: (value) => change({ direction: value }),
   });
-  let sliders = [], of = null;
+  let controls = [], of = null;
 
   function build(sheet) {
     const regular = !Array.isArray(sheet) && Number.isFinite(sheet.rise);
-    const own = regular ? FIGURES : [];
-    sliders = own.map(([name, kind, low, high, step]) => slider({
+    const single = !Array.isArray(sheet);
+    const own = FIGURES.filter(([name]) => regular || (single && name === "width"));
+    const sliders = own.map(([name, kind, low, high, step]) => slider({
       label: t(`figure.${name}`), kind, low, high, step,
       get: () => state.stairsFigures[name] ?? valueOf(sheet, name) ?? (name === "first_rise" ? state.stairsFigures.rise ?? sheet.rise : null),
-      set: (value, done) => change({ stairsFigures: { [name]: kind === "count" ? Math.round(value) : value } }, { push: done }),
+      set: (value, done) => change({ stairsFigures: { [name]: kind === "count" && value !== null ? Math.round(value) : value } }, { push: done }),
     }));
-    replace(figures, sliders.map((each) => each.node), h("div", { class: "buttons" },
-      regular ? button(t("robot.reset"), () => clear("stairsFigures")) : null,
+    const both = single ? landingsOf(sheet) : null;
+    controls = both ? [...sliders, both] : sliders;
+    landings.hidden = !single;
+    replace(ends, both ? both.nodes : []);
+    replace(figures, sliders.map((each) => each.node));
+    replace(buttons,
+      single ? button(t("robot.reset"), () => clear("stairsFigures")) : null,
       button(t("robot.save"), () => {
-        const made = Array.isArray(sheet) ? sheet : withFigures(sheet, state.stairsFigures);
+        const made = single ? stairsWithFigures(sheet) : sheet;
         const name = `${nameIn(made)}${Object.keys(state.stairsFigures).length ? "*" : ""}`;
         save("stairs", name, made);
         clear("stairsFigures");
         change({ stairs: packed(made) });
         current.say(t("saved.done", { name }));
-      })));
+      }));
   }
 
   return {
     node: h("section", { class: "panel", "aria-label": t("stairs.heading") },
       pick.node, direction.node, details,
       guide("stairs", (sheet) => {
-        clear("stairsFigures");
-        change({ stairs: packed(sheet) });
+        change({ stairs: packed(sheet), stairsFigures: Object.fromEntries(Object.keys(sheet).map((name) => [name, null])) });
         details.open = true;
       }),
       fileButton(t("stairs.upload"), "", (file) => readFile(file, "stairs", found, (sheet) => {
@@ -86,7 +95,7 @@ export function stairsPanel(current) {
       if (!sheet) return;
       if (of !== state.stairs) build(sheet);
       of = state.stairs;
-      for (const each of sliders) each.update();
+      for (const each of controls) each.update();
       const made = terrainOf(sheet);
       const flight = typeof made === "string" ? sheet : made;
       const rise = flight.rise, going = flight.going;

@@ -9,6 +9,8 @@ const NUMBERS = [
   "payload_mass", "payload_behind", "payload_height",
   "u.com_from_front", "u.com_height", "u.angle",
 ];
+const TURN = /^s\.(lower|upper)_turn$/;
+const TURNS = ["none", "quarter", "half"];
 
 function empty() {
   return { ...TEXTS, numbers: {}, robotFigures: {}, stairsFigures: {} };
@@ -40,6 +42,7 @@ export function readAddress() {
   for (const [name, value] of new URLSearchParams(text ?? "")) {
     const number = Number(value);
     if (name in TEXTS && name !== "view") found[name] = value;
+    else if (TURN.test(name) && TURNS.includes(value)) found.stairsFigures[name.slice(2)] = value;
     else if (!Number.isFinite(number) || value.trim() === "") continue;
     else if (NUMBERS.includes(name)) found.numbers[name] = number;
     else if (name.startsWith("r.")) found.robotFigures[name.slice(2)] = number;

@@ -2,7 +2,7 @@
 
 import { button } from "./controls.js";
 import { h, replace } from "./dom.js";
-import { said, t } from "./i18n.js";
+import { japanese, language, said, t } from "./i18n.js";
 import { symbol } from "./light.js";
 import { modeName, placeName, reason, stated } from "./sentences.js";
 import { KIND_OF_UNIT, figure, shown } from "./units.js";
@@ -62,7 +62,7 @@ export function verdictPanel(current) {
       lit(answer.verdict, t(`verdict.${answer.verdict}`),
         h("p", { class: "subject" }, `${robot.title || robot.name} · ${on} · ${t(`stairs.${answer.question.direction}`)}, ${t(`answer.${answer.question.facing}`)}`),
         h("p", { class: "quiet" }, t("state.final")));
-      replace(body, reason(answer), toDo(answer), numbers(answer), first(answer), notes(answer),
+      replace(body, reason(answer), turnsOf(answer), toDo(answer), numbers(answer), first(answer), notes(answer),
         h("div", { class: "buttons" }, button(t("app.print"), current.print, { class: "main" }), button(t("app.report_pdf"), () => current.report("pdf")),
           button(t("app.report_html"), () => current.report("html")), button(t("app.share"), current.share)));
     },
@@ -84,6 +84,18 @@ function toDo(answer) {
   }
   if (answer.verdict === "outside-model" && changes.length === 0) return null;
   return h("div", { class: "do" }, h("h3", {}, t("answer.do")), planned, changes.length ? h("ul", {}, changes) : null, otherwise);
+}
+
+// How it turns on landings, or that it does not.
+function turnsOf({ turns }) {
+  if (turns.length === 0) return null;
+  return h("ul", { class: "turns", "aria-label": t("landing.turns") }, turns.map((turn) => {
+    const kind = turn.way === "none" ? "no-go" : turn.way === "unknown" || turn.tight ? "caution" : "go";
+    const landing = (language === "ja" ? japanese(turn.landing, "landing") : null) ?? turn.landing;
+    const how = t(`landing.way_${turn.way}`, { moves: turn.moves, circle: shown(turn.circle_m, "length"), room: shown(turn.room_m, "length") });
+    const more = [turn.changed && turn.way !== "none" ? t("landing.flippers", { flippers: turn.flippers }) : "", turn.tight && turn.way !== "none" ? t("landing.tight") : ""];
+    return h("li", {}, symbol(kind, 18), " ", h("b", {}, t("landing.turn_on", { landing, angle: `${Math.abs(turn.turn_deg).toFixed(0)}°` })), " ", how, ...more);
+  }));
 }
 
 function flippersOf({ front_deg: front, rear_deg: rear, flippers }) {
