@@ -88,7 +88,7 @@ def found(points: Points, hints: Hints) -> Found:
     -------
     Found
     """
-    xyz = points.xyz[np.isfinite(points.xyz[:, 0])]
+    xyz = points.xyz[np.flatnonzero(np.isfinite(points.xyz[:, 0]))]
     best: _Try | None = None
     for unit in _units(points, xyz):
         metres = METRES[unit.value]
@@ -118,7 +118,8 @@ def _units(points: Points, xyz: Array) -> list[Known]:
 def _with_unit(points: Points, xyz: Array, unit: Known, metres: float, hints: Hints) -> _Try:
     # stray points far away would make rasters of any size
     middle = np.median(xyz[:: max(1, len(xyz) // MOST_PATCHED)], axis=0)
-    xyz = xyz[np.abs(xyz - middle).max(axis=1, initial=0.0) < EXTENTS[1]]
+    near = [np.abs(each - at) < EXTENTS[1] for each, at in zip(xyz.T, middle, strict=True)]
+    xyz = xyz[np.flatnonzero(near[0] & near[1] & near[2])]
     if len(xyz) < FEWEST_POINTS:
         known = points.provenance.up or Known("+z", "assumed")
         nowhere = replace(points.provenance, unit=unit, up=known)
@@ -169,7 +170,7 @@ def _with_up(
     level = replace(patches, middle=patches.middle @ turn.T, normal=patches.normal @ turn.T)
     rows = thinned(some, COARSE)
     thin, of_point = some[rows] @ turn.T, patches.of_point[rows]
-    cloud = xyz @ turn.T
+    cloud = np.asfortranarray(xyz @ turn.T)  # it is read column by column
     view = np.zeros(3) if eye is None else turn @ eye
     tolerance = min(max(3 * noise, 0.012), 0.04)
     error = RANGE_ERROR_SURVEYED if provenance.form in SURVEYED else RANGE_ERROR

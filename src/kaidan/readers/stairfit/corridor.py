@@ -163,16 +163,16 @@ def lane_of(
     """Flight about a line, or None where too few steps lie side by side."""
     low, high, score = float(t.min()), float(t.max()), 0.0
     for wide in (max(2.0 * tolerance, 0.04), max(1.5 * tolerance, 0.025), tolerance):
-        inside = (t >= low) & (t <= high)
+        inside = np.flatnonzero((t >= low) & (t <= high))
         at = assigned(line, s[inside], t[inside], z[inside], min(wide, line.rise * 0.35))
-        on = at.tread | at.riser
-        if on.sum() < 30:
+        on = np.flatnonzero(at.tread | at.riser)
+        if len(on) < 30:
             return None
-        k, lane = at.step[on], ((t[inside][on] - low) / LANE).astype(np.int64)
+        k, lane = at.step[on], ((t[inside[on]] - low) / LANE).astype(np.int64)
         k0 = int(k.min())
-        seen = np.zeros((int(k.max()) - k0 + 1, int(lane.max()) + 1))
-        np.add.at(seen, (k - k0, lane), 1.0)
-        there = seen >= 2
+        size = (int(k.max()) - k0 + 1, int(lane.max()) + 1)
+        seen = np.bincount((k - k0) * size[1] + lane, minlength=size[0] * size[1])
+        there = seen.reshape(size) >= 2
         counts = there.sum(axis=0)
         best = int(np.argmax(np.convolve(counts, np.ones(3), mode="same")))
         first, last = _run(
@@ -186,10 +186,10 @@ def lane_of(
         if end - begin + 1 < FEWEST:
             return None
         line = replace(line, first=begin + k0, last=end + k0)
-        inside = (t >= low) & (t <= high)
+        inside = np.flatnonzero((t >= low) & (t <= high))
         line = fitted(line, s[inside], t[inside], z[inside], tolerances=(wide, wide, tolerance))
         score = float(share[begin : end + 1].sum() * min(high - low, 1.5))
-    inside = (t >= low) & (t <= high)
+    inside = np.flatnonzero((t >= low) & (t <= high))
     explained = explained_share(line, s[inside], t[inside], z[inside], tolerance)
     return Lane(heading, line, low, high, score * max(explained, 0.0), explained)
 

@@ -56,12 +56,16 @@ def scatter(xyz: Array) -> float:
 
 def cubes(xyz: Array, side: float) -> tuple[Indices, Indices, Indices]:
     """Order of the points by their cubes, where each cube begins in it, and how many it holds."""
-    cells = np.floor(xyz * (1.0 / side)).astype(np.int64)
-    cells -= cells.min(axis=0)
-    wide = cells.max(axis=0) + 1
-    keys = (cells[:, 0] * wide[1] + cells[:, 1]) * wide[2] + cells[:, 2]
-    order = np.argsort(keys, kind="stable")
-    keys = keys[order]
+    x, y, z = (np.floor(each * (1.0 / side)).astype(np.int64) for each in xyz.T)
+    keys, count = x - x.min(), len(xyz)
+    for each in (y, z):  # column by column: least and greatest of short rows take ten times as long
+        low = each.min()
+        keys = keys * (each.max() - low + 1) + (each - low)
+    if int(keys.max()) < (2**63 - count) // count:  # key and row in one number sort much faster
+        keys, order = np.divmod(np.sort(keys * count + np.arange(count)), count)
+    else:
+        order = np.argsort(keys, kind="stable")
+        keys = keys[order]
     begins = np.flatnonzero(np.r_[True, keys[1:] != keys[:-1]])
     return order, begins, np.diff(np.r_[begins, len(keys)])
 
@@ -75,12 +79,14 @@ def thinned(xyz: Array, side: float) -> Indices:
 def _spreads(xyz: Array, side: float, fewest: int) -> tuple[Array, Array, Array, Array, Indices]:
     """Middles, counts, principal variances and axes of the cubes, and the cube of each point."""
     order, begins, counts = cubes(xyz, side)
-    sorted_points = xyz[order]
     n = counts[:, None].astype(np.float64)
-    middle = np.add.reduceat(sorted_points, begins, axis=0) / n
-    off = sorted_points - np.repeat(middle, counts, axis=0)
+    ordered = [each[order] for each in xyz.T]
+    middle = np.column_stack([np.add.reduceat(each, begins) for each in ordered]) / n
+    of_cube = np.repeat(np.arange(len(counts)), counts)
+    off = [each - mean[of_cube] for each, mean in zip(ordered, middle.T, strict=True)]
     rows, columns = np.triu_indices(3)
-    second = np.add.reduceat(off[:, rows] * off[:, columns], begins, axis=0) / n
+    pairs = zip(rows, columns, strict=True)
+    second = np.column_stack([np.add.reduceat(off[i] * off[j], begins) for i, j in pairs]) / n
     many = np.flatnonzero(counts >= fewest)
     spread = np.empty((len(many), 3, 3))
     spread[:, rows, columns] = spread[:, columns, rows] = second[many]
@@ -88,7 +94,7 @@ def _spreads(xyz: Array, side: float, fewest: int) -> tuple[Array, Array, Array,
     number = np.full(len(counts), -1)
     number[many] = np.arange(len(many))
     of_point = np.empty(len(xyz), dtype=np.int64)
-    of_point[order] = np.repeat(number, counts)
+    of_point[order] = number[of_cube]
     return middle[many], counts[many].astype(np.float64), values, vectors[:, :, 0], of_point
 
 

@@ -6,6 +6,7 @@ weights that fall to zero for what lies too far away (Beaton & Tukey 1974).
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -91,11 +92,24 @@ class Assigned:
     """Tread k begins at nosing k, riser k ends at it."""
     tread: NDArray[np.bool_]
     riser: NDArray[np.bool_]
-    inner: NDArray[np.bool_]
-    """Whether it lies away from the edges: near one a point of a riser may pass for one of a tread
-    of the wrong level, and a point of a tread for one of a riser at the wrong place."""
     off: Array
     """Distance above the tread or behind the riser [m]; of others the smaller one."""
+    along: Array
+    """Place ahead of the nosing, in goings [1]."""
+    above: Array
+    """Place above the tread, in rises [1]."""
+
+    @cached_property
+    def inner(self) -> NDArray[np.bool_]:
+        """Whether it lies away from the edges.
+
+        Near one a point of a riser may pass for one of a tread of the wrong level, and a point of a
+        tread for one of a riser at the wrong place.
+        """
+        share = np.where(self.riser, self.above % 1.0, self.along)
+        ends = zip(INNER_RISER, INNER_TREAD, strict=True)
+        low, high = (np.where(self.riser, *each) for each in ends)
+        return np.asarray((share > low) & (share < high))
 
 
 def assigned(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) -> Assigned:
@@ -108,10 +122,7 @@ def assigned(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) ->
     riser = (np.abs(face) < tolerance) & (np.abs(face) < np.abs(v)) & (v > -r) & (v < r)
     tread = ~riser & (np.abs(v) < tolerance)
     step = np.where(riser & over, k + 1, k)
-    share = np.where(riser, v / r % 1.0, u / g)
-    low, high = (np.where(riser, *ends) for ends in zip(INNER_RISER, INNER_TREAD, strict=True))
-    inner = (share > low) & (share < high)
-    return Assigned(step, tread, riser, inner, np.where(riser, face, v))
+    return Assigned(step, tread, riser, np.where(riser, face, v), u / g, v / r)
 
 
 def explained_share(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) -> float:
@@ -205,11 +216,14 @@ def fitted(
     for tolerance in tolerances:
         at = assigned(line, s, t, z, tolerance)
         use = _within(line, at.step)
-        weight = (1 - np.minimum(np.abs(at.off) / tolerance, 1.0) ** 2) ** 2
-        tread, riser = at.tread & use, at.riser & use
-        level, face = tread.sum(), riser.sum()
-        k_z, z_z, w_z = at.step[tread], z[tread], weight[tread]
-        k_s, t_s, s_s, w_s = at.step[riser], t[riser], s[riser], weight[riser]
+        tread, riser = np.flatnonzero(at.tread & use), np.flatnonzero(at.riser & use)
+        level, face = len(tread), len(riser)
+        w_z, w_s = (
+            (1 - np.minimum(np.abs(at.off[rows]) / tolerance, 1.0) ** 2) ** 2
+            for rows in (tread, riser)
+        )
+        k_z, z_z = at.step[tread], z[tread]
+        k_s, t_s, s_s = at.step[riser], t[riser], s[riser]
         wide = max(tolerance, 0.025)
         if level < SCARCE * face:
             edges = tops(line, s, t, z, wide)
@@ -239,8 +253,10 @@ def robust_plane(columns: Array, value: Array, weight: Array, scale: float) -> l
         weighted = columns * weight[:, None]
         ridge = 1e-9 * max(float(weight.sum()), 1e-12) * np.eye(columns.shape[1])
         found = np.linalg.solve(columns.T @ weighted + ridge, weighted.T @ value)
-        off = np.abs(value - columns @ found) / scale
-        weight = weight * (off < 2.0)
+        far = (np.abs(value - columns @ found) / scale >= 2.0) & (weight > 0.0)
+        if not far.any():
+            break
+        weight = weight * ~far
         if weight.sum() < 3:
             break
     coefficients: list[float] = found.tolist()

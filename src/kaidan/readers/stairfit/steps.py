@@ -6,7 +6,9 @@ regular one, with the spread that such steps may have.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -176,19 +178,35 @@ def _alone(
     """(s, z) of the nosings, each measured alone, and their doubt; NaN: neither face nor end."""
     at = assigned(line, s, t, z, tight)
     number = np.arange(line.first, line.last + 1)
-    front = [fronts(line, s, t, z, tight, wide) for wide in LANES]
-    front = [replace(each, at=each.at - line.skew * each.t) for each in front]
-    top = [tops(line, s, t, z, tight, wide) for wide in LANES]
+
+    @cache
+    def front(wide: float) -> Edges:
+        edges = fronts(line, s, t, z, tight, wide)
+        return replace(edges, at=edges.at - line.skew * edges.t)
+
+    @cache
+    def top(wide: float) -> Edges:
+        return tops(line, s, t, z, tight, wide)
+
     regular = line.at(number)
     found, sigma = regular.copy(), np.full(regular.shape, np.nan)
-    for row, k in enumerate(number.tolist()):
-        tread = at.tread & at.inner & (at.step == k)
-        riser = at.riser & at.inner & (at.step == k)
+    treads = _by_step(line, at.step, at.tread & at.inner)
+    risers = _by_step(line, at.step, at.riser & at.inner)
+    for row, (k, tread, riser) in enumerate(zip(number.tolist(), treads, risers, strict=True)):
         level = z[tread]
-        found[row, 1], sigma[row, 1] = _level(level, noise, top, k, regular[row, 1], riser.sum())
+        found[row, 1], sigma[row, 1] = _level(level, noise, top, k, regular[row, 1], len(riser))
         face = s[riser] - line.skew * t[riser]
-        found[row, 0], sigma[row, 0] = _level(face, noise, front, k, regular[row, 0], tread.sum())
+        found[row, 0], sigma[row, 0] = _level(face, noise, front, k, regular[row, 0], len(tread))
     return found, sigma
+
+
+def _by_step(line: StairLine, step: Indices, on: NDArray[np.bool_]) -> list[Indices]:
+    """Rows of the points of each step of a line, sorted once."""
+    rows = np.flatnonzero(on & (step >= line.first) & (step <= line.last))
+    number = (step[rows] - line.first).astype(np.int16)  # short ones are sorted by counting
+    order = np.argsort(number, kind="stable")
+    count = np.bincount(number, minlength=line.last - line.first + 1)
+    return np.split(rows[order], np.cumsum(count)[:-1])
 
 
 def smooth_field(away: Array, width: float) -> Array:
@@ -249,15 +267,17 @@ def _level_share(line: StairLine, at: Assigned, s: Array, t: Array, z: Array) ->
 
 
 def _level(
-    values: Array, noise: float, lanes: list[Edges], k: int, regular: float, others: int
-) -> tuple[float, float]:
+    values: Array, noise: float, edges: Callable[[float], Edges], k: int, regular: float,
+    others: int,
+) -> tuple[float, float]:  # fmt: skip
     """Mean of the points of an element and its standard uncertainty; else from the ends."""
     if len(values) >= FEWEST_POINTS and len(values) > 0.04 * others:
         middle = float(np.median(values))
         spread = max(1.4826 * float(np.median(np.abs(values - middle))), 1e-4)
         core = values[np.abs(values - middle) < 3 * spread]
         return float(core.mean()), spread / math.sqrt(len(core))
-    for ends in lanes:
+    for wide in LANES:
+        ends = edges(wide)
         here, gap = ends.at[ends.step == k], ends.gap[ends.step == k]
         if len(here) >= FEWEST_LANES and abs(float(np.median(here)) - regular) < EDGE_OFF:
             end = float(np.median(here))
@@ -288,10 +308,9 @@ def _trimmed(line: StairLine, s: Array, t: Array, z: Array, tight: float) -> Sta
     lane -= lane.min()
     wide = int(lane.max()) + 1
     steps = np.arange(line.first, line.last + 1)
-    seen = np.array([np.unique(lane[on & (at.step == each)]).size for each in steps]) / wide
-    share = np.array(
-        [(on & near & (k == each)).sum() / max(1, (near & (k == each)).sum()) for each in steps]
-    )
+    seen = np.array([np.unique(lane[rows]).size for rows in _by_step(line, at.step, on)]) / wide
+    about = _by_step(line, k, near)
+    share = np.array([on[rows].sum() / max(1, len(rows)) for rows in about])
     usual = float(np.median(seen))
     good = (seen >= 0.5 * usual) & ((share >= 0.5) | (seen >= 0.9))
     good &= share >= 0.5 * float(np.median(share))
@@ -309,7 +328,8 @@ def _bottom(line: StairLine, s: Array, t: Array, z: Array, tight: float) -> Stai
     with something lower before it, is a step.
     """
     g, r = line.going, line.rise
-    front = fronts(line, s, t, z, tight)
+    begun = line
+    front: Edges | None = None
     while line.last - line.first >= 2:
         s1, z1 = line.at(np.array([line.first]))[0]
         ahead = s - line.skew * t - s1
@@ -317,10 +337,11 @@ def _bottom(line: StairLine, s: Array, t: Array, z: Array, tight: float) -> Stai
         before = (level & (ahead > -0.4 * g - 0.15) & (ahead < -0.04)).sum()
         behind = (level & (ahead > 0.04) & (ahead < 0.9 * g)).sum()
         face = (np.abs(ahead) < tight) & (z < z1 - 0.15 * r) & (z > z1 - 0.85 * r)
-        ends = (front.at - line.skew * front.t)[front.step == line.first]
-        edge = len(ends) >= FEWEST_LANES and abs(float(np.median(ends)) - s1) < EDGE_OFF
         if face.sum() >= 5 and face.sum() > before:
             break
+        front = fronts(begun, s, t, z, tight) if front is None else front
+        ends = (front.at - line.skew * front.t)[front.step == line.first]
+        edge = len(ends) >= FEWEST_LANES and abs(float(np.median(ends)) - s1) < EDGE_OFF
         below = (ahead < -0.03) & (ahead > -2 * g) & (z < z1 - 0.4 * r) & (z > z1 - 2.5 * r)
         if before <= 0.3 * behind + 4 and behind >= 4 and edge and below.sum() >= FLOOR_SEEN:
             break
@@ -445,8 +466,9 @@ def _width(step: Indices, t: Array, line: StairLine) -> tuple[float, float]:
     for k in range(line.first, line.last + 1):
         here = t[step == k]
         if len(here) >= 10:
-            low.append(float(np.percentile(here, 0.5)))
-            high.append(float(np.percentile(here, 99.5)))
+            ends = np.percentile(here, [0.5, 99.5]).tolist()
+            low.append(ends[0])
+            high.append(ends[1])
     if not low:
         return float(t.min()), float(t.max())
     return float(np.median(low)), float(np.median(high))
