@@ -8,6 +8,8 @@ import pytest
 import kaidan
 from kaidan import Payload, Posture, Robot, Stairs, Surface
 from kaidan.assessment.advice import RAISED
+from kaidan.assessment.verdict import conclude
+from kaidan.models import judge
 from one_posture import assess
 
 KENAF = Robot.named("kenaf")
@@ -159,6 +161,23 @@ def test_the_friction_that_a_found_plan_needs_off_its_angles_too():
     for friction, verdict in ((needed, "go"), (answer.required_friction + 0.02, "caution")):
         then = kaidan.assess("absolem", short, **plan, flipper_tolerance="2deg", friction=friction)
         assert then.verdict == verdict
+
+
+def test_the_advice_of_a_found_plan_keeps_its_promise_too():
+    """Its traverse is taken over from the question, its friction is not."""
+    short = Stairs(name="short", rise=0.178, going=0.279, steps=4)
+    answer = kaidan.assess("absolem", short, surface="concrete-dry")
+    first = answer.what_would_help[0]
+    needed = float(re.search(r"(\d\.\d\d) or more", first.change)[1])
+    asked = answer.question.changed(surface=Surface.of_friction(needed))
+    found = judge(asked)
+    known = judge(asked, known=judge(answer.question))
+    assert [one.mode for one in known.each] == [one.mode for one in found.each]
+    for one, other in zip(known.each, found.each, strict=True):
+        assert (*one.worst, *one.best) == pytest.approx((*other.worst, *other.best), nan_ok=True)
+    then = conclude(asked, found)
+    assert first.verdict == then.verdict.value == "go"
+    assert first.margin_deg == pytest.approx(math.degrees(then.margin))
 
 
 def test_head_straight_at_a_yaw_only():

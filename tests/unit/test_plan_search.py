@@ -317,7 +317,7 @@ def test_one_posture_throughout_is_the_better_of_stowed_and_flat():
 def test_advice_about_a_plan_that_was_found_holds_off_its_angles():
     """With grousers its plan is GO at its angles and not 2 degrees off: another one is promised."""
     answer = kaidan.assess("absolem", "ibc", surface="concrete-dry")
-    (help_, *_) = answer.what_would_help
+    _, help_ = answer.what_would_help
     assert (help_.change, help_.verdict) == ("Belts with grousers of 10 mm every 40 mm", "go")
     belts = {"belt": "grousers", "grouser_height": 0.010, "grouser_spacing": 0.040}
     robot = answer.question.robot

@@ -147,7 +147,7 @@ def findings(question: Question, planned: Planned) -> Findings:
         alone = part.question
         if question is not planned.question:
             alone = question.changed(posture=alone.posture, changes=())
-        of_parts.append(findings_of(alone, Basis(part.question, part.traverse)))
+        of_parts.append(findings_of(alone, Basis(alone, part.traverse)))
     basis = Basis(question, planned)
     outside = next((each.outside for each in of_parts if each.outside), "")
     if outside:
