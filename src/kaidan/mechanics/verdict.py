@@ -11,8 +11,6 @@ from kaidan.modes import FORMULAS, SLIDES_DOWN, Verdict
 CAUTION, NO_GO = Verdict.CAUTION.rank, Verdict.NO_GO.rank
 _SLIDES_DOWN = FORMULAS.index(SLIDES_DOWN)
 """Code of sliding down; sliding up has the next, tipping the first two."""
-_FAR = 10.0
-"""More than any two margins differ by [rad]."""
 
 
 class Judged(NamedTuple):
@@ -21,8 +19,8 @@ class Judged(NamedTuple):
     verdict: Number
     """``kaidan.modes.Verdict`` by its rank."""
     governs: Number
-    """Mode of the smallest margin, of a NO-GO of those that fail with the spare given back too; by
-    its place in ``kaidan.modes.FORMULAS``, ties go to the first."""
+    """Mode of the smallest margin, of a NO-GO with the spare given back; by its place in
+    ``kaidan.modes.FORMULAS``, ties go to the first."""
     margin: Number
     """Smallest margin of slope of all modes, allowances off; unknown friction left out."""
     theta_s_sup: Number
@@ -121,10 +119,10 @@ def judged(
     verdict = holds * unknown * CAUTION + (1 - holds) * (
         holds_at_best * CAUTION + (1 - holds_at_best) * (NO_GO + outside)
     )
-    # what may hold does not decide a NO-GO
+    # a NO-GO is decided by what is smallest in the best case
     fails = at_best <= 0
-    over_downhill = m.tip_downhill + (fails & (downhill_at_best > 0)) * _FAR
-    over_uphill = m.tip_uphill + (fails & (uphill_at_best > 0)) * _FAR
+    over_downhill = m.tip_downhill + fails * (spare_d + spare_M)
+    over_uphill = m.tip_uphill + fails * spare_d
     slips = slip < np.minimum(over_downhill, over_uphill)
     governs = slips * (_SLIDES_DOWN + (m.slides_up < m.slides_down)) + (1 - slips) * (
         over_uphill < over_downhill

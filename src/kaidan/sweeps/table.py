@@ -11,7 +11,7 @@ from kaidan.mechanics.plane import contact_count
 from kaidan.mechanics.verdict import Judged
 from kaidan.models.closed_form import MODES, gap_below
 from kaidan.models.drive_limits import steepest_for_drive
-from kaidan.modes import DRIVE, FORMULAS, Verdict
+from kaidan.modes import DRIVE, FORMULAS, TIP_DOWNHILL, TIP_UPHILL, Verdict
 from kaidan.question import Question
 from kaidan.robot import Payload, Posture, Robot
 from kaidan.spelling import sheet_of
@@ -257,8 +257,10 @@ def _beyond_the_formulas(
     drive = np.where(beyond, np.nan, drive)
     stalls, failed = drive <= 0, answer.verdict == Verdict.NO_GO.rank
     codes = np.where(stalls, Verdict.NO_GO.rank, answer.verdict)
-    governing = np.choose(answer.governs, [numbers[mode.key] for mode in FORMULAS])
-    by_drive = (drive < governing) | (stalls & ~failed)
+    theta_d, theta_M = inputs["theta_d_spare"], inputs["theta_M_spare"]
+    spare = {TIP_DOWNHILL: theta_d + theta_M, TIP_UPHILL: theta_d}
+    at_best = [numbers[mode.key] + failed * spare.get(mode, 0.0) for mode in FORMULAS]
+    by_drive = (drive < np.choose(answer.governs, at_best)) | (stalls & ~failed)
     return answer._replace(
         **numbers
         | {

@@ -96,7 +96,7 @@ def test_a_package_missing_where_it_runs_ends_the_campaign(tmp_path):
 
 
 def test_processes_that_cannot_even_begin_are_no_outcome(tmp_path, monkeypatch):
-    monkeypatch.setattr("kaidan.campaign.local._become_worker", os._exit)  # wants an argument
+    monkeypatch.setattr("kaidan.campaign.local.become_worker", os._exit)  # wants an argument
     with pytest.raises(InputError, match="die as soon as they begin"):
         local_campaign(tmp_path, specs(3), count=1)
     assert numbers(tmp_path) == []

@@ -173,7 +173,8 @@ def test_what_governs(changes, mode, worst):
     [
         # hand: 0.1 beyond the tip limit, 0.05 beyond friction; what is given back saves the tip
         ({"theta_s": math.pi / 4 - 0.1, "spare_d": 0.15}, SLIDES_DOWN),
-        ({"theta_s": math.pi / 4 - 0.1, "spare_d": 0.05}, TIP_DOWNHILL),
+        ({"theta_s": math.pi / 4 - 0.1, "spare_d": 0.04}, TIP_DOWNHILL),
+        ({"theta_s": math.pi / 4 - 0.1, "spare_d": 0.06}, SLIDES_DOWN),
         ({"theta_s": math.pi / 4 - 0.1, "spare_M": 0.15}, SLIDES_DOWN),
         ({"theta_s": 0.1 - math.pi / 4, "spare_d": 0.15}, SLIDES_UP),
         # theta_M is no matter of the uphill end
