@@ -265,6 +265,20 @@ def test_the_whole_flight_does_not_lower_its_verdict():
     assert nose.verdict == best("absolem-flat", "osha", friction="0.6..1.0").verdict == "caution"
 
 
+def test_a_plan_that_promises_a_go_is_judged_at_its_angles_on_the_whole_flight_alone(monkeypatch):
+    at_angles = []
+    known = Drives.judge
+    monkeypatch.setattr(
+        Drives, "judge", lambda self, question: at_angles.append(question) or known(self, question)
+    )
+    found = found_of(Question.of("absolem", "ibc", friction=1.2))
+    assert (conclude(found.question, found.findings).verdict, at_angles) == (Verdict.GO, [])
+    assert conclude(found.question, judge(found.question)).margin == pytest.approx(
+        conclude(found.question, found.findings).margin, abs=1e-12
+    )  # the same judgement: rounding
+    assert found.question.terrain.steps == 12
+
+
 def test_shortened_flights_keep_what_is_odd():
     odd = Stairs(rise=0.12, going=0.2, steps=40, first_rise=0.1, last_rise=0.13)
     short = shortened(Question.in_one_posture(FRONT_PAIR, odd)).terrain

@@ -49,6 +49,8 @@ class Judged(NamedTuple):
     """Largest rotation [deg]."""
     arrives: bool
     """Whether it gets to the end, whatever the verdict."""
+    whole: bool = False
+    """Whether its findings are those of the whole terrain, pose by pose."""
 
     @property
     def merit(self) -> Standing:
@@ -120,7 +122,7 @@ def found_of(
     tried = 0
     for facing in facings:
         search = Search(short, facing, limits)
-        found = _sturdiest(search, plans[-1].worst if plans else None, drives)
+        found = _sturdiest(search, plans[-1].worst if plans else None, drives, stated)
         ends = (*ends, facing)
         tried += len(search.scores.known)
         if found is None:
@@ -137,12 +139,19 @@ def _on_the_whole(stated: Question, plans: Sequence["_Off"], drives: Drives) -> 
     each = []
     for plan in plans:
         tested = plan if plan.tested else _judged_off(plan.judged, None, drives)
-        question = plan.judged.question.changed(terrain=stated.terrain)
-        each.append((judged_of(question, judge(question)), tested))
+        each.append((_on_all_of(stated, plan.judged), tested))
         if each[-1][0].merit[0] >= plan.judged.merit[0]:
             break
     whole, plan = max(each, key=lambda one: one[0].merit[0])
     return Found(whole.question, whole.findings, plan.sturdy, plan.judged.question, drives)
+
+
+def _on_all_of(stated: Question, plan: Judged) -> Judged:
+    """A plan judged on the whole terrain, pose by pose."""
+    question = plan.question.changed(terrain=stated.terrain)
+    if plan.whole:
+        return plan._replace(question=question)
+    return judged_of(question, judge(question))
 
 
 class _Off(NamedTuple):
@@ -170,7 +179,9 @@ class _Candidate(NamedTuple):
     """The worst off them, as far as it is scored."""
 
 
-def _sturdiest(search: Search, beaten: Standing | None, drives: Drives) -> _Off | None:
+def _sturdiest(
+    search: Search, beaten: Standing | None, drives: Drives, stated: Question
+) -> _Off | None:
     """Best plan of a search: the most promising off their angles, judged in one go.
 
     Of plans that are no better than what is beaten it is any; None: no plan promised to be better.
@@ -182,7 +193,7 @@ def _sturdiest(search: Search, beaten: Standing | None, drives: Drives) -> _Off 
         bar = _better(beaten, best)
         if bar is not None and not _may_be_better(search, each, bar, of_best, drives):
             continue
-        judged = _judged(each.plan.question(search.question), drives)
+        judged = _judged_at(each, search, drives, stated if bar is None else None)
         first = max(first or judged, judged, key=lambda one: one.merit)
         found = _judged_off(judged, bar, drives, search)
         if best is None or found.worst > best.worst:
@@ -202,6 +213,22 @@ def _sturdiest(search: Search, beaten: Standing | None, drives: Drives) -> _Off 
         return best
     found = _judged_off(_judged(sturdier.question(search.question), drives), best.worst, drives)
     return max(best, found, key=lambda each: each.worst)
+
+
+def _judged_at(each: _Candidate, search: Search, drives: Drives, stated: Question | None) -> Judged:
+    """A plan judged at its angles; where it promises GO first on the whole of what is stated.
+
+    As a rule it is one, and needs no other judgement at its angles.
+    """
+    question = each.plan.question(search.question)
+    passes, failing, _ = each.off
+    known = question.model == CONTACT.name and question.surface is not None
+    if stated is not None and known and passes and not failing:
+        whole = question.changed(terrain=stated.terrain)
+        judged = judged_of(question, judge(whole))._replace(whole=True)
+        if judged.conclusion.verdict is Verdict.GO:
+            return judged
+    return _judged(question, drives)
 
 
 def _better(beaten: Standing | None, best: _Off | None) -> Standing | None:
