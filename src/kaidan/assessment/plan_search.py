@@ -180,7 +180,7 @@ class _Candidate(NamedTuple):
 
 
 def _sturdiest(
-    search: Search, beaten: Standing | None, drives: Drives, stated: Question
+    search: Search, beaten: Standing | None, drives: Drives, stated: Question | None = None
 ) -> _Off | None:
     """Best plan of a search: the most promising off their angles, judged in one go.
 
@@ -222,7 +222,7 @@ def _judged_at(each: _Candidate, search: Search, drives: Drives, stated: Questio
     """
     question = each.plan.question(search.question)
     passes, failing, _ = each.off
-    known = question.model == CONTACT.name and question.surface is not None
+    known = stated is not None and stated.model == CONTACT.name and stated.surface is not None
     if stated is not None and known and passes and not failing:
         whole = question.changed(terrain=stated.terrain)
         judged = judged_of(question, judge(whole))._replace(whole=True)
