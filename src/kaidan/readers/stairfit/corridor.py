@@ -29,6 +29,8 @@ FEWEST = 3
 """Nosings that a flight has at least."""
 TRIED = 5
 """Repetitions of the side view that are tried with a fit."""
+ABOUT = 3.0
+"""Height over or under a line up to which a point may be one of its steps, in rises [1]."""
 ASKEW = math.radians(1.0)
 """Angle by which nosings lie off a heading that is then sought again [rad]."""
 SWEEP = 10
@@ -162,6 +164,9 @@ def lane_of(
 ) -> Lane | None:
     """Flight about a line, or None where too few steps lie side by side."""
     low, high, score = float(t.min()), float(t.max()), 0.0
+    slope = line.rise / line.going
+    about = np.flatnonzero(np.abs(z - line.z0 - slope * (s - line.s0)) < ABOUT * line.rise)
+    s, t, z = s[about], t[about], z[about]
     for wide in (max(2.0 * tolerance, 0.04), max(1.5 * tolerance, 0.025), tolerance):
         inside = np.flatnonzero((t >= low) & (t <= high))
         at = assigned(line, s[inside], t[inside], z[inside], min(wide, line.rise * 0.35))

@@ -7,7 +7,7 @@ median of its points says where it is; the median of the slopes between strips s
 
 import numpy as np
 
-from kaidan.readers.kinds import Array
+from kaidan.readers.kinds import Array, Indices
 from kaidan.readers.stairfit.staircase_line import StairLine
 
 STRIP = 0.08
@@ -43,22 +43,27 @@ def nosing_angles(
     found = np.full(line.last - line.first + 1, np.nan)
     for row, (at, level) in enumerate(line.at(np.arange(line.first, line.last + 1)).tolist()):
         below = (level - z) / line.rise
-        face = (below > BAND[0]) & (below < BAND[1])
-        face &= np.abs(s - line.skew * t - at) < REACH * line.going
-        if face.sum() < FEWEST_STRIPS * FEWEST_POINTS:
+        rows = np.flatnonzero((below > BAND[0]) & (below < BAND[1]))
+        rows = rows[np.abs(s[rows] - line.skew * t[rows] - at) < REACH * line.going]
+        if len(rows) < FEWEST_STRIPS * FEWEST_POINTS:
             continue
-        strip = ((t[face] - low) / STRIP).astype(np.int64)
-        places = [
-            (float(np.median(t[face][here])), float(np.median(s[face][here])))
-            for each in np.unique(strip).tolist()
-            if (here := strip == each).sum() >= FEWEST_POINTS
-        ]
-        if len(places) < FEWEST_STRIPS:
+        strip = ((t[rows] - low) / STRIP).astype(np.int64)
+        x, y = (_medians(strip, each[rows]) for each in (t, s))
+        if len(x) < FEWEST_STRIPS:
             continue
-        x, y = np.array(places).T
         i, j = np.triu_indices(len(x), 2)  # neighbours say little
         found[row] = np.arctan(np.median((y[j] - y[i]) / (x[j] - x[i])))
     return found
+
+
+def _medians(strip: Indices, value: Array) -> Array:
+    """Median in each strip that holds points enough."""
+    order = np.lexsort((value, strip))
+    count = np.bincount(strip)
+    begins = np.cumsum(count) - count
+    begins, count = begins[count >= FEWEST_POINTS], count[count >= FEWEST_POINTS]
+    ordered = value[order]
+    return np.asarray((ordered[begins + (count - 1) // 2] + ordered[begins + count // 2]) / 2)
 
 
 def turn_of(angles: Array) -> tuple[str, float]:
