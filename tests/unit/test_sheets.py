@@ -488,6 +488,13 @@ def test_inclined_stairs_refuse_to_the_letter(change, error):
     assert str(caught.value) == error
 
 
+def test_the_last_step_is_a_regular_one_where_no_landing_was_seen():
+    """By hand: 0.1, 0.12 over two goings of 0.25; without a landing 0.1, 0.12, 0.14 over three."""
+    steps = {"name": "x", "rises": (0.2, 0.1, 0.12, 0.14), "goings": (0.25, 0.25, 0.25)}
+    assert Stairs(**steps).angle == pytest.approx(math.atan2(0.22, 0.5))
+    assert Stairs(**steps, head_seen=False).angle == pytest.approx(math.atan2(0.36, 0.75))
+
+
 def test_inclined_stairs_with_units():
     assert Stairs.inclined(angle="35deg", nosing_spacing="290mm") == Stairs.inclined(
         angle=math.radians(35), nosing_spacing=0.29

@@ -354,13 +354,14 @@ class Stairs(Sheet):
     def regular_steps(self) -> tuple[tuple[float, float], ...]:
         """Pairs (rise, going) [m] from nosing to nosing while the robot traverses.
 
-        The first riser belongs to entering and the last one to landing, so neither is among them
-        (but in a measured flight of three risers or fewer the last one is).
+        The first riser belongs to entering and the last one to landing, so neither is among them.
+        The last one is in a measured flight of three risers or fewer, and in one whose landing was
+        not seen: it leads to a step like the others.
         """
         if self.rise is not None and self.going is not None:
             return ((self.rise, self.going),) * max(1, self.steps - 2)
         pairs = tuple(zip(self.step_rises[1:], self.step_goings, strict=True))
-        return pairs[:-1] if len(pairs) > 2 else pairs
+        return pairs[:-1] if self.head_seen and len(pairs) > 2 else pairs
 
     @property
     def twisted(self) -> bool:

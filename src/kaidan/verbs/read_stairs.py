@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -134,6 +135,9 @@ def _flight(
     flight: FlightEstimate, sheet: Stairs | None, why: str, cloud: Array | None
 ) -> FlightRead:
     regular = flight.regular
+    if sheet is not None:  # a list of steps has the mean of those that are regular
+        rise_m, going_m = (sum(each) / len(each) for each in zip(*sheet.regular_steps, strict=True))
+        regular = replace(regular, rise=rise_m, going=going_m)
     going, rise = flight.doubt_of_a_step()
     return FlightRead(
         steps=len(flight),
