@@ -84,6 +84,8 @@ SHEETS = {
 }
 
 MEASURED_STAIRS = {
+    **dict.fromkeys(("width", "lower_landing", "lower_passage", "upper_leaf"), "length"),
+    **dict.fromkeys(("lower_turn", "upper_turn"), "text"),
     **dict.fromkeys(("first_rise", "last_rise", "u_tape"), "length"),
     "rises": "points",
     "goings": "points",

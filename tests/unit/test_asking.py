@@ -66,13 +66,25 @@ def test_flippers_are_asked_for(tmp_path):
 
 def test_stairs_and_surfaces_are_asked_for(tmp_path):
     stairs, surface = tmp_path / "s.toml", tmp_path / "m.toml"
-    new("stairs", stairs, "Cellar", "18cm", "11in", "14", "165mm", "", "")
+    new("stairs", stairs, "Cellar", "18cm", "11in", "14", "165mm", "", "", "", "")
     flight = Stairs.named(str(stairs))
     assert (flight.rise, flight.going, flight.steps) == (0.18, pytest.approx(0.2794), 14)
     assert flight.first_rise == 0.165
     done = new("surface", surface, "", "0.5", "0.7")
     assert f"next: kaidan assess ROBOT STAIRS --surface {surface}" in done.stdout
     assert Surface.named(str(surface)).friction_high == 0.7
+
+
+def test_a_turn_asks_for_what_it_takes(tmp_path):
+    file = tmp_path / "s.toml"
+    flight = ("Cellar", "18cm", "28cm", "9", "", "", "")
+    new("stairs", file, *flight, "quarter", "1m", "1.2m", "1.1m", "", "", "half", "1.2m", "2.1m",
+        "", "0.7m")  # fmt: skip
+    stairs = Stairs.named(str(file))
+    assert (stairs.lower_turn, stairs.upper_turn, stairs.width) == ("quarter", "half", 1.0)
+    assert (stairs.lower_landing, stairs.lower_landing_width) == (1.2, 1.1)
+    assert (stairs.upper_landing, stairs.upper_landing_width) == (1.2, 2.1)
+    assert (stairs.upper_passage, stairs.upper_leaf) == (None, 0.7)
 
 
 @pytest.mark.parametrize(

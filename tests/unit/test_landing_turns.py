@@ -162,7 +162,7 @@ def test_landings_between_flights_are_judged_each():
         ),
         (
             HALF | {"upper_landing_width": 1.5},
-            "stairs: upper_landing_width = 1.5 m, but the flight and what lies beside it take 2 m "
+            "stairs: upper_landing_width = 1.5 m, but the flight and what lies beside it are 2 m "
             "wide",
         ),
         (

@@ -234,6 +234,40 @@ def test_a_stairs_sheet_is_written(tmp_path):
     assert flight.uncertainty.nosing_spacing == pytest.approx(1.4e-4, abs=2e-5)
 
 
+def test_landings_go_into_the_sheet_of_stairs(tmp_path):
+    file = tmp_path / "own.toml"
+    totals = ("--total-rise", "2.72m", "--total-going", "4.2m", "--risers", "16")
+    text = words("stairs", file, *totals, "--width", "1m", "--upper-turn", "half",
+                 "--upper-landing", "1.2m", "--upper-landing-width", "2.1m", "--upper-leaf", "0.7m",
+                 "--lower-landing", "2m")  # fmt: skip
+    assert "landings    width 1000 mm, lower_landing 2000 mm, upper_turn half" in text
+    flight = Stairs.named(str(file))
+    assert (flight.upper_turn, flight.upper_landing, flight.upper_landing_width) == (
+        "half", 1.2, 2.1,
+    )  # fmt: skip
+    assert (flight.width, flight.upper_leaf, flight.lower_landing) == (1.0, 0.7, 2.0)
+    assert flight.sources["upper_landing"] == "V: measured by tape (kaidan measure stairs)"
+
+
+@pytest.mark.parametrize(
+    ("given", "text"),
+    [
+        ({"upper_turn": "half"},
+         "stairs: upper_turn = half needs width and upper_landing and upper_landing_width too"),
+        ({"upper_landing": "1200"},
+         "upper_landing '1200' has no unit; write 1200mm or 1200cm or 1200m"),
+        ({"lower_leaf": -0.1}, "stairs: lower_leaf = -0.1 m is not within 0 to 5 m"),
+        ({"upper_turn": "half", "width": 1, "upper_landing": 1.2, "upper_landing_width": 1.2},
+         "stairs: upper_landing_width = 1.2 m, but the flight and what lies beside it are 2 m "
+         "wide"),
+    ],
+)  # fmt: skip
+def test_landings_that_are_refused(given, text):
+    with pytest.raises(InputError) as error:
+        measure_stairs(total_rise="2.72m", total_going="4.2m", risers=16, **given)
+    assert str(error.value) == text
+
+
 def test_a_measurement_as_json_and_without_a_file():
     found = json.loads(words("robot", *SCALES, "--json"))
     assert found["com_from_front"]["value"] == pytest.approx(0.2)

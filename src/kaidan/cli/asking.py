@@ -29,12 +29,24 @@ _ASKED = {
         "rear_flippers",
         "track.belt",
     ),
-    "stairs": ("title", "rise", "going", "steps", "first_rise", "last_rise", "nosing_overhang"),
+    "stairs": (
+        "title",
+        "rise",
+        "going",
+        "steps",
+        "first_rise",
+        "last_rise",
+        "nosing_overhang",
+        "lower_turn",
+        "upper_turn",
+    ),
     "surface": ("title", "friction_low", "friction_high"),
 }
 """Figures that are requested, in this order."""
 _FLIPPERS = ("length", "root_radius", "tip_radius", "pivot_height", "mass", "max_speed")
 _GROUSERS = ("track.grouser_height", "track.grouser_spacing")
+_LANDING = ("landing", "landing_width")
+_BEYOND = ("passage", "leaf")
 _CENTROID = ("com_from_front", "com_height")
 
 
@@ -56,6 +68,9 @@ def ask(kind: type[Sheet]) -> dict[str, Any]:
         if name.endswith("_flippers"):
             found |= _flippers(answers, kind, name)
             continue
+        if name.endswith("_turn"):
+            found |= _turn(answers, kind, name.removesuffix("_turn"), found)
+            continue
         value = _one(answers, kind, name, optional=name == "com_from_front")
         if value is not None:
             found[name] = value
@@ -75,6 +90,21 @@ def _flippers(answers: "_Answers", kind: type[Sheet], name: str) -> dict[str, An
     paths = [f"{name}.{part}" for part in _FLIPPERS]
     each = {path: _one(answers, kind, path, lead=f"{pair}, ") for path in paths}
     return {path: value for path, value in each.items() if value is not None}
+
+
+def _turn(
+    answers: "_Answers", kind: type[Sheet], end: str, found: dict[str, Any]
+) -> dict[str, Any]:
+    """Whether the way turns on a landing and, where it does, what that turn takes."""
+    said = {f"{end}_turn": _one(answers, kind, f"{end}_turn", default="none")}
+    if said[f"{end}_turn"] == "none":
+        return {}
+    needed = [f"{end}_{each}" for each in _LANDING]
+    if "width" not in found:
+        needed.insert(0, "width")
+    said |= {name: _one(answers, kind, name, needed=True) for name in needed}
+    each = {name: _one(answers, kind, name) for name in (f"{end}_{of}" for of in _BEYOND)}
+    return said | {name: value for name, value in each.items() if value is not None}
 
 
 def _yes(answers: "_Answers", name: str, text: str) -> bool:
@@ -122,6 +152,7 @@ def _one(
     lead: str = "",
     default: str | None = None,
     optional: bool = False,
+    needed: bool = False,
 ) -> Any:
     """Answer to one question, put again on a terminal until it has a meaning; None: left out."""
     from kaidan.errors import InputError
@@ -131,7 +162,7 @@ def _one(
     unit, low, high = bounds(field)
     extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
     words = words_of(field.annotation)
-    needed = (field.is_required() or key in sheet.requested) and not optional
+    needed = needed or ((field.is_required() or key in sheet.requested) and not optional)
     left_out = default if needed or default else "unknown" if unit or words else "none"
     shown = [human(end, unit=unit) if unit else "" for end in (low, high)]
     choice = f" ({' or '.join(words)})" if words else ""

@@ -85,6 +85,43 @@ RiseChecks = Annotated[
 GoingChecks = Annotated[
     list[str] | None, typer.Option("--going", help="Going of a single step; give three or more.")
 ]
+Clear = Annotated[str | None, typer.Option("--width", help="Clear width of the flight.")]
+LowerTurn = Annotated[
+    str | None, typer.Option("--lower-turn", help="Turn on the lower landing: quarter or half.")
+]
+LowerLanding = Annotated[
+    str | None, typer.Option("--lower-landing", help="Its clear length, along the flight.")
+]
+LowerAcross = Annotated[
+    str | None, typer.Option("--lower-landing-width", help="Its clear width, across the flight.")
+]
+LowerPassage = Annotated[
+    str | None,
+    typer.Option(
+        "--lower-passage", help="Where a level passage lies beyond the turn: its clear width."
+    ),
+]
+LowerLeaf = Annotated[
+    str | None, typer.Option("--lower-leaf", help="Leaf of a door opposite that opens onto it.")
+]
+UpperTurn = Annotated[
+    str | None, typer.Option("--upper-turn", help="Turn on the upper landing: quarter or half.")
+]
+UpperLanding = Annotated[
+    str | None, typer.Option("--upper-landing", help="Its clear length, along the flight.")
+]
+UpperAcross = Annotated[
+    str | None, typer.Option("--upper-landing-width", help="Its clear width, across the flight.")
+]
+UpperPassage = Annotated[
+    str | None,
+    typer.Option(
+        "--upper-passage", help="Where a level passage lies beyond the turn: its clear width."
+    ),
+]
+UpperLeaf = Annotated[
+    str | None, typer.Option("--upper-leaf", help="Leaf of a door opposite that opens onto it.")
+]
 
 
 def register(app: typer.Typer) -> None:
@@ -161,6 +198,17 @@ def stairs(
     last_rise: LastRise = None,
     rise: RiseChecks = None,
     going: GoingChecks = None,
+    width: Clear = None,
+    lower_turn: LowerTurn = None,
+    lower_landing: LowerLanding = None,
+    lower_landing_width: LowerAcross = None,
+    lower_passage: LowerPassage = None,
+    lower_leaf: LowerLeaf = None,
+    upper_turn: UpperTurn = None,
+    upper_landing: UpperLanding = None,
+    upper_landing_width: UpperAcross = None,
+    upper_passage: UpperPassage = None,
+    upper_leaf: UpperLeaf = None,
     u_tape: TapeDoubt = "2mm",
     as_json: options.AsJson = False,
 ) -> None:
@@ -172,6 +220,11 @@ def stairs(
         name="stairs" if file is None else file.stem,
         total_rise=total_rise, total_going=total_going, risers=risers,
         first_rise=first_rise, last_rise=last_rise, rises=rise or (), goings=going or (),
+        width=width,
+        lower_turn=lower_turn, lower_landing=lower_landing, lower_landing_width=lower_landing_width,
+        lower_passage=lower_passage, lower_leaf=lower_leaf,
+        upper_turn=upper_turn, upper_landing=upper_landing, upper_landing_width=upper_landing_width,
+        upper_passage=upper_passage, upper_leaf=upper_leaf,
         u_tape=u_tape,
     )  # fmt: skip
     files: output.Contents = {}

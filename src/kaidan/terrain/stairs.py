@@ -267,7 +267,7 @@ class Stairs(Sheet):
         beyond = self.width if passage is None else passage
         beside = self.width + (beyond if turn == "half" else 0.0)
         if across < beside - BESIDE:
-            what = "the flight and what lies beside it take" if turn == "half" else "the flight is"
+            what = "the flight and what lies beside it are" if turn == "half" else "the flight is"
             raise self.refuse(f"{end}_landing_width = {across:g} m, but {what} {beside:g} m wide")
         if turn == "quarter" and passage is not None and depth < passage - BESIDE:
             raise self.refuse(

@@ -42,10 +42,11 @@ Measure from floor to floor (--total-rise), and level from the first nosing to t
 (--total-going); count the risers. First and last riser often differ: --first-rise, --last-rise.
 Check three single rises and goings somewhere: --rise 171mm --rise 168mm ...
 
-Where the way turns on a landing, measure that landing too and state it in the sheet: its clear
-length along the flight and width across it (upper_landing, upper_landing_width), the clear width
-of the flight (width), the turn (upper_turn = "quarter" or "half"), the leaf of a door opposite that
-opens onto it (upper_leaf), and where a level passage goes on from there its width (upper_passage).
+Where the way turns on a landing, measure that landing too: the turn (--upper-turn quarter or half),
+its clear length along the flight and width across it (--upper-landing, --upper-landing-width), the
+clear width of the flight (--width), the leaf of a door opposite that opens onto it (--upper-leaf),
+and where a level passage goes on from there its width (--upper-passage). A half turn takes a
+landing as wide as both flights side by side. Likewise --lower-turn and so on.
 """
 
 DRAWINGS = {"robot": ROBOT_DRAWING, "stairs": STAIRS_DRAWING, "surface": ""}

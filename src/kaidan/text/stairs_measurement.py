@@ -30,6 +30,12 @@ def text(found: "StairsMeasurement") -> str:
              f"going +- {mm * found.going_spread_m:.1f} mm ({found.going_spread_from}): "
              f"+- {found.angle_of_a_step_deg:.2f} deg"),
     ]  # fmt: skip
+    if found.landings:
+        stated = (
+            f"{key} {value if isinstance(value, str) else f'{mm * value:.0f} mm'}"
+            for key, value in found.landings.items()
+        )
+        lines.append(_row("landings", ", ".join(stated)))
     return "\n".join([*lines, *(f"  {note}" for note in found.notes)])
 
 
@@ -44,6 +50,10 @@ def sources(found: "StairsMeasurement") -> dict[str, str]:
         "going": total,
         "steps": f"V: counted {tool}",
         **{key: f"V: measured by tape {tool}" for key, value in odd.items() if value is not None},
+        **{
+            key: f"V: {'seen' if isinstance(value, str) else 'measured by tape'} {tool}"
+            for key, value in found.landings.items()
+        },
         "uncertainty.angle": doubt,
         "uncertainty.nosing_spacing": doubt,
         "uncertainty.rise": f"V: single rises, {found.rise_spread_from} {tool}",

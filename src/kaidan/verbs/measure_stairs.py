@@ -1,7 +1,7 @@
 """Stairs from their totals and a few spot checks, with an honest doubt."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, Literal
 
 from kaidan.answer import Answer
@@ -60,6 +60,8 @@ class StairsMeasurement(Answer):
     """Where the deviation of the rises comes from."""
     going_spread_from: Spread
     """Where the deviation of the goings comes from."""
+    landings: dict[str, float | str]
+    """What was stated of width and landings, by the names of the sheet [m]."""
     angle_of_a_step_deg: float
     """Standard deviation of the slope from one nosing to the next [deg]."""
     notes: tuple[str, ...]
@@ -81,6 +83,7 @@ class StairsMeasurement(Answer):
         }
         odd = {"first_rise": self.first_rise_m, "last_rise": self.last_rise_m}
         found |= {key: value for key, value in odd.items() if value is not None}
+        found |= self.landings
         return found | {f"sources.{key}": said for key, said in sources(self).items()}
 
 
@@ -95,6 +98,17 @@ def measure_stairs(
     rises: Sequence[Any] = (),
     goings: Sequence[Any] = (),
     u_tape: Any = TAPE,
+    width: Any = None,
+    lower_turn: Any = None,
+    lower_landing: Any = None,
+    lower_landing_width: Any = None,
+    lower_passage: Any = None,
+    lower_leaf: Any = None,
+    upper_turn: Any = None,
+    upper_landing: Any = None,
+    upper_landing_width: Any = None,
+    upper_passage: Any = None,
+    upper_leaf: Any = None,
 ) -> StairsMeasurement:
     """Flight of stairs from total rise and going, with the doubt of its angle and its steps.
 
@@ -114,6 +128,11 @@ def measure_stairs(
         Spot checks of single regular steps [m].
     u_tape : float or str
         Standard uncertainty of the tape [m].
+    width, lower_landing, lower_landing_width, lower_passage, lower_leaf, upper_landing, \
+upper_landing_width, upper_passage, upper_leaf : float or str, optional
+        As in `Stairs` [m].
+    lower_turn, upper_turn : str, optional
+        "none", "quarter" or "half", as in `Stairs`.
 
     Returns
     -------
@@ -131,6 +150,21 @@ def measure_stairs(
     (0.17, 0.28, 0.022)
     """
     count = _count(risers)
+    landings = _landings(
+        {
+            "width": width,
+            "lower_turn": lower_turn,
+            "lower_landing": lower_landing,
+            "lower_landing_width": lower_landing_width,
+            "lower_passage": lower_passage,
+            "lower_leaf": lower_leaf,
+            "upper_turn": upper_turn,
+            "upper_landing": upper_landing,
+            "upper_landing_width": upper_landing_width,
+            "upper_passage": upper_passage,
+            "upper_leaf": upper_leaf,
+        }
+    )
     stated = {
         "total_rise": total_rise, "total_going": total_going,
         "first_rise": first_rise, "last_rise": last_rise,
@@ -164,7 +198,7 @@ def measure_stairs(
     _agree(checks["goings"], mean_going, "going", "the total going and the number of risers")
     flight = Stairs(
         name=name, rise=mean_rise, going=mean_going, steps=count,
-        first_rise=at.get("first_rise"), last_rise=at.get("last_rise"),
+        first_rise=at.get("first_rise"), last_rise=at.get("last_rise"), **landings,
     )  # fmt: skip
     s_r, r_from = _spread(checks["rises"], mean_rise)
     s_g, g_from = _spread(checks["goings"], mean_going)
@@ -189,8 +223,18 @@ def measure_stairs(
         rise_spread_from=r_from,
         going_spread_from=g_from,
         angle_of_a_step_deg=math.degrees(local),
+        landings=landings,
         notes=_notes(odd, r_from, g_from),
     )
+
+
+def _landings(stated: Mapping[str, Any]) -> dict[str, Any]:
+    """What is stated of landings, lengths in metres; the sheet judges turns and ranges."""
+    return {
+        key: given if key.endswith("_turn") else value_of(given, "length", option=key)
+        for key, given in stated.items()
+        if given is not None
+    }
 
 
 def _count(risers: Any) -> int:
