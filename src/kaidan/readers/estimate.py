@@ -12,6 +12,7 @@ from kaidan.readers.kinds import Array, Provenance
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import UNSTATED_LANDING, Stairs
 from kaidan.text.refusals import sentence
+from kaidan.text.turning import not_judged
 
 STRAIGHT_ON = math.radians(15.0)
 """Angle between two flights up to which the robot goes straight on [rad]."""
@@ -73,7 +74,8 @@ class StairsEstimate:
         """Data sheets of the flights from bottom to top, as a question takes them.
 
         A landing between two flights has the turn on it, the nearer of a quarter and a
-        half, where it was seen to be as wide as both flights side by side.
+        half, where it was seen to be as wide as both flights side by side. Where it was not, the
+        notes of the lower flight's sheet say that the turn is not judged, and why.
         """
         sheets = [
             flight.stairs(
@@ -117,16 +119,21 @@ class Found:
 
 
 def _turning(sheet: Stairs, landing: LandingEstimate) -> Stairs:
-    """Sheet of the flight below a landing with the turn on it, as far as both agree."""
-    if abs(landing.turn) < STRAIGHT_ON or not math.isfinite(landing.width):
+    """Sheet of the flight below a landing with the turn on it, or with why it is not judged."""
+    if abs(landing.turn) < STRAIGHT_ON:
         return sheet
     stated = {name: getattr(sheet, name) for name in sheet.model_fields_set}
-    stated["upper_turn"] = "half" if abs(landing.turn) > math.radians(135.0) else "quarter"
-    stated["upper_landing_width"] = round(landing.width, MICROMETRE)
+    half = abs(landing.turn) > math.radians(135.0)
+    turning = {"upper_turn": "half" if half else "quarter"} | (
+        {"upper_landing_width": round(landing.width, MICROMETRE)}
+        if math.isfinite(landing.width)
+        else {}
+    )
     try:
-        return Stairs(**stated)
-    except InputError:  # its width or depth was not seen, or is less than both flights take
-        return sheet
+        return Stairs(**stated | turning)
+    except InputError as error:
+        why = str(error).removeprefix(f"{Stairs.label}: ")
+        return Stairs(**stated | {"notes": not_judged(landing.turn, sheet.name, why)})
 
 
 def _or_unseen(length: float) -> float:

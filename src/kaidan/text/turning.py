@@ -1,5 +1,6 @@
 """How a robot turns on a landing, or why it does not."""
 
+import math
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -56,6 +57,24 @@ def lines(turns: "Sequence[LandingTurn]") -> list[str]:
         for each in turns
         if each.way in ("corner", "manoeuvre") or (each.way == "spin" and each.changed)
     ]
+
+
+def not_judged(turn: float, below: str, why: str) -> str:
+    """Why a turn that was seen between two flights is not in their sheets.
+
+    Parameters
+    ----------
+    turn : float
+        To the left positive [rad].
+    below : str
+        Name of the flight below.
+    why : str
+        What a sheet with it refuses.
+    """
+    return (
+        f"On the landing above {below} the way turns by {math.degrees(abs(turn)):.0f} deg, which "
+        f"is not judged: {why}. Measure that landing."
+    )
 
 
 def _how(turn: "TurnFigures") -> str:

@@ -371,8 +371,8 @@ def notes(question: "Question", found: "Findings", conclusion: "Conclusion") -> 
     if question.surface is None:
         each.append("No friction was stated, so no GO can be given.")
     each += _of_drive(question, question.stance)
-    if question.robot.notes:
-        each.append(" ".join(question.robot.notes.split()))
+    sheets = (question.robot.notes, *(flight.notes for flight in question.flights))
+    each += (" ".join(said.split()) for said in sheets if said)
     return tuple(each)
 
 

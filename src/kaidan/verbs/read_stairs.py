@@ -161,7 +161,7 @@ def _flight(
         left=tuple(map(tuple, flight.left[:, :2].tolist())),
         right=tuple(map(tuple, flight.right[:, :2].tolist())),
         points=() if cloud is None else _along(flight, cloud),
-        notes=flight.notes,
+        notes=flight.notes if sheet is None or not sheet.notes else (*flight.notes, sheet.notes),
         sheet=sheet,
         no_sheet=why,
     )

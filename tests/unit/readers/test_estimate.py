@@ -6,11 +6,14 @@ import math
 import numpy as np
 import pytest
 
+import kaidan
 from kaidan.errors import InputError
 from kaidan.readers.estimate import LandingEstimate, Refusal, StairsEstimate
 from kaidan.readers.flight import FlightEstimate, chi2_tail, independent
 from kaidan.readers.kinds import Provenance
+from kaidan.text.japanese import japanese
 from kaidan.text.refusals import REFUSALS
+from kaidan.verbs.read_stairs import staircase_read
 
 HERE = Provenance(path="here", digest="", form="by hand")
 
@@ -127,6 +130,32 @@ def test_a_staircase_has_one_landing_more_than_flights():
     assert stairs[0].upper_landing == stairs[1].lower_landing == 1.2
     with pytest.raises(InputError, match="2 flights need 3 landings, not 1"):
         StairsEstimate(two, landings[:1], HERE)
+
+
+@pytest.mark.parametrize(
+    ("seen", "why"),
+    [
+        ({"depth": 1.2}, "upper_turn = half needs upper_landing_width too"),
+        ({"width": 2.4}, "upper_turn = half needs upper_landing too"),
+        (
+            {"depth": 1.2, "width": 1.5},
+            "upper_landing_width = 1.5 m, but the flight and what lies beside it are 2 m wide",
+        ),
+    ],
+)
+def test_a_turn_that_contradicts_the_flights_is_said_where_it_is_not_judged(seen, why):
+    landings = (LandingEstimate(), LandingEstimate(**seen, turn=-math.pi), LandingEstimate())
+    two = (flight(width=1.0), flight(width=1.0))
+    lower, upper = StairsEstimate(two, landings, HERE, name="west").stairs()
+    said = (
+        f"On the landing above west-1 the way turns by 180 deg, which is not judged: {why}. "
+        "Measure that landing."
+    )
+    assert (lower.upper_turn, lower.notes, upper.notes) == ("none", said, "")
+    assert japanese(said) is not None
+    assert said in kaidan.assess("absolem", [lower, upper], friction=1.0).notes
+    read = staircase_read(StairsEstimate(two, landings, HERE, name="west"), None)
+    assert read.flights[0].notes == (said,)
 
 
 def test_chi2_of_the_tables():
