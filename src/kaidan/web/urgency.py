@@ -7,23 +7,23 @@ from typing import Any, Self
 
 from kaidan.web.workers import Limits, Reply, Workers
 
-NICE = 5
-"""By how much quick questions go before those that take a search, a file or a document."""
+QUICK, THOROUGH = 5, 10
+"""By how much estimates go before what takes a traverse, and before a search, file or document."""
 _AT_ONCE = ("estimate", "measure-robot", "measure-stairs")
 _BY_POSTURE = ("assess", "traverse", "plane", "margin")
 _QUICK_MODELS = ("contact", "closed-form", "support-polygon")
 
 
 class Hands:
-    """Two sets of workers: one for what is answered at once, one for everything else.
+    """Three sets of workers: for estimates, for other quick questions, for everything else.
 
-    Of the first, one is left for estimates where there are several: they take milliseconds, and
-    somebody waits for each.
+    Estimates take milliseconds and somebody at a slider waits for each, so that they wait for
+    nothing else.
 
     Parameters
     ----------
     count : int
-        Processes of each; of several, the first set has one more.
+        Processes of each; two answer more estimates than many people ask for.
     limits : Limits
         What one question may take.
     folder : Path
@@ -31,12 +31,14 @@ class Hands:
     """
 
     def __init__(self, count: int, limits: Limits, folder: Path) -> None:
-        kept = int(count > 1)
-        self.quick = Workers(count + kept, limits, folder, kept=kept)
-        self.thorough = Workers(count, limits, folder, nice=NICE)
+        self.estimates = Workers(min(count, 2), limits, folder)
+        self.quick = Workers(count, limits, folder, nice=QUICK)
+        self.thorough = Workers(count, limits, folder, nice=THOROUGH, ready=False)
+        self._every = (self.estimates, self.quick, self.thorough)
 
     async def __aenter__(self) -> Self:
-        await self.quick.__aenter__()
+        for each in self._every:
+            await each.__aenter__()
         return self
 
     async def __aexit__(
@@ -45,14 +47,14 @@ class Hands:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        await self.quick.__aexit__()
-        await self.thorough.__aexit__()
+        for each in self._every:
+            await each.__aexit__()
 
     async def ask(self, task: Mapping[str, Any]) -> Reply:
         """Reply of whom a task is for, see `Workers.ask`."""
-        if not is_quick(task):
-            return await self.thorough.ask(task)
-        return await self.quick.ask(task, rank=int(task["verb"] not in _AT_ONCE))
+        if task["verb"] in _AT_ONCE:
+            return await self.estimates.ask(task)
+        return await (self.quick if is_quick(task) else self.thorough).ask(task)
 
 
 def is_quick(task: Mapping[str, Any]) -> bool:

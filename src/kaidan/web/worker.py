@@ -26,6 +26,8 @@ def main() -> None:
     tasks = sys.stdin.buffer
     answers = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # what a library prints is no answer
+    if hasattr(os, "setpgrp"):
+        os.setpgrp()  # no session of its own, beyond which "nice" means nothing on Linux
     _bound_memory(int(sys.argv[1]))
     if int(sys.argv[2]) and hasattr(os, "nice"):
         os.nice(int(sys.argv[2]))

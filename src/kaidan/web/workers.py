@@ -1,14 +1,13 @@
 """Worker processes: each task in one of them, within a time, and a new one for each that dies."""
 
 import asyncio
-import heapq
-import itertools
 import json
 import os
 import shutil
 import signal
 import sys
 import tempfile
+from collections import deque
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -17,7 +16,7 @@ from typing import Any, NamedTuple, Self
 from kaidan.progress import Follower
 from kaidan.web.worker import LENGTH
 
-_LAST = 10
+_LAST = 15
 """By how much other processes go before a job."""
 
 
@@ -60,7 +59,7 @@ class _Worker:
         process = await asyncio.create_subprocess_exec(
             sys.executable, "-m", "kaidan.web.worker", str(limits.memory), str(nice),
             stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
-            stderr=asyncio.subprocess.DEVNULL, start_new_session=True, cwd=folder,
+            stderr=asyncio.subprocess.DEVNULL, cwd=folder,
             env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1",
                               "TMPDIR": str(folder)},
         )  # fmt: skip
@@ -91,6 +90,8 @@ class _Worker:
         """Kill it and whatever it began, and empty its folder."""
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(self.process.pid, signal.SIGKILL)
+        with suppress(ProcessLookupError):  # one that had no time to become a group
+            self.process.kill()
         await self.process.wait()
         if self.process.stdin is not None:
             self.process.stdin.close()
@@ -109,37 +110,33 @@ class Workers:
     folder : Path
         Where each has a folder for passing files.
     nice : int
-        By how much other processes go first; those that let others go first begin with their first
-        question.
-    kept : int
-        How many of them are left for questions of rank 0.
+        By how much other processes go first.
+    ready : bool
+        Whether they run before the first question.
     """
 
     def __init__(
-        self, count: int, limits: Limits, folder: Path, *, nice: int = 0, kept: int = 0
+        self, count: int, limits: Limits, folder: Path, *, nice: int = 0, ready: bool = True
     ) -> None:
         self.count, self.limits, self.folder = count, limits, folder
-        self.nice, self.kept = nice, kept
+        self.nice, self.ready = nice, ready
         self._idle: list[_Worker | None] = [None] * count
         self._all: set[_Worker] = set()
-        self._line: list[tuple[int, int, asyncio.Future[_Worker | None]]] = []
-        self._numbers = itertools.count()
+        self._line: deque[asyncio.Future[_Worker | None]] = deque()
         self._under_way: set[asyncio.Task[Reply]] = set()
 
     async def __aenter__(self) -> Self:
-        if not self.nice:
+        if self.ready:
             self._idle = [await self._begin(self.nice) for _ in range(self.count)]
         return self
 
     async def __aexit__(self, *ended: object) -> None:
-        for *_, turn in self._line:
+        for turn in self._line:
             turn.cancel()
         for worker in tuple(self._all):
             await self._drop(worker)
 
-    async def ask(
-        self, task: Mapping[str, Any], *, seconds: float | None = None, rank: int = 0
-    ) -> Reply:
+    async def ask(self, task: Mapping[str, Any], *, seconds: float | None = None) -> Reply:
         """Reply to a task, whatever becomes of its worker.
 
         Who gives up while the task waits takes it out of the line; one that has begun is ended.
@@ -150,12 +147,10 @@ class Workers:
             See ``kaidan.web.tasks``.
         seconds : float, optional
             Time that it may take [s]; that of the limits without it.
-        rank : int
-            Of those that wait, the lowest goes first.
         """
         if len(self._line) >= self.limits.waiting:
             return refused(503, "busy", "too many questions at once; ask again in a while")
-        worker = await self._free(rank)
+        worker = await self._free()
         work = asyncio.create_task(self._answered(worker, task, seconds or self.limits.seconds))
         self._under_way.add(work)
         work.add_done_callback(self._under_way.discard)
@@ -176,34 +171,29 @@ class Workers:
                 await self._drop(worker)
             self._release(worker if whole else None)
 
-    async def _free(self, rank: int) -> _Worker | None:
+    async def _free(self) -> _Worker | None:
         """Worker that has nothing to do, as soon as it is this one's turn; None: one may begin."""
-        if len(self._idle) > self._left_by(rank):
+        if self._idle:
             return self._idle.pop()
         turn: asyncio.Future[_Worker | None] = asyncio.get_running_loop().create_future()
-        place = (rank, next(self._numbers), turn)
-        heapq.heappush(self._line, place)
+        self._line.append(turn)
         try:
             return await turn
         except asyncio.CancelledError:
-            if place in self._line:
-                self._line.remove(place)
-                heapq.heapify(self._line)
+            if turn in self._line:
+                self._line.remove(turn)
             elif not turn.cancelled():  # its turn came in the same moment
                 self._release(turn.result())
             raise
 
-    def _left_by(self, rank: int) -> int:
-        """How many idle workers a question leaves for others."""
-        return self.kept if rank else 0
-
     def _release(self, worker: _Worker | None) -> None:
         """Give a worker to who waits for one."""
-        self._idle.append(worker)
-        while self._line and len(self._idle) > self._left_by(self._line[0][0]):
-            turn = heapq.heappop(self._line)[-1]
+        while self._line:
+            turn = self._line.popleft()
             if not turn.cancelled():
-                turn.set_result(self._idle.pop())
+                turn.set_result(worker)
+                return
+        self._idle.append(worker)
 
     async def ask_apart(
         self, task: Mapping[str, Any], *, seconds: float, follower: Follower

@@ -31,7 +31,7 @@ def test_a_worker_killed_in_a_request_is_one_clean_error():
         )
         asking.start()
         time.sleep(1.0)
-        quick, worker = workers()
+        *others, worker = workers()
         os.kill(worker, signal.SIGKILL)
         asking.join()
         assert answers[0].status_code == 503
@@ -41,14 +41,14 @@ def test_a_worker_killed_in_a_request_is_one_clean_error():
         }
         assert client.post("/api/assess", json=QUESTION).status_code == 200
         assert worker not in workers()
-        assert quick in workers()
+        assert set(others) <= set(workers())
 
 
 def test_a_worker_killed_between_requests_is_not_noticed():
     with served() as client:
         assert client.post("/api/assess", json=QUESTION).status_code == 200
-        (worker,) = workers()
-        os.kill(worker, signal.SIGKILL)
+        for worker in workers():
+            os.kill(worker, signal.SIGKILL)
         time.sleep(0.2)
         other = QUESTION | {"friction": 1.1}
         assert client.post("/api/assess", json=other).status_code == 200

@@ -13,7 +13,7 @@ def test_an_answer_is_the_json_of_the_command(client, capsys):
     answer = client.post("/api/assess", json=body)
     assert answer.status_code == 200
     run(["assess", "absolem", "ibc", "--flippers", "flat", "--surface", "concrete-dry", "--json"])
-    assert answer.text == capsys.readouterr().out.rstrip("\n")
+    assert answer.text == json.dumps(json.loads(capsys.readouterr().out))
 
 
 def test_a_question_may_be_asked_again_with_a_change(client):

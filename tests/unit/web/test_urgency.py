@@ -2,6 +2,8 @@
 
 import asyncio
 import contextlib
+import os
+import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -10,12 +12,15 @@ import pytest
 
 from kaidan.web.bodies import while_there
 from kaidan.web.remembered import Remembered
-from kaidan.web.urgency import is_quick
+from kaidan.web.urgency import QUICK as QUICK_NICE
+from kaidan.web.urgency import THOROUGH, Hands, is_quick
 from kaidan.web.workers import Limits, Reply, Workers
 from serving import LONG, served
 
 QUICK = {"robot": "absolem", "stairs": "ibc", "friction": 1.0, "flippers": "stowed"}
 """A question that is answered at once."""
+BEST = {"robot": "absolem-flat", "stairs": "ibc", "friction": 1.0, "flippers": "best"}
+"""One for which a posture is to be found."""
 
 
 def _run(coroutine):
@@ -103,41 +108,64 @@ def test_the_same_question_at_once_is_judged_once_and_given_up_by_the_last():
     _run(run())
 
 
-def test_one_worker_is_left_for_estimates(tmp_path):
+def test_an_estimate_does_not_wait_for_answers(tmp_path):
     async def run():
-        hands = Workers(2, Limits(), tmp_path, nice=1, kept=1)  # begins none by itself
-        first = await hands._free(1)
-        second = asyncio.create_task(hands._free(1))
+        hands = Hands(1, Limits(), tmp_path)
+        busy = await hands.quick._free()
+        answer = asyncio.create_task(hands.ask({"verb": "assess", "body": {"flippers": "flat"}}))
         await asyncio.sleep(0)
-        estimate = await hands._free(0)
-        hands._release(estimate)
-        await asyncio.sleep(0)
-        assert not second.done()
-        hands._release(first)
-        assert await second is None
+        estimate = {"kind": "ask", "verb": "estimate", "body": QUICK}
+        found = await hands.ask(estimate)
+        assert found.status == 200
+        assert not answer.done()
+        answer.cancel()
+        hands.quick._release(busy)
+        await hands.__aexit__(None, None, None)
 
     _run(run())
 
 
-def test_the_line_goes_by_rank_and_who_gives_up_leaves_it(tmp_path):
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+def test_workers_are_of_one_session_in_which_estimates_go_first(tmp_path):
+    # between sessions, niceness means nothing where the kernel makes groups of them
+    async def run():
+        async with Hands(1, Limits(), tmp_path) as hands:
+            for verb, body in (("estimate", QUICK), ("assess", QUICK), ("assess", BEST)):
+                found = await hands.ask({"kind": "ask", "verb": verb, "body": body})
+                assert found.status == 200
+            every = (hands.estimates, hands.quick, hands.thorough)
+            return [next(iter(each._all)).process.pid for each in every], [
+                _of_process(worker.process.pid) for each in every for worker in each._all
+            ]
+
+    pids, found = _run(run())
+    own = os.getpriority(os.PRIO_PROCESS, 0)
+    wanted = [min(own + by, 19) for by in (0, QUICK_NICE, THOROUGH)]
+    assert found == [(pid, os.getsid(0), nice) for pid, nice in zip(pids, wanted, strict=True)]
+
+
+def _of_process(pid):
+    """Group, session and niceness of a process."""
+    return os.getpgid(pid), os.getsid(pid), os.getpriority(os.PRIO_PROCESS, pid)
+
+
+def test_the_line_goes_in_turn_and_who_gives_up_leaves_it(tmp_path):
     async def run():
         order = []
 
-        async def ask(hands, name, rank):
-            await hands.ask({"kind": "ask", "verb": "estimate", "body": {"name": name}}, rank=rank)
+        async def ask(hands, name):
+            await hands.ask({"kind": "ask", "verb": "estimate", "body": {"name": name}})
             order.append(name)
 
         async with Workers(1, Limits(), tmp_path) as hands:
-            line = [
-                asyncio.create_task(ask(hands, name, rank))
-                for name, rank in (("first", 1), ("late", 1), ("gone", 0), ("early", 0))
-            ]
+            names = ("first", "gone", "second", "third")
+            line = [asyncio.create_task(ask(hands, name)) for name in names]
             await asyncio.sleep(0)
-            line[2].cancel()
+            line[1].cancel()
             await asyncio.gather(*line, return_exceptions=True)
         return order
 
-    assert _run(run()) == ["first", "early", "late"]
+    assert _run(run()) == ["first", "second", "third"]
 
 
 class Leaving:
