@@ -84,6 +84,35 @@ def test_who_cannot_turn_gets_no_go():
     assert json.loads(answer.to_json())["turns"][0]["way"] == "none"
 
 
+def test_a_no_go_names_the_posture_of_the_circle_that_decides():
+    """Stowed, where flat sweeps more: 0.901 m, which 0.8 m has no room for."""
+    small = HALF | {"upper_landing": 0.8, "width": 0.9}
+    answer = kaidan.assess("absolem", flight(**small), flippers="flat", friction=1.0)
+    (found,) = answer.turns
+    assert (found.way, found.flippers, found.changed) == ("none", "stowed", True)
+    assert found.circle_m == pytest.approx(0.901, abs=0.001)
+    assert answer.governs == "turning"
+    assert answer.reason == (
+        "It cannot turn by 180 deg on the upper landing: with flippers stowed it sweeps 0.90 m, "
+        "the landing has 0.80 m, and no manoeuvre was found."
+    )
+    assert japanese(answer.reason) == (
+        "上の床で 180° 旋回できません。フリッパ stowed で旋回円 0.90 m、踊り場の内接円 0.80 m、"
+        "切り返しの手順も見つかりません。"
+    )
+
+
+def test_a_circle_that_fits_elsewhere_is_not_said_to_be_too_large():
+    """1.30 m of 1.35 m, but a lane of 0.62 m leads 0.31 m from a wall, where 0.65 m are needed."""
+    sizes = {"upper_landing": 1.35, "upper_landing_width": 1.36, "width": 0.62}
+    answer = kaidan.assess(BOX, flight(**HALF | sizes), **SURE)
+    assert answer.reason == (
+        "It cannot turn by 180 deg on the upper landing: it sweeps 1.30 m, the landing has 1.35 m, "
+        "but not on the line by which it arrives or goes on, and no manoeuvre was found."
+    )
+    assert japanese(answer.reason) is not None
+
+
 @pytest.mark.parametrize("flippers", ["flat", "best"])
 def test_with_a_plan_that_is_found_it_is_said_too(flippers):
     answer = kaidan.assess(

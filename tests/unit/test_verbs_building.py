@@ -113,7 +113,7 @@ def test_ozbot_does_not_turn_there_and_that_binds(answer):
 
 @pytest.mark.parametrize(
     ("landing", "width", "way_", "changed"),
-    [(1.5, 1.5, "spin", False), (0.97, 1.0, "spin", True), (0.6, 1.0, "none", False)],
+    [(1.5, 1.5, "spin", False), (0.97, 1.0, "spin", True), (0.6, 1.0, "none", True)],
 )
 def test_the_landing_decides_how_absolem_turns(folder, landing, width, way_, changed):
     """Flat it sweeps 1.41 m with 30 mm all round, so that it needs half of that from each wall."""

@@ -18,7 +18,8 @@ class TurnFigures(Part):
     tight: bool
     """Whether it has no room to be 30 mm off."""
     flippers: str
-    """Posture in which it turns, as the option is written."""
+    """Posture in which it turns, as the option is written; if it does not, the one that was tried
+    with the smallest circle."""
     changed: bool
     """Whether that is another posture than the one in which it climbs."""
     circle_m: float | None

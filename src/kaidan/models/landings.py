@@ -88,12 +88,14 @@ def turned(tried: Sequence[tuple[str, Footprint]], room: Room | None) -> Turned:
     Returns
     -------
     Turned
+        Of none the posture that sweeps the smallest circle.
     """
     name, footprint = tried[0]
     if room is None or not math.isfinite(footprint.width):
         return Turned("unknown", False, name, footprint, None, None)
+    nearest = min(tried, key=lambda each: circle(each[1]))
     if len(room.kept) < 3:
-        return Turned("none", False, name, footprint, None, 0.0)
+        return Turned("none", False, *nearest, None, 0.0)
     largest = float(2 * inscribed_circle(room.inside, room.landing)[2])
     for more in (OFF_LINE, 0.0):
         for search in (_at_once, _back_and_forth):
@@ -101,7 +103,7 @@ def turned(tried: Sequence[tuple[str, Footprint]], room: Room | None) -> Turned:
                 way, path = search(_grown(covered, more), room)
                 if way != "none":
                     return Turned(way, not more, name, covered, path, largest)
-    return Turned("none", False, *tried[0], None, largest)
+    return Turned("none", False, *nearest, None, largest)
 
 
 def _grown(footprint: Footprint, more: float) -> Footprint:

@@ -24,10 +24,14 @@ def turning(turn: "TurnFigures", landing: str = "") -> str:
         if turn.circle_m is None:
             what = "the width of the robot is not stated"
         return f"Whether it can {by} is not known: {what}."
+    posture = f"with flippers {turn.flippers} " if turn.flippers else ""
     if turn.way == "none":
-        circles = f"it sweeps {_m(turn.circle_m)}, the landing has {_m(turn.room_m)}"
+        assert turn.circle_m is not None
+        circles = f"{posture}it sweeps {_m(turn.circle_m)}, the landing has {_m(turn.room_m)}"
+        if turn.circle_m <= (turn.room_m or 0.0):
+            circles += ", but not on the line by which it arrives or goes on"
         return f"It cannot {by}: {circles}, and no manoeuvre was found."
-    return f"It can {by} only where it is less than 30 mm off: {_how(turn)}."
+    return f"It can {by} only where it is less than 30 mm off: {posture}{_how(turn)}."
 
 
 def turned(turn: "TurnFigures", landing: str) -> str:

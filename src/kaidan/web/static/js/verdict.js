@@ -93,7 +93,8 @@ function turnsOf({ turns }) {
     const kind = turn.way === "none" ? "no-go" : turn.way === "unknown" || turn.tight ? "caution" : "go";
     const landing = (language === "ja" ? japanese(turn.landing, "landing") : null) ?? turn.landing;
     const how = t(`landing.way_${turn.way}`, { moves: turn.moves, circle: shown(turn.circle_m, "length"), room: shown(turn.room_m, "length") });
-    const more = [turn.changed && turn.way !== "none" ? t("landing.flippers", { flippers: turn.flippers }) : "", turn.tight && turn.way !== "none" ? t("landing.tight") : ""];
+    const posture = turn.way === "none" ? "landing.nearest" : "landing.flippers";
+    const more = [turn.flippers && (turn.way === "none" || turn.changed) ? t(posture, { flippers: turn.flippers }) : "", turn.tight && turn.way !== "none" ? t("landing.tight") : ""];
     return h("li", {}, symbol(kind, 18), " ", h("b", {}, t("landing.turn_on", { landing, angle: `${Math.abs(turn.turn_deg).toFixed(0)}°` })), " ", how, ...more);
   }));
 }
