@@ -12,6 +12,7 @@ from kaidan.assessment import Assessment
 from kaidan.models.landings import turns_of
 from kaidan.question import Question
 from kaidan.text.japanese import japanese
+from kaidan.text.turning import turned
 
 HALF = {"upper_turn": "half", "upper_landing": 1.2, "upper_landing_width": 2.2}
 SURE = {"friction": 2.0, "theta_d": 0.0, "theta_M": 0.0}
@@ -100,6 +101,41 @@ def test_a_no_go_names_the_posture_of_the_circle_that_decides():
         "上の床で 180° 旋回できません。フリッパ stowed で旋回円 0.90 m、踊り場の内接円 0.80 m、"
         "切り返しの手順も見つかりません。"
     )
+
+
+WIDE = {"upper_landing": 1.5, "width": 1.45}
+
+
+@pytest.mark.parametrize(
+    ("fields", "moves"),
+    [
+        (WIDE | {"upper_turn": "quarter", "upper_landing_width": 1.5}, 3),
+        (WIDE | {"upper_turn": "half", "upper_landing_width": 3.0}, 5),
+    ],
+)
+def test_on_the_spot_it_drives_turns_and_drives(fields, moves):
+    """Of a half turn it drives across and turns again."""
+    found = turn(**fields)
+    assert (found.way, found.moves, found.reversals) == ("spin", moves, 0)
+
+
+@pytest.mark.parametrize(
+    ("fields", "how"),
+    [
+        (HALF | {"upper_landing": 1.45}, "bit by bit"),
+        (
+            {"upper_turn": "quarter", "upper_landing": 1.25, "upper_landing_width": 2.0,
+             "width": 0.8},
+            "back and forth",
+        ),
+    ],
+)  # fmt: skip
+def test_only_what_drives_back_is_said_to_go_back_and_forth(fields, how):
+    found = turn(**fields)
+    assert (found.way, found.reversals > 0) == ("manoeuvre", how == "back and forth")
+    said = turned(found, found.landing)
+    assert said.endswith(f": {how} in {found.moves} drives and turns on the spot.")
+    assert japanese(said) is not None
 
 
 def test_a_circle_that_fits_elsewhere_is_not_said_to_be_too_large():

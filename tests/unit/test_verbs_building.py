@@ -269,7 +269,8 @@ def test_a_quarter_turn_with_the_tail_over_the_flight(folder):
     assert turn.room_m == pytest.approx(1.25, abs=0.01)
     assert min(x for x, _, _ in turn.path) >= 2.7 + 0.1
     assert way(found, "absolem-flat", "First").postures == (
-        f"On the landing at 1.50 m turn by 90 deg: back and forth in {turn.moves} moves.",
+        f"On the landing at 1.50 m turn by 90 deg: bit by bit in {turn.moves} drives and turns on "
+        "the spot.",
     )
 
 

@@ -27,7 +27,11 @@ class TurnFigures(Part):
     room_m: float | None
     """Largest circle inside the landing [m]; null: the landing is not drawn."""
     moves: int
-    """Drives and turns, each until the next begins."""
+    """Drives straight on or back and turns on the spot from the way by which it arrives to that by
+    which it goes on, each until the next begins: of a quarter on the spot 3, drive, turn, drive. 0:
+    straight on, round the corner, or none was found."""
+    reversals: int
+    """Changes between driving forward and back among them."""
 
 
 class LandingTurn(TurnFigures):

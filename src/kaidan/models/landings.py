@@ -168,6 +168,7 @@ def shown(found: Turned, climbing: str, turn: float, *, flippers: bool) -> dict[
         "circle_m": circle(found.footprint),
         "room_m": found.room,
         "moves": found.path.moves if found.path else 0,
+        "reversals": found.path.reversals if found.path else 0,
     }
 
 

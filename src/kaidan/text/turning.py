@@ -86,7 +86,8 @@ def _how(turn: "TurnFigures") -> str:
         return f"it sweeps {_m(turn.circle_m)} of {_m(turn.room_m)}"
     if turn.way == "corner":
         return "round the corner in one go"
-    return f"back and forth in {turn.moves} moves"
+    way = "back and forth" if turn.reversals else "bit by bit"
+    return f"{way} in {turn.moves} drives and turns on the spot"
 
 
 def _m(value: float | None) -> str:

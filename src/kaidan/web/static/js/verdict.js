@@ -92,7 +92,8 @@ function turnsOf({ turns }) {
   return h("ul", { class: "turns", "aria-label": t("landing.turns") }, turns.map((turn) => {
     const kind = turn.way === "none" ? "no-go" : turn.way === "unknown" || turn.tight ? "caution" : "go";
     const landing = (language === "ja" ? japanese(turn.landing, "landing") : null) ?? turn.landing;
-    const how = t(`landing.way_${turn.way}`, { moves: turn.moves, circle: shown(turn.circle_m, "length"), room: shown(turn.room_m, "length") });
+    const way = turn.way === "manoeuvre" && turn.reversals === 0 ? "forward" : turn.way;
+    const how = t(`landing.way_${way}`, { moves: turn.moves, circle: shown(turn.circle_m, "length"), room: shown(turn.room_m, "length") });
     const posture = turn.way === "none" ? "landing.nearest" : "landing.flippers";
     const more = [turn.flippers && (turn.way === "none" || turn.changed) ? t(posture, { flippers: turn.flippers }) : "", turn.tight && turn.way !== "none" ? t("landing.tight") : ""];
     return h("li", {}, symbol(kind, 18), " ", h("b", {}, t("landing.turn_on", { landing, angle: `${Math.abs(turn.turn_deg).toFixed(0)}°` })), " ", how, ...more);
