@@ -6,6 +6,8 @@ import pytest
 from kaidan.readers.hints import Hints
 from kaidan.readers.interpreters import points as interpreter
 from kaidan.readers.kinds import Known, Points, Provenance
+from kaidan.readers.stairfit.staircase_line import StairLine
+from kaidan.readers.stairfit.turning_steps import nosing_angles
 
 RISE, WIDE, SCATTER = 0.18, 0.9, 0.004
 
@@ -66,3 +68,28 @@ def test_winders_are_refused_with_their_angle():
     refusal = the_refusal(winding(np.random.default_rng(0)))
     assert refusal.why == "winders"
     assert refusal.numbers["turn_deg"] == pytest.approx(30.0, abs=1.0)
+
+
+def before_a_low_riser(rng):
+    """Faces of risers of 110, 150, 150, 150 mm, the floor before them, and a box on it."""
+    s, t, z = [], [], []
+    for k, (low, high) in enumerate(((0.0, 0.11), (0.11, 0.26), (0.26, 0.41), (0.41, 0.56))):
+        s.append(0.3 * k + rng.normal(0, SCATTER, 800))
+        t.append(rng.uniform(0.0, WIDE, 800))
+        z.append(rng.uniform(low, high, 800))
+    s.append(-rng.uniform(0.0, 1.0, 800))
+    t.append(rng.uniform(0.0, WIDE, 800))
+    z.append(rng.normal(0, SCATTER, 800))
+    s.append(np.full(200, -0.4))
+    t.append(rng.uniform(0.1, 0.3, 200))
+    z.append(rng.uniform(0.04, 0.2, 200))
+    return np.concatenate(s), np.concatenate(t), np.concatenate(z)
+
+
+def test_neither_the_floor_nor_what_stands_before_it_is_the_first_riser():
+    """The floor lies 40 mm higher than the regular one; a box covers three strips of ten."""
+    line = StairLine(s0=0.0, z0=0.11, going=0.3, rise=0.15, first=0, last=3)
+    points = before_a_low_riser(np.random.default_rng(0))
+    angles = nosing_angles(line, *points, (0.0, WIDE), floor=0.0)
+    assert np.degrees(angles[1:]) == pytest.approx(np.zeros(3), abs=1.0)
+    assert np.isnan(angles[0]) or abs(np.degrees(angles[0])) < 5.0

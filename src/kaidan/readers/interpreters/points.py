@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,17 +10,19 @@ from numpy.typing import NDArray
 from kaidan.readers.estimate import Found, Refusal
 from kaidan.readers.flight import FlightEstimate
 from kaidan.readers.hints import Hints
-from kaidan.readers.kinds import METRES, Array, Known, Points, Provenance, upright
+from kaidan.readers.kinds import METRES, Array, Indices, Known, Points, Provenance, upright
 from kaidan.readers.stairfit.chain import staircases
-from kaidan.readers.stairfit.corridor import NARROWEST, Lane, lanes, rotated
+from kaidan.readers.stairfit.corridor import NARROWEST, Lane, lanes, rotated, views
 from kaidan.readers.stairfit.gates import refused, surface_refusal
 from kaidan.readers.stairfit.gravity import frame, refined
 from kaidan.readers.stairfit.landing_end import landing_end
 from kaidan.readers.stairfit.patches import (
-    SIDE,
+    SMALL,
     Patches,
     directions,
+    joined,
     patches_of,
+    rastered,
     scatter,
     thinned,
 )
@@ -60,6 +63,10 @@ EXTENTS = (0.5, 300.0)
 """Smallest and largest extent of a cloud with stairs [m]."""
 
 
+_Placed = tuple[Array, Array, Array]
+"""Points along a heading: s, t, z, shape (n,) each [m]."""
+
+
 @dataclass(frozen=True, eq=False)
 class _Try:
     """Flights found with one unit and one direction up."""
@@ -69,6 +76,24 @@ class _Try:
     score: float
     provenance: Provenance
     frame: Array
+
+
+@dataclass(frozen=True, eq=False)
+class _Cloud:
+    """A cloud in metres, with what does not depend on which way is up."""
+
+    provenance: Provenance
+    xyz: Array
+    """All points, shape (n, 3) [m]."""
+    thin: Array
+    """One point of each small cube, shape (m, 3) [m]."""
+    of_thin: Indices
+    """Patch of each of them, shape (m,); -1: none."""
+    patches: Patches
+    noise: float
+    """Scatter of the points [m]."""
+    eye: Array | None
+    """Where the sensor stood, shape (3,) [m]; None: not known."""
 
 
 def found(points: Points, hints: Hints) -> Found:
@@ -88,11 +113,11 @@ def found(points: Points, hints: Hints) -> Found:
     -------
     Found
     """
-    xyz = points.xyz[np.flatnonzero(np.isfinite(points.xyz[:, 0]))]
+    xyz = _those(np.ascontiguousarray(points.xyz.T).T, np.isfinite(points.xyz[:, 0]))
     best: _Try | None = None
     for unit in _units(points, xyz):
         metres = METRES[unit.value]
-        tried = _with_unit(points, xyz * metres, unit, metres, hints)
+        tried = _with_unit(points, xyz if metres == 1.0 else xyz * metres, unit, metres, hints)
         if best is None or tried.score > best.score:
             best = tried
         if best.flights:
@@ -117,9 +142,9 @@ def _units(points: Points, xyz: Array) -> list[Known]:
 
 def _with_unit(points: Points, xyz: Array, unit: Known, metres: float, hints: Hints) -> _Try:
     # stray points far away would make rasters of any size
-    middle = np.median(xyz[:: max(1, len(xyz) // MOST_PATCHED)], axis=0)
+    middle = np.median(_some(xyz)[::10], axis=0)
     near = [np.abs(each - at) < EXTENTS[1] for each, at in zip(xyz.T, middle, strict=True)]
-    xyz = xyz[np.flatnonzero(near[0] & near[1] & near[2])]
+    xyz = _those(xyz, near[0] & near[1] & near[2])
     if len(xyz) < FEWEST_POINTS:
         known = points.provenance.up or Known("+z", "assumed")
         nowhere = replace(points.provenance, unit=unit, up=known)
@@ -129,14 +154,28 @@ def _with_unit(points: Points, xyz: Array, unit: Known, metres: float, hints: Hi
         points.grid is not None or hints.viewpoint is not None or points.viewpoint.any()
     ):
         eye = points.viewpoint * metres
-    some = xyz[:: max(1, len(xyz) // MOST_PATCHED)]
-    noise = scatter(some)
-    patches = patches_of(some, eye, WIDE if noise > NOISY else SIDE)
-    tries = [
-        _with_up(points.provenance, xyz, some, patches, noise, eye, up, unit, known, hints)
-        for up, known in _ups(points.provenance.up, patches, oriented=eye is not None)
-    ]  # fmt: skip
-    return max(tries, key=lambda each: each.score)
+    some = _some(xyz)
+    small = rastered(some, SMALL)
+    noise = scatter(small)
+    patches = patches_of(rastered(some, WIDE) if noise > NOISY else joined(small), eye)
+    rows = thinned(some, COARSE)
+    thin, of_thin = some[rows], patches.of_point[rows]
+    cloud = _Cloud(replace(points.provenance, unit=unit), xyz, thin, of_thin, patches, noise, eye)
+    ups = _ups(points.provenance.up, patches, oriented=eye is not None)
+    return max((_with_up(cloud, up, known, hints) for up, known in ups), key=lambda one: one.score)
+
+
+def _some(xyz: Array) -> Array:
+    """As many of the points as patches are made of, evenly."""
+    if len(xyz) <= MOST_PATCHED:
+        return xyz
+    rows = np.linspace(0, len(xyz) - 1, MOST_PATCHED).astype(np.int64)
+    return xyz.T.take(rows, axis=1).T
+
+
+def _those(xyz: Array, which: NDArray[np.bool_]) -> Array:
+    """Some of the points, each coordinate in one piece of memory: they are read one by one."""
+    return xyz if which.all() else xyz.T.compress(which, axis=1).T
 
 
 def _ups(stated: Known | None, patches: Patches, *, oriented: bool) -> list[tuple[Array, Known]]:
@@ -157,21 +196,17 @@ def _ups(stated: Known | None, patches: Patches, *, oriented: bool) -> list[tupl
     return ups[:6] or [(np.array([0.0, 0.0, 1.0]), Known("+z", "assumed"))]
 
 
-def _with_up(
-    provenance: Provenance, xyz: Array, some: Array, patches: Patches, noise: float,
-    eye: Array | None, up: Array, unit: Known, known: Known, hints: Hints,
-) -> _Try:  # fmt: skip
-    provenance = replace(provenance, unit=unit, up=known)
+def _with_up(seen: _Cloud, up: Array, known: Known, hints: Hints) -> _Try:
+    provenance, patches, noise = replace(seen.provenance, up=known), seen.patches, seen.noise
     sigma = LEVELLED if provenance.form in SURVEYED else STATED
     sigma = hints.gravity if hints.gravity is not None else sigma
     side = upright(known.value)[0]
     up, gravity = refined(patches, up, sigma if known.how != "scored" else math.radians(20.0))
     turn = frame(up, side)
     level = replace(patches, middle=patches.middle @ turn.T, normal=patches.normal @ turn.T)
-    rows = thinned(some, COARSE)
-    thin, of_point = some[rows] @ turn.T, patches.of_point[rows]
-    cloud = np.asfortranarray(xyz @ turn.T)  # it is read column by column
-    view = np.zeros(3) if eye is None else turn @ eye
+    thin, cloud = seen.thin @ turn.T, (turn @ seen.xyz.T).T
+    along = views(thin, level, seen.of_thin)
+    eye = np.zeros(3) if seen.eye is None else turn @ seen.eye
     tolerance = min(max(3 * noise, 0.012), 0.04)
     error = RANGE_ERROR_SURVEYED if provenance.form in SURVEYED else RANGE_ERROR
     error = error if hints.range_error is None else hints.range_error
@@ -180,14 +215,15 @@ def _with_up(
     score, left = 0.0, np.ones(len(thin), dtype=bool)
     for _ in range(MOST_FLIGHTS):
         flight = None
-        for lane in lanes(thin[left], level, of_point[left], tolerance)[:2]:
-            steps, aligned = _steps(lane, cloud, view, noise, error)
+        rest = [each.of(left) for each in along]
+        for lane in islice(lanes(rest, tolerance, another=bool(flights)), 2):
+            steps, aligned, placed = _steps(lane, cloud, eye, noise, error)
             refusal = refused(steps, lane, noise, provenance)
             if refusal is not None:
                 refusals.append(refusal)
                 continue
             assert steps is not None
-            flight = _flight(steps, aligned, gravity, error, cloud)
+            flight = _flight(steps, aligned, gravity, error, placed)
             break
         if flight is None:
             break
@@ -211,11 +247,14 @@ def _with_up(
 
 def _steps(
     lane: Lane, cloud: Array, view: Array, noise: float, error: float
-) -> tuple[Steps | None, Lane]:
-    """Single steps of a lane in all points, after its heading was corrected by its skew."""
+) -> tuple[Steps | None, Lane, _Placed]:
+    """Single steps of a lane in all points, after its heading was corrected by its skew.
+
+    With the lane along that heading, and all points along it.
+    """
     line = lane.line
     heading = lane.heading - math.atan(line.skew)
-    s, t, z = rotated(cloud, heading)
+    placed = s, t, z = rotated(cloud, heading)
     turn = math.cos(heading - lane.heading)
     # a point at (s, t) of the lane's frame has s' = s cos + t sin, t' = t cos - s sin
     sine = math.sin(heading - lane.heading)
@@ -231,11 +270,13 @@ def _steps(
     eye_s, _, eye_z = rotated(view[None], heading)
     eye = np.array([eye_s[0], eye_z[0]])
     steps = steps_of(line, s[near], t[near], z[near], noise=noise, eye=eye, range_error=error)
-    return steps, aligned
+    return steps, aligned, placed
 
 
-def _flight(steps: Steps, lane: Lane, gravity: float, error: float, cloud: Array) -> FlightEstimate:
-    """Estimate in the levelled frame of the cloud."""
+def _flight(
+    steps: Steps, lane: Lane, gravity: float, error: float, cloud: _Placed
+) -> FlightEstimate:
+    """Estimate in the levelled frame of the cloud, whose points are given along the lane."""
     c, s = math.cos(lane.heading), math.sin(lane.heading)
 
     def placed(t: float) -> Array:
@@ -243,7 +284,7 @@ def _flight(steps: Steps, lane: Lane, gravity: float, error: float, cloud: Array
         return np.column_stack([along * c - t * s, along * s + t * c, steps.at[:, 1]])
 
     low, high = steps.width
-    before, behind = _room(steps, lane, cloud)
+    before, behind = _room(steps, *cloud)
     return FlightEstimate(
         left=placed(high),
         right=placed(low),
@@ -256,7 +297,7 @@ def _flight(steps: Steps, lane: Lane, gravity: float, error: float, cloud: Array
         ends=steps.ends,
         roughness=steps.roughness,
         width=high - low,
-        headroom=_headroom(steps, lane, cloud),
+        headroom=_headroom(steps, *cloud),
         run_up=steps.run_up,
         run_out=steps.landing,
         room_before=before,
@@ -279,9 +320,8 @@ def _notes(steps: Steps) -> list[str]:
     return notes
 
 
-def _headroom(steps: Steps, lane: Lane, cloud: Array) -> float:
+def _headroom(steps: Steps, s: Array, t: Array, z: Array) -> float:
     """Least height above the line of the nosings of what hangs over it."""
-    s, t, z = rotated(cloud, lane.heading)
     low, high = steps.width
     first, last = steps.at[0], steps.at[-1]
     inside = (t > low + 0.1) & (t < high - 0.1) & (s > first[0]) & (s < last[0])
@@ -291,9 +331,8 @@ def _headroom(steps: Steps, lane: Lane, cloud: Array) -> float:
     return float(np.percentile(over, 1)) if len(over) > 30 else math.nan
 
 
-def _room(steps: Steps, lane: Lane, cloud: Array) -> tuple[float, float]:
+def _room(steps: Steps, s: Array, t: Array, z: Array) -> tuple[float, float]:
     """How far from the first and the last nosing something stands across the way [m]; NaN: free."""
-    s, t, z = rotated(cloud, lane.heading)
     first, last = steps.at[0], steps.at[-1]
     base = steps.floor if math.isfinite(steps.floor) else first[1] - steps.line.rise
     return (

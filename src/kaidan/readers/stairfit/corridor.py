@@ -1,6 +1,7 @@
 """Where a flight lies in a cloud: its heading, its steps, and how wide it is."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -8,7 +9,7 @@ from numpy.typing import NDArray
 
 from kaidan.readers.kinds import Array, Indices
 from kaidan.readers.stairfit.echo import echoes
-from kaidan.readers.stairfit.patches import Patches, directions
+from kaidan.readers.stairfit.patches import Patches, directions, in_cubes
 from kaidan.readers.stairfit.staircase_line import (
     StairLine,
     assigned,
@@ -31,6 +32,16 @@ TRIED = 5
 """Repetitions of the side view that are tried with a fit."""
 ABOUT = 3.0
 """Height over or under a line up to which a point may be one of its steps, in rises [1]."""
+FEWEST_VIEWED = 50
+"""Points of a view in which steps are looked for."""
+FAINT = 50.0
+"""Points by which a line must stand out of its average shift: three steps 0.3 m wide have five
+times as many where all of them is seen."""
+SURE, LONG = 0.7, 8
+"""Share of the points about a line that lie on it, chance subtracted [1], and nosings, from which
+it is the flight before others are tried: in a short one an odd riser may pull the line."""
+SAME = 0.2
+"""Distance of nosings up to which two lines are one, in steps [1]."""
 ASKEW = math.radians(1.0)
 """Angle by which nosings lie off a heading that is then sought again [rad]."""
 SWEEP = 10
@@ -83,8 +94,41 @@ def _levelled(normals: Array) -> Array:
     return np.asarray(flat / np.maximum(np.linalg.norm(flat, axis=1), 1e-12)[:, None])
 
 
-def lanes(xyz: Array, patches: Patches, of_point: Indices, tolerance: float) -> list[Lane]:
-    """Flights that the cloud may hold, the best first.
+@dataclass(frozen=True, eq=False)
+class View:
+    """A thinned cloud along one heading, without what stands up: side walls, people, posts."""
+
+    heading: float
+    """[rad]"""
+    rows: Indices
+    """Of the cloud, shape (m,)."""
+    s: Array
+    t: Array
+    z: Array
+    """Of them, shape (m,) [m]."""
+
+    def of(self, which: NDArray[np.bool_]) -> "View":
+        """The same of some rows of the cloud."""
+        kept = np.flatnonzero(which[self.rows])
+        s, t, z = (each[kept] for each in (self.s, self.t, self.z))
+        return View(self.heading, self.rows[kept], s, t, z)
+
+    def turned(self, by: float) -> "View":
+        """The same along another heading."""
+        c, sine = math.cos(by), math.sin(by)
+        s, t = self.s * c + self.t * sine, self.t * c - self.s * sine
+        return View(self.heading + by, self.rows, s, t, self.z)
+
+    def steps(self) -> tuple[Array, Array]:
+        """(s, z) of what lies on no floor."""
+        if not len(self.s):
+            return self.s, self.z
+        kept = np.flatnonzero(~floors(self.s, self.z))
+        return self.s[kept], self.z[kept]
+
+
+def views(xyz: Array, patches: Patches, of_point: Indices) -> list[View]:
+    """Views of a cloud along all headings that stairs may have.
 
     Parameters
     ----------
@@ -94,40 +138,69 @@ def lanes(xyz: Array, patches: Patches, of_point: Indices, tolerance: float) -> 
         Of the cloud, z up.
     of_point : array, shape (n,)
         Patch of each point, -1 without one.
-    tolerance : float
-        Distance within which a point lies on a step [m].
     """
-    tried: list[tuple[float, float, StairLine, NDArray[np.bool_]]] = []
     normal = np.vstack([patches.normal, np.zeros(3)])[of_point]
-    high = tall(xyz)
+    low = ~tall(xyz)
+    found = []
     for axis in headings(patches):
-        s, _, z = rotated(xyz, axis)
         across = np.abs(normal[:, 1] * math.cos(axis) - normal[:, 0] * math.sin(axis))
         # side walls say nothing and cover everything
-        free = (across < 0.85) & ~high
-        s, z = s[free], z[free]
-        steps = ~floors(s, z) if len(s) else free[:0]
-        if steps.sum() < 50:
+        rows = np.flatnonzero((across < 0.85) & low)
+        found.append(View(axis, rows, *rotated(xyz[rows], axis)))
+    return found
+
+
+def lanes(seen: list[View], tolerance: float, *, another: bool) -> Iterator[Lane]:
+    """Flights that the views of a cloud may hold: a sure one as soon as it is met, then the best.
+
+    Parameters
+    ----------
+    seen : list of View
+    tolerance : float
+        Distance within which a point lies on a step [m].
+    another : bool
+        Whether one was found already, so that faint lines are not worth a fit.
+    """
+    tried: list[tuple[float, View, StairLine]] = []
+    for view in seen:
+        s, z = view.steps()
+        if len(s) < FEWEST_VIEWED:
             continue
-        s, z = s[steps], z[steps]
         for echo in echoes(s, z):
             back = echo.going < 0
             line, support = phase(-s if back else s, z, abs(echo.going), echo.rise)
-            tried.append((support, axis + math.pi * back, line, free))
+            if support > FAINT or not another:
+                tried.append((support, view.turned(math.pi) if back else view, line))
     tried.sort(key=lambda each: -each[0])
-    found = []
-    for _, heading, line, free in tried[:TRIED]:
-        lane = lane_of(*rotated(xyz[free], heading), heading, line, tolerance)
+    found, none_yet = [], True
+    fits: list[Lane] = []
+    for _, view, line in tried[:TRIED]:
+        if any(_same(lane, view.heading, line) for lane in fits):
+            continue
+        lane = lane_of(view, line, tolerance)
+        fits += [lane] if lane is not None else []
         if lane is not None and abs(lane.line.skew) > ASKEW:
-            heading -= math.atan(lane.line.skew)
-            s, t, z = rotated(xyz[free], heading)
-            going = lane.line.going * math.cos(math.atan(lane.line.skew))
-            steps = ~floors(s, z)
-            line, _ = phase(s[steps], z[steps], going, lane.line.rise)
-            lane = lane_of(s, t, z, heading, line, tolerance)
-        if lane is not None:
+            askew = math.atan(lane.line.skew)
+            square = view.turned(-askew)
+            line, _ = phase(*square.steps(), lane.line.going * math.cos(askew), lane.line.rise)
+            lane = lane_of(square, line, tolerance)
+        if lane is None:
+            continue
+        if none_yet and lane.explained > SURE and lane.line.last - lane.line.first + 1 >= LONG:
+            none_yet = False
+            yield lane
+        else:
             found.append(lane)
-    return sorted(found, key=lambda lane: -lane.score)
+    yield from sorted(found, key=lambda lane: -lane.score)
+
+
+def _same(lane: Lane, heading: float, line: StairLine) -> bool:
+    """Whether a line along a heading has the nosings of a lane, so that a fit leads there again."""
+    if heading != lane.heading:
+        return False
+    at = lane.line.at(np.arange(lane.line.first, lane.line.last + 1))
+    steps = (at - [line.s0, line.z0]) / [line.going, line.rise]
+    return bool((np.abs(steps - np.round(steps[:, :1])) < SAME).all())
 
 
 def tall(xyz: Array) -> NDArray[np.bool_]:
@@ -136,33 +209,36 @@ def tall(xyz: Array) -> NDArray[np.bool_]:
     Seen in the plan they are in a small square that holds points in many levels. A handrail above
     a tread, or a ceiling, fills few of them.
     """
-    cells = np.floor(xyz * np.array([1 / PLAN, 1 / PLAN, 1 / STOREY])).astype(np.int64)
-    cells -= cells.min(axis=0)
-    wide = cells.max(axis=0) + 1
-    square = cells[:, 0] * wide[1] + cells[:, 1]
-    filled = np.unique(square * wide[2] + cells[:, 2]) // wide[2]
-    places, levels = np.unique(filled, return_counts=True)
-    return np.asarray(levels[np.searchsorted(places, square)] >= TALL)
+    place = np.floor(xyz.T * np.array([[1 / PLAN], [1 / PLAN], [1 / STOREY]]))
+    order, begins, counts = in_cubes(place)
+    squares = place[:2, order[begins]]
+    each = np.flatnonzero(np.r_[True, (squares[:, 1:] != squares[:, :-1]).any(axis=0)])
+    levels = np.diff(np.r_[each, len(begins)])
+    found = np.empty(len(xyz), dtype=np.bool_)
+    found[order] = np.repeat(np.repeat(levels >= TALL, levels), counts)
+    return found
 
 
 def floors(s: Array, z: Array) -> NDArray[np.bool_]:
     """Points in thin levels that hold many more than those about them, and are long."""
     level = ((z - z.min()) / FLOOR).astype(np.int64)
-    count = np.bincount(level).astype(np.float64)
-    padded = np.pad(count, 8)
-    usual = np.median(np.lib.stride_tricks.sliding_window_view(padded, 17), axis=1)
+    column = ((s - s.min()) / LANE).astype(np.int64)
+    wide = int(column.max()) + 1
+    view = np.bincount(level * wide + column, minlength=(int(level.max()) + 1) * wide)
+    view = view.reshape(-1, wide)
+    count = view.sum(axis=1)
+    usual = np.median(np.lib.stride_tricks.sliding_window_view(np.pad(count, 8), 17), axis=1)
     floor = np.zeros(len(count), dtype=bool)
     for each in np.flatnonzero(count > 2.0 * usual + 10):
-        along = np.bincount(((s[level == each] - s.min()) / LANE).astype(np.int64))
+        along = view[each]
         floor[each] = (along > 0.3 * np.percentile(along[along > 0], 90)).sum() * LANE > 1.0
     floor |= np.r_[floor[1:], False] | np.r_[False, floor[:-1]]
     return np.asarray(floor[level])
 
 
-def lane_of(
-    s: Array, t: Array, z: Array, heading: float, line: StairLine, tolerance: float
-) -> Lane | None:
+def lane_of(view: View, line: StairLine, tolerance: float) -> Lane | None:
     """Flight about a line, or None where too few steps lie side by side."""
+    s, t, z = view.s, view.t, view.z
     low, high, score = float(t.min()), float(t.max()), 0.0
     slope = line.rise / line.going
     about = np.flatnonzero(np.abs(z - line.z0 - slope * (s - line.s0)) < ABOUT * line.rise)
@@ -196,7 +272,7 @@ def lane_of(
         score = float(share[begin : end + 1].sum() * min(high - low, 1.5))
     inside = np.flatnonzero((t >= low) & (t <= high))
     explained = explained_share(line, s[inside], t[inside], z[inside], tolerance)
-    return Lane(heading, line, low, high, score * max(explained, 0.0), explained)
+    return Lane(view.heading, line, low, high, score * max(explained, 0.0), explained)
 
 
 def _run(good: NDArray[np.bool_], at: int) -> tuple[int, int]:

@@ -106,10 +106,10 @@ class Assigned:
         Near one a point of a riser may pass for one of a tread of the wrong level, and a point of a
         tread for one of a riser at the wrong place.
         """
-        share = np.where(self.riser, self.above % 1.0, self.along)
-        ends = zip(INNER_RISER, INNER_TREAD, strict=True)
-        low, high = (np.where(self.riser, *each) for each in ends)
-        return np.asarray((share > low) & (share < high))
+        above = np.where(self.above < 0.0, self.above + 1.0, self.above)
+        riser = (above > INNER_RISER[0]) & (above < INNER_RISER[1])
+        tread = (self.along > INNER_TREAD[0]) & (self.along < INNER_TREAD[1])
+        return np.asarray(np.where(self.riser, riser, tread))
 
 
 def assigned(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) -> Assigned:
@@ -235,11 +235,11 @@ def fitted(
             w_s = np.r_[0.1 * w_s, np.full(len(edges.at), 3.0)]
         found = line
         if len(k_z) and np.ptp(k_z) >= 1:
-            z0, rise = robust_plane(np.column_stack([np.ones(len(k_z)), k_z]), z_z, w_z, tolerance)
+            z0, rise = robust_plane(np.array([np.ones(len(k_z)), k_z]), z_z, w_z, tolerance)
             found = replace(found, z0=z0, rise=rise)
         if len(k_s) and np.ptp(k_s) >= 1:
-            columns = np.column_stack([np.ones(len(k_s)), k_s, t_s])
-            s0, going, skew = robust_plane(columns, s_s, w_s, tolerance)
+            terms = np.array([np.ones(len(k_s)), k_s, t_s])
+            s0, going, skew = robust_plane(terms, s_s, w_s, tolerance)
             found = replace(found, s0=s0, going=going, skew=skew)
         if not (0.05 < found.going < 0.6 and 0.05 < found.rise < 0.45 and abs(found.skew) < 0.4):
             return line
@@ -247,13 +247,16 @@ def fitted(
     return line
 
 
-def robust_plane(columns: Array, value: Array, weight: Array, scale: float) -> list[float]:
-    """Coefficients of a weighted linear fit, what lies far from it left out step by step."""
+def robust_plane(terms: Array, value: Array, weight: Array, scale: float) -> list[float]:
+    """Coefficients of a weighted linear fit, what lies far from it left out step by step.
+
+    `terms` are the values that the coefficients belong to, shape (c, n).
+    """
     for _ in range(3):
-        weighted = columns * weight[:, None]
-        ridge = 1e-9 * max(float(weight.sum()), 1e-12) * np.eye(columns.shape[1])
-        found = np.linalg.solve(columns.T @ weighted + ridge, weighted.T @ value)
-        far = (np.abs(value - columns @ found) / scale >= 2.0) & (weight > 0.0)
+        weighted = terms * weight
+        ridge = 1e-9 * max(float(weight.sum()), 1e-12) * np.eye(len(terms))
+        found = np.linalg.solve(weighted @ terms.T + ridge, weighted @ value)
+        far = (np.abs(value - found @ terms) >= 2.0 * scale) & (weight > 0.0)
         if not far.any():
             break
         weight = weight * ~far

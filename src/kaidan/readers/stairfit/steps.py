@@ -6,9 +6,7 @@ regular one, with the spread that such steps may have.
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -156,9 +154,9 @@ def steps_of(
     width = _width(at.step[on], t[on], line)
     covariance = independent((sigma**2 + SMALLEST**2)[:, :, None] * np.eye(2))
     covariance += LOCAL**2 * range_error**2 * smooth_field(found - eye, width[1] - width[0])
-    angles = nosing_angles(line, s, t, z, width)
+    angles = nosing_angles(line, s, t, z, width, floor)
     if turn_of(angles)[0] == "curved":  # its first nosings lie elsewhere than those of a line
-        angles = nosing_angles(whole, s, t, z, width)
+        angles = nosing_angles(whole, s, t, z, width, floor)
     away = float(np.hypot(*(found[0] - eye)))
     floor_sigma = math.hypot(floor_sigma, FLOOR * range_error * away)
     return Steps(
@@ -178,25 +176,27 @@ def _alone(
     """(s, z) of the nosings, each measured alone, and their doubt; NaN: neither face nor end."""
     at = assigned(line, s, t, z, tight)
     number = np.arange(line.first, line.last + 1)
-
-    @cache
-    def front(wide: float) -> Edges:
-        edges = fronts(line, s, t, z, tight, wide)
-        return replace(edges, at=edges.at - line.skew * edges.t)
-
-    @cache
-    def top(wide: float) -> Edges:
-        return tops(line, s, t, z, tight, wide)
-
     regular = line.at(number)
     found, sigma = regular.copy(), np.full(regular.shape, np.nan)
-    treads = _by_step(line, at.step, at.tread & at.inner)
-    risers = _by_step(line, at.step, at.riser & at.inner)
-    for row, (k, tread, riser) in enumerate(zip(number.tolist(), treads, risers, strict=True)):
-        level = z[tread]
-        found[row, 1], sigma[row, 1] = _level(level, noise, top, k, regular[row, 1], len(riser))
+    inner = at.inner
+    treads = _by_step(line, at.step, at.tread & inner)
+    risers = _by_step(line, at.step, at.riser & inner)
+    for row, (tread, riser) in enumerate(zip(treads, risers, strict=True)):
         face = s[riser] - line.skew * t[riser]
-        found[row, 0], sigma[row, 0] = _level(face, noise, front, k, regular[row, 0], len(tread))
+        found[row, 0], sigma[row, 0] = _mean(face, len(tread))
+        found[row, 1], sigma[row, 1] = _mean(z[tread], len(riser))
+    for axis, ends in ((0, fronts), (1, tops)):
+        for wide in LANES:
+            lacking = np.flatnonzero(np.isnan(sigma[:, axis]))
+            if not len(lacking):
+                break
+            part = replace(line, first=int(number[lacking[0]]), last=int(number[lacking[-1]]))
+            edges = ends(part, s, t, z, tight, wide)
+            at_0 = edges.at - line.skew * edges.t if axis == 0 else edges.at
+            for row in lacking.tolist():
+                here = edges.step == number[row]
+                end = _end(at_0[here], edges.gap[here], noise, float(regular[row, axis]))
+                found[row, axis], sigma[row, axis] = end
     return found, sigma
 
 
@@ -252,9 +252,8 @@ def _depth(line: StairLine, s: Array, t: Array, z: Array) -> float:
 def _level_share(line: StairLine, at: Assigned, s: Array, t: Array, z: Array) -> float:
     """Points on treads whose plane is level, as a share of those on treads that have one."""
     good = total = 0
-    for k in range(line.first, line.last + 1):
-        here = at.tread & (at.step == k)
-        x, y, height = s[here], t[here], z[here]
+    for rows in _by_step(line, at.step, at.tread):
+        x, y, height = s[rows], t[rows], z[rows]
         if len(x) < 40 or np.std(y) < 0.08:
             continue
         columns = np.column_stack([np.ones(len(x)), x - x.mean(), y - y.mean()])
@@ -266,32 +265,31 @@ def _level_share(line: StairLine, at: Assigned, s: Array, t: Array, z: Array) ->
     return good / total if total else math.nan
 
 
-def _level(
-    values: Array, noise: float, edges: Callable[[float], Edges], k: int, regular: float,
-    others: int,
-) -> tuple[float, float]:  # fmt: skip
-    """Mean of the points of an element and its standard uncertainty; else from the ends."""
-    if len(values) >= FEWEST_POINTS and len(values) > 0.04 * others:
-        middle = float(np.median(values))
-        spread = max(1.4826 * float(np.median(np.abs(values - middle))), 1e-4)
-        core = values[np.abs(values - middle) < 3 * spread]
-        return float(core.mean()), spread / math.sqrt(len(core))
-    for wide in LANES:
-        ends = edges(wide)
-        here, gap = ends.at[ends.step == k], ends.gap[ends.step == k]
-        if len(here) >= FEWEST_LANES and abs(float(np.median(here)) - regular) < EDGE_OFF:
-            end = float(np.median(here))
-            spread = 1.4826 * float(np.median(np.abs(here - end)))
-            doubt = math.hypot(0.3 * float(np.median(gap)), 0.5 * noise)
-            return end, math.hypot(1.25 * spread / math.sqrt(len(here)), doubt)
-    return math.nan, math.nan
+def _mean(values: Array, others: int) -> tuple[float, float]:
+    """Mean of the points of an element, and its standard uncertainty; NaN: too few."""
+    if len(values) < FEWEST_POINTS or len(values) <= 0.04 * others:
+        return math.nan, math.nan
+    middle = float(np.median(values))
+    spread = max(1.4826 * float(np.median(np.abs(values - middle))), 1e-4)
+    core = values[np.abs(values - middle) < 3 * spread]
+    return float(core.mean()), spread / math.sqrt(len(core))
+
+
+def _end(ends: Array, gap: Array, noise: float, regular: float) -> tuple[float, float]:
+    """Where an element ends in its lanes, and its standard uncertainty; NaN: too few of them."""
+    if len(ends) < FEWEST_LANES or abs(float(np.median(ends)) - regular) >= EDGE_OFF:
+        return math.nan, math.nan
+    end = float(np.median(ends))
+    spread = 1.4826 * float(np.median(np.abs(ends - end)))
+    doubt = math.hypot(0.3 * float(np.median(gap)), 0.5 * noise)
+    return end, math.hypot(1.25 * spread / math.sqrt(len(ends)), doubt)
 
 
 def _fill(number: Indices, value: Array, sigma: Array, good: NDArray[np.bool_]) -> None:
     """Regular steps where none was measured alone, from a line through the others."""
     columns = np.column_stack([np.ones(len(number)), number])
     weight = 1.0 / (np.where(good, sigma, 1.0) ** 2 + UNCHECKED**2) * good
-    fit = np.array(robust_plane(columns[good], value[good], weight[good], 0.02))
+    fit = np.array(robust_plane(columns[good].T, value[good], weight[good], 0.02))
     variance = np.linalg.inv(columns.T @ (columns * weight[:, None]))
     own = np.einsum("ij,jk,ik->i", columns, variance, columns)
     value[~good] = (columns @ fit)[~good]
@@ -308,9 +306,14 @@ def _trimmed(line: StairLine, s: Array, t: Array, z: Array, tight: float) -> Sta
     lane -= lane.min()
     wide = int(lane.max()) + 1
     steps = np.arange(line.first, line.last + 1)
-    seen = np.array([np.unique(lane[rows]).size for rows in _by_step(line, at.step, on)]) / wide
-    about = _by_step(line, k, near)
-    share = np.array([on[rows].sum() / max(1, len(rows)) for rows in about])
+    count = len(steps)
+    rows = np.flatnonzero(on & (at.step >= line.first) & (at.step <= line.last))
+    cells = (at.step[rows] - line.first) * wide + lane[rows]
+    seen = (np.bincount(cells, minlength=count * wide).reshape(count, wide) > 0).sum(axis=1) / wide
+    rows = np.flatnonzero(near & (k >= line.first) & (k <= line.last))
+    number = k[rows] - line.first
+    about = np.bincount(number, minlength=count)
+    share = np.bincount(number, weights=on[rows], minlength=count) / np.maximum(about, 1)
     usual = float(np.median(seen))
     good = (seen >= 0.5 * usual) & ((share >= 0.5) | (seen >= 0.9))
     good &= share >= 0.5 * float(np.median(share))

@@ -5,6 +5,8 @@ median of its points says where it is; the median of the slopes between strips s
 (Theil 1950, Sen 1968), whatever stands about.
 """
 
+import math
+
 import numpy as np
 
 from kaidan.readers.kinds import Array, Indices
@@ -18,13 +20,21 @@ BAND = (0.2, 0.8)
 """Part of the rise below a nosing in which its face is looked for [1]: treads are outside it."""
 REACH = 1.5
 """Distance from the regular face up to which one is looked for, in goings [1]."""
+STRAIGHT = 0.025
+"""Median distance of the strips from a straight line from which they are no nosing [m]: things that
+stand before it."""
 CURVED, WINDING = np.radians(6.0), np.radians(15.0)
 """Turn of a flight from its first to its last nosing from which it is curved, and angle of single
 nosings off the others from which they are winders [rad]."""
 
 
 def nosing_angles(
-    line: StairLine, s: Array, t: Array, z: Array, sides: tuple[float, float]
+    line: StairLine,
+    s: Array,
+    t: Array,
+    z: Array,
+    sides: tuple[float, float],
+    floor: float = math.nan,
 ) -> Array:
     """Angle of each nosing off square to the heading, shape (m,) [rad]; NaN: too little was seen.
 
@@ -36,9 +46,12 @@ def nosing_angles(
         Points in the frame of its heading [m].
     sides : tuple of float
         Least and greatest t of the flight [m].
+    floor : float
+        Its level [m], which below an odd first riser lies where a face is looked for; NaN: not
+        seen.
     """
     low, high = sides[0] + 0.05, sides[1] - 0.05
-    inside = (t > low) & (t < high)
+    inside = (t > low) & (t < high) & ~(z < floor + BAND[0] * line.rise)
     s, t, z = s[inside], t[inside], z[inside]
     found = np.full(line.last - line.first + 1, np.nan)
     for row, (at, level) in enumerate(line.at(np.arange(line.first, line.last + 1)).tolist()):
@@ -52,7 +65,10 @@ def nosing_angles(
         if len(x) < FEWEST_STRIPS:
             continue
         i, j = np.triu_indices(len(x), 2)  # neighbours say little
-        found[row] = np.arctan(np.median((y[j] - y[i]) / (x[j] - x[i])))
+        slope = np.median((y[j] - y[i]) / (x[j] - x[i]))
+        off = y - slope * x
+        if np.median(np.abs(off - np.median(off))) < STRAIGHT:
+            found[row] = np.arctan(slope)
     return found
 
 
