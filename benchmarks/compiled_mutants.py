@@ -2,10 +2,10 @@
 
 Each expression that a mutant changes becomes a choice::
 
-    a < b      ->     (a <= b if chosen(17) else a < b)
+    a < b      ->     (a <= b if is_chosen(17) else a < b)
 
-`chosen` notes which choices a test passes. What the typed language refuses (a quotient as an index)
-is left out; an index beyond its table ends the process, as it ends a plain kernel.
+`is_chosen` notes which choices a test passes. What the typed language refuses (a quotient as an
+index) is left out; an index beyond its table ends the process, as it ends a plain kernel.
 """
 
 import ast
@@ -29,7 +29,7 @@ HEAD = """\
 cdef int CHOSEN = -1
 cdef char SEEN[{count}]
 
-cdef inline bint chosen(int mutant) noexcept nogil:
+cdef inline bint is_chosen(int mutant) noexcept nogil:
     SEEN[mutant] = 1
     return mutant == CHOSEN
 
@@ -114,7 +114,7 @@ class Choices(ast.NodeTransformer):
         """The new node and beside it the other one, if it is of the same type."""
         if isinstance(other, ast.expr) and not self._same_type(was, other):
             return new
-        chosen = ast.Call(ast.Name("chosen", ast.Load()), [ast.Constant(len(self.mutants))], [])
+        chosen = ast.Call(ast.Name("is_chosen", ast.Load()), [ast.Constant(len(self.mutants))], [])
         line = self.above + before.lineno  # type: ignore[attr-defined]
         self.mutants.append((
             self.path,

@@ -1,12 +1,29 @@
 """Building models that the tests author themselves, with ifcopenshell; lengths in metres."""
 
+import io
 import math
+from contextlib import redirect_stdout
 
 import ifcopenshell
 import ifcopenshell.guid
 import numpy as np
 
+from kaidan.readers.formats import ifc, ifc_child
+
 UNITS = {"m": 1.0, "mm": 1e-3, "ft": 0.3048}
+
+
+def parsed_here(patch):
+    """Let the parser run in this process, which has it already, and not in one of its own."""
+
+    def parsed(source, path, around):
+        said = io.TextIOWrapper(io.BytesIO())
+        with redirect_stdout(said):
+            ifc_child.main(str(path), around)
+        line, _, rest = said.buffer.getvalue().partition(b"\n")
+        return line, rest
+
+    patch.setattr(ifc, "_parsed", parsed)
 
 
 class House:

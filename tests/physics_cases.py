@@ -1,6 +1,7 @@
 """Kenaf as the acceptance of the physics models takes it: R, mass and inertia are guesses."""
 
 import math
+from functools import cache
 
 import pytest
 
@@ -52,8 +53,9 @@ def climbs_up_to(low, high, spacing, *, fall=Outcome.FELL_BACKWARD, **fields):
     )
 
 
+@cache
 def margin(spacing, *, low=35.0, high=80.0, within=0.05, **fields):
-    """Steepest slope that it climbs [deg], by bisection."""
+    """Steepest slope that it climbs [deg], by bisection; several tests ask for the same one."""
     while high - low > within:
         middle = (low + high) / 2
         if outcome(middle, spacing, **fields) is Outcome.CLIMBED:

@@ -133,10 +133,15 @@ def test_many_planned_gos_by_brute_force():
     check(planned_gos([("absolem", "ibc-dwelling", way) for way in ways]))
 
 
-@pytest.mark.parametrize(("seed", "count"), fast_and_slow((3, 3), (4, 300)))
-def test_go_that_turns_farther_than_the_rig_by_brute_force(seed, count):
+SOON = (3, 7, 27)
+"""Seeds of which one of the first four questions is such a GO, as one of a hundred is."""
+
+
+@pytest.mark.parametrize(("seeds", "count"), fast_and_slow((SOON, 1), ((4,), 300)))
+def test_go_that_turns_farther_than_the_rig_by_brute_force(seeds, count):
     """From one side of the mean slope to the other: docs/theory/uneven.md."""
-    check(gos(seed, count, turns_farther))
+    for seed in seeds:
+        check(gos(seed, count, turns_farther))
 
 
 @pytest.mark.slow

@@ -7,6 +7,7 @@ import jsonschema
 import pytest
 
 import kaidan
+from answered import each_once
 from kaidan.assessment.answer import Assessment
 from kaidan.assessment.plan_drives import Drives
 from kaidan.assessment.plan_hopes import Search
@@ -328,14 +329,18 @@ def test_one_posture_throughout_is_the_better_of_stowed_and_flat():
     assert (trial.best_of, trial.flippers) == ((), "stowed")
 
 
-def test_advice_about_a_plan_that_was_found_holds_off_its_angles():
+def on_grousers(sheet):
+    belts = {"belt": "grousers", "grouser_height": 0.010, "grouser_spacing": 0.040}
+    return sheet.model_copy(update={"track": sheet.track.model_copy(update=belts)})
+
+
+def test_advice_about_a_plan_that_was_found_holds_off_its_angles(monkeypatch):
     """With grousers its plan is GO at its angles and not 2 degrees off: another one is promised."""
+    each_once(monkeypatch)
     answer = kaidan.assess("absolem", "ibc", surface="concrete-dry")
     _, help_ = answer.what_would_help
     assert (help_.change, help_.verdict) == ("Belts with grousers of 10 mm every 40 mm", "go")
-    belts = {"belt": "grousers", "grouser_height": 0.010, "grouser_spacing": 0.040}
-    robot = answer.question.robot
-    robot = robot.model_copy(update={"track": robot.track.model_copy(update=belts)})
+    robot = on_grousers(answer.question.robot)
     planned = answer.question.changed(robot=robot)
     assert kaidan.assess(planned, flipper_tolerance=0.0).verdict == "go"
     assert kaidan.assess(planned).verdict == "caution"
@@ -354,14 +359,13 @@ def test_advice_about_a_plan_that_was_found_holds_off_its_angles():
         ("ozbot-atr", "ibc", {"speed": 0.05}),
     ],
 )
-def test_long_robots_climb_on_their_grousers(name, stairs, manner):
+def test_long_robots_climb_on_their_grousers(name, stairs, manner, monkeypatch):
     """Absolem's rear flippers lie a little below the flat, where they hold 2 degrees off; OzBot,
     which a slip back onto its grousers may rock at 0.1 m/s, goes slowly.
     """
+    each_once(monkeypatch)
     sheet = Robot.named(name)
-    belts = {"belt": "grousers", "grouser_height": 0.010, "grouser_spacing": 0.040}
-    robot = sheet.model_copy(update={"track": sheet.track.model_copy(update=belts)})
-    answer = kaidan.assess(robot, stairs, surface="concrete-dry", **manner)
+    answer = kaidan.assess(on_grousers(sheet), stairs, surface="concrete-dry", **manner)
     assert answer.verdict == "go"
     for each in off_angles(answer.question):
         assert kaidan.assess(each).verdict == "go"

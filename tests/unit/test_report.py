@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 import kaidan
 from kaidan import InputError, Question
 from kaidan.cli import app, run
-from kaidan.documents import html_page, report_bytes
+from kaidan.documents import html_page, report_bytes, report_file
 from kaidan.documents.pdf_pages import pages
 from kaidan.errors import MissingExtraError
 from kaidan.text.report import document
@@ -245,6 +245,7 @@ def test_without_the_extra_the_line_that_installs_it_is_said(found, monkeypatch)
 
     for name in ("segno", "reportlab", "reportlab.platypus"):
         monkeypatch.setitem(sys.modules, name, None)
+    monkeypatch.setattr(report_file, "_figures", lambda found: ())  # they take the time
     for form in ("html", "pdf"):
         with pytest.raises(MissingExtraError, match=r"pip install 'kaidan\[report\]'"):
             report_bytes(found, form)

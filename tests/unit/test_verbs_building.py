@@ -18,6 +18,7 @@ from ifc_cases import (
     half_turn_house,
     house_with_a_door,
     monolith,
+    parsed_here,
     regular,
 )
 from kaidan import InputError, Stairs
@@ -27,6 +28,14 @@ from kaidan.verbs.building import building
 from kaidan.verbs.building.answer import BuildingAnswer
 
 ROBOTS = ["absolem", "ozbot-atr"]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def parser():
+    """Sound models; the process that it has of its own is tested in readers/test_ifc.py."""
+    with pytest.MonkeyPatch.context() as patch:
+        parsed_here(patch)
+        yield
 
 
 @pytest.fixture(scope="module")

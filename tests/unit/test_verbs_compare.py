@@ -47,6 +47,7 @@ def test_defaults_are_all_robots_on_all_stairs():
 def test_every_cell_is_what_assess_says(arguments, options, model, every):
     robots = catalog.names("robots")[::every]
     words = [*robots, "--json", "--model", model, "--flippers", "flat", *arguments]
+    words += ["--workers", "1"]  # several: test_processes_say_what_one_says
     found = json.loads(run(*words).stdout)
     assert found["model"] == model
     assert tuple(found["robots"]) == robots

@@ -50,7 +50,7 @@ def test_what_grousers_and_nosings_bear_is_the_weight():
     # by hand: at rest the ground bears the weight, on 10 mm grousers all of it through them
     log = record(
         spec(32.0, 0.2, robot=ROBOT, friction=0.8, track=DrivenGrousers(), speed=0.02, nosings=1,
-             log_interval=0.02)
+             log_interval=0.02, start_offset=0.1)
     )  # fmt: skip
     early = slice(0, 5)
     weight = 20.0 * STANDARD_GRAVITY
@@ -60,7 +60,7 @@ def test_what_grousers_and_nosings_bear_is_the_weight():
     assert (np.abs(log.grousers[early]).sum(axis=(1, 2)) > 0).all()
     on_belt = log.forces[early].sum(axis=1) - log.grousers[early].sum(axis=1)
     assert (on_belt[:, 1] > -1e-9).all()
-    assert record(spec(30.0, nosings=1)).grousers.shape[1] == 0
+    assert record(spec(30.0, nosings=1, start_offset=0.1)).grousers.shape[1] == 0
 
 
 def stub(specs):
@@ -103,7 +103,8 @@ def test_a_slip_by_a_spacing_is_the_closed_forms():
 
 
 def test_trials_are_kept_and_found_again(tmp_path):
-    trial = trial_of(**HOLDS, seed=1).model_copy(update={"nosings": 1, "log_interval": 0.02})
+    short = {"nosings": 1, "log_interval": 0.02, "start_offset": 0.1}
+    trial = trial_of(**HOLDS, seed=1).model_copy(update=short)
     kept = in_store(tmp_path / "store", workers=1)
     assert kept([trial]) == here([trial]) == kept([trial])
 

@@ -14,7 +14,7 @@ from serving import LONG, served
 QUESTION = {"robot": "absolem", "stairs": "ibc", "friction": 1.0, "flippers": "stowed"}
 
 
-def workers():
+def answering():
     """Processes that this one began and that answer, the oldest first."""
     listed = subprocess.run(
         ["ps", "--sort", "start_time,pid", "-o", "pid=,args=", "--ppid", str(os.getpid())],
@@ -23,7 +23,14 @@ def workers():
     return [int(line.split()[0]) for line in listed.splitlines() if "kaidan.web.worker" in line]
 
 
-def test_a_worker_killed_in_a_request_is_one_clean_error():
+@pytest.fixture
+def workers():
+    """What lists those that were not there before the test, of the server that others share."""
+    others = answering()
+    return lambda: [each for each in answering() if each not in others]
+
+
+def test_a_worker_killed_in_a_request_is_one_clean_error(workers):
     with served() as client:
         answers = []
         asking = threading.Thread(
@@ -44,7 +51,7 @@ def test_a_worker_killed_in_a_request_is_one_clean_error():
         assert set(others) <= set(workers())
 
 
-def test_a_worker_killed_between_requests_is_not_noticed():
+def test_a_worker_killed_between_requests_is_not_noticed(workers):
     with served() as client:
         assert client.post("/api/assess", json=QUESTION).status_code == 200
         for worker in workers():
@@ -72,7 +79,7 @@ def test_what_eats_memory_ends():
         assert client.post("/api/assess", json=QUESTION).status_code == 200
 
 
-def test_too_many_at_once_are_sent_away_and_nothing_is_left_behind(tmp_path):
+def test_too_many_at_once_are_sent_away_and_nothing_is_left_behind(tmp_path, workers):
     with served(limits=Limits(seconds=5.0, waiting=0), state=tmp_path) as client:
         answer = client.post("/api/assess", json=QUESTION)
         assert answer.status_code == 503
