@@ -212,7 +212,7 @@ def test_where_no_friction_is_enough_the_answer_says_null():
     question = Question.in_one_posture(KENAF, at(40), **sure(friction=1.0))
     driven = traverse_of(question)
     enter, *others = driven.phases
-    driven = replace(driven, phases=(replace(enter, required_friction=math.inf), *others))
+    vars(driven)["phases"] = (replace(enter, required_friction=math.inf), *others)
     answer = judged(question, findings_of(question, Basis(question, driven)))
     assert answer.contact.phases[0].required_friction is None
     assert (answer.verdict, answer.governs) == ("no-go", "slides_down")

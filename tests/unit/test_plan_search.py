@@ -22,7 +22,8 @@ from kaidan.assessment.plan_search import (
 from kaidan.assessment.verdict import conclude
 from kaidan.errors import InputError
 from kaidan.models import judge
-from kaidan.modes import Verdict
+from kaidan.models.quasi_static import Basis, findings_of, sliding_margin, traverse_of
+from kaidan.modes import SLIDES_DOWN, Verdict
 from kaidan.question import Question
 from kaidan.robot import FlipperPair, Posture, PostureChange, Robot, State, Track
 from kaidan.surface import Surface
@@ -438,3 +439,28 @@ def test_some_plans_are_certainly_no_failure_and_unsure_ones_never():
     assert not drives.is_no_failure(flat.changed(robot=unsure))
     kenaf = Question.of("kenaf", "ibc", friction=2.0)
     assert not drives.is_no_failure(kenaf.changed(best_of=()))  # it falls
+
+
+@pytest.mark.parametrize("most", [2.0, 15.0])
+@pytest.mark.parametrize("direction", ["up", "down"])
+@pytest.mark.parametrize("flippers", ["flat", "stowed", "20deg,-5deg", "45deg,0deg"])
+def test_of_margins_beyond_what_is_enough_only_that_is_known(flippers, direction, most):
+    question = Question.ask(
+        "absolem", STAIRS, flippers=flippers, direction=direction, surface="concrete-dry"
+    )
+    basis = Basis(question, traverse_of(question))
+    whole = conclude(question, findings_of(question, basis))
+    seen = conclude(question, findings_of(question, basis, most=math.radians(most)))
+    assert (seen.verdict, seen.phase) == (whole.verdict, whole.phase)
+    assert min(seen.margin, math.radians(most)) == min(whole.margin, math.radians(most))
+
+
+def test_grousers_slide_no_later_than_is_known_first():
+    track = FRONT_PAIR.track.model_copy(update={"grouser_height": 0.01, "grouser_spacing": 0.04})
+    robot = FRONT_PAIR.model_copy(update={"track": track})
+    question = Question.ask(robot, STAIRS, flippers="flat", surface="concrete-dry")
+    basis = Basis(question, traverse_of(question))
+    (slides,) = (one for one in findings_of(question, basis).each if one.mode is SLIDES_DOWN)
+    assert sliding_margin(question, basis) == slides.worst
+    smooth = Question.ask(FRONT_PAIR, STAIRS, flippers="flat", friction=0.8)
+    assert sliding_margin(smooth, Basis(smooth, traverse_of(smooth))) == math.inf

@@ -121,7 +121,8 @@ def test_findings_of_parts_and_changes(monkeypatch):
     }  # fmt: skip
     asked = []
 
-    def judged(question, basis):
+    def judged(question, basis, *, most):
+        assert math.isinf(most)
         asked.append(question)
         return parts[basis.traverse]
 

@@ -151,11 +151,12 @@ def sturdier(monkeypatch):
     judged = []
 
     def of(holds, limits=(-90.0, 90.0), tolerance=2.0):
-        def worth(self, phase, posture):
+        def worth(self, phase, posture, beaten):
             angle = posture.front
             judged.append(round(math.degrees(angle)) if isinstance(angle, float) else angle)
             at = math.degrees(angle) if isinstance(angle, float) else -50.0
-            return Worth(GO if holds[0] <= at <= holds[1] else CAUTION, -abs(at - sum(holds) / 2))
+            holds_there = GO if holds[0] <= at <= holds[1] else CAUTION
+            return Worth(holds_there, -abs(at - sum(holds) / 2)), True
 
         monkeypatch.setattr(Sturdier, "_judged", worth)
         question = asked(tolerance=math.radians(tolerance))
@@ -227,25 +228,59 @@ def test_angles_about_a_posture(sturdier):
     assert sorted(found) == pytest.approx([*range(-16, 0, 2), *range(2, 17, 2)])
 
 
+@pytest.fixture
+def judging(monkeypatch):
+    """A search about a plan of a phase with a margin of sliding and one of all; what it drives."""
+    asked_for = []
+
+    def of(sliding, margin, verdict=Verdict.CAUTION):
+        def over(*given, **how):
+            asked_for.append((given, how))
+
+        def findings(question, basis, *, most):
+            asked_for.append(most)
+
+        conclusion = SimpleNamespace(verdict=verdict, margin=margin)
+        slides = np.array([sliding])
+        monkeypatch.setattr(plan_sturdy, "sliding_margin", lambda question, basis: slides)
+        monkeypatch.setattr(plan_sturdy, "findings_of", findings)
+        monkeypatch.setattr(plan_sturdy, "conclude", lambda question, found: conclusion)
+        scores = SimpleNamespace(
+            question=asked(), facing="tail-first", profile="ground",
+            stretch=lambda phase: (phase, 2.0),
+        )  # fmt: skip
+        return Sturdier(scores, (-1.0, 1.0), SimpleNamespace(over=over)), asked_for
+
+    return of
+
+
 @pytest.mark.parametrize(
     ("margin", "worth"),
     [(math.radians(3.0), 3.0), (math.radians(40.0), ENOUGH), (math.nan, -90.0)],
 )
-def test_what_a_phase_comes_to(margin, worth, monkeypatch):
+def test_what_a_phase_comes_to(margin, worth, judging):
     """Driven over its part of the terrain, judged by the policy."""
-    conclusion = SimpleNamespace(verdict=Verdict.CAUTION, margin=margin)
-    monkeypatch.setattr(plan_sturdy, "findings_of", lambda question, basis: (question, basis))
-    monkeypatch.setattr(plan_sturdy, "conclude", lambda question, found: conclusion)
-    asked_for = []
-    drives = SimpleNamespace(over=lambda *given, **how: asked_for.append((given, how)))
-    scores = SimpleNamespace(
-        question=asked(), facing="tail-first", profile="ground", stretch=lambda phase: (phase, 2.0)
-    )
-    found = Sturdier(scores, (-1.0, 1.0), drives)._judged(Phase.LAND, HIGH)
+    search, asked_for = judging(math.inf, margin)
+    found = search._of(Phase.LAND, HIGH, OUT)
     assert found == Worth(CAUTION, pytest.approx(worth))
-    ((given, how),) = asked_for
+    (given, how), most = asked_for
     assert (given[0], given[1].posture, given[1].facing) == ("ground", HIGH, "tail-first")
     assert how == {"start": Phase.LAND, "until": 2.0}
+    assert most == pytest.approx(math.radians(ENOUGH))  # more is no better
+    assert search._of(Phase.LAND, HIGH, OUT) is found
+
+
+@pytest.mark.parametrize(("sliding", "verdict"), [(0.05, GO), (0.0, CAUTION), (-0.1, CAUTION)])
+def test_what_slides_too_early_is_judged_no_further(sliding, verdict, judging):
+    """It has no more margin than that of sliding, and where that is gone no GO."""
+    search, asked_for = judging(sliding, math.radians(-90.0))
+    most = Worth(verdict, pytest.approx(math.degrees(sliding)))
+    assert search._of(Phase.LAND, HIGH, Worth(GO, 9.0)) == most
+    assert len(asked_for) == 1
+    below = Worth(verdict, math.degrees(sliding) - 0.1)
+    assert search._of(Phase.LAND, HIGH, below) == Worth(CAUTION, pytest.approx(-90.0))
+    unknown, _ = judging(math.nan, 0.2, Verdict.GO)
+    assert unknown._of(Phase.LAND, HIGH, Worth(GO, 9.0)).margin == pytest.approx(math.degrees(0.2))
 
 
 # plans put together of phases

@@ -130,7 +130,9 @@ def test_beyond_a_right_angle_no_friction_is_enough(margin, finite):
 def test_grousers_that_do_not_bear_half_of_the_traction():
     """Half of 2 kg is 9.81 N, times the largest traction over weight; that of none known is 1."""
     weak = track(strength=12.0)
-    assert strength_margin(asked(), weak, 1.5) == pytest.approx(12.0 - 1.5 * G)
+    assert strength_margin(asked(), weak, driven(tractions=(0.5, 1.5))) == pytest.approx(
+        12.0 - 1.5 * G
+    )
     assert supply(asked(), driven(), weak).margin == -0.2
     assert supply(asked(), driven(tractions=(0.5, 1.2)), weak).margin == 0.0
     assert supply(asked(), driven(tractions=()), weak).margin == 0.0

@@ -44,10 +44,13 @@ def made(**given):
         "status": Status.OK, "descending": False, "profile": STEPS, "outline": OUTLINE,
         "acceleration": 0.5, "path": path_to(0.0, 1.0), "tread": Tread(0.5, 0.2, 0.1, 0, 0.06, 0.2),
         "criterion": Criterion((LOSS,)), "whole": True,
-        "phase_of_pose": np.array(["enter", "land"]), "phases": (), "start": None, "until": None,
+        "phase_of_pose": np.array(["enter", "land"]), "start": None, "until": None,
         "step": 0.02, "sought": None,
     }  # fmt: skip
-    return Traverse(**(figures | given))
+    phases = given.pop("phases", ())
+    found = Traverse(**(figures | given))
+    vars(found)["phases"] = phases
+    return found
 
 
 def test_the_end_is_the_last_pose():
@@ -189,6 +192,15 @@ def test_what_is_sought_is_said_as_if_the_tilt_were_found(limit, sought):
     assert count <= len(asked) - count
 
 
+@pytest.mark.parametrize("limit", [0.01, 0.1, 0.3, 0.6, -0.02])
+@pytest.mark.parametrize("enough", [0.05, 0.2, 0.45])
+def test_up_to_what_is_enough_the_tilt_is_the_same(limit, enough):
+    whole = largest_survived(lambda tilt: tilt <= limit)
+    found = largest_survived(lambda tilt: tilt <= limit, enough=enough)
+    assert min(found, enough) == min(whole, enough)
+    assert found <= whole
+
+
 def test_a_traverse_that_is_asked_of_a_tilt_says_on_which_side_it_falls(monkeypatch):
     """It falls back beyond 0.1 rad and forward beyond 0.3; what was tried is remembered."""
     tried = []
@@ -211,6 +223,20 @@ def test_a_traverse_that_is_asked_of_a_tilt_says_on_which_side_it_falls(monkeypa
     asked = made(sought=(0.05,), path=path_to(-1.0, NOSINGS[1] + 0.01))
     assert 0.05 < asked.falls_downhill.tilt <= 0.1
     assert asked.falls_downhill[1:] == asked.end
+    # beyond what is enough it does not count where it falls
+    assert made(enough=0.05)._falls_beyond(0.2)
+    assert not made(enough=0.15)._falls_beyond(0.2)
+
+
+def test_what_is_known_of_a_traverse_stays_known_where_something_else_is_sought(monkeypatch):
+    monkeypatch.setattr(contact, "arrives", lambda *, tilt, **way: tilt <= 0.1)
+    found = made()
+    assert found._falls_beyond(0.05)
+    vars(found).update(grip="grip", falls_downhill=Fall(0.1, Phase.LAND, 2))
+    other = found.seeking((0.02,), enough=0.3)
+    assert (other.sought, other.enough, other.grip) == ((0.02,), 0.3, "grip")
+    assert other._survives is found._survives
+    assert "falls_downhill" not in vars(other)
 
 
 def test_tilts_of_which_nothing_is_known():

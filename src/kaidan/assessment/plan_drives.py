@@ -2,14 +2,13 @@
 
 import math
 from collections.abc import Hashable
-from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from kaidan import contact
-from kaidan.assessment.plan_scores import outline_key, terrain_key
+from kaidan.assessment.plan_scores import ENOUGH, outline_key, terrain_key
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.models import judge, planned
 from kaidan.models.findings import Findings
@@ -31,6 +30,8 @@ from kaidan.traversal.samples import samples_of
 
 FINE = 0.02
 """Arclength between poses while judging [m]; events are located anyway."""
+
+_MOST = math.radians(ENOUGH)
 
 Sought = tuple[float, ...] | None
 
@@ -120,7 +121,7 @@ class Drives:
             known[sought] = (
                 driven_over(profile, question, step=FINE, sought=sought, **how)
                 if alike is None
-                else replace(alike, sought=sought)
+                else alike.seeking(sought)
             )
         return known[sought]
 
@@ -144,6 +145,7 @@ class Drives:
         if question.model != CONTACT.name:
             return judge(question)
         if question.changes:
-            return planned.findings(question, planned.drive(question, over=self.over, **how))
+            driven = planned.drive(question, over=self.over, **how)
+            return planned.findings(question, driven, most=_MOST)
         found = self.over(profile_of(question), question, **how)
-        return findings_of(question, Basis(question, found))
+        return findings_of(question, Basis(question, found), most=_MOST)

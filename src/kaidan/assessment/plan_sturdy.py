@@ -8,12 +8,15 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
+import numpy as np
+
 from kaidan.assessment.plan_drives import Drives
 from kaidan.assessment.plan_scores import ENOUGH, Scores
 from kaidan.assessment.plans import Plan, off, pressed
 from kaidan.assessment.verdict import conclude
 from kaidan.errors import InputError
-from kaidan.models.quasi_static import Basis, findings_of
+from kaidan.models.findings import at_risk
+from kaidan.models.quasi_static import Basis, findings_of, sliding_margin
 from kaidan.modes import Phase, Verdict
 from kaidan.robot import Posture
 from kaidan.traversal.moves import angles_of
@@ -117,15 +120,15 @@ class Sturdier:
         worst = Worth(0, ENOUGH)
         each = (posture, *off(self.question.robot, posture, self.question.tolerance))
         for k in sorted(range(len(each)), key=lambda k: k != self._weakest.get(phase)):
-            found = self._of(phase, each[k])
+            found = self._of(phase, each[k], beaten)
             if found < worst:
                 worst, self._weakest[phase] = found, k
             if worst <= beaten:
                 break
         return worst
 
-    def _of(self, phase: Phase, posture: Posture) -> Worth:
-        """What a phase comes to, driven from a start of its own."""
+    def _of(self, phase: Phase, posture: Posture, beaten: Worth) -> Worth:
+        """What a phase comes to, driven from a start of its own; any no better than is beaten."""
         angles = {
             end: round(angle, 9)
             for end in ("front", "rear")
@@ -133,16 +136,32 @@ class Sturdier:
         }
         key = phase, posture.model_copy(update=angles)
         if key not in self._known:
-            self._known[key] = self._judged(*key)
+            found, whole = self._judged(*key, beaten)
+            if not whole:
+                return found
+            self._known[key] = found
         return self._known[key]
 
-    def _judged(self, phase: Phase, posture: Posture) -> Worth:
+    def _judged(self, phase: Phase, posture: Posture, beaten: Worth) -> tuple[Worth, bool]:
+        """The same, and whether all of it was judged: its friction is first, and may be enough."""
         try:
             alone = self.question.changed(posture=posture)
         except InputError:  # its centroid is outside
-            return OUT
+            return OUT, True
         start, until = self.scores.stretch(phase)
         found = self.drives.over(self.scores.profile, alone, start=start, until=until)
-        conclusion = conclude(alone, findings_of(alone, Basis(alone, found)))
-        margin = math.degrees(conclusion.margin)
-        return Worth(-conclusion.verdict.rank, -90.0 if math.isnan(margin) else min(margin, ENOUGH))
+        sliding = np.nan_to_num(sliding_margin(alone, Basis(alone, found)), nan=math.inf)
+        margin = at_risk(sliding, alone.risk)
+        most = _worth(Verdict.GO if margin > 0.0 else Verdict.CAUTION, margin)
+        if most <= beaten:
+            return most, False
+        conclusion = conclude(
+            alone, findings_of(alone, Basis(alone, found), most=math.radians(ENOUGH))
+        )
+        return _worth(conclusion.verdict, conclusion.margin), True
+
+
+def _worth(verdict: Verdict, margin: float) -> Worth:
+    """Worth of a verdict with a margin [rad]; NaN: not known."""
+    degrees = -90.0 if math.isnan(margin) else min(math.degrees(margin), ENOUGH)
+    return Worth(-verdict.rank, degrees)

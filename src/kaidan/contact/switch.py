@@ -7,7 +7,7 @@ auto   native where it was built from the source that is installed, else plain
 ====== ====================================================================================
 
 ``auto`` is the default. The environment variable ``KAIDAN_KERNEL`` or
-:func:`kaidan.contact.use_kernel` choose another; the function wins.
+:func:`kaidan.contact.use_kernel` choose another; the function wins. The variable is read once.
 """
 
 from __future__ import annotations
@@ -160,10 +160,15 @@ def _through_views(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _choice() -> Choice:
-    return _chosen or _checked(VARIABLE, os.environ.get(VARIABLE) or "auto")
+    return _chosen or _stated()
 
 
 @cache
+def _stated() -> Choice:
+    """What the environment says, read once: that takes longer than many a call of the kernel."""
+    return _checked(VARIABLE, os.environ.get(VARIABLE) or "auto")
+
+
 def _checked(owner: str, choice: str) -> Choice:
     for known in get_args(Choice):
         if choice == known:

@@ -129,7 +129,7 @@ def stop(question: Question, profile: Profile, phase: Phase) -> float:
     return float(nosing[0]) - STAND_OFF
 
 
-def findings(question: Question, planned: Planned) -> Findings:
+def findings(question: Question, planned: Planned, *, most: float = math.inf) -> Findings:
     """Findings of the traverse of a plan: the smallest margins of its parts and changes.
 
     Parameters
@@ -137,6 +137,8 @@ def findings(question: Question, planned: Planned) -> Findings:
     question : Question
         As it was put; what plays no part in the traverse may differ from what was driven.
     planned : Planned
+    most : float
+        As for `kaidan.models.quasi_static.findings_of`.
 
     Returns
     -------
@@ -147,7 +149,7 @@ def findings(question: Question, planned: Planned) -> Findings:
         alone = part.question
         if question is not planned.question:
             alone = question.changed(posture=alone.posture, changes=())
-        of_parts.append(findings_of(alone, Basis(alone, part.traverse)))
+        of_parts.append(findings_of(alone, Basis(alone, part.traverse), most=most))
     basis = Basis(question, planned)
     outside = next((each.outside for each in of_parts if each.outside), "")
     if outside:
@@ -158,10 +160,10 @@ def findings(question: Question, planned: Planned) -> Findings:
     of_each += [_of_move(question, one) for one in planned.moves]
     each = [one for some in of_each for one in some]
     modes = dict.fromkeys(one.mode for one in each)
-    most = of_each[hardest(needed)]
+    steepest = of_each[hardest(needed)]
     return Findings(
         model=CONTACT.name,
-        each=tuple(sliding_where(most, _smallest(mode, each)) for mode in modes),
+        each=tuple(sliding_where(steepest, _smallest(mode, each)) for mode in modes),
         required_friction=float(np.fmax.reduce(needed)),
         figures=Later(
             lambda: tuple(_together([each for found in of_parts for each in found.figures]))

@@ -19,7 +19,7 @@ from kaidan.models import support_polygon, traction
 from kaidan.models.balance import balance
 from kaidan.models.contact_figures import figures_of
 from kaidan.models.drive_limits import traction_limit
-from kaidan.models.findings import Finding, Findings, Later, hardest
+from kaidan.models.findings import Array, Finding, Findings, Later, hardest
 from kaidan.models.spread import Spread, spread
 from kaidan.models.support_polygon import along_heading
 from kaidan.models.traction import Supplies
@@ -49,6 +49,8 @@ FALL = math.pi / 2
 LONG_FLIGHT = 60
 """Risers of a uniform flight that stand for any more: twice the nosings under the longest robot,
 so that every pose recurs and the arrival is like that of the whole flight."""
+_ROUNDING = 1e-6
+"""Tilt that is rounding [rad]."""
 _SOLVER = (Status.NOT_CONVERGED, Status.TOO_LONG, Status.NO_START)
 _NAME = CONTACT.name
 
@@ -147,7 +149,9 @@ def _drives_alike(question: Question, other: Question) -> bool:
     )
 
 
-def findings_of(question: Question, basis: Basis, *, phase: Phase | None = None) -> Findings:
+def findings_of(
+    question: Question, basis: Basis, *, phase: Phase | None = None, most: float = math.inf
+) -> Findings:
     """Findings of a traverse, of the whole of it or of one phase alone.
 
     Parameters
@@ -158,6 +162,9 @@ def findings_of(question: Question, basis: Basis, *, phase: Phase | None = None)
         Its traverse.
     phase : Phase, optional
         Part of the traverse to judge alone.
+    most : float
+        Margin of slope beyond which a larger one is no better [rad]. That of a fall is then found
+        no farther than it may be the smallest.
 
     Returns
     -------
@@ -175,10 +182,12 @@ def findings_of(question: Question, basis: Basis, *, phase: Phase | None = None)
     if question.yaw and isinstance(flight, Stairs):
         across = float(equivalent_slope_across(theta_s=flight.angle, psi=question.yaw))
         friction = math.hypot(friction, across)
+    slides = _supply(driven, found, over, extremes, friction, held)
+    balanced = found if math.isinf(most) else _seen_no_farther(question, found, slides, most)
     each = [
-        *_supply(driven, found, over, extremes, friction, held),
+        *slides,
         *_obstacles(driven, found, phase, phases),
-        *balance(question, driven, found, over, phase, held),
+        *balance(question, driven, balanced, over, phase, held),
     ]
     gripping = Later(lambda: [traction.figures_of(driven, found, friction, held, phase)])
     modes = [one.mode for one in each]
@@ -192,6 +201,18 @@ def findings_of(question: Question, basis: Basis, *, phase: Phase | None = None)
         else Later(lambda: _notes(question, driven, found) + grips.notes(question, gripping[0])),
         basis=basis,
     )
+
+
+def _seen_no_farther(
+    question: Question, found: Traverse, slides: Sequence[Finding], most: float
+) -> Traverse:
+    """Traverse of which no fall is looked for beyond the margin that others leave, or `most`."""
+    if question.uncertain:
+        return found
+    left = float(np.fmin.reduce([most, *(one.worst[0] for one in slides)]))
+    d, M = question.allowance_d, question.allowance_M
+    off = max(d.high + M.high, question.reserve)
+    return found.seeking(found.sought, enough=off + max(left, 0.0) + _ROUNDING)
 
 
 def _figures(
@@ -253,6 +274,38 @@ class _Extremes(NamedTuple):
         )
 
 
+def sliding_margin(question: Question, basis: Basis) -> Array:
+    """Margin against sliding of each sample in the worst case, known before the other margins.
+
+    Parameters
+    ----------
+    question : Question
+        To be judged by `findings_of`.
+    basis : Basis
+        Its traverse.
+
+    Returns
+    -------
+    ndarray (samples,)
+        [rad]; infinite where it takes the other margins to know.
+    """
+    driven, found = basis
+    if not _answered(driven, found) or not traction.holds_otherwise(question):
+        return np.full(1, math.inf)
+    held = traction.supply(driven, found, question.robot.track)
+    if held.phase is None:
+        return np.full(1, math.inf)
+    over = spread(driven, found)
+    return _sliding(over, held.phase, driven.friction[0], held.required)
+
+
+def _sliding(over: Spread, phase: Phase | None, mu: float, required: float) -> Array:
+    """Margin of slope against sliding of each sample [rad]."""
+    steeper = over.inclination if phase is Phase.TRAVERSE else over.angle
+    margin = np.arctan(np.maximum(mu + over.friction, 0.0)) - math.atan(required) - steeper
+    return np.asarray(margin)
+
+
 def _supply(
     question: Question,
     found: Traverse,
@@ -264,9 +317,8 @@ def _supply(
     """Friction, grousers and drive against what the terrain requires."""
     place = extremes if held is None else held.worst
     required = (friction, friction) if held is None else (each.required for each in held)
-    steeper = over.inclination if place.phase is Phase.TRAVERSE else over.angle
     worst, best = (
-        np.arctan(np.maximum(mu + over.friction, 0.0)) - math.atan(needed) - steeper
+        _sliding(over, place.phase, mu, needed)
         for mu, needed in zip(question.friction, required, strict=True)
     )
     uphill = question.acceleration >= -STANDARD_GRAVITY * math.sin(max(_slope(question), 0.0))

@@ -86,7 +86,7 @@ def _standing(question: Question, grip: Grip, *, best: bool) -> float:
     track = question.robot.track
     nosings, treads, faces = question.surface.of_parts(best=best)
     phi = math.atan(nosings), math.atan(treads), math.atan(faces)
-    cases = grousers_of(question, track, best=best) if _bears(question, track, 1.0) else ()
+    cases = grousers_of(question, track, best=best) if _bears(question, track) else ()
     alone = grip.by_friction(phi)
     each = [grip.at_once(phi, one, alone) for one in cases] or [alone]
     return float(np.fmin.reduce(np.concatenate(each)))
@@ -115,12 +115,18 @@ def supplies(
     phase : Phase, optional
         Part of the traverse to judge alone.
     """
-    surface, track = question.surface, question.robot.track
-    differs = surface is not None and surface.differs
-    if question.yaw or not (track.has_grousers or differs):
+    if not holds_otherwise(question):
         return None
+    track = question.robot.track
     worst, best = (supply(driven, found, track, best=each, phase=phase) for each in (False, True))
     return None if worst.phase is None else Supplies(worst, best)
+
+
+def holds_otherwise(question: Question) -> bool:
+    """Whether more than one friction of smooth belts counts, and what grousers hold is known."""
+    surface = question.surface
+    differs = surface is not None and surface.differs
+    return not question.yaw and (question.robot.track.has_grousers or differs)
 
 
 def supply(
@@ -154,8 +160,7 @@ def supply(
     frictions = (0.0,) * 3 if surface is None else surface.of_parts(best=best)
     phi = math.atan(frictions[0]), math.atan(frictions[1]), math.atan(frictions[2])
     alone = held = grip.by_friction(phi)
-    over_weight = max((each.traction_over_weight for each in found.phases), default=1.0)
-    if _bears(question, track, over_weight):
+    if _bears(question, track, found):
         cases = grousers_of(question, track, best=best)
         held = np.minimum.reduce([grip.with_grousers(phi, each, alone) for each in cases])
     rows = lasting(found.path) & ~found.comes_off
@@ -239,16 +244,21 @@ def _lost(question: Question, track: Track, height: float) -> tuple[float, float
     return 0.0, float(lost) / height
 
 
-def _bears(question: Question, track: Track, over_weight: float) -> bool:
-    """Whether the belts have grousers that bear a tractive force, over the weight."""
-    return track.has_grousers and not strength_margin(question, track, over_weight) <= 0.0
+def _bears(question: Question, track: Track, found: Traverse | None = None) -> bool:
+    """Whether the belts have grousers that bear the tractive force, see `strength_margin`."""
+    return track.has_grousers and not strength_margin(question, track, found) <= 0.0
 
 
-def strength_margin(question: Question, track: Track, over_weight: float) -> float:
-    """Strength of a grouser less half of a tractive force, over the weight [N]; NaN: not known."""
+def strength_margin(question: Question, track: Track, found: Traverse | None = None) -> float:
+    """Strength of a grouser less half of the tractive force [N]; NaN: not known.
+
+    That force is the largest of a traverse; without one it is the weight.
+    """
     mass = question.stance.mass
     if track.grouser_strength is None or mass is None:
         return math.nan
+    phases = () if found is None else found.phases
+    over_weight = max((each.traction_over_weight for each in phases), default=1.0)
     return track.grouser_strength - 0.5 * mass * STANDARD_GRAVITY * over_weight
 
 
@@ -275,7 +285,6 @@ def figures_of(
         Part of the traverse that counts.
     """
     track, worst = question.robot.track, None if held is None else held.worst
-    over_weight = max((each.traction_over_weight for each in found.phases), default=1.0)
     usual = math.inf
     if not track.has_grousers and question.surface is None:
         usual = supply(question, found, USUAL, phase=phase).required
@@ -292,7 +301,7 @@ def figures_of(
             each.value: 1e3 * height for each, height in (worst.heights if worst else {}).items()
         },
         standing_phases=_standing_phases(question, track),
-        strength_margin_N=strength_margin(question, track, over_weight),
+        strength_margin_N=strength_margin(question, track, found),
     )
 
 

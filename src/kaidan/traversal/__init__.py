@@ -6,7 +6,7 @@ drives towards +x; going down, the profile is reflected so that the path still l
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Literal, NamedTuple
 
@@ -35,6 +35,8 @@ from kaidan.traversal.static_criterion import Criterion, Tread, flights_of
 from kaidan.traversal.tilting import LARGEST, largest_survived
 from kaidan.traversal.tilting import Fall as Fall
 
+_OF_FALLS = {"falls_downhill", "falls_uphill", "_limiting_fall"}
+"""What depends on the tilts that count."""
 _ALIKE = 1e-6
 """Tilt that is rounding [rad]."""
 _EVEN = 1e-9
@@ -77,7 +79,6 @@ class Traverse:
     every pose is judged."""
     phase_of_pose: NDArray[np.str_]
     """Phase of each pose of the path."""
-    phases: tuple[PhaseExtremes, ...]
     start: contact.Placement | None
     """Where a part of the traverse begins; None: before the flight."""
     until: float | None
@@ -87,6 +88,29 @@ class Traverse:
     sought: tuple[float, ...] | None
     """Tilts of which alone it counts whether a fall is beyond them, nor where it is [rad]; None:
     the tilt to the fall is found."""
+    enough: float = math.inf
+    """Tilt of which it does not count how far a fall is beyond it [rad]."""
+
+    def seeking(
+        self, sought: tuple[float, ...] | None = None, *, enough: float = math.inf
+    ) -> "Traverse":
+        """Same traverse of which something else counts; what was worked out stays known."""
+        other = replace(self, sought=sought, enough=enough)
+        _ = self._survives  # which tilts it survives does not depend on it
+        known = vars(self).keys() - vars(other).keys() - _OF_FALLS
+        vars(other).update((name, vars(self)[name]) for name in known)
+        return other
+
+    @cached_property
+    def phases(self) -> tuple[PhaseExtremes, ...]:
+        """Extreme figures of each phase; none of a path without margins."""
+        if self.path.margins is None:
+            return ()
+        rises = rises_about_stays(self.criterion, self.descending) if self.whole else ()
+        return phase_extremes(
+            self.path, self.profile, self.phase_of_pose, self.descending, self.acceleration,
+            rises, self.outline.stance.flat_length, self.whole,
+        )  # fmt: skip
 
     @cached_property
     def events(self) -> tuple[TraverseEvent, ...]:
@@ -166,10 +190,11 @@ class Traverse:
                 known[back * tilt] = contact.arrives(**manner, tilt=back * tilt)
             return known[back * tilt]
 
-        return largest_survived(survives, sought=sought, most=most)
+        return largest_survived(survives, sought=sought, enough=self.enough, most=most)
 
     def _falls_beyond(self, tilt: float) -> bool:
         """Whether no tilt up to one that counts makes it fall over its downhill end [rad]."""
+        tilt = min(tilt, self.enough)
         if self.sought is not None:
             tilt = min(tilt, max(self.sought))
         back = -1.0 if self.descending else 1.0
@@ -178,7 +203,7 @@ class Traverse:
     def _fall(self, *, downhill: bool, most: float = LARGEST) -> Fall:
         back = 1.0 if downhill is not self.descending else -1.0
         tilt = self._survived(back, self.sought, most)
-        if self.sought is not None:
+        if self.sought is not None or self.enough <= tilt < math.inf:
             return Fall(tilt, *self.end)
         fallen = self.path
         fatal = [abs(each) for each, survives in self._survives.items()
@@ -398,12 +423,6 @@ def traverse(
         **way(driven, body, start, until), acceleration=along, step=step,
         with_margins=with_margins, with_energy=with_energy,
     )  # fmt: skip
-    room = body.stance.flat_length
-    phase = phases_of(path, driven, descending, room)
-    phases: tuple[PhaseExtremes, ...] = ()
-    if path.margins is not None:
-        rises = rises_about_stays(criterion, descending) if whole else ()
-        phases = phase_extremes(path, driven, phase, descending, along, rises, room, whole)
     return Traverse(
         status=path.status,
         descending=descending,
@@ -414,8 +433,7 @@ def traverse(
         tread=tread,
         criterion=criterion,
         whole=whole,
-        phase_of_pose=phase,
-        phases=phases,
+        phase_of_pose=phases_of(path, driven, descending, body.stance.flat_length),
         start=start,
         until=until,
         step=step,

@@ -193,6 +193,7 @@ def largest_survived(
     survives: Callable[[float], bool],
     *,
     sought: Sequence[float] | None = None,
+    enough: float = math.inf,
     most: float = LARGEST,
 ) -> float:
     """Largest tilt that is survived, see `Fall`, to `WITHIN` [rad].
@@ -204,11 +205,16 @@ def largest_survived(
     sought : sequence of float, optional
         Tilts which it may only exceed or not [rad]: a smaller one is found where that says as much
         of each.
+    enough : float
+        Tilt beyond which one that is survived is as good as any [rad]: a smaller one than the
+        largest is found there.
     most : float
         Tilt that is survived only by what no tilt fells [rad].
     """
 
     def is_open(low: float, high: float) -> bool:
+        if low >= enough:
+            return False
         return sought is None or any(low <= each < high for each in sought)
 
     low, high, tilt = 0.0, math.inf, _FIRST

@@ -21,7 +21,7 @@ def untouched(monkeypatch):
     """No choice but the default's, nothing loaded yet."""
     monkeypatch.delenv(switch.VARIABLE, raising=False)
     monkeypatch.setattr(switch, "_chosen", None)
-    caches = (switch._native, switch._warn_once)
+    caches = (switch._native, switch._stated, switch._warn_once)
     for each in caches:
         each.cache_clear()
     yield
