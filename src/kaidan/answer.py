@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
-from kaidan.errors import InputError
+from kaidan.errors import InputError, fault
 
 MOST_ITEMS = 8
 """Items of a list that a table shows."""
@@ -109,10 +109,8 @@ class Answer(Part):
             return cls.model_validate_json(text)
         except ValidationError as error:
             first = error.errors(include_url=False)[0]
-            where = ".".join(map(str, first["loc"]))
-            raise InputError(
-                f"no {cls.__name__}: {where}{': ' if where else ''}{first['msg']}"
-            ) from None
+            where = ".".join(map(str, first["loc"])) or "it"
+            raise InputError(f"no {cls.__name__}: {where} {fault(first)}") from None
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:

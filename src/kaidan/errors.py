@@ -1,6 +1,6 @@
 """What kaidan raises: only for input without meaning, never for a robot that cannot climb."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from importlib import import_module
 from typing import Any
@@ -41,6 +41,59 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     by_lower = {each.lower(): each for each in known}
     close = get_close_matches(word.strip().lower(), by_lower, n=1)
     return f"; did you mean {by_lower[close[0]]}?" if close else ""
+
+
+def fault(detail: Mapping[str, Any]) -> str:
+    """What is wrong with an input that pydantic refuses, as the end of a sentence that names it.
+
+    Parameters
+    ----------
+    detail : mapping
+        One of the errors of a ``ValidationError``.
+
+    Examples
+    --------
+    >>> fault({"type": "literal_error", "ctx": {"expected": "'up' or 'down'"}})
+    'is not one of up, down'
+    """
+    kind, limits = detail["type"], detail.get("ctx", {})
+    if kind == "literal_error":
+        words = str(limits["expected"]).replace(" or ", ", ").replace("'", "")
+        return f"is not one of {words}"
+    if kind in _BEYOND:
+        least, said = _BEYOND[kind]
+        return f"is {said} {limits[least]:.12g}"
+    if kind in ("too_short", "too_long"):
+        allowed = limits["min_length" if kind == "too_short" else "max_length"]
+        than = "fewer" if kind == "too_short" else "more"
+        return f"has {than} than {allowed} items"
+    if kind == "json_invalid":
+        return f"is not JSON: {limits['error']}"
+    ends = (said for begins, said in _FAULTS.items() if kind.startswith(begins))
+    return next(ends, f"is refused: {detail.get('msg', kind)}")
+
+
+_BEYOND = {
+    "greater_than_equal": ("ge", "less than"),
+    "greater_than": ("gt", "not more than"),
+    "less_than_equal": ("le", "more than"),
+    "less_than": ("lt", "not less than"),
+}
+"""Limits of numbers as pydantic calls them."""
+_FAULTS = {
+    "int_": "is not a whole number",
+    "float_": "is not a number",
+    "finite_": "is not a finite number",
+    "string_": "is not a text",
+    "bool_": "is neither true nor false",
+    "list_": "is not a list",
+    "tuple_": "is not a list",
+    "dict_": "is not a table",
+    "model_": "is not a table of fields",
+    "missing": "is missing",
+    "extra_forbidden": "is not a known field",
+}
+"""Beginnings of the kinds of pydantic's errors."""
 
 
 class UnknownNameError(InputError):

@@ -22,7 +22,7 @@ from pydantic import (
 from pydantic import model_validator as model_validator
 from pydantic.fields import FieldInfo
 
-from kaidan.errors import InputError, did_you_mean
+from kaidan.errors import InputError, did_you_mean, fault
 from kaidan.units import kind_of_unit, parse
 
 PLACEHOLDER = "FILL IN"
@@ -147,8 +147,10 @@ class Sheet(BaseModel):
             return f"{where} is still to be filled in: {field.description}{allowed}"
         if kind == "model_type":
             return f"{where} = {_shown(value)} is not a table of fields"
-        if unit is None or kind in ("too_short", "too_long"):
-            return f"{where} = {_shown(value)}: {detail['msg']}"
+        if kind in ("too_short", "too_long"):
+            return f"{where} {fault(detail)}"
+        if unit is None:
+            return f"{where} = {_shown(value)} {fault(detail)}"
         if is_list(field) and len(path) == 1:
             return f"{where} = {_shown(value)} is not a list of numbers"
         if isinstance(value, bool) or not isinstance(value, int | float):
@@ -196,7 +198,7 @@ class Sheet(BaseModel):
         try:
             return cls.model_validate_json(text)
         except ValidationError as error:  # no JSON at all; a wrong field is an InputError already
-            raise InputError(f"{cls.label}: {error.errors(include_url=False)[0]['msg']}") from None
+            raise InputError(f"{cls.label} {fault(error.errors(include_url=False)[0])}") from None
 
     def to_json(self) -> str:
         """One JSON object, indented, in ASCII."""

@@ -262,6 +262,8 @@ OPTIONS = {
     **dict.fromkeys(("angle", "theta_d", "theta_m", "alarm_margin", "clear_margin"), "angle"),
     **dict.fromkeys(("steps", "points", "horizon"), "number"),
 }
+RAW = "Input should"
+"""How texts of pydantic begin, which speak of no option and no field."""
 SLOW = ("experiment", "calibrate", "physics", "agree", "posture", "compare", "campaign")
 PLANNED = ("report", "sensitivity")
 """Commands of seconds for the best plan of flippers; one in twenty is of a robot with any."""
@@ -288,6 +290,7 @@ def assert_one_line(text):
     assert text
     assert text.isprintable()
     assert len(text) < 3_000
+    assert RAW not in text
 
 
 def call_it(seed):
@@ -321,6 +324,7 @@ def run_it(seed, folder):
         if err.getvalue().startswith("kaidan: "):
             assert err.getvalue().count("\n") == 1, said
             assert len(err.getvalue()) < 3_000, said
+            assert RAW not in err.getvalue(), said
     return code
 
 

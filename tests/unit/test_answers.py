@@ -101,15 +101,15 @@ def test_it_is_frozen_and_knows_no_other_field(reach):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("{", "no Reach: Invalid JSON: EOF while parsing an object at line 1 column 1"),
-        ('{"robot": "x", "by_name": {}}', "no Reach: reach_m: Field required"),
+        ("{", "no Reach: it is not JSON: EOF while parsing an object at line 1 column 1"),
+        ('{"robot": "x", "by_name": {}}', "no Reach: reach_m is missing"),
         (
             '{"robot": 3, "reach_m": 1, "by_name": {}}',
-            "no Reach: robot: Input should be a valid string",
+            "no Reach: robot is not a text",
         ),
         (
             '{"robot": "x", "reach_m": 1, "by_name": {}, "phases": [{"name": 2}]}',
-            "no Reach: phases.0.name: Input should be a valid string",
+            "no Reach: phases.0.name is not a text",
         ),
     ],
 )

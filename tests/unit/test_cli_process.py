@@ -132,6 +132,22 @@ def test_ctrl_c_while_it_starts(delay):
             "invalid value for 'what': 'robto' is not one of 'robot', 'stairs', 'surface' "
             "(see kaidan new -h)",
         ),
+        (
+            ["assess", "kenaf", "ibc", "--steps", "many"],
+            "invalid value for '--steps': 'many' is not a whole number (see kaidan assess -h)",
+        ),
+        (
+            ["assess", "kenaf", "ibc", "--risk", "low"],
+            "invalid value for '--risk': 'low' is not a number (see kaidan assess -h)",
+        ),
+        (
+            ["assess", "kenaf", "ibc", "--trials", "0"],
+            "invalid value for '--trials': '0' is less than 1 (see kaidan assess -h)",
+        ),
+        (
+            ["experiment", "absolem", "--spacings", "0mm"],
+            "condition: nosing_spacing = 0 m is not within 0.02 to 2.5 m",
+        ),
     ],
 )
 def test_a_wrong_word_of_the_command_line_is_one_line(words, line, capsys):

@@ -117,7 +117,7 @@ LEVEL = {"flat_length": "0.5m", "front_scale": "12kg", "rear_scale": "8kg"}
         ({"tips_at": "2deg"}, "tips_at = 2 deg is not within 5 to 130 deg"),
         ({"front_scale": "0kg", "rear_scale": "0kg"},
          "front_scale and rear_scale show nothing together"),
-        ({"u_scale": "-1g"}, "u_scale = -0.001 is negative"),
+        ({"u_scale": "-1g"}, "u_scale = -0.001 kg is not within 0 to 20 kg"),
     ],
 )  # fmt: skip
 def test_what_is_refused(given, text):
@@ -252,6 +252,8 @@ def test_landings_go_into_the_sheet_of_stairs(tmp_path):
 @pytest.mark.parametrize(
     ("given", "text"),
     [
+        ({"upper_turn": "180"}, 'stairs: upper_turn = "180" is not one of none, quarter, half'),
+        ({"u_tape": "1m"}, "u_tape = 1 m is not within 0 to 0.1 m"),
         ({"upper_turn": "half"},
          "stairs: upper_turn = half needs width and upper_landing and upper_landing_width too"),
         ({"upper_landing": "1200"},

@@ -120,7 +120,7 @@ def test_json_that_is_no_question_is_refused_in_one_line(change, said):
 def test_text_that_is_no_json_is_refused():
     with pytest.raises(InputError) as refused:
         Question.from_json("{")
-    assert str(refused.value).startswith("question: Invalid JSON: EOF while parsing")
+    assert str(refused.value).startswith("question is not JSON: EOF while parsing")
 
 
 # Spelling

@@ -185,7 +185,14 @@ def _outcome(words: Sequence[str]) -> int:
 
 def _usage(error: Exception) -> str:
     """Refusal of a word of the command line, with what may have been meant and where to look."""
+    from kaidan.errors import fault, shown
+
     context = getattr(error, "ctx", None)
+    refused = getattr(error.__cause__, "errors", None)  # typer has pydantic read numbers
+    if refused is not None:
+        detail = refused()[0]
+        if detail["type"] != "value_error":  # which has a text of typer's
+            error.message = f"{shown(detail['input'])} {fault(detail)}"  # type: ignore[attr-defined]
     text = error.format_message().strip().replace("Value error, ", "")  # type: ignore[attr-defined]
     if type(error).__name__ == "NoSuchOption":
         option, known = (getattr(error, name) or () for name in ("option_name", "possibilities"))

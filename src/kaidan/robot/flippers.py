@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
 
 from pydantic import Field, ValidationInfo, field_validator
 
-from kaidan.errors import InputError, shown
+from kaidan.errors import InputError, did_you_mean, shown
 from kaidan.sheet import Sheet, model_validator, quantity
 from kaidan.units import value_of
 
@@ -118,6 +118,12 @@ class Posture(Sheet):
             raise InputError(f"robot {robot.name!r} has no flippers")
         if words == ["flat"]:
             return cls(**dict.fromkeys(pairs, "flat"), state=state)
+        if len(words) == 1 and not any(map(str.isdigit, text)):
+            raise InputError(
+                f"{option} {shown(text)} is no posture; write stowed, flat or angles such as "
+                f"{','.join(('20deg', '-5deg')[: len(pairs)])}"
+                + did_you_mean(text, ("stowed", "flat"))
+            )
         if len(words) == 1 and len(pairs) == 2:
             raise InputError(
                 f"{option} {shown(text)} is one angle for two pairs; write FRONT,REAR, for example "

@@ -122,6 +122,8 @@ def plan_of(
     distances = list(dict.fromkeys(_values(spacings, "length", "spacings")))
     if not distances:
         raise InputError("spacings: none is given")
+    for p in distances:
+        Condition(nosing_spacing=p, angle=math.radians(45.0))  # refuses what no stairs have
     if setting.get("track") is None:
         sheet = robot_of(robot, setting.pop("override", ())).weighed
         robot, setting["track"] = fitted(sheet)

@@ -12,7 +12,6 @@ from kaidan.mechanics.weighing import (
 from kaidan.robot import Robot
 from kaidan.sheet import bounds
 from kaidan.spelling import word_of
-from kaidan.units import value_of
 from kaidan.verbs.weighing import (
     ALONG,
     INPUTS,
@@ -189,9 +188,9 @@ def measure_robot(
         "rear_inset": rear_inset,
     }
     tools = {
-        "scale": _positive(u_scale, "mass", "u_scale"),
-        "tape": _positive(u_tape, "length", "u_tape"),
-        "angle": _positive(u_angle, "angle", "u_angle"),
+        "scale": stated_value("u_scale", u_scale),
+        "tape": stated_value("u_tape", u_tape),
+        "angle": stated_value("u_angle", u_angle),
     }
     at = {key: stated_value(key, given) for key, given in stated.items() if given is not None}
     over, on = word_of("over", over, ("front", "rear")), word_of("on", on, ("end", "ramp"))
@@ -219,13 +218,6 @@ def measure_robot(
     )
     _plausible(found)
     return found
-
-
-def _positive(given: Any, kind: str, name: str) -> float:
-    value = value_of(given, kind, option=name)
-    if value < 0:
-        raise InputError(f"{name} = {value:g} is negative")
-    return value
 
 
 def _measured(

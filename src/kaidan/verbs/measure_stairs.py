@@ -14,6 +14,7 @@ from kaidan.mechanics.weighing import (
 )
 from kaidan.terrain.stairs import Stairs
 from kaidan.units import value_of
+from kaidan.verbs.weighing import stated_value
 
 TAPE = "2mm"
 """Standard uncertainty of a tape over a whole flight, where nobody states it."""
@@ -174,9 +175,7 @@ upper_landing_width, upper_passage, upper_leaf : float or str, optional
         for key, given in stated.items()
         if given is not None
     }
-    tape = value_of(u_tape, "length", option="u_tape")
-    if tape < 0:
-        raise InputError(f"u_tape = {tape:g} m is negative")
+    tape = stated_value("u_tape", u_tape)
     odd = [key for key in ("first_rise", "last_rise") if key in at]
     regular = count - len(odd)
     if regular < 1:

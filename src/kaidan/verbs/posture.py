@@ -110,8 +110,8 @@ def posture(
         raise InputError(f"robot {sheet.name!r} has no flippers, so it has no posture to choose")
     if not -math.pi <= limits[0] < limits[1] <= math.pi:
         raise InputError(
-            f"limits = {limits[0]:g} to {limits[1]:g} rad: write a smaller and a larger angle "
-            "within -3.14159 to 3.14159 rad"
+            f"limits = {math.degrees(limits[0]):g} to {math.degrees(limits[1]):g} deg: write a "
+            "smaller and a larger angle within -180 to 180 deg"
         )
     free = ("flippers",) if facing is not None else ("flippers", "facing")
     planned, findings, search = with_plan(question.changed(best_of=free), limits=limits)

@@ -50,7 +50,11 @@ INPUTS = {
     "rear_radius": _RADIUS,
     "front_inset": _INSET,
     "rear_inset": _INSET,
+    "u_scale": _Input("mass", 0.0, 20.0, "scale"),
+    "u_tape": _Input("length", 0.0, 0.1, "tape"),
+    "u_angle": _Input("angle", 0.0, math.radians(5.0), "angle"),
 }
+"""With the standard uncertainties of the tools; larger ones are mistakes."""
 
 
 def stated_value(key: str, given: Any) -> float:

@@ -13,7 +13,7 @@ from starlette.exceptions import HTTPException
 
 import kaidan
 from kaidan import catalog
-from kaidan.errors import KaidanError
+from kaidan.errors import KaidanError, fault
 from kaidan.robot import Robot
 from kaidan.sheet import Sheet
 from kaidan.surface import Surface
@@ -105,7 +105,7 @@ def _add_errors(app: FastAPI) -> None:
         assert isinstance(error, RequestValidationError)
         first = error.errors()[0]
         where = ".".join(str(each) for each in first["loc"])
-        return JSONResponse({"error": f"{where}: {first['msg']}", "kind": "input"}, 422)
+        return JSONResponse({"error": f"{where} {fault(first)}", "kind": "input"}, 422)
 
 
 def _add_catalogue(app: FastAPI) -> None:

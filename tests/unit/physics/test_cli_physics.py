@@ -130,7 +130,7 @@ def test_export_opens_in_mujoco(tmp_path):
         ),
         (
             ("trial", "kenaf", *STEEP, "--begin", "roof"),
-            "trial: begin = \"roof\": Input should be 'flight' or 'landing'",
+            "trial: begin = \"roof\" is not one of flight, landing",
         ),
         (("trial", "kenaf", *STEEP, "--log", "a.txt"),
          "log 'a.txt': unknown suffix '.txt'; known: .csv, .parquet"),

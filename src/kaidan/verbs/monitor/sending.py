@@ -45,6 +45,8 @@ class Channel(NamedTuple):
         """
         if urlsplit(url).scheme not in ("http", "https") or not urlsplit(url).netloc:
             raise InputError(f"--to {short(url)!r} is no address: write http://HOST:PORT/")
+        if not token.isascii():
+            raise InputError("--token holds characters that no server takes: copy it again")
         root, name = urldefrag(url)
         if not name:
             body = {
