@@ -225,6 +225,45 @@ def test_short_of_the_margin_many_do_not_rock_past_flippers_off_the_flat():
     check_kinked(seed=7, count=200)
 
 
+ABSOLEM, ADA = Robot.named("absolem"), Stairs.named("ada")
+
+
+@pytest.mark.parametrize("off", [0.01, 0.1, 0.5, 1.0, 2.0, 2.5])
+def test_flippers_a_little_off_the_flat_by_hand(off):
+    """As the tip leaves a nosing, less what the robot has rocked onto it (docs/theory/rocking.md).
+
+    A pivot e ahead of the kink and the tip's nosing, behind it, lie a spacing apart.
+    """
+    delta, rear, front = math.radians(off), ABSOLEM.rear_flippers, ABSOLEM.front_flippers
+    posture = Posture(front=front.flat_angle, rear=rear.flat_angle + delta)
+    found = traverse_of(Question.in_one_posture(ABSOLEM, ADA, friction=2.0, flippers=posture))
+    stance = found.outline.stance
+    d = math.sqrt(rear.length**2 - (rear.root_radius - rear.tip_radius) ** 2)
+    arc = rear.root_radius * math.tan(delta / 2)
+    x, z = (d + arc) * math.cos(delta), (d + arc) * math.sin(delta)
+    e = math.sqrt(ADA.nosing_spacing**2 - z**2) - x
+    lever = stance.flat_length + arc - e - stance.com_from_front
+    by_hand = math.atan(lever / stance.com_height) - ADA.angle - math.atan2(z, x + e)
+    assert found.downhill_margin == pytest.approx(by_hand, abs=math.radians(1e-3))
+
+
+def test_flippers_at_the_flat_and_a_hair_off_it():
+    """Above it as at it; below it the arc of the tip carries sqrt(2 R d delta) beyond the flat."""
+    rear, front = ABSOLEM.rear_flippers, ABSOLEM.front_flippers
+    margins = [
+        traverse_of(
+            Question.in_one_posture(
+                ABSOLEM, ADA, friction=2.0,
+                flippers=Posture(
+                    front=front.flat_angle, rear=rear.flat_angle + math.radians(off)
+                ),
+            )
+        ).downhill_margin
+        for off in (-1e-4, 0.0, 1e-4)
+    ]  # fmt: skip
+    assert margins == pytest.approx([margins[1]] * 3, abs=math.radians(0.03))
+
+
 def test_the_tilt_to_the_fall():
     check_falls(seed=1, count=1)
 

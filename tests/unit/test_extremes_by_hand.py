@@ -6,20 +6,22 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from kaidan.contact import Feature, FeatureKind
+from kaidan.contact import Feature, FeatureKind, Placement
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Phase, extremes
 from kaidan.traversal.brief import by_how_long
 from kaidan.traversal.extremes import (
     Rise,
-    _comes_back,
+    _came_down,
+    _CameDown,
     _least_rise,
     _on_a_flight,
     _rock,
     _rotated,
     phase_extremes,
 )
+from kaidan.traversal.rotations import ROCKING
 
 G = 9.80665
 STEPS = Profile.of_stairs(Stairs(rise=0.1, going=0.3, steps=3))
@@ -77,6 +79,10 @@ def looked_at(monkeypatch):
 
         def rock(path, rows, side, *given):
             asked.append(("rock", side, rows.tolist()))
+            whence = given[4] if len(given) > 4 else None
+            # towards the downhill end alone, on the way up
+            assert (whence is not None) == (side > 0 and not descending)
+            assert whence is None or whence.tolist() == [0, 1, 2, 3, 4, 5, 6, 7, 3, 5]
             return math.inf, 0
 
         def rotated(path, phase, name, side, *given):
@@ -88,7 +94,7 @@ def looked_at(monkeypatch):
             "_chain_angles": lambda *given: [(0, 0.3), (2, 0.1), (3, 0.2)],
             "over_the_top": lambda *given: mark(6, 7, 9),
             "_closed": lambda *given: rows,
-            "_comes_back": lambda *given: mark(3)[:8],
+            "_came_down": lambda *given: _CameDown(np.arange(8.0), mark(3)[:8]),
             "_on_a_flight": lambda *given: mark(2, 8),
             "_least_energy": energy,
             "_rock": rock,
@@ -184,20 +190,46 @@ def code(point, kind=FeatureKind.VERTEX):
     return Feature(point, 0, kind).code
 
 
+class Records(list):
+    @property
+    def angle(self):
+        return np.array([each.angle for each in self])
+
+    def __getitem__(self, rows):
+        return Records(super().__getitem__(rows))
+
+
+def came_down(*records, rear, angle, at_once=False, on_flat=()):
+    """Rotations by an angle from 0.1 k, each a chain of its own or all at once."""
+    rotations = Records(
+        SimpleNamespace(
+            sense=sense, arrested=arrested, pivot=pivot, s=float(row), angle=angle,
+            start=Placement(0.0 if at_once else 9.0 * k, 0.0, 0.1 * k),
+            end=Placement(0.0 if at_once else 9.0 * k, 0.0, 0.0),
+        )
+        for k, (row, sense, arrested, pivot) in enumerate(records)
+    )  # fmt: skip
+    path = SimpleNamespace(
+        margins=SimpleNamespace(outermost=np.c_[rear, 0 * rear]),
+        poses=Rows(front_point=np.zeros((8, 2)), rear=70 + np.arange(8)), rotations=rotations,
+        row_before=int, is_on_flat=lambda code, row: code == 70 + row and row in on_flat,
+    )  # fmt: skip
+    whence, back = _came_down(path, 0.5)
+    at = np.flatnonzero(np.isfinite(whence))
+    assert not np.isin(np.flatnonzero(back), at).any()
+    return np.flatnonzero(back).tolist(), dict(zip(at.tolist(), whence[at].tolist(), strict=True))
+
+
+REAR = np.array([code(each) for each in (4, 4, 5, 5, 5, 6, 5, 5)])
+
+
 def test_poses_from_which_it_rotates_back():
     """From the rotation on, as long as the edge that it rotated about is the rear contact."""
-    rear = np.array([code(each) for each in (4, 4, 5, 5, 5, 6, 5, 5)])
 
-    def back(*records):
-        rotations = [
-            SimpleNamespace(sense=sense, arrested=arrested, pivot=pivot, s=float(row))
-            for row, sense, arrested, pivot in records
-        ]
-        path = SimpleNamespace(
-            margins=SimpleNamespace(outermost=np.c_[rear, 0 * rear]),
-            poses=Rows(front_point=np.zeros((8, 2))), rotations=rotations, row_before=int,
-        )  # fmt: skip
-        return np.flatnonzero(_comes_back(path)).tolist()
+    def back(*records, rear=REAR):
+        found, whence = came_down(*records, rear=rear, angle=ROCKING + 1e-9, on_flat=range(8))
+        assert not whence
+        return found
 
     assert back((1, -1, True, code(5))) == [2, 3, 4]
     assert back((2, -1, True, code(5))) == [3, 4]
@@ -206,9 +238,24 @@ def test_poses_from_which_it_rotates_back():
     for other in ((1, 1, True, code(5)), (1, -1, False, code(5))):
         assert back(other) == []  # the trailing end comes down; it falls
         assert back(other, (1, -1, True, code(5))) == [2, 3, 4]
-    rear[2] = code(5, FeatureKind.DISC_1)
-    assert back((1, -1, True, code(5, FeatureKind.DISC_1))) == []
-    assert back((1, -1, True, code(5))) == []  # another contact of that point
+    disc = REAR.copy()
+    disc[2] = code(5, FeatureKind.DISC_1)
+    assert back((1, -1, True, code(5, FeatureKind.DISC_1)), rear=disc) == []
+    assert back((1, -1, True, code(5)), rear=disc) == []  # another contact of that point
+
+
+def test_poses_from_which_it_rocks_back():
+    """By rocking at most, in all, and from a nosing under a flat."""
+    two = (5, -1, True, code(5)), (1, -1, True, code(5))
+    rocks = {2: 0.1, 3: 0.1, 4: 0.1, 6: 0.0, 7: 0.0}
+    assert came_down(*two, rear=REAR, angle=ROCKING, on_flat=(1, 5)) == ([], rocks)
+    one = came_down(*two, rear=REAR, angle=ROCKING, on_flat=(1,))
+    assert one == ([6, 7], {2: 0.1, 3: 0.1, 4: 0.1})
+    assert came_down(*two, rear=REAR, angle=ROCKING) == ([2, 3, 4, 6, 7], {})
+    half = 0.5 * ROCKING + 1e-9
+    assert came_down(*two, rear=REAR, angle=half, on_flat=(1, 5)) == ([], rocks)
+    at_once = came_down(*two, rear=REAR, angle=half, on_flat=(1, 5), at_once=True)
+    assert at_once == ([2, 3, 4, 6, 7], {})
 
 
 def test_rotations_that_no_nosing_under_a_flat_arrests():

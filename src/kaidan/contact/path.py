@@ -168,7 +168,7 @@ class Path:
             )
         return self.margins.energy[chosen], self.margins.energy_side[chosen]
 
-    def tilts(self, rows: ArrayLike, side: float, tolerance: float = ROCKING) -> Tilts:
+    def tilts(self, rows: ArrayLike, side: float, tolerance: ArrayLike = ROCKING) -> Tilts:
         """Tilts of gravity beyond which some poses rotate by more than rocking, to one side.
 
         Parameters
@@ -178,7 +178,7 @@ class Path:
         side
             +1 back, -1 front.
         tolerance
-            Rotation that is rocking [rad].
+            Rotation that is rocking [rad], of all or of each.
 
         Returns
         -------
@@ -188,9 +188,10 @@ class Path:
             raise ValueError("traverse: tilts need with_margins=True")
         chosen = np.atleast_1d(np.asarray(rows, dtype=np.int64))
         found = np.empty((len(chosen), TILT_COLUMNS))
+        each = np.broadcast_to(np.asarray(tolerance, dtype=np.float64), len(chosen)).copy()
         kernel().flow_tilts(
             self.ground.table, self.body.table, self.poses.table, self.margins.table, chosen,
-            side, tolerance, found,
+            side, each, found,
         )  # fmt: skip
         return Tilts(found)
 

@@ -131,7 +131,7 @@ def _rocks_onto_flippers(body: Outline) -> bool:
     z = z + stance.com_height
     beyond = np.maximum(x - stance.com_from_front, stance.com_from_front - stance.flat_length - x)
     lowest = z * math.cos(contact.ROCKING) - beyond * math.sin(contact.ROCKING) - radius
-    return bool(np.any((beyond > 0.0) & (z - radius > IN_LINE) & (lowest <= 0.0)))
+    return bool(np.any((beyond > IN_LINE) & (lowest <= 0.0)))
 
 
 def refuse_too_long(

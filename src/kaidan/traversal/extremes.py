@@ -12,7 +12,7 @@ from kaidan import contact
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.terrain.profile import Profile
 from kaidan.traversal.phases import Phase, over_the_top, step_at
-from kaidan.traversal.rotations import together
+from kaidan.traversal.rotations import ROCKING, together
 from kaidan.traversal.samples import corners, samples_of
 from kaidan.traversal.static_criterion import Criterion, flights_of
 from kaidan.traversal.tilting import first_rock
@@ -91,7 +91,8 @@ def phase_extremes(
     assert seen.margins is not None
     places, own = seen.poses.front_point[:, 0], len(path.poses)
     top = over_the_top(seen, profile, descending, room)
-    closed, comes_back = _closed(path, phase), _comes_back(path)
+    closed, came_down = _closed(path, phase), _came_down(path, room)
+    whence = came_down.whence[samples.row]
     # of a pose between two phases the other one judges
     of_criterion = _on_a_flight(seen, profile, room) | (phase[samples.row] != Phase.TRAVERSE.value)
     extremes = []
@@ -121,7 +122,7 @@ def phase_extremes(
         judged = rows[~of_criterion[rows]] if whole and name is Phase.TRAVERSE else rows
         downhill_rows = rows[:0] if descending and name is Phase.ENTER else judged
         if not descending:
-            downhill_rows = downhill_rows[~comes_back[samples.row[downhill_rows]]]
+            downhill_rows = downhill_rows[~came_down.back[samples.row[downhill_rows]]]
         uphill_rows = judged[~top[judged]] if name is Phase.TRAVERSE else rows[:0]
         slides = samples.comes_off[rows] & (name is Phase.LAND)
         friction = samples.friction[rows]
@@ -144,7 +145,16 @@ def phase_extremes(
                     (angle for at, angle in rotated if phase[at] == name.value), default=0.0
                 ),
                 tilt_downhill=min(
-                    _rock(seen, downhill_rows, side, profile, descending, acceleration, own),
+                    _rock(
+                        seen,
+                        downhill_rows,
+                        side,
+                        profile,
+                        descending,
+                        acceleration,
+                        own,
+                        None if descending else whence,
+                    ),
                     _rotated(path, phase, name, side, profile, descending, whole),
                 ),
                 tilt_uphill=min(
@@ -187,22 +197,42 @@ def _closed(path: contact.Path, phase: NDArray[np.str_]) -> dict[Phase, NDArray[
     return closed
 
 
-def _comes_back(path: contact.Path) -> NDArray[np.bool_]:
-    """Poses that gravity, tilted back, would return whence the leading end came down.
+class _CameDown(NamedTuple):
+    """Poses to which the leading end came down about an edge that is still the rear contact.
 
-    As long as the edge that the robot rotated about is its rear contact, it only rotates back.
+    Gravity, tilted back, returns them whence it came.
     """
+
+    whence: NDArray[np.float64]
+    """Inclination whence it came by rocking at most, from a nosing under a flat [rad]: the robot
+    rocks back onto it as long as it is there. Minus infinity: any other pose."""
+    back: NDArray[np.bool_]
+    """Poses to which it came otherwise: they only come back."""
+
+
+def _came_down(path: contact.Path, flat_length: float) -> _CameDown:
     assert path.margins is not None
+    whence = np.full(len(path.poses), -np.inf)
     back = np.zeros(len(path.poses), dtype=np.bool_)
     rear = contact.FeatureTable.of(path.margins.outermost[:, 0])
-    for record in path.rotations:
-        pivot = contact.Feature.of(record.pivot)
-        if record.sense > 0 or not record.arrested or pivot.kind is not contact.FeatureKind.VERTEX:
-            continue
-        row = path.row_before(record.s) + 1
-        on_it = (rear.point[row:] == pivot.point) & (rear.kind[row:] == pivot.kind)
-        back[row:] |= np.logical_and.accumulate(on_it)
-    return back
+    rotations = path.rotations
+    for chain in together(rotations, flat_length):
+        rocks = rotations.angle[chain].sum() <= ROCKING
+        for record in rotations[chain.start : chain.stop]:
+            pivot = contact.Feature.of(record.pivot)
+            on_edge = pivot.kind is contact.FeatureKind.VERTEX
+            if record.sense > 0 or not record.arrested or not on_edge:
+                continue
+            row = path.row_before(record.s)
+            on_it = np.zeros(len(back), dtype=np.bool_)
+            on_it[row + 1 :] = np.logical_and.accumulate(
+                (rear.point[row + 1 :] == pivot.point) & (rear.kind[row + 1 :] == pivot.kind)
+            )
+            if rocks and path.is_on_flat(int(path.poses.rear[row]), row):
+                whence[on_it] = record.start.inclination
+            else:
+                back |= on_it
+    return _CameDown(whence, back)
 
 
 def _least_energy(
@@ -248,10 +278,10 @@ def rises_about_stays(criterion: Criterion, descending: bool) -> tuple[Rise, ...
 
 def _rock(
     path: contact.Path, rows: NDArray[np.int64], side: float, profile: Profile, descending: bool,
-    acceleration: float, own: int,
+    acceleration: float, own: int, whence: NDArray[np.float64] | None = None,
 ) -> tuple[float, int]:  # fmt: skip
     """Least tilt at which some poses rotate to one side [rad], and the step."""
-    tilt, row = first_rock(path, rows, side, own=own, acceleration=acceleration)
+    tilt, row = first_rock(path, rows, side, own=own, acceleration=acceleration, whence=whence)
     if row < 0:
         return tilt, 0
     return tilt, step_at(profile, float(path.poses.front_point[row, 0]), descending)

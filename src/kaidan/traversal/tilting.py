@@ -11,6 +11,7 @@ r"""Two margins in one unit: the tilt of gravity to the first rock, and to the f
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +22,7 @@ from kaidan.modes import Phase
 from kaidan.traversal.peaks import peaks_between
 
 Array = NDArray[np.float64]
+Rows = NDArray[np.int64]
 
 LARGEST = math.radians(30.0)
 """Largest tilt to a fall that is looked for [rad]: stairs are hardly steeper."""
@@ -57,14 +59,20 @@ class Fall(NamedTuple):
 
 
 def first_rock(
-    path: contact.Path, rows: NDArray[np.int64], side: float, *, own: int, acceleration: float = 0.0
+    path: contact.Path,
+    rows: Rows,
+    side: float,
+    *,
+    own: int,
+    acceleration: float = 0.0,
+    whence: Array | None = None,
 ) -> Rock:
     """Least tilt of gravity at which some poses rotate by more than rocking, to one side.
 
-    Of nosings under a flat those too carry that it only rests on after rocking. While it rests on
-    them it is steeper by that much, so the rocking is subtracted; or they do not count. Where the
-    flat leaves such a nosing nothing closes or opens, so that no pose may stand there: the place is
-    halved out between two. So is the place of a least tilt.
+    Of nosings under a flat those too carry that it only rests on after rocking. Where the flat
+    leaves such a nosing nothing closes or opens, so that no pose may stand there: the place is
+    halved out between two. So is the place of a least tilt. Left, the nosing leaves the robot
+    steeper by what it rocked, which is subtracted there, down to a tilt at which it rocks nowhere.
 
     Parameters
     ----------
@@ -78,29 +86,29 @@ def first_rock(
         Poses at the head of the path that follow one another; the rest lie between two of them.
     acceleration : float
         Along the path [m/s^2].
+    whence : ndarray, optional
+        Inclination from which each pose of the path came down by rocking [rad]: gravity tilted back
+        returns it there, and that is rocking too. Minus infinity: from none.
     """
     if len(rows) == 0:
         return Rock(math.inf, -1)
-    tilts = _tilts(path, rows, side)
+    if whence is None:
+        whence = np.full(len(path.poses), -np.inf)
+    tilted = _Tilted(path, side, acceleration, whence)
+    tilts = tilted.tilts(rows)
     along = rows < own
-    dips, before = _dips(path, rows[along], tilts.alone[along], side, acceleration)
+    dips, before = tilted.dips(rows[along], tilts.alone[along])
     if dips:
-        between = contact.joined(dips)
-        more = _tilts(between, np.arange(len(between.poses)), side)
+        more = tilted.at(contact.joined(dips), before)
         tilts = _Tilts(*(np.append(one, two) for one, two in zip(tilts, more, strict=True)))
         rows = np.append(rows, before)
-    alone, tilt, rocking = tilts
-    lost, row = _lost_between(path, rows[alone < tilt.min()], rows[rows < own], side, acceleration)
-    if lost < tilt.min():
-        tilt = np.append(tilt, lost)
-        alone, rocking = np.append(alone, lost), np.append(rocking, 0.0)
-        rows = np.append(rows, row)
+    alone, tilt = tilts
     least = float(tilt.min())
-    rocked = least - float(rocking[alone < least].max(initial=0.0))
-    lowest = float(alone.min())
-    if rocked > lowest:
-        return Rock(rocked, int(rows[np.flatnonzero(tilt <= least + _TIE)[0]]))
-    return Rock(lowest, int(rows[np.flatnonzero(alone <= lowest + _TIE)[0]]))
+    near = rows[alone < least + tilted.reach(rows)]
+    lost, row = tilted.lost_between(near, rows[rows < own], least, float(alone.min()))
+    if lost < least - _TIE:
+        return Rock(lost, row)
+    return Rock(least, int(rows[np.flatnonzero(tilt <= least + _TIE)[0]]))
 
 
 class _Tilts(NamedTuple):
@@ -110,83 +118,120 @@ class _Tilts(NamedTuple):
     """At all."""
     tilt: Array
     """By more than rocking; infinite where it is not the least."""
-    rocking: Array
-    """What it rocks before."""
 
 
-def _tilts(path: contact.Path, rows: NDArray[np.int64], side: float) -> _Tilts:
+@dataclass(frozen=True)
+class _Tilted:
+    """Poses of a path under gravity that is tilted to one side; see `first_rock`."""
+
+    path: contact.Path
+    side: float
+    acceleration: float
+    whence: Array
+
+    def reach(self, rows: Rows) -> Array:
+        """Rotation of some poses that is rocking [rad]."""
+        return _reach(self.whence[rows], self.path.poses.inclination[rows])
+
+    def tilts(self, rows: Rows) -> _Tilts:
+        """Of some poses."""
+        return _least_tilts(self.path, rows, self.side, self.reach(rows))
+
+    def at(self, between: contact.Path, before: Rows) -> _Tilts:
+        """Of poses between two, each with the row before it."""
+        reach = _reach(self.whence[before], between.poses.inclination)
+        return _least_tilts(between, np.arange(len(before)), self.side, reach)
+
+    def dips(self, rows: Rows, alone: Array) -> tuple[list[contact.Path], Rows]:
+        """Poses between two at which the tilt may be the least, and the row before each."""
+        values = np.full(len(self.path.poses), -np.inf)
+        values[rows] = -alone
+        return peaks_between(
+            self.path,
+            values,
+            np.where(np.isfinite(values), 0, -1),
+            _WITHIN,
+            lambda between: (
+                -between.tilts(np.arange(len(between.poses)), self.side, tolerance=0.0).tilt
+            ),
+            acceleration=self.acceleration,
+        )
+
+    def lost_between(self, rocking: Rows, rows: Rows, least: float, lowest: float) -> Rock:
+        """Least tilt as the flat comes to leave, or to reach, a nosing that it would rock onto.
+
+        Parameters
+        ----------
+        rocking : ndarray of int
+            Poses at which some may be rocked onto.
+        rows : ndarray of int
+            Poses that count, each followed by the next of the path.
+        least : float
+            Tilt of any pose [rad]: a place is looked for where it may be less.
+        lowest : float
+            Tilt below which the robot has rocked nowhere [rad].
+        """
+        path = self.path
+        onto = rocking[self._carried(rocking, 0)[0] > 0.0]
+        counts, beside = np.zeros((2, len(path.poses) + 1), dtype=np.bool_)
+        counts[rows] = True
+        beside[onto], beside[np.maximum(onto - 1, 0)] = True, True
+        begin = np.flatnonzero(beside[:-1] & counts[:-1] & counts[1:])
+        along = (path.poses.leg[begin] == path.poses.leg[begin + 1]) & (
+            path.s[begin] < path.s[begin + 1]
+        )
+        begin = begin[along]
+        before, after = (self._carried(begin, k) for k in (0, 1))
+        steeper, differ = np.abs(after - before)
+        may = np.minimum(before, after)[1] - steeper < least + contact.ROCKING
+        may &= np.maximum(steeper, differ) > _TIE
+        begin, before, after = begin[may], before[:, may], after[:, may]
+        if len(begin) == 0:
+            return Rock(math.inf, -1)
+        length = path.s[begin + 1] - path.s[begin]
+        low, high = np.zeros(len(begin)), np.ones(len(begin))
+        while float((length * (high - low)).max()) > _PLACE:
+            middle = 0.5 * (low + high)
+            there = self._carried_between(begin, middle)
+            first = np.abs(there - before).sum(axis=0) < np.abs(there - after).sum(axis=0)
+            low, high = np.where(first, middle, low), np.where(first, high, middle)
+        (rocked, one), (rocks, other) = (
+            self._carried_between(begin, share) for share in (low, high)
+        )
+        left = np.maximum(other - np.maximum(rocked - rocks, 0.0), lowest)
+        tilt = np.minimum(one, np.minimum(other, left))
+        at = int(np.argmin(tilt))
+        return Rock(float(tilt[at]), int(begin[at]))
+
+    def _carried(self, rows: Rows, further: int) -> Array:
+        """Shape (2, k): rocking of some poses, or as many rows further, and the tilt after it."""
+        reach = _reach(self.whence[rows], self.path.poses.inclination[rows + further])
+        found = self.path.tilts(rows + further, self.side, reach)
+        return np.stack([found.rocking, found.tilt])
+
+    def _carried_between(self, begin: Rows, share: Array) -> Array:
+        """Shape (2, k): the same between poses and the next ones."""
+        there = self.path.between(begin, share, acceleration=self.acceleration)
+        reach = _reach(self.whence[begin], there.poses.inclination)
+        found = there.tilts(np.arange(len(begin)), self.side, reach)
+        return np.stack([found.rocking, found.tilt])
+
+
+def _reach(whence: Array, inclination: Array) -> Array:
+    return np.maximum(whence - inclination, 0.0) + contact.ROCKING
+
+
+def _least_tilts(path: contact.Path, rows: Rows, side: float, reach: Array) -> _Tilts:
+    """Only those that rotate at all before any by more than rocking are looked at for more."""
     alone = path.tilts(rows, side, tolerance=0.0).tilt
     order = np.argsort(alone, kind="stable")
-    tilt, rocking = np.full(len(rows), np.inf), np.zeros(len(rows))
+    tilt = np.full(len(rows), np.inf)
     done = 0
     while done < len(order) and alone[order[done]] < tilt.min() - _TIE:
         some = order[done : done + _AT_ONCE]
         done += len(some)
-        found = path.tilts(rows[some], side)
-        tilt[some], rocking[some] = found.tilt, found.rocking
-    return _Tilts(alone, tilt, rocking)
-
-
-def _dips(
-    path: contact.Path, rows: NDArray[np.int64], alone: Array, side: float, acceleration: float
-) -> tuple[list[contact.Path], NDArray[np.int64]]:
-    """Poses between two at which the tilt may be the least, and the row before each."""
-    values = np.full(len(path.poses), -np.inf)
-    values[rows] = -alone
-    return peaks_between(
-        path,
-        values,
-        np.where(np.isfinite(values), 0, -1),
-        _WITHIN,
-        lambda between: -between.tilts(np.arange(len(between.poses)), side, tolerance=0.0).tilt,
-        acceleration=acceleration,
-    )
-
-
-def _lost_between(
-    path: contact.Path,
-    rocking: NDArray[np.int64],
-    rows: NDArray[np.int64],
-    side: float,
-    acceleration: float,
-) -> Rock:
-    """Least tilt as the flat comes to leave, or to reach, a nosing that it would rock onto.
-
-    Parameters
-    ----------
-    path, side, acceleration
-        As for `first_rock`.
-    rocking : ndarray of int
-        Poses at which some may be rocked onto.
-    rows : ndarray of int
-        Poses that count, each followed by the next of the path.
-    """
-    onto = rocking[path.tilts(rocking, side).rocking > 0.0]
-    counts, beside = np.zeros((2, len(path.poses) + 1), dtype=np.bool_)
-    counts[rows] = True
-    beside[onto], beside[np.maximum(onto - 1, 0)] = True, True
-    begin = np.flatnonzero(beside[:-1] & counts[:-1] & counts[1:])
-    along = (path.poses.leg[begin] == path.poses.leg[begin + 1]) & (
-        path.s[begin] < path.s[begin + 1]
-    )
-    begin = begin[along]
-    ends = [path.tilts(begin + k, side).rocking > 0.0 for k in (0, 1)]
-    differ = ends[0] != ends[1]
-    begin, leaves = begin[differ], ends[0][differ]
-    if len(begin) == 0:
-        return Rock(math.inf, -1)
-    length = path.s[begin + 1] - path.s[begin]
-    low, high = np.zeros(len(begin)), np.ones(len(begin))
-    while float((length * (high - low)).max()) > _PLACE:
-        middle = 0.5 * (low + high)
-        there = path.between(begin, middle, acceleration=acceleration)
-        rocks = there.tilts(np.arange(len(begin)), side).rocking > 0.0
-        first = rocks == leaves
-        low, high = np.where(first, middle, low), np.where(first, high, middle)
-    beyond = path.between(begin, np.where(leaves, high, low), acceleration=acceleration)
-    tilt = beyond.tilts(np.arange(len(begin)), side).tilt
-    least = int(np.argmin(tilt))
-    return Rock(float(tilt[least]), int(begin[least]))
+        tilt[some] = path.tilts(rows[some], side, reach[some]).tilt
+    return _Tilts(alone, tilt)
 
 
 def largest_survived(

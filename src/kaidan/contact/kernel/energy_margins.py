@@ -23,6 +23,7 @@ from kaidan.contact.entries import entry
 from kaidan.contact.kernel.reserves import barrier, carrying_tilt
 from kaidan.contact.tables import (
     BodyTable,
+    FloatRow,
     GroundTable,
     IntArray,
     MarginTable,
@@ -83,7 +84,7 @@ def flow_energy(
 @entry
 def flow_tilts(
     ground: GroundTable, body: BodyTable, poses: PoseTable, margins: MarginTable, rows: IntArray,
-    side: float, tolerance: float, found: TiltTable,
+    side: float, tolerance: FloatRow, found: TiltTable,
 ) -> None:  # fmt: skip
     """Work out beyond which tilt of gravity some poses rotate by more than rocking, to one side.
 
@@ -98,7 +99,7 @@ def flow_tilts(
     side
         +1 back, -1 front.
     tolerance
-        Rotation that is rocking [rad].
+        Rotation of each that is rocking [rad].
     found
         A row for each pose, to be filled: tilt and rocking [rad].
     """
@@ -108,6 +109,6 @@ def flow_tilts(
         row = rows[k]
         found[k, CARRIED_TO], found[k, ROCKS_BY], hint = carrying_tilt(
             ground, body, int(margins[row, column]), poses[row, POSE_X], poses[row, POSE_Z],
-            poses[row, POSE_PHI], side, margins[row, TILT], tolerance,
+            poses[row, POSE_PHI], side, margins[row, TILT], tolerance[k],
             int(margins[row, WITHOUT]), hint,
         )  # fmt: skip
