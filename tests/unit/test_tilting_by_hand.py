@@ -130,7 +130,7 @@ def test_back_to_where_it_came_down_from_is_rocking():
     way = Way([1.6, 1.9], far)
     row = np.arange(2)
     assert first_rock(way, row, -1.0, own=2, acceleration=0.7) == (pytest.approx(0.1), 0)
-    whence = np.full(2, -0.19 + 0.07 + 1e-9)
+    whence = np.full(2, -0.16 + 0.07 + 1e-9)
     found = first_rock(way, row, -1.0, own=2, acceleration=0.7, whence=whence)
     assert found == (pytest.approx(0.3), 0)
 
