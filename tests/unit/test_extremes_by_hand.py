@@ -199,7 +199,7 @@ class Records(list):
         return Records(super().__getitem__(rows))
 
 
-def came_down(*records, rear, angle, at_once=False, on_flat=()):
+def came_down(*records, rear, angle, at_once=False, on_flat=(), whole=False):
     """Rotations by an angle from 0.1 k, each a chain of its own or all at once."""
     rotations = Records(
         SimpleNamespace(
@@ -214,7 +214,7 @@ def came_down(*records, rear, angle, at_once=False, on_flat=()):
         poses=Rows(front_point=np.zeros((8, 2)), rear=70 + np.arange(8)), rotations=rotations,
         row_before=int, is_on_flat=lambda code, row: code == 70 + row and row in on_flat,
     )  # fmt: skip
-    whence, back = _came_down(path, 0.5)
+    whence, back = _came_down(path, 0.5, whole)
     at = np.flatnonzero(np.isfinite(whence))
     assert not np.isin(np.flatnonzero(back), at).any()
     return np.flatnonzero(back).tolist(), dict(zip(at.tolist(), whence[at].tolist(), strict=True))
@@ -249,6 +249,8 @@ def test_poses_from_which_it_rocks_back():
     two = (5, -1, True, code(5)), (1, -1, True, code(5))
     rocks = {2: 0.1, 3: 0.1, 4: 0.1, 6: 0.0, 7: 0.0}
     assert came_down(*two, rear=REAR, angle=ROCKING, on_flat=(1, 5)) == ([], rocks)
+    found = came_down(*two, rear=REAR, angle=ROCKING, on_flat=(1, 5), whole=True)
+    assert found == ([2, 3, 4, 6, 7], {})  # the criterion judges
     one = came_down(*two, rear=REAR, angle=ROCKING, on_flat=(1,))
     assert one == ([6, 7], {2: 0.1, 3: 0.1, 4: 0.1})
     assert came_down(*two, rear=REAR, angle=ROCKING) == ([2, 3, 4, 6, 7], {})

@@ -91,7 +91,7 @@ def phase_extremes(
     assert seen.margins is not None
     places, own = seen.poses.front_point[:, 0], len(path.poses)
     top = over_the_top(seen, profile, descending, room)
-    closed, came_down = _closed(path, phase), _came_down(path, room)
+    closed, came_down = _closed(path, phase), _came_down(path, room, whole)
     whence = came_down.whence[samples.row]
     # of a pose between two phases the other one judges
     of_criterion = _on_a_flight(seen, profile, room) | (phase[samples.row] != Phase.TRAVERSE.value)
@@ -210,14 +210,15 @@ class _CameDown(NamedTuple):
     """Poses to which it came otherwise: they only come back."""
 
 
-def _came_down(path: contact.Path, flat_length: float) -> _CameDown:
+def _came_down(path: contact.Path, flat_length: float, whole: bool) -> _CameDown:
+    """Where one flat carries all along the criterion judges what it rocks back from."""
     assert path.margins is not None
     whence = np.full(len(path.poses), -np.inf)
     back = np.zeros(len(path.poses), dtype=np.bool_)
     rear = contact.FeatureTable.of(path.margins.outermost[:, 0])
     rotations = path.rotations
     for chain in together(rotations, flat_length):
-        rocks = rotations.angle[chain].sum() <= ROCKING
+        rocks = not whole and rotations.angle[chain].sum() <= ROCKING
         for record in rotations[chain.start : chain.stop]:
             pivot = contact.Feature.of(record.pivot)
             on_edge = pivot.kind is contact.FeatureKind.VERTEX
