@@ -78,6 +78,7 @@ def test_a_new_failure_mode_decides_and_is_shown_everywhere(wind, ask):
         "margin": pytest.approx(math.degrees(-0.1)),
         "margin_best": pytest.approx(math.degrees(-0.05)),
         "holds": False,
+        "holds_best": False,
         "probability": None,
         "phase": "land",
         "step": 7,

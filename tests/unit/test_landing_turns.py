@@ -11,8 +11,9 @@ from kaidan import InputError, Robot, Stairs
 from kaidan.assessment import Assessment
 from kaidan.models.landings import turns_of
 from kaidan.question import Question
+from kaidan.text.assessment import details
 from kaidan.text.japanese import japanese
-from kaidan.text.turning import turned
+from kaidan.text.turning import IN_LINE, turned
 
 HALF = {"upper_turn": "half", "upper_landing": 1.2, "upper_landing_width": 2.2}
 SURE = {"friction": 2.0, "theta_d": 0.0, "theta_M": 0.0}
@@ -67,6 +68,7 @@ def test_absolem_raises_its_flippers_on_a_landing_of_1_2_m():
     assert said in answer.notes
     assert f"landing         {said}" in str(answer)
     assert answer.findings["turning"].holds
+    assert f"  turning         {said}" in details(answer).splitlines()
     assert japanese(said) == (
         "上の床でフリッパを stowed にして 180° 旋回する。旋回円 0.90 m、踊り場の内接円 1.20 m。"
     )
@@ -80,6 +82,8 @@ def test_who_cannot_turn_gets_no_go():
         "and no manoeuvre was found."
     )
     assert japanese(answer.reason) is not None
+    assert f"  turning         {answer.reason}" in details(answer).splitlines()
+    assert answer.findings["turning"].holds_best is False
     again = Assessment.from_json(answer.to_json())
     assert again.turns == answer.turns
     assert json.loads(answer.to_json())["turns"][0]["way"] == "none"
@@ -216,6 +220,31 @@ def test_landings_between_flights_are_judged_each():
     found = kaidan.assess(BOX, [flight(name="one"), below], **SURE)
     assert [each.landing for each in found.turns] == ["landing below two"]
     assert found.question.profile.points[-1, 0] == pytest.approx(2 * 9 * 0.3 + 1.3 + 2.0)
+
+
+@pytest.mark.parametrize(
+    ("robot", "manner"),
+    [
+        ("absolem", {"flippers": "stowed", "direction": "up"}),
+        ("absolem", {"flippers": "flat", "direction": "down"}),
+        ("ozbot-atr", {"direction": "down"}),
+    ],
+)
+def test_each_flight_is_judged_from_its_own_start(robot, manner):
+    """With a turn between them, as if each were alone: margins equal to the bisection's 1e-3."""
+    lower = flight(name="one", **HALF | {"upper_landing": 1.4})
+    upper = flight(name="two", rise=0.17, going=0.28, lower_landing=1.4)
+    alone = [
+        kaidan.assess(robot, each, friction=1.0, **manner)
+        for each in (lower.model_copy(update={"upper_turn": "none"}), upper)
+    ]
+    both = kaidan.assess(robot, [lower, upper], friction=1.0, **manner)
+    for key, one in both.findings.items():
+        margins = [each.findings[key].margin for each in alone if key in each.findings]
+        if one.margin is not None:
+            assert one.margin == pytest.approx(min(margins), abs=1e-3), key
+    assert IN_LINE in both.notes
+    assert IN_LINE not in alone[1].notes
 
 
 @pytest.mark.parametrize(

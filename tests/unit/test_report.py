@@ -52,7 +52,8 @@ def assert_same_numbers(question):
         assert row[0] == f"{key}: {one['label']}"
         for text, value in zip(row[1:3], (one["margin"], one["margin_best"]), strict=True):
             assert (text == "-") if value is None else close(text, value, 2)
-        assert row[3] == {None: "not known", True: "yes", False: "no"}[one["holds"]]
+        holds = {None: "not known", True: "yes", False: "no"}[one["holds"]]
+        assert row[3] == ("at best" if holds == "no" and one["holds_best"] else holds)
         assert row[6] == one["model"]
         if one["probability"] is not None:
             assert close(row[4].removeprefix("p = "), one["probability"], 3)
@@ -121,6 +122,28 @@ def test_the_page_for_the_field_says_what_to_do(page):
 def test_a_robot_that_cannot_go_is_not_to_be_driven():
     page = Page(page_of(kaidan.report("kenaf", "ibc", friction=0.8).missions[0]))
     assert ("Stop", "Do not drive it like this.") in page.points
+
+
+def test_what_is_certain_to_fail_is_not_said_to_be_in_doubt():
+    """No way to turn, and friction that is enough at the upper end of its range alone."""
+    turn = {"upper_turn": "half", "upper_landing": 1.2, "upper_landing_width": 2.2, "width": 1.0}
+    stairs = kaidan.Stairs(rise=0.15, going=0.3, steps=10, **turn)
+    found = kaidan.report("ozbot-atr", stairs, friction="0.5..1.2")
+    points = [text for heading, text in Page(page_of(found.missions[0])).points]
+    certain = points.index("Certain: too little room to turn on a landing.")
+    (possible,) = (k for k, said in enumerate(points) if said.startswith("Possible: sliding down"))
+    assert certain < possible
+    assert not any("In doubt" in said for said in points)
+
+
+def test_the_page_for_the_field_says_how_to_turn_on_a_landing():
+    turn = {"upper_turn": "half", "upper_landing": 1.2, "upper_landing_width": 2.2, "width": 1.0}
+    stairs = kaidan.Stairs(rise=0.15, going=0.3, steps=10, **turn)
+    (mission,) = kaidan.report("absolem", stairs, friction=1.2, flippers="flat").missions
+    assert (
+        "On the upper landing change the flippers to stowed and turn by 180 deg: it sweeps 0.90 m "
+        "of 1.20 m."
+    ) in page_of(mission)
 
 
 def test_the_same_report_is_the_same_file_also_once_read_back():

@@ -47,6 +47,8 @@ class FindingShown(Part):
     """The same in the best case."""
     holds: bool | None
     """Whether it holds in the worst case at that risk; null: not known."""
+    holds_best: bool | None
+    """The same in the best case: what fails in it too is certain to fail."""
     probability: float | None
     """Share of samples that fail in the worst case; null if every input is exact."""
     phase: PhaseName | None
@@ -61,7 +63,7 @@ class FindingShown(Part):
         """As people read it."""
         mode = one.mode
         worst, best = one.margin(risk), one.margin(risk, best=True)
-        known = not np.isnan(one.worst).all()
+        known, known_best = (not np.isnan(each).all() for each in (one.worst, one.best))
         exact = len(one.worst) == 1
         return cls(
             label=mode.label,
@@ -69,6 +71,7 @@ class FindingShown(Part):
             margin=mode.shown(worst),
             margin_best=mode.shown(best),
             holds=bool(worst > 0) if known else None,
+            holds_best=bool(best > 0) if known_best else None,
             probability=None if exact or not known else float(np.mean(one.fails())),
             phase=None if one.phase is None else one.phase.value,
             step=one.step,

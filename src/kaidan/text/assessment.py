@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from kaidan.modes import FAILURE_MODES, SLIDES_DOWN, SLIDES_UP, Verdict
+from kaidan.modes import FAILURE_MODES, SLIDES_DOWN, SLIDES_UP, TURNING, Verdict
 from kaidan.text import dynamic, limits, measuring, plan, traction, turning
 from kaidan.text.unweighed import rows, thresholds
 from kaidan.text.words import place, subject
@@ -126,8 +126,9 @@ def details(answer: "Assessment") -> str:
     if slip is not None:
         lines.append(_row("grousers", slip))
     for key, one in answer.findings.items():
-        if one.unit != "" or one.holds is False:
+        if key != TURNING.key and (one.unit != "" or one.holds is False):
             lines.append(_row(key, _finding(one)))
+    lines += [_row(TURNING.key, line) for line in turning.every(answer.turns)]
     if answer.contact is not None:
         lines += _contact(answer.contact)
     if answer.closed_form is not None:
@@ -232,6 +233,8 @@ def _finding(one: "FindingShown") -> str:
     if one.margin is None:
         return f"{'holds' if one.holds else 'fails'} ({one.label}{where})"
     digits = 1 if one.unit in ("deg", "m/s") else 2
+    while digits < 4 and 0 < abs(one.margin) < 0.5 * 10**-digits:  # which side of 0 it is on
+        digits += 1
     value = f"{one.margin:+.{digits}f} {one.unit}"
     if one.margin_best is not None and abs(one.margin_best - one.margin) > 0.5 * 10**-digits:
         value += f", at best {one.margin_best:+.{digits}f}"

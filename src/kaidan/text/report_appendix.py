@@ -28,7 +28,8 @@ LIMITS = (
     "It moves slowly or at a constant acceleration; impacts and springs are not in the model.",
     "One friction coefficient holds for all contacts of a part of the stairs; dust, ice, carpet "
     "and worn nosings are not in the catalogue.",
-    "Curved stairs, winders and turning on a landing are not judged.",
+    "Curved stairs and winders are not judged. A turn on a landing is judged where its sizes are "
+    "stated, by lengths in the plan: flights are driven as if they lay in line.",
     "Whether the robot keeps its heading, and what breaks in a drop, is not judged.",
     "The allowances theta_d and theta_M were measured on one robot; without figures of your own "
     "they are ranges.",
@@ -124,6 +125,8 @@ def _margin(key: str, one: "FindingShown") -> tuple[str, ...]:
         for value in (one.margin, one.margin_best)
     )
     holds = {None: "not known", True: "yes", False: "no"}[one.holds]
+    if one.holds is False and one.holds_best:
+        holds = "at best"
     chance = "-" if one.probability is None else f"p = {one.probability:.3f}"
     place = "-" if one.phase is None else str(one.phase)
     place += "" if one.step is None else f", step {one.step}"

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from kaidan.modes import FAILURE_MODES
+from kaidan.text import turning
 from kaidan.text.assessment import (
     change_line,
     friction_line,
@@ -68,6 +69,7 @@ def _facts(mission: "Mission") -> list[tuple[str, str]]:
     ]
     if card.time_s is not None and card.path_m is not None:
         rows.append(("Time", f"{card.time_s:.0f} s for {card.path_m:.1f} m"))
+    rows += [("Landing", line) for line in turning.lines(answer.turns)]
     unknown = unknown_line(answer)
     return [*rows, ("Not known", unknown)] if unknown else rows
 
@@ -98,19 +100,22 @@ def _posture(each: "PhasePosture") -> tuple[str, ...]:
 
 
 def watch(mission: "Mission") -> list[str]:
-    """What to watch: what rotates and where, what is in doubt, a friction that nobody stated."""
+    """What to watch: what rotates and where, what fails or may, a friction that nobody stated."""
     answer = mission.assessment
     said = []
     if answer.contact is not None:
         seen = [each for each in answer.contact.rotations if abs(each.angle_deg) >= SEEN]
         said += [_rotates(each) for each in sorted(seen, key=_size)[:2]]
-    for key in answer.doubts:
-        one = answer.findings.get(key)
-        if one is None or key not in FAILURE_MODES:
-            continue
+    fails = [
+        one
+        for key in answer.doubts
+        if (one := answer.findings.get(key)) is not None and key in FAILURE_MODES
+    ]
+    for one in sorted(fails, key=lambda one: one.holds_best is not False):  # the certain ones first
         where = place(one.phase, one.step)
         margin = "" if one.margin is None else f": {fixed(one.margin, 1, '+')} {one.unit}"
-        said.append(f"In doubt: {one.label}{where}{margin}.")
+        sure = "Certain" if one.holds_best is False else "Possible"
+        said.append(f"{sure}: {one.label}{where}{margin}.")
     if answer.friction is None:
         said.append("Nobody stated the friction: try the tracks on the first riser before you go.")
     return said or ["Nothing in particular: no failure mode is in doubt, and nothing rotates."]

@@ -54,6 +54,16 @@ def reason(turns: "Sequence[LandingTurn]") -> str:
     return turning(worst, worst.landing)
 
 
+def every(turns: "Sequence[LandingTurn]") -> list[str]:
+    """How the robot turns on each landing, or that it does not."""
+    return [
+        turning(each, each.landing)
+        if each.way in ("none", "unknown") or each.tight
+        else turned(each, each.landing)
+        for each in turns
+    ]
+
+
 def lines(turns: "Sequence[LandingTurn]") -> list[str]:
     """What to do on landings where the robot turns otherwise than on the spot as it climbs."""
     return [
@@ -61,6 +71,13 @@ def lines(turns: "Sequence[LandingTurn]") -> list[str]:
         for each in turns
         if each.way in ("corner", "manoeuvre") or (each.way == "spin" and each.changed)
     ]
+
+
+IN_LINE = (
+    "Flights are driven as if they lay in line, each from the landing before it; a turn on a "
+    "landing is judged by lengths in the plan."
+)
+"""What a traverse does where the way turns."""
 
 
 def not_judged(turn: float, below: str, why: str) -> str:

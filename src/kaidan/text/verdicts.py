@@ -200,9 +200,10 @@ def _impact(
 ) -> str:
     tolerated = question.robot.tolerated_impact
     speed = tolerated - finding.margin(question.risk)
+    digits = next(n for n in (1, 2, 3) if n == 3 or f"{speed:.{n}f}" != f"{tolerated:.{n}f}")
     return (
-        f"It drops and hits at {speed:.1f} m/s{_place(conclusion)}; {tolerated:.1f} m/s are "
-        "tolerated."
+        f"It drops and hits at {speed:.{digits}f} m/s{_place(conclusion)}; "
+        f"{tolerated:.{digits}f} m/s are tolerated."
     )
 
 
@@ -360,7 +361,8 @@ def notes(question: "Question", found: "Findings", conclusion: "Conclusion") -> 
         if fails and finding.mode.key != conclusion.governs and say is not None:
             own = conclusion._replace(phase=finding.phase, step=finding.step)
             each.append(say(question, found, own, finding))
-    each += turning.lines(_figure(found, "turns") or ())
+    turns = _figure(found, "turns") or ()
+    each += [*turning.lines(turns), turning.IN_LINE] if turns else []
     each += found.notes
     for name, value in (("theta_d", question.allowance_d), ("theta_M", question.allowance_M)):
         if value.source == "default":
