@@ -1,0 +1,303 @@
+"""Margins of single poses against the definitions, written out in complex numbers.
+
+::
+
+        C
+       /|\\          u against effective gravity, e ahead of it, across
+    r o | o f       back = (C - r) e, front = (f - C) e, rises |C - r| - (C - r) u
+"""
+
+import cmath
+import math
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from kaidan.contact import body_table, ground_table
+from kaidan.contact import columns as at
+from kaidan.contact.codes import BELLY, TRACK
+from kaidan.contact.kernel.forces import two_contact_forces
+from kaidan.contact.kernel.margins import lasting, margins_at, margins_without, pose_margins
+
+GRAVITY = 9.7
+EXACT = 1e-12
+"""m, rad, N/kg: rounding alone."""
+
+
+def dot(one, other):
+    return (one * other.conjugate()).real
+
+
+class Pose:
+    """A centroid, two contacts that are followed, some that are found: feature, point, normal."""
+
+    def __init__(self, c, rear, front, found=(), psi=0.0):
+        self.c, self.rear, self.front, self.found, self.psi = c, rear, front, found, psi
+
+    def margins(self, acceleration=0.0, kinds=()):
+        poses = np.full((2, at.POSE_COLUMNS), np.nan)
+        row = poses[1]
+        row[[at.POSE_X, at.POSE_Z, at.POSE_PSI]] = self.c.real, self.c.imag, self.psi
+        row[at.POSE_REAR], p, n = self.rear
+        row[[at.REAR_X, at.REAR_Z, at.REAR_N_X, at.REAR_N_Z]] = p.real, p.imag, n.real, n.imag
+        row[at.POSE_FRONT], p, n = self.front
+        row[[at.FRONT_X, at.FRONT_Z, at.FRONT_N_X, at.FRONT_N_Z]] = p.real, p.imag, n.real, n.imag
+        table = np.full((8, at.CONTACT_COLUMNS), np.nan)
+        for k, (feature, p, n) in enumerate(self.found):
+            kind = kinds[k] if kinds else TRACK
+            table[k] = feature, p.real, p.imag, n.real, n.imag, 0.0, kind
+        margins = np.full((2, at.MARGIN_COLUMNS), np.nan)
+        margins_at(poses, 1, acceleration, GRAVITY, table, len(self.found), margins)
+        assert np.isnan(margins[0]).all()
+        return margins[1]
+
+
+def expected(pose, acceleration):
+    """Columns of the margins, by definition."""
+    w = GRAVITY * 1j + acceleration * cmath.exp(1j * pose.psi)
+    u = w / abs(w)
+    e = -1j * u
+    r, f = pose.rear, pose.front
+    for each in pose.found if len(pose.found) > 2 else ():
+        ahead = dot(each[1] - pose.c, e)
+        if ahead > dot(f[1] - pose.c, e):
+            f = each
+        elif ahead < dot(r[1] - pose.c, e):
+            r = each
+    back, front = dot(pose.c - r[1], e), dot(f[1] - pose.c, e)
+    rises = [abs(pose.c - p) - dot(pose.c - p, u) for p in (r[1], f[1])]
+    angles = [
+        math.atan2(d, dot(pose.c - p, u)) * abs(d) * abs(w)
+        for d, p in ((back, r[1]), (front, f[1]))
+    ]
+    every = [pose.rear, pose.front, *(pose.found if len(pose.found) > 2 else ())]
+    best = least(pose, pose.rear, pose.front, w)
+    for one, other in combinations(pose.found if len(pose.found) > 2 else (), 2):
+        pair = sorted((one, other), key=lambda each: dot(each[1], e))
+        best = min(best, least(pose, *pair, w), key=lambda each: each[0])
+    return {
+        at.FRICTION: best[0], at.REAR_N: best[1], at.REAR_T: best[2], at.FRONT_N: best[3],
+        at.FRONT_T: best[4], at.TRACTION: GRAVITY * math.sin(pose.psi) + acceleration,
+        at.BACK: back, at.FRONT: front, at.BACK_RISE: math.copysign(rises[0], back),
+        at.FRONT_RISE: math.copysign(rises[1], front), at.FORCE_ANGLE: min(angles),
+        at.ZMP: back / (back + front) if back + front > 0.0 else math.nan,
+        at.CONTACTS: max(len(pose.found), 2), at.BELLY_TOUCHES: 0.0,
+        at.STEEPEST: max(math.atan2(abs(n.real), n.imag) for _, _, n in every),
+        at.TILT: w.real / w.imag, at.OUTER_REAR: r[0], at.OUTER_FRONT: f[0],
+        at.BOUNDED: 0.0, at.WITHOUT: at.NO_FEATURE,
+    }  # fmt: skip
+
+
+def least(pose, one, other, w):
+    """Friction and forces of two contacts; test_forces has their definition."""
+    args = [part for _, p, n in (one, other) for part in (p.real, p.imag, n.real, n.imag)]
+    return two_contact_forces(*args, pose.c.real, pose.c.imag, w.real, w.imag)
+
+
+PLANES = ("none", "all", "of the two that are followed", "of all but the front one")
+"""Of which contacts the normals are parallel."""
+
+
+def random_pose(rng, many, plane):
+    """Contacts below a centroid, in no order; in one plane the load lies between the followed."""
+    tilt = rng.uniform(-0.6, 0.6)
+
+    def contact(feature, low, high, *, like):
+        p, lean = complex(rng.uniform(low, high), rng.uniform(1.4, 1.6)), rng.uniform(-0.9, 0.9)
+        if like:
+            p, lean = complex(p.real, 1.5 + (p.real - 2.5) * math.tan(tilt)), tilt
+        return feature, p, 1j * cmath.exp(1j * lean)
+
+    rear = contact(64, 2.0, 2.2, like=plane != PLANES[0])
+    front = contact(128, 2.8, 3.0, like=plane in PLANES[1:3])
+    like = plane in (PLANES[1], PLANES[3])
+    others = [contact(192 + 64 * k, 1.7, 3.3, like=like) for k in range(many - 2)]
+    found = [rear, *others, front] if many else []
+    rng.shuffle(found)
+    c = complex(2.5 + rng.uniform(-0.7, 0.7), 1.9) if plane == PLANES[0] else complex(2.5, 1.6)
+    return Pose(c, rear, front, found, rng.uniform(-0.6, 0.6))
+
+
+@pytest.mark.parametrize("acceleration", [0.0, 1.0, -1.5])
+@pytest.mark.parametrize("many", [0, 2, 3, 4, 6])
+@pytest.mark.parametrize("plane", PLANES)
+def test_margins_by_definition(plane, many, acceleration):
+    rng = np.random.default_rng(many)
+    for _ in range(12):
+        pose = random_pose(rng, many, plane)
+        found = pose.margins(acceleration)
+        for column, value in expected(pose, acceleration).items():
+            assert found[column] == pytest.approx(value, abs=1e-9, nan_ok=True), column  # rounding
+        assert np.isnan(found[[at.ENERGY, at.ENERGY_SIDE]]).all()
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2), (2, 1, 0), (1, 2, 0)])
+def test_on_level_ground_and_against_a_face_two_contacts_need_no_friction(order):
+    """By hand: the rear one and the middle one carry it, by their levers; a face needs not push."""
+    rear, middle, front = (64, 0j, 1j), (128, 1 + 0j, 1j), (192, 1.5 + 0.1j, -1 + 0j)
+    contacts = [rear, middle, front]
+    found = Pose(0.25 + 0.3j, rear, front, [contacts[k] for k in order]).margins()
+    forces = found[[at.FRICTION, at.REAR_N, at.REAR_T, at.FRONT_N, at.FRONT_T]].tolist()
+    assert forces == pytest.approx([0.0, 0.75 * GRAVITY, 0.0, 0.25 * GRAVITY, 0.0], abs=EXACT)
+
+
+def test_the_outermost_contact_is_known_by_its_place():
+    """Others that lie above it, or beside it, are no outer contacts."""
+    rear, front = (64, 0j, 1j), (128, 1 + 0j, 1j)
+    others = [(192 + 64 * k, p, 1j) for k, p in enumerate((0.1j, 1 + 0.1j, 0.5 + 0j))]
+    found = Pose(0.4 + 0.3j, rear, front, [rear, front, *others]).margins()
+    assert found[[at.OUTER_REAR, at.OUTER_FRONT]].tolist() == [64, 128]
+
+
+def test_two_that_are_found_beside_two_that_are_followed_count_for_nothing():
+    rear, front = (64, 0j, 1j), (128, 1 + 0j, 1j)
+    others = [(192, -1 + 0j, cmath.exp(2j)), (256, 2 + 0j, cmath.exp(1j))]
+    c = 0.5 + 0.3j
+    alone = Pose(c, rear, front).margins()
+    np.testing.assert_array_equal(Pose(c, rear, front, others).margins(), alone)
+
+
+@pytest.mark.parametrize("belly", [0, 1, 2])
+def test_a_belly_that_touches_is_flagged(belly):
+    contacts = [(64, 0j, 1j), (128, 0.5 + 0j, 1j), (192, 1 + 0j, 1j)]
+    kinds = [BELLY if k == belly else TRACK for k in range(3)]
+    pose = Pose(0.6 + 0.3j, contacts[0], contacts[2], contacts)
+    assert pose.margins(kinds=kinds)[at.BELLY_TOUCHES] == 1.0
+    assert pose.margins()[at.BELLY_TOUCHES] == 0.0
+
+
+@pytest.mark.parametrize("beyond", [-0.1, 1.1])
+def test_beyond_a_contact_the_rise_is_negative(beyond):
+    """The centroid behind the rear contact, or ahead of the front one: hand, in level gravity."""
+    pose = Pose(complex(beyond, 0.3), (64, 0j, 1j), (128, 1 + 0j, 1j))
+    found = pose.margins()
+    back, front = beyond, 1.0 - beyond
+    assert found[[at.BACK, at.FRONT]].tolist() == pytest.approx([back, front], abs=EXACT)
+    rises = [math.copysign(math.hypot(d, 0.3) - 0.3, d) for d in (back, front)]
+    assert found[[at.BACK_RISE, at.FRONT_RISE]].tolist() == pytest.approx(rises, abs=EXACT)
+    assert found[at.ZMP] == pytest.approx(back, abs=EXACT)
+
+
+def test_contacts_in_the_wrong_order_have_no_point_of_zero_moment():
+    assert math.isnan(Pose(0.5 + 0.3j, (64, 1 + 0j, 1j), (128, 0j, 1j)).margins()[at.ZMP])
+
+
+HALF, ABOVE, RADIUS, SLOPE = 0.3, 0.1, 0.05, 0.4
+PARTS = [[-HALF, RADIUS - ABOVE, RADIUS, HALF, RADIUS - ABOVE, RADIUS]]
+ALONG = cmath.exp(1j * SLOPE)
+EDGES = [(s - 1j * ABOVE) * ALONG for s in (-0.2, 0.05, 0.15)]
+"""Of plates under the flat, from the centroid at 0."""
+AHEAD = ((HALF + 1j * (RADIUS - ABOVE)) * ALONG).real + RADIUS
+BEHIND = ((-HALF + 1j * (RADIUS - ABOVE)) * ALONG).real - RADIUS
+"""Faces that the discs touch."""
+
+
+def stand(*, ahead, edges=(0, 2)):
+    """Ground and body of a robot that lies on plates and touches a face, features of the edges."""
+    line = [(-3, -2)] if ahead else [(-3, 2), (BEHIND, 2), (BEHIND, -2)]
+    for k in edges:
+        x, z = EDGES[k].real, EDGES[k].imag
+        line += [(x, -2), (x, z), (x + 1e-3, -2)]
+    line += [(AHEAD, -2), (AHEAD, 2), (3, 2)] if ahead else [(3, -2)]
+    ground = ground_table(line)
+    found = []
+    for k in edges:
+        apart = np.hypot(ground[:, 0] - EDGES[k].real, ground[:, 1] - EDGES[k].imag)
+        found.append(at.POINT * int(np.argmin(apart)))
+    return ground, body_table(PARTS), found
+
+
+def rows_of(stood, places):
+    """Poses that all stand there, at some arclengths."""
+    _, _, edges = stood
+    poses = np.zeros((len(places), at.POSE_COLUMNS))
+    n = 1j * ALONG
+    poses[:, at.POSE_S], poses[:, at.POSE_PHI] = places, SLOPE
+    poses[:, [at.POSE_REAR, at.POSE_FRONT]] = edges[0], edges[-1]
+    poses[:, [at.REAR_X, at.REAR_Z]] = EDGES[0].real, EDGES[0].imag
+    poses[:, [at.FRONT_X, at.FRONT_Z]] = EDGES[2].real, EDGES[2].imag
+    for column in (at.REAR_N_X, at.FRONT_N_X):
+        poses[:, [column, column + 1]] = n.real, n.imag
+    return poses
+
+
+ALL, FEW = 3, 2
+"""With the contact at the face, and without it."""
+
+
+@pytest.mark.parametrize("ahead", [True, False])
+@pytest.mark.parametrize(
+    ("places", "counts"),
+    [
+        ([0, 1, 2], [ALL, ALL, ALL]),
+        ([0, 1, 1 + 5e-9, 2], [ALL, FEW, ALL, ALL]),
+        ([1, 1 + 5e-9, 2, 2 + 5e-9], [FEW, ALL, FEW, ALL]),
+        ([0, 1, 1 + 2e-8, 2], [ALL, ALL, ALL, ALL]),
+        ([1, 1, 1], [FEW, ALL, ALL]),
+        ([0, 1, 1], [ALL, FEW, ALL]),
+    ],
+)
+def test_where_a_contact_is_exchanged_those_before_and_after_count(places, counts, ahead):
+    """A face ahead is run into: before it the robot did not touch it. Of one behind in reverse."""
+    stood = stand(ahead=ahead)
+    if not ahead:
+        places, counts = [-s for s in reversed(places)], counts[::-1]
+    poses = rows_of(stood, places)
+    margins = np.zeros((len(places), at.MARGIN_COLUMNS))
+    found = np.zeros((8, at.CONTACT_COLUMNS))
+    pose_margins(
+        stood[0], stood[1], poses, len(places), 0.0, GRAVITY, 1e-9, margins, found
+    )  # fmt: skip
+    assert margins[:, at.CONTACTS].tolist() == counts
+    # one more face makes the outermost contact another
+    outer, own = (at.FRONT, EDGES[2].real) if ahead else (at.BACK, -EDGES[0].real)
+    face = AHEAD if ahead else -BEHIND
+    far = [face if count == ALL else own for count in counts]
+    assert margins[:, outer].tolist() == pytest.approx(far, abs=1e-9)  # m: within the touch
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2), (2, 0, 1), (0, 2, 1)])
+def test_contacts_that_stay_are_moved_to_the_head_as_they_are(order):
+    ground, body, edges = stand(ahead=True)
+    face = at.POINT * int(np.flatnonzero(np.isclose(ground[:, 0], AHEAD))[0]) + at.DISC_2
+    features = [edges[0], edges[1], face]
+    table = np.arange(3.0 * at.CONTACT_COLUMNS).reshape(3, -1) + 0.5
+    table[:, at.CONTACT_FEATURE] = [features[k] for k in order]
+    poses = rows_of((ground, body, edges), [0.0, 0.0])
+    back = table.copy()
+    assert lasting(ground, body, poses, 1, -1.0, back, 3) == 2
+    rest = [k for k in range(at.CONTACT_COLUMNS) if k != at.CONTACT_GAP]
+    kept = [k for k in range(3) if order[k] != 2]
+    np.testing.assert_array_equal(back[:2][:, rest], table[kept][:, rest])
+    assert lasting(ground, body, poses, 1, 1.0, table, 3) == 3
+
+
+@pytest.mark.parametrize("k", [0, 1, 2])
+def test_margins_as_if_an_edge_were_not_there(k):
+    """The edge between counts for nothing anyway; the others leave the margins to it."""
+    ground, body, edges = stood = stand(ahead=True, edges=(0, 1, 2))
+    ground = ground[ground[:, 0] < AHEAD - 1e-6]
+    poses = rows_of(stood, [0.0, 1.0])
+    margins = np.zeros((2, at.MARGIN_COLUMNS))
+    found = np.zeros((8, at.CONTACT_COLUMNS))
+    points = np.array([edges[k] // at.POINT, 0])
+    margins_without(ground, body, poses, points, 0.0, GRAVITY, 1e-9, margins, found)
+    assert margins[:, at.CONTACTS].tolist() == [2, 3]
+    assert margins[:, at.WITHOUT].tolist() == points.tolist()
+
+
+def test_of_edges_on_one_level_one_alone_is_not_there():
+    line = [(-3, -2)]
+    for x in (-0.2, 0.0, 0.1, 0.2):
+        line += [(x, -2), (x, -ABOVE), (x + 1e-3, -2)]
+    ground, body = ground_table([*line, (3, -2)]), body_table(PARTS)
+    edges = np.flatnonzero(ground[:, at.Z] == -ABOVE)
+    poses = rows_of((ground, body, edges[[0, 3]] * at.POINT), [0.0])
+    poses[:, at.POSE_PHI] = 0.0
+    poses[:, [at.REAR_X, at.REAR_Z, at.FRONT_X, at.FRONT_Z]] = -0.2, -ABOVE, 0.2, -ABOVE
+    margins = np.zeros((1, at.MARGIN_COLUMNS))
+    found = np.zeros((8, at.CONTACT_COLUMNS))
+    margins_without(ground, body, poses, edges[[1]], 0.0, GRAVITY, 1e-9, margins, found)
+    assert margins[0, at.CONTACTS] == 3
+    assert margins[0, [at.BACK, at.FRONT]].tolist() == pytest.approx([0.2, 0.2], abs=EXACT)
