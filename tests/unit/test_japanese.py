@@ -1,6 +1,7 @@
 """Sentences in Japanese: every one that answers say, with the same numbers."""
 
 import re
+from string import Formatter
 
 import pytest
 
@@ -11,6 +12,7 @@ from kaidan.modes import FAILURE_MODES
 from kaidan.text import advice, unweighed
 from kaidan.text import document as of
 from kaidan.text.japanese import in_japanese, japanese, patterns
+from kaidan.text.refusals import REFUSALS, sentence
 from kaidan.text.report import document
 
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?")
@@ -79,12 +81,44 @@ def test_events_and_the_page_for_the_field_are_said(found):
     assert missing([*said, whole.title, whole.foot]).keys() <= {whole.foot}  # its version is a name
 
 
-def test_appendices_stay_english(found):
-    whole = document(found)
-    turned = in_japanese(whole)
-    assert [each for each in turned.parts if not isinstance(each, of.Sheet)] == [
-        each for each in whole.parts if not isinstance(each, of.Sheet)
-    ]
+NAMED = ("figure", "source", "symbol", "value", "model", "as an option")
+"""Columns of the appendix with names and words of sheets."""
+
+
+@pytest.mark.parametrize("turns", [False, True])
+def test_appendices_are_said(found, turns):
+    if turns:
+        sizes = {"upper_landing": 1.2, "upper_landing_width": 2.2, "width": 1.0}
+        stairs = kaidan.Stairs(rise=0.15, going=0.3, steps=6, upper_turn="half", **sizes)
+        found = kaidan.report("ozbot-atr", stairs, friction="0.5..1.2", speed="0.1m/s")
+    said, stays = [], []
+    for each in document(found).parts:
+        match each:
+            case of.Paragraph() | of.Heading():
+                said.append(each.text)
+            case of.Picture():
+                said.append(each.says)
+            case of.Points():
+                said += each.items
+            case of.Facts():
+                said += [name for name, _ in each.rows if name != "kaidan"]
+            case of.Table():
+                said += each.heads
+                columns = zip(each.heads, zip(*each.rows, strict=True), strict=True)
+                said += [text for head, column in columns if head not in NAMED for text in column]
+            case of.Lines():
+                stays.append(each)
+    words = re.compile(r"[a-z]{3}")
+    assert missing(text for text in said if words.search(text)) == {}
+    turned = in_japanese(document(found))
+    assert [each for each in turned.parts if isinstance(each, of.Lines)] == stays != []
+
+
+@pytest.mark.parametrize("why", REFUSALS)
+def test_every_refusal_of_a_file_is_said(why):
+    fields = [name for _, name, _, _ in Formatter().parse(REFUSALS[why]) if name]
+    words = {"ways": "mm, +z up or m, +y up", "names": "track_left, track_right"}
+    assert missing([sentence(why, {name: words.get(name, 12.0) for name in fields})]) == {}
 
 
 @pytest.mark.parametrize("form", ["html", "pdf"])

@@ -36,7 +36,7 @@ Codes = Annotated[
         "--again", metavar="CODE", help="Question of an earlier report's code. May be given again."
     ),
 ]
-Language = Annotated[Literal["en", "ja"], typer.Option(help="Language of the page for the field.")]
+Language = Annotated[Literal["en", "ja"], typer.Option(help="Language of the text.")]
 
 
 def register(app: typer.Typer) -> None:

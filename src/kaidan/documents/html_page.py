@@ -98,7 +98,7 @@ def _part(part: "of.Block | of.Sheet", pictures: Mapping[str, bytes]) -> list[st
         case of.Table():
             return _table(part)
         case of.Lines():
-            return [f"<pre>{_text(chr(10).join(part.lines))}</pre>"]
+            return [f'<pre lang="en">{_text(chr(10).join(part.lines))}</pre>']
         case of.Picture():
             given = pictures.get(part.key)
             return [] if given is None else [_picture(given, part.says)]

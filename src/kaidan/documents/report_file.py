@@ -38,7 +38,7 @@ def report_bytes(found: "Report", form: str, language: str = "en") -> bytes:
         What `kaidan.report` answers.
     form : {"html", "pdf"}
     language : {"en", "ja"}
-        Of the pages for the field; appendices are in English.
+        Of the text; pictures, lines of commands and words of sheets are in English.
 
     Returns
     -------

@@ -47,7 +47,7 @@ class Table(NamedTuple):
 
 
 class Lines(NamedTuple):
-    """Lines of text as a command prints them."""
+    """Lines of text as a command prints them, in English."""
 
     lines: tuple[str, ...]
 
@@ -90,4 +90,4 @@ class Document(NamedTuple):
     foot: str
     """At the foot of each page."""
     language: str = "en"
-    """Of the pages for the field."""
+    """Of all but the lines of commands, and the words of sheets and sources."""

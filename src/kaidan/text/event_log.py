@@ -11,7 +11,6 @@ if TYPE_CHECKING:
 MOST_LINES = 60
 """Most lines of a log."""
 _LONGEST_PERIOD = 8
-_INDENT = " " * 27
 
 
 def where(place: "Place") -> str:
@@ -84,19 +83,29 @@ def change(
 
 def lines_of(entries: "Sequence[LogEntryShown]", most: int = MOST_LINES) -> list[str]:
     """Log in lines: what repeats from step to step stands there once, and at most `most` lines."""
-    lines: list[str] = []
+    return [
+        f"{phase:<9}{path:>8} {inclination:>10}  {text}"
+        for phase, path, inclination, text in rows_of(entries, most)
+    ]
+
+
+def rows_of(
+    entries: "Sequence[LogEntryShown]", most: int = MOST_LINES
+) -> list[tuple[str, str, str, str]]:
+    """The same as rows: phase, path, inclination, what happens; of what repeats that alone."""
+    rows: list[tuple[str, str, str, str]] = []
     at = 0
     while at < len(entries):
         period, times = _repeat(entries, at)
-        lines += [_line(entry) for entry in entries[at : at + period]]
+        rows += [_row(entry) for entry in entries[at : at + period]]
         if times > 1:
-            lines.append(_INDENT + _repeated(entries[at : at + period * times], period, times))
+            rows.append(("", "", "", _repeated(entries[at : at + period * times], period, times)))
         at += period * times
-    if len(lines) > most:
-        left = len(lines) - most + 1
+    if len(rows) > most:
+        left = len(rows) - most + 1
         head = 2 * most // 3
-        lines[head : head + left] = [f"{_INDENT}... {left} more lines (all with --json)"]
-    return lines
+        rows[head : head + left] = [("", "", "", f"... {left} more lines (all with --json)")]
+    return rows
 
 
 def _repeated(entries: "Sequence[LogEntryShown]", period: int, times: int) -> str:
@@ -113,9 +122,9 @@ def _repeated(entries: "Sequence[LogEntryShown]", period: int, times: int) -> st
     return f"steps {known[0]} to {known[-1]}{every}: the same"
 
 
-def _line(entry: "LogEntryShown") -> str:
+def _row(entry: "LogEntryShown") -> tuple[str, str, str, str]:
     inclination = round(entry.inclination_deg, 1) + 0.0
-    return f"{entry.phase:<9}{entry.path_m:6.2f} m {inclination:6.1f} deg  {entry.text}"
+    return entry.phase, f"{entry.path_m:.2f} m", f"{inclination:.1f} deg", entry.text
 
 
 def _repeat(entries: "Sequence[LogEntryShown]", at: int) -> tuple[int, int]:

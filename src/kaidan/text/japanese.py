@@ -108,14 +108,13 @@ def _part(parts: Sequence[str], field: re.Match[str]) -> str:
 
 
 def in_japanese(whole: of.Document) -> of.Document:
-    """Document whose pages for the field are in Japanese; appendices stay in English.
+    """Document in Japanese.
 
-    What has no Japanese stands in English.
+    Lines of commands, names of figures, words of sheets and their sources stay as they are, and so
+    does what has no Japanese.
     """
     parts = tuple(
-        of.Sheet(tuple(_block(each) for each in part.blocks))
-        if isinstance(part, of.Sheet)
-        else part
+        of.Sheet(tuple(map(_block, part.blocks))) if isinstance(part, of.Sheet) else _block(part)
         for part in whole.parts
     )
     return of.Document(_said(whole.title), parts, _said(whole.foot), language="ja")

@@ -15,7 +15,7 @@ from kaidan.text.document import (
     Points,
     Table,
 )
-from kaidan.text.event_log import lines_of
+from kaidan.text.event_log import rows_of
 from kaidan.text.report_record import record
 from kaidan.text.tables import fixed
 from kaidan.text.words import subject
@@ -77,7 +77,11 @@ def appendix(found: "Report", mission: "Mission", number: int) -> list[Block]:
                 "friction and energy margin along the path",
                 150,
             ),
-            Lines(tuple(lines_of(mission.traverse.event_log))),
+            Table(
+                ("phase", "path", "inclination", "what happens"),
+                tuple(rows_of(mission.traverse.event_log)),
+                (10, 10, 12, 68),
+            ),
         ]
     return [
         *blocks,
