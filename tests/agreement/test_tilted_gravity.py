@@ -264,6 +264,30 @@ def test_flippers_at_the_flat_and_a_hair_off_it():
     assert margins == pytest.approx([margins[1]] * 3, abs=math.radians(0.03))
 
 
+@pytest.mark.parametrize("off", [0.0, 1e-4, 0.1, 2.0])
+def test_flippers_tail_first_as_those_of_the_robot_turned_round(off):
+    """Absolem tail first, and its other half nose first with the flippers exchanged."""
+    rear, front = ABSOLEM.rear_flippers, ABSOLEM.front_flippers
+    L = ABSOLEM.track.flat_length
+    turned = ABSOLEM.model_copy(
+        update={"com_from_front": L - ABSOLEM.com_from_front,
+                "front_flippers": rear, "rear_flippers": front}
+    )  # fmt: skip
+    flat, raised = rear.flat_angle, rear.flat_angle + math.radians(off)
+    one, other = (
+        traverse_of(
+            Question.in_one_posture(robot, ADA, friction=2.0, facing=facing, flippers=posture)
+        )
+        for robot, facing, posture in (
+            (ABSOLEM, "tail-first", Posture(front=raised, rear=flat)),
+            (turned, "nose-first", Posture(front=flat, rear=raised)),
+        )
+    )
+    assert one.whole is other.whole is (off == 0.0)
+    assert one.downhill_margin == pytest.approx(other.downhill_margin, abs=1e-6)
+    assert one.downhill_margin > math.radians(5.0)
+
+
 def test_the_tilt_to_the_fall():
     check_falls(seed=1, count=1)
 

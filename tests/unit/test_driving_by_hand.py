@@ -55,7 +55,7 @@ def flipper(above, x=C_L + 0.3):
 def test_the_underside_by_hand():
     assert tread_of(robot()) == Tread(L, C_L, C_N, FRONT, REAR, 0.15, whole=True)
     # one flipper in line lengthens it ahead, one behind
-    for above, found in ((5e-7, (C_L + 0.3, 0.03)), (2e-6, (C_L, FRONT))):
+    for above, found in ((2.9e-7, (C_L + 0.3, 0.03)), (3.1e-7, (C_L, FRONT))):
         tread = tread_of(flipper(above))
         assert (tread.C_L, tread.R, tread.R_downhill) == pytest.approx((*found, REAR))
     behind = tread_of(flipper(0.0, C_L - L - 0.2))
@@ -87,8 +87,11 @@ def test_no_flat_carries_where_it_may_rock_onto_a_flipper(x):
     r, angle = 0.03, contact.ROCKING
     reached = (r + 0.3 * math.sin(angle)) / math.cos(angle) - r
     for above, alone in ((reached + 1e-6, True), (reached - 1e-6, False), (1e-4, False),
-                         (5e-7, False), (0.3, True)):  # fmt: skip
+                         (9e-7, False), (2e-7, True), (0.3, True)):  # fmt: skip
         assert whole(flipper(above, x)) is alone
+        turned = flipper(above, x)  # the stance stays as it is nose first
+        turned.parts = turned.parts[:, [3, 4, 5, 0, 1, 2]] * [-1, 1, 1, -1, 1, 1]
+        assert whole(turned) is alone
     assert whole(flipper(1e-4, 0.0))  # over the flat itself nothing rocks onto it
     assert whole(robot((*disc(0.0, 0.05), *disc(x, 1e-4)), kinds=[contact.BELLY]))
 

@@ -256,6 +256,9 @@ def test_poses_from_which_it_rocks_back():
     assert came_down(*two, rear=REAR, angle=ROCKING) == ([2, 3, 4, 6, 7], {})
     half = 0.5 * ROCKING + 1e-9
     assert came_down(*two, rear=REAR, angle=half, on_flat=(1, 5)) == ([], rocks)
+    up = (1, 1, True, code(5)), (1, -1, True, code(5))
+    found = came_down(*up, rear=REAR, angle=half, on_flat=(1,), at_once=True)
+    assert found == ([2, 3, 4], {})
     at_once = came_down(*two, rear=REAR, angle=half, on_flat=(1, 5), at_once=True)
     assert at_once == ([2, 3, 4, 6, 7], {})
 

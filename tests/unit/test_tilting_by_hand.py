@@ -102,7 +102,12 @@ def test_where_the_flat_leaves_a_nosing_that_it_would_rock_onto():
     assert lost(Way([0, 1, 1.6, 1.6, 3, 4], Onto()), [3], [2, 3]) == NOTHING
     # where nothing is rocked onto, or all the way
     assert lost(way, [], METERS) == lost(way, [0, 4], METERS) == NOTHING
-    assert lost(Way([1.6, 1.7, 1.8], Onto()), [1], range(3)) == NOTHING
+    assert lost(Way([1.6, 1.7, 1.8], Onto()), [1], range(3), least=1.0) == NOTHING
+    # beside the last pose of those alone
+    assert lost(Way([1.6, 1.9, 3.0], Onto()), [1], range(3)) == (pytest.approx(LEFT, abs=PLACE), 1)
+    # the longest way too is halved to the end
+    found = lost(Way([1.49, 1.6, 5.0], Onto(rocking=0.044)), [1], range(3), least=0.25)
+    assert found == (pytest.approx(LEFT + 0.02 - 0.044, abs=PLACE), 1)
 
 
 def test_left_it_is_no_steeper_than_where_it_rocked_nowhere():

@@ -38,6 +38,10 @@ TOLERATED_IMPACT = 1.7
 dropped from 100 mm, the bench handling test of MIL-STD-810 (docs/decisions.md)."""
 
 
+IN_LINE = 1e-6
+"""Angle off the flat up to which a flipper lies in line with it [rad]."""
+
+
 FALL_RESERVE = math.radians(8.0)
 """Tilt to the fall that a robot must keep where it rocks and the sheet states none [rad]: it parts
 the climbs of the paper's rig from its falls (docs/decisions.md)."""
@@ -237,9 +241,9 @@ class Robot(Sheet):
             if pair is None:
                 raise InputError(f"robot {self.name!r} has no {end} flippers")
             angle = pair.flat_angle if requested == "flat" else float(requested)
-            if math.isclose(angle, pair.flat_angle, abs_tol=1e-6):
+            if math.isclose(angle, pair.flat_angle, abs_tol=IN_LINE):
                 extension[end] = pair.flat_extension
-            tips_below |= angle < pair.flat_angle - 1e-6
+            tips_below |= angle < pair.flat_angle - IN_LINE
             arm = pair.mass * pair.com_from_pivot
             outward = arm * (math.cos(angle) - math.cos(pair.stowed_angle))
             moment_x += outward if end == "rear" else -outward

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from kaidan import contact
 from kaidan.errors import InputError
 from kaidan.outline import Outline
+from kaidan.robot.robot import IN_LINE
 from kaidan.terrain.profile import Profile
 from kaidan.traversal.phases import REMEMBERED, uneven_span
 from kaidan.traversal.static_criterion import Criterion, Tread, static_criterion
@@ -27,8 +28,8 @@ MANY = 100
 """Nosings above which what the criterion says is not remembered."""
 ROBOTS = 128
 """Robots of which it is."""
-IN_LINE = 1e-6
-"""Height up to which a disc counts as in line with the flat [m]."""
+ROUNDING = 1e-12
+"""Height above the flat that is none [m]."""
 
 
 def span(
@@ -98,11 +99,9 @@ def _criterion(nosings: bytes, tread: Tread, along: float) -> Criterion:
 
 def tread_of(body: Outline) -> Tread:
     """Underside of a robot on a flight that rises towards +x."""
-    stance, bottom = body.stance, -body.stance.com_height
-    ends = np.vstack([body.parts[:, :3], body.parts[:, 3:]])
-    level = np.abs(body.parts[:, [1, 4]] - body.parts[:, [2, 5]] - bottom) < IN_LINE
-    on = ends[np.concatenate(level.T)]
-    last, first = on[np.argmin(on[:, 0])], on[np.argmax(on[:, 0])]
+    stance = body.stance
+    level = _level(body)
+    last, first = _flat_ends(body)
     return Tread(
         L=stance.flat_length,
         C_L=float(first[0]),
@@ -112,6 +111,20 @@ def tread_of(body: Outline) -> Tread:
         gyration=body.gyration,
         whole=int(np.sum(level[:, 0] & level[:, 1] & (body.kinds == contact.TRACK))) == 1,
     )
+
+
+def _level(body: Outline) -> NDArray[np.bool_]:
+    """Shape (m, 2): discs of each part whose lower edge lies in the line of the flat."""
+    above = body.parts[:, [1, 4]] - body.parts[:, [2, 5]] + body.stance.com_height
+    length = np.hypot(*(body.parts[:, [0, 1]] - body.parts[:, [3, 4]]).T)
+    return np.asarray(np.abs(above) <= IN_LINE * length[:, None] + ROUNDING)
+
+
+def _flat_ends(body: Outline) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Rear and front disc of the flat: x, z, radius [m]."""
+    ends = np.vstack([body.parts[:, :3], body.parts[:, 3:]])
+    on = ends[np.concatenate(_level(body).T)]
+    return on[np.argmin(on[:, 0])], on[np.argmax(on[:, 0])]
 
 
 def whole_of(tread: Tread, criterion: Criterion, body: Outline) -> bool:
@@ -126,12 +139,12 @@ def _rocks_onto_flippers(body: Outline) -> bool:
 
     The flat ends at a kink there, and what lies beyond it carries as on a low nosing.
     """
-    stance = body.stance
+    (last, *_), (first, *_) = _flat_ends(body)
     x, z, radius = body.parts[body.kinds == contact.FLIPPER].reshape(-1, 3).T
-    z = z + stance.com_height
-    beyond = np.maximum(x - stance.com_from_front, stance.com_from_front - stance.flat_length - x)
+    beyond = np.maximum(x - first, last - x)
+    z = z + body.stance.com_height
     lowest = z * math.cos(contact.ROCKING) - beyond * math.sin(contact.ROCKING) - radius
-    return bool(np.any((beyond > IN_LINE) & (lowest <= 0.0)))
+    return bool(np.any((beyond > 0.0) & (lowest <= 0.0)))
 
 
 def refuse_too_long(

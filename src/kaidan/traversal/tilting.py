@@ -32,6 +32,8 @@ _FIRST = math.radians(4.0)
 _AT_ONCE = 8
 _PLACE = 1e-6
 """To which the place is found where a nosing is left [m]."""
+_JUMP = 0.25
+"""Share of the rocking between two poses by which it jumps from nosing to nosing [1]."""
 _TIE = 1e-9
 _WITHIN = 1e-5
 """Share of the least tilt to which it is found between poses [1]."""
@@ -188,12 +190,17 @@ class _Tilted:
         begin, before, after = begin[may], before[:, may], after[:, may]
         if len(begin) == 0:
             return Rock(math.inf, -1)
+        # from one nosing to the next the rocking jumps; or if hardly, the tilt
+        by = (
+            np.where(steeper[may] > _JUMP * np.maximum(before, after)[0], 0, 1),
+            np.arange(len(begin)),
+        )
+        half, falls = 0.5 * (before + after)[by], before[by] > after[by]
         length = path.s[begin + 1] - path.s[begin]
         low, high = np.zeros(len(begin)), np.ones(len(begin))
         while float((length * (high - low)).max()) > _PLACE:
             middle = 0.5 * (low + high)
-            there = self._carried_between(begin, middle)
-            first = np.abs(there - before).sum(axis=0) < np.abs(there - after).sum(axis=0)
+            first = (self._carried_between(begin, middle)[by] > half) == falls
             low, high = np.where(first, middle, low), np.where(first, high, middle)
         (rocked, one), (rocks, other) = (
             self._carried_between(begin, share) for share in (low, high)
