@@ -55,7 +55,7 @@ def found(**figures):
         "status": Status.OK, "arrived": True, "descending": False, "whole": True, "chains": [],
         "phases": (ON, LANDS), "criterion": SimpleNamespace(rocking=0.0),
         "falls_downhill": Fall(0.1, Phase.TRAVERSE, 3), "falls_uphill": Fall(0.2, Phase.LAND, 4),
-        "end": (Phase.LAND, 6), "first_rock": lambda **_: None,
+        "end": (Phase.LAND, 6), "first_rock": lambda **_: None, "enough": math.inf,
     }  # fmt: skip
     return SimpleNamespace(**(usual | figures))
 
@@ -320,6 +320,25 @@ def test_what_tips_in_every_sample_has_no_energy(monkeypatch):
     assert ENERGY not in modes(0.0, -0.01, -0.02)
     assert ENERGY in modes(0.01, -0.01, -0.02)
     assert FALL_DOWNHILL in modes(0.0, -0.01, -0.02)
+
+
+@pytest.mark.parametrize(("tilt", "sought"), [(0.04, [((0.3,), 0.11)]), (0.2, [])])
+def test_of_what_tips_a_fall_beyond_the_reserve_need_not_be_found(tilt, sought, monkeypatch):
+    """Where it is enough to know it to 0.5 rad, and the margin against tipping is spent."""
+    asked_for = []
+
+    def seeking(tilts, *, enough):
+        asked_for.append((tilts, pytest.approx(enough)))
+        return run
+
+    run = found(
+        phases=(), first_rock=lambda *, downhill, phases: FirstRock(tilt, Phase.TRAVERSE, 2),
+        enough=0.5, sought=(0.3,), seeking=seeking,
+    )  # fmt: skip
+    monkeypatch.setattr(module, "drawn_falls", lambda *given, downhill: np.full(3, 0.1))
+    asked = SimpleNamespace(**(vars(ASKED) | {"reserve": 0.11}))
+    balance(asked, asked, run, OVER, None, None)
+    assert asked_for == sought
 
 
 def test_the_smaller_of_two_findings_by_their_smallest_sample():

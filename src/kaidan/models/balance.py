@@ -90,6 +90,9 @@ def balance(
             energy = _least(energy, support_polygon.energy_finding(question, rise))
     else:
         energy = _energy(driven, found, over, phases, held)
+    if math.isfinite(found.enough) and any(one.fails().any() for one in tips):
+        # nothing is left beyond the reserve
+        found = found.seeking(found.sought, enough=min(found.enough, driven.reserve + _ROUNDING))
     # a fall lies in its phase, wherever the robot rocks before
     rocks = tips, rotation
     if phase is not None:

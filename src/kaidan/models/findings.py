@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
@@ -145,8 +145,7 @@ def each_at_risk(values: Array, risk: float) -> Array:
 
 def smallest(samples: Iterable[Array]) -> Array:
     """Smallest value that is known, of each sample; NaN where none is."""
-    rows = np.broadcast_arrays(*samples)
-    return np.asarray(np.fmin.reduce(rows, axis=0))
+    return np.asarray(reduce(np.fmin, samples))
 
 
 def failing_beyond(failing: Iterable[NDArray[np.bool_]], risk: float) -> bool:
@@ -154,5 +153,5 @@ def failing_beyond(failing: Iterable[NDArray[np.bool_]], risk: float) -> bool:
     rows = list(failing)
     if not rows:
         return False
-    any_fails = np.logical_or.reduce(np.broadcast_arrays(*rows))
+    any_fails = reduce(np.logical_or, rows)
     return int(any_fails.sum()) > int(risk * len(any_fails))

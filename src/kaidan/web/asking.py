@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
+from functools import cache
 from importlib import import_module
 from inspect import Parameter, signature
 from itertools import islice
@@ -58,7 +59,8 @@ class Verb:
         found: type[Answer] = _loaded(self.answer)
         return found
 
-    def parameters(self) -> dict[str, Parameter]:
+    @cache  # noqa: B019 - there are no others than those below
+    def parameters(self) -> Mapping[str, Parameter]:
         """Keywords that a body may have: those of its function, then those of a question."""
         own = signature(self.load()).parameters
         found = {name: each for name, each in own.items() if each.kind is not Parameter.VAR_KEYWORD}
