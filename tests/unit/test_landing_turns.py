@@ -153,6 +153,15 @@ def test_a_circle_that_fits_elsewhere_is_not_said_to_be_too_large():
     assert japanese(answer.reason) is not None
 
 
+def test_what_no_slope_mends_has_no_margin_in_the_best_case_either():
+    """Friction is short in the worst case and enough in the best: turning is neither."""
+    answer = kaidan.assess("ozbot-atr", flight(**HALF), friction="0.5..1.2")
+    assert (answer.verdict, answer.governs) == ("no-go", "turning")
+    slides = answer.findings["slides_down"]
+    assert slides.margin < 0 < slides.margin_best
+    assert (answer.margin_deg, answer.margin_best_deg) == (-90.0, -90.0)
+
+
 @pytest.mark.parametrize("flippers", ["flat", "best"])
 def test_with_a_plan_that_is_found_it_is_said_too(flippers):
     answer = kaidan.assess(

@@ -104,7 +104,7 @@ def conclude(question: Question, found: Findings) -> Conclusion:
     if verdict is Verdict.CAUTION and not doubts and not friction_known:
         governing = next((one for one in each if one.mode in SUPPLIES), None)
         key = Undecided.FRICTION_UNKNOWN.value
-    if verdict is Verdict.NO_GO and not margin <= 0:  # no slope of the stairs would do
+    if verdict is Verdict.NO_GO and not margin_best <= 0:  # no slope of the stairs would do
         margin = margin_best = -FALL
     phase, step = (governing.phase, governing.step) if governing else (None, None)
     return Conclusion(verdict, key, phase, step, margin, margin_best, samples, tuple(doubts))

@@ -110,7 +110,7 @@ export function sideView() {
   function frame(pose) {
     const size = Math.max(...pose.outline.flatMap((part) => [Math.hypot(part.x_1_m, part.z_1_m) + part.radius_1_m, Math.hypot(part.x_2_m, part.z_2_m) + part.radius_2_m]));
     const wide = window.innerWidth < 600 ? 1.5 : 2.1;
-    if (follow.checked) return [(pose.x - wide * size) * MM, -(pose.z + 1.3 * size) * MM, 2 * wide * size * MM, 2 * size * MM];
+    if (follow.checked) return [(pose.x - wide * size) * MM, -(pose.z + 1.15 * size) * MM, 2 * wide * size * MM, 2.2 * size * MM];
     const { x_m: x, z_m: z } = found.poses;
     const [left, right] = [Math.min(...x) - 1.2 * size, Math.max(...x) + 1.2 * size];
     const [low, high] = [Math.min(...z) - size, Math.max(...z) + 1.1 * size];

@@ -76,7 +76,7 @@ function toDo(answer) {
       " ", flippersOf(step)))) : null;
   const changes = help.slice(0, 3).map((each) => h("li", {},
     said(each.change), " ",
-    h("span", { class: `tag is-${each.verdict}` }, symbol(each.verdict, 18), t("answer.then", { verdict: t(`verdict.${each.verdict}`) })),
+    h("span", { class: `tag is-${each.verdict}` }, symbol(each.verdict, 18), t(each.verdict === answer.verdict ? "answer.still" : "answer.then", { verdict: t(`verdict.${each.verdict}`) })),
     each.margin_deg === null ? null : [" ", figure(each.margin_deg, "degrees", { plus: true })]));
   let otherwise = null;
   if (!planned && changes.length === 0) {
