@@ -261,7 +261,8 @@ class PublicOutcomes(Written):
             rows = [
                 [
                     entry["robot"],
-                    ", ".join([*entry.get("angles", []), *map(str, entry["stairs"].values())]),
+                    entry.get("name")
+                    or ", ".join([*entry.get("angles", []), *map(str, entry["stairs"].values())]),
                     ", ".join(f"{key} {value}" for key, value in entry["manner"].items()),
                     *(entry[key] for key in ("outcome", "evidence", "status", "note")),
                     code(entry["source"]),

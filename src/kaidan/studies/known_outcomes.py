@@ -14,6 +14,7 @@ from kaidan.assessment import with_plan
 from kaidan.assessment.verdict import conclude
 from kaidan.modes import Direction, Phase, Verdict
 from kaidan.question import Question
+from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.units import value_of
 
@@ -37,11 +38,11 @@ class Pair(Part):
     robot: str
     """Its name."""
     stairs: str
-    """Name of the flight."""
-    angle_deg: float
-    """Slope of the line through the nosings [deg]."""
-    nosing_spacing_m: float
-    """From nosing to nosing [m]."""
+    """Name of the flight, or of another obstacle."""
+    angle_deg: float | None
+    """Slope of the line through the nosings [deg]; null: no flight."""
+    nosing_spacing_m: float | None
+    """From nosing to nosing [m]; null likewise."""
     direction: Direction
     """Which way it goes."""
     friction: tuple[float, float]
@@ -106,7 +107,7 @@ def known_outcomes() -> KnownOutcomes:
     KnownOutcomes
     """
     table = catalog.outcomes()
-    pairs = [_pair(entry, _stairs(each)) for entry in table["pair"] for each in _flights(entry)]
+    pairs = [_pair(entry, terrain) for entry in table["pair"] for terrain in _terrains(entry)]
     kinds: tuple[Evidence, ...] = ("test", "simulation")
     return KnownOutcomes(
         pairs=pairs,
@@ -133,23 +134,25 @@ def compared(outcome: Outcome, verdict: Verdict) -> Comparison:
     }[verdict]  # type: ignore[return-value]
 
 
-def _flights(entry: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Stairs of an entry: one flight for each of its angles, or its one flight."""
+def _terrains(entry: Mapping[str, Any]) -> list[Stairs] | list[Profile]:
+    """Terrain of an entry: one flight for each of its angles, its one flight, or its profile."""
+    if "points" in entry:
+        return [Profile.of_points(entry["points"], name=entry["name"])]
     angles = entry.get("angles", [])
-    return [{"angle": angle, **entry["stairs"]} for angle in angles] or [entry["stairs"]]
+    stairs = [{"angle": angle, **entry["stairs"]} for angle in angles] or [entry["stairs"]]
+    return [_stairs(each) for each in stairs]
 
 
-def _pair(entry: Mapping[str, Any], stairs: Stairs) -> Pair:
-    question, findings, _ = with_plan(Question.ask(entry["robot"], stairs, **entry["manner"]))
+def _pair(entry: Mapping[str, Any], terrain: Stairs | Profile) -> Pair:
+    question, findings, _ = with_plan(Question.ask(entry["robot"], terrain, **entry["manner"]))
     conclusion = conclude(question, findings)
     flight = question.flight
-    assert flight is not None
     assert question.surface is not None
     return Pair(
         robot=question.robot.name,
         stairs=question.terrain_name,
-        angle_deg=math.degrees(flight.angle),
-        nosing_spacing_m=flight.nosing_spacing,
+        angle_deg=flight and math.degrees(flight.angle),
+        nosing_spacing_m=flight and flight.nosing_spacing,
         direction=question.direction,
         friction=(question.surface.friction_low, question.surface.friction_high),
         verdict=conclusion.verdict,
