@@ -31,6 +31,22 @@ settings.register_profile("random", deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
 
 
+TOGETHER = (
+    "tests/web/",  # a browser and a server
+    "tests/agreement/test_assess_and_sweep.py", "tests/unit/test_sweeps.py",  # what numba compiles
+    "tests/docs/", "tests/unit/test_one_screen.py", "tests/unit/test_plan_search.py",  # answers
+)  # fmt: skip
+"""Tests that share something: they come first, one after the other, and so in one worker."""
+
+
+def pytest_collection_modifyitems(items):
+    def place(item):
+        path = item.path.as_posix()
+        return next((k for k, each in enumerate(TOGETHER) if each in path), len(TOGETHER))
+
+    items.sort(key=place)
+
+
 def pytest_collection_finish():
     gc.freeze()
     gc.enable()

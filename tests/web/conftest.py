@@ -15,13 +15,6 @@ PLACES = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome
 VIEWPORTS = {"phone": {"width": 390, "height": 844}, "desktop": {"width": 1280, "height": 900}}
 
 
-def pytest_collection_modifyitems(items):
-    """Browser tests of one worker: they share one browser."""
-    for item in items:
-        if "tests/web" in str(item.path):
-            item.add_marker(pytest.mark.xdist_group("browser"))
-
-
 @pytest.fixture(scope="session")
 def chromium():
     """Browser of the system; a test that needs one is skipped where there is none."""

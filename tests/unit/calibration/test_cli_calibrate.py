@@ -67,6 +67,9 @@ def test_effects(tmp_path, spacing):
     rows = csv.read_text().splitlines()
     assert rows[0].startswith("varied,value,up_deg")
     assert len(rows) == 1 + 1 + 4 + 4 + 4
+
+
+def test_effects_as_json():
     told = json.loads(run("effects", "--json").stdout)
     assert told["effects"][1]["theta_M_deg"] == pytest.approx(6.0, abs=2.0)  # the grid's step
 

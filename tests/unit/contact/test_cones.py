@@ -1,9 +1,12 @@
 """The kernel's cones of two contacts: those of the formula, draw by draw, and by hand."""
 
+import math
+
 import numpy as np
 import pytest
 
 from kaidan.contact import cone_margins, using_kernel
+from kaidan.contact.kernel.cones import cones_hold, narrowed
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.cones import cone_margin
 
@@ -42,3 +45,28 @@ def test_on_one_plane_the_margin_is_the_friction_less_the_slope():
 def test_none_are_none_and_contacts_at_one_place_are_not_known():
     assert len(cone_margins([np.empty(0)] * 10)) == 0
     assert np.isnan(cone_margins([0.1, -0.1, 0.0, 0.7, 0.1, -0.1, 0.0, 0.7, [0.0], 9.8])).all()
+
+
+def test_a_draw_of_contacts_at_one_place_leaves_the_others():
+    place = np.array([0.1, -1.0, 0.1])
+    found = cone_margins([place, -0.1, 0.0, 0.7, [0.1, 1.0, 0.5], -0.1, 0.0, 0.7, 0.0, 9.8])
+    assert np.isnan(found).tolist() == [True, False, False]
+
+
+@pytest.mark.parametrize("t", [0.0, 0.2])
+def test_a_bound_of_the_inner_force(t):
+    """a - b t + (c - d t) l >= 0; whether a level bound holds does not depend on l."""
+    for constant, left in ((0.5, (-1.0, 2.0)), (0.0, (-1.0, 2.0)), (-0.5, (math.inf, -math.inf))):
+        assert narrowed((constant + 0.3 * t, 0.3, 0.7 * t, 0.7), t, -1.0, 2.0) == left
+    rising, falling = (-0.5 + t, 1.0, 2.0 + t, 1.0), (0.5 + t, 1.0, -2.0 + t, 1.0)
+    assert narrowed(rising, t, -1.0, 2.0) == pytest.approx((0.25, 2.0))
+    assert narrowed(falling, t, -1.0, 2.0) == pytest.approx((-1.0, 0.25))
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2, 3), (2, 0, 1, 3), (2, 3, 0, 1)])
+def test_one_inner_force_is_enough(order):
+    """l >= 1 and l <= 1, and two bounds that hold; none is left of l >= 1.1."""
+    bounds = [(-1.0, 0.0, 1.0, 0.0), (1.0, 0.0, -1.0, 0.0), *2 * [(1.0, 0.0, 0.0, 0.0)]]
+    assert cones_hold(*(bounds[k] for k in order), 0.1)
+    bounds[0] = (-1.1, 0.0, 1.0, 0.0)
+    assert not cones_hold(*(bounds[k] for k in order), 0.1)

@@ -413,17 +413,18 @@ def test_a_side_whose_circle_rises_more_is_not_looked_at(mirrored):
 
 
 @MIRRORED
-def test_tilts_of_some_poses(mirrored):
+def test_tilts_of_some_poses_each_with_its_tolerance(mirrored):
     case = Case(plates(D, A, B), mirrored)
     poses, margins = table_of(case, A, B, 0.0)
-    found = np.full((1, at.TILT_COLUMNS), np.nan)
-    rows = np.array([1])
-    flow_tilts(case.ground, case.body, poses, margins, rows, case.sign, 1.1 * ONTO_D, found)
-    assert found.tolist() == [[near(leaning(D, ON_D, 0.0)), near(ONTO_D)]]
-    flow_tilts(case.ground, case.body, poses, margins, rows, -case.sign, 1.1 * ONTO_D, found)
-    assert found.tolist() == [[near(-leaning(B, C, 0.0)), 0.0]]
-    flow_tilts(case.ground, case.body, poses, margins, rows, case.sign, 0.0, found)
-    assert found.tolist() == [[near(leaning(A, C, 0.0)), 0.0]]
+    rows, tolerance = np.array([1, 1]), np.array([1.1 * ONTO_D, 0.0])
+
+    def found(side):
+        tilts = np.full((2, at.TILT_COLUMNS), np.nan)
+        flow_tilts(case.ground, case.body, poses, margins, rows, side, tolerance, tilts)
+        return tilts.tolist()
+
+    rear, front = [near(leaning(A, C, 0.0)), 0.0], [near(-leaning(B, C, 0.0)), 0.0]
+    assert found(case.sign) == [[near(leaning(D, ON_D, 0.0)), near(ONTO_D)], rear]
+    assert found(-case.sign) == [front, front]
     margins[1, at.WITHOUT] = case.point(D)
-    flow_tilts(case.ground, case.body, poses, margins, rows, case.sign, 1.1 * ONTO_D, found)
-    assert found.tolist() == [[near(leaning(A, C, 0.0)), 0.0]]
+    assert found(case.sign) == [rear, rear]
