@@ -61,6 +61,16 @@ def ends_well(content: bytes, path) -> None:
     assert "\n" not in said
 
 
+def test_an_identity_that_is_no_text(sound, tmp_path):
+    """Nine of 2,000 mutants: a reference or a number where the GlobalId of a storey stands."""
+    damaged = re.sub(rb"(=IFCBUILDINGSTOREY\()'[^']*'", rb"\1(1.,2.)", sound)
+    assert damaged != sound
+    path = tmp_path / "mutant.ifc"
+    path.write_bytes(damaged)
+    with pytest.raises(InputError, match="the GlobalId of #[0-9]+ is no text"):
+        found_in(path)
+
+
 def test_a_few_mutants(sound, tmp_path):
     draw = random.Random(11)
     for _ in range(8):

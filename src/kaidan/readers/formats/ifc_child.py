@@ -143,15 +143,26 @@ def _body(element: Any, has_shape: bool) -> dict[str, Any]:
         facts["opens"] = _opens(element)
     kind = elements.get_predefined_type(element)
     return {
-        "id": element.GlobalId,
-        "name": element.Name or "",
+        "id": _identity(element),
+        "name": _text(element.Name),
         "category": element.is_a(),
-        "type": kind or "",
-        "parent": parent.GlobalId if parent is not None and parent.is_a("IfcElement") else "",
-        "storey": storey.GlobalId if storey is not None else "",
+        "type": _text(kind),
+        "parent": _identity(parent) if parent is not None and parent.is_a("IfcElement") else "",
+        "storey": _identity(storey) if storey is not None else "",
         "shape": has_shape,
         "facts": facts,
     }
+
+
+def _identity(element: Any) -> str:
+    """GlobalId, which a damaged model may give as a number or a list."""
+    if not isinstance(element.GlobalId, str):
+        raise TypeError(f"the GlobalId of #{element.id()} is no text")
+    return element.GlobalId
+
+
+def _text(value: Any) -> str:
+    return value if isinstance(value, str) else ""
 
 
 def _operation(door: Any) -> str:
@@ -197,7 +208,8 @@ def _storeys(model: Any) -> list[dict[str, Any]]:
     found = []
     for each in model.by_type("IfcBuildingStorey"):
         level = ifcopenshell.util.placement.get_local_placement(each.ObjectPlacement)[2, 3]
-        found.append({"id": each.GlobalId, "name": each.Name or "", "level": float(level) * scale})
+        row = {"id": _identity(each), "name": _text(each.Name), "level": float(level) * scale}
+        found.append(row)
     return found
 
 
