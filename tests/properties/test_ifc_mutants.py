@@ -67,7 +67,7 @@ def test_an_identity_that_is_no_text(sound, tmp_path):
     assert damaged != sound
     path = tmp_path / "mutant.ifc"
     path.write_bytes(damaged)
-    with pytest.raises(InputError, match="the GlobalId of #[0-9]+ is no text"):
+    with pytest.raises(InputError, match=r"the GlobalId of #\d+ is no text"):
         found_in(path)
 
 

@@ -122,6 +122,35 @@ def test_draws_have_the_covariance_and_profiles_carry_it():
     assert len(doubtful.draws(3)) == len(flight(sigma=(0.0, 0.0)).draws(3)) == 3
 
 
+def test_one_odd_riser_does_not_turn_what_errs_alike():
+    """Goings of 280 mm, the last riser 30 mm lower; s and z of neighbours err alike, as in clouds.
+
+    By weights of the range alone the going would be 4 mm longer.
+    """
+    odd = flight(rises=(0.15, 0.15, 0.15, 0.12))
+    number = np.arange(8)
+    alike = (-0.9) ** np.abs(number[:, None] - number) * 4e-6 + 1e-8 * np.eye(8)
+    regular = dataclasses.replace(odd, covariance=alike.reshape(4, 2, 4, 2)).regular
+    assert regular.alike < 1e-6
+    assert regular.going == pytest.approx(0.28, abs=0.002)
+    assert regular.rise == pytest.approx(0.14, abs=0.003)  # by hand: 0.141 by plain least squares
+
+
+def test_a_floor_that_errs_as_the_first_nosing_leaves_its_riser_known():
+    """By hand: 2 mm each, 3e-6 m^2 in common: 4e-6 + 4e-6 - 2 * 3e-6 for the first riser."""
+    apart = flight(sigma=(0.001, 0.002), floor_sigma=0.002)
+    m = len(apart)
+    with_floor = np.zeros((m, 2))
+    with_floor[0] = [1e-6, 3e-6]
+    alike = dataclasses.replace(apart, with_floor=with_floor)
+    for each, first in ((apart, 8e-6), (alike, 2e-6)):
+        covariance = each.full_covariance()
+        assert covariance[1, 1] == pytest.approx(first)
+        assert covariance[3, 3] == pytest.approx(8e-6)
+    assert alike.full_covariance()[0, 1] == pytest.approx(-1e-6)
+    assert alike.full_covariance()[1, 3] == pytest.approx(4e-6 - 3e-6)
+
+
 def test_a_staircase_has_one_landing_more_than_flights():
     two = (flight(), flight())
     landings = (LandingEstimate(), LandingEstimate(depth=1.2, turn=math.pi), LandingEstimate())

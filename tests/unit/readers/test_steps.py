@@ -3,30 +3,64 @@
 import numpy as np
 import pytest
 
+from kaidan.readers.stairfit.doubts import ALIKE_WITHIN, LOCAL, common, correlation
 from kaidan.readers.stairfit.staircase_line import StairLine, assigned
-from kaidan.readers.stairfit.steps import ALIKE_WITHIN, _last_riser, smooth_field
+from kaidan.readers.stairfit.steps import _last_riser
 
 
 def test_an_error_that_varies_smoothly_averages_out_as_draws_do():
-    """Oracle: a field of cosines with that correlation, averaged over the width of each nosing."""
+    """Oracle: a field of cosines with that correlation, averaged over three treads and a floor."""
     rng = np.random.default_rng(0)
-    away = np.array([[1.8, -1.0], [2.1, -0.8], [2.4, -0.6], [3.6, 0.1]])
-    width, fields = 1.0, 4000
-    ranges = np.hypot(*away.T)
-    across = np.linspace(-0.5, 0.5, 21) * width
-    rays = np.stack(
-        [np.column_stack([np.full(21, s), across, np.full(21, z)]) / r
-         for (s, z), r in zip(away, ranges, strict=True)]
-    )  # fmt: skip
+    low = np.array([[1.8, -0.5, -1.0], [2.1, -0.5, -0.8], [3.6, -0.5, 0.1], [0.8, -0.5, -1.2]])
+    high = np.array([[2.1, 0.5, -1.0], [2.4, 0.5, -0.8], [3.9, 0.5, 0.1], [1.8, 0.5, -1.2]])
+    points = low[:, None] + (high - low)[:, None] * rng.random((4, 200, 3))
+    rays = points / np.linalg.norm(points, axis=2)[:, :, None]
     # cosines whose wave vectors have this spread are correlated by exp(-(angle / a)^2)
-    waves = rng.normal(0, np.sqrt(2) / ALIKE_WITHIN, (fields, 3, 8))
-    shifts = rng.uniform(0, 2 * np.pi, (fields, 8))
-    field = np.cos(np.einsum("mli,fij->fmlj", rays, waves) + shifts[:, None, None, :])
-    mean = field.sum(axis=3).mean(axis=2) / 2  # variance 1
-    errors = mean[:, :, None] * away
-    drawn = np.einsum("fmi,fnj->minj", errors, errors) / fields
-    # 4 % of scatter in 4,000 fields, 4 % for the normal weights
-    assert smooth_field(away, width) == pytest.approx(drawn, abs=0.08 * float(np.abs(drawn).max()))
+    fields = 3000
+    waves = rng.normal(0, np.sqrt(2) / ALIKE_WITHIN, (fields, 3))
+    shifts = rng.uniform(0, 2 * np.pi, fields)
+    mean = np.sqrt(2) * np.cos(np.einsum("mli,fi->fml", rays, waves) + shifts[:, None, None])
+    mean = mean.mean(axis=2)
+    drawn = mean.T @ mean / fields
+    found = correlation(points.mean(axis=1), points.std(axis=1))
+    # 2 % of scatter in 3,000 fields, 5 % for the normal weights and the near end of the floor
+    assert found == pytest.approx(drawn, abs=0.07)
+    assert 0.1 < drawn[3, 3] < drawn[0, 0] < 0.9  # what averages out most is the floor
+
+
+def two_nosings(floor):
+    """Steps of 200 by 300 mm: faces and levels seen in their middles, the floor at a place."""
+    nosings = np.array([[0.0, 0.2], [0.3, 0.4]])
+    middles = [[0.0, 0.0, 0.1], [0.15, 0.0, 0.2], [0.3, 0.0, 0.3], [0.45, 0.0, 0.4], floor]
+    places = np.zeros((5, 2, 3))
+    places[:, 0] = middles
+    return nosings, places
+
+
+def first_riser(covariance):
+    return float(np.sqrt(covariance[1, 1] + covariance[-1, -1] - 2 * covariance[1, -1]))
+
+
+def test_a_first_riser_leans_by_how_far_the_floor_was_seen_from_the_tread():
+    """By hand: 10 mrad over 0.15 m behind the nosing and 0.5 m before it; a face 0.1 m below it."""
+    eye = np.array([-2.0, 0.0, 1.0])
+    nosings, places = two_nosings([-0.5, 0.0, 0.0])
+    found = common(nosings, places, eye=eye, range_error=0.0, level=0.01)
+    assert first_riser(found) == pytest.approx(0.01 * 0.65)
+    assert found[0, 0] == pytest.approx((0.01 * 0.1) ** 2)
+    # from tread to tread it is as far as from nosing to nosing: nothing is left
+    assert found[1, 1] + found[3, 3] - 2 * found[1, 3] == pytest.approx(0.0, abs=1e-15)
+
+
+def test_what_is_seen_in_one_direction_errs_alike():
+    """By hand: a floor straight below the tread, 1.2 and 1.0 m below the eye: 0.2 m remain."""
+    nosings, places = two_nosings([0.15, 0.0, 0.0])
+    over = np.array([0.15, 0.0, 1.2])
+    found = common(nosings, places, eye=over, range_error=0.01, level=0.0)
+    assert first_riser(found) == pytest.approx(LOCAL * 0.01 * 0.2)
+    _, far = two_nosings([-3.0, 0.0, 0.0])  # in another direction both errors count
+    found = common(nosings, far, eye=over, range_error=0.01, level=0.0)
+    assert first_riser(found) == pytest.approx(LOCAL * 0.01 * np.hypot(1.0, 1.2), rel=1e-3)
 
 
 def test_points_at_the_edges_do_not_say_which_element_they_lie_on():
@@ -49,7 +83,8 @@ def landing(points, alone=True):
     s, t, z = (np.r_[one, other] for one, other in zip(points, tread.T, strict=True))
     sigma, measured = np.full((5, 2), 1e-3), np.ones((5, 2), dtype=bool)
     measured[-1, 1] = alone
-    nosings, *_, length = _last_riser(found, sigma, measured, line, s, t, z, 0.003, 0.01)
+    places = np.full((5, 2, 2, 3), np.nan)
+    nosings, *_, length = _last_riser(found, sigma, measured, places, line, s, t, z, 0.003, 0.01)
     return len(nosings), length
 
 

@@ -13,6 +13,7 @@ from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import METRES, Array, Indices, Known, Points, Provenance, upright
 from kaidan.readers.stairfit.chain import staircases
 from kaidan.readers.stairfit.corridor import NARROWEST, Lane, lanes, rotated, views
+from kaidan.readers.stairfit.doubts import LOCAL
 from kaidan.readers.stairfit.gates import refused, surface_refusal
 from kaidan.readers.stairfit.gravity import frame, refined
 from kaidan.readers.stairfit.landing_end import landing_end
@@ -201,15 +202,17 @@ def _with_up(seen: _Cloud, up: Array, known: Known, hints: Hints) -> _Try:
     sigma = LEVELLED if provenance.form in SURVEYED else STATED
     sigma = hints.gravity if hints.gravity is not None else sigma
     side = upright(known.value)[0]
-    up, gravity = refined(patches, up, sigma if known.how != "scored" else math.radians(20.0))
-    turn = frame(up, side)
+    sigma = sigma if known.how != "scored" else math.radians(20.0)
+    error = RANGE_ERROR_SURVEYED if provenance.form in SURVEYED else RANGE_ERROR
+    error = error if hints.range_error is None else hints.range_error
+    upward = refined(patches, up, sigma, eye=seen.eye, local=LOCAL * error)
+    turn, upright_turn = frame(upward.built, side), frame(upward.up, side)
+    against = turn @ upward.against @ turn.T
     level = replace(patches, middle=patches.middle @ turn.T, normal=patches.normal @ turn.T)
     thin, cloud = seen.thin @ turn.T, (turn @ seen.xyz.T).T
     along = views(thin, level, seen.of_thin)
     eye = np.zeros(3) if seen.eye is None else turn @ seen.eye
     tolerance = min(max(3 * noise, 0.012), 0.04)
-    error = RANGE_ERROR_SURVEYED if provenance.form in SURVEYED else RANGE_ERROR
-    error = error if hints.range_error is None else hints.range_error
     flights: list[FlightEstimate] = []
     refusals: list[Refusal] = []
     score, left = 0.0, np.ones(len(thin), dtype=bool)
@@ -217,13 +220,13 @@ def _with_up(seen: _Cloud, up: Array, known: Known, hints: Hints) -> _Try:
         flight = None
         rest = [each.of(left) for each in along]
         for lane in islice(lanes(rest, tolerance, another=bool(flights)), 2):
-            steps, aligned, placed = _steps(lane, cloud, eye, noise, error)
+            steps, aligned, placed = _steps(lane, cloud, eye, noise, error, against)
             refusal = refused(steps, lane, noise, provenance)
             if refusal is not None:
                 refusals.append(refusal)
                 continue
             assert steps is not None
-            flight = _flight(steps, aligned, gravity, error, placed)
+            flight = _flight(steps, aligned, upward.sigma, error, placed)
             break
         if flight is None:
             break
@@ -242,11 +245,26 @@ def _with_up(seen: _Cloud, up: Array, known: Known, hints: Hints) -> _Try:
     if not flights:
         score = 0.0
         refusals = surface_refusal(level, provenance) + refusals
-    return _Try(tuple(flights), tuple(refusals), score, provenance, turn)
+    tilted = upright_turn @ turn.T
+    flights = [_tilted(flight, tilted) for flight in flights]
+    return _Try(tuple(flights), tuple(refusals), score, provenance, upright_turn)
+
+
+def _tilted(flight: FlightEstimate, turn: Array) -> FlightEstimate:
+    """Flight that was measured along what was built, in the frame of gravity."""
+    foot = np.array([*flight.middle[0, :2], flight.floor])
+    ahead = turn @ [math.cos(flight.heading), math.sin(flight.heading), 0.0]
+    return replace(
+        flight,
+        left=flight.left @ turn.T,
+        right=flight.right @ turn.T,
+        heading=math.atan2(ahead[1], ahead[0]),
+        floor=float((turn @ foot)[2]),
+    )
 
 
 def _steps(
-    lane: Lane, cloud: Array, view: Array, noise: float, error: float
+    lane: Lane, cloud: Array, view: Array, noise: float, error: float, against: Array
 ) -> tuple[Steps | None, Lane, _Placed]:
     """Single steps of a lane in all points, after its heading was corrected by its skew.
 
@@ -267,9 +285,11 @@ def _steps(
     near = (t > low) & (t < high) & (s > ends[0, 0] - 1.6) & (s < ends[1, 0] + 1.8)
     near &= (z > ends[0, 1] - 0.9) & (z < ends[1, 1] + 2.4)
     aligned = replace(lane, heading=heading, line=line, low=low, high=high)
-    eye_s, _, eye_z = rotated(view[None], heading)
-    eye = np.array([eye_s[0], eye_z[0]])
-    steps = steps_of(line, s[near], t[near], z[near], noise=noise, eye=eye, range_error=error)
+    eye = np.concatenate(rotated(view[None], heading))
+    inside = s[near], t[near], z[near]
+    ahead = np.array([math.cos(heading), math.sin(heading), 0.0])
+    level = math.sqrt(float(ahead @ against @ ahead))
+    steps = steps_of(line, *inside, noise=noise, eye=eye, range_error=error, level=level)
     return steps, aligned, placed
 
 
@@ -294,6 +314,7 @@ def _flight(
         scale=error,
         floor=steps.floor,
         floor_sigma=steps.floor_sigma,
+        with_floor=steps.with_floor,
         ends=steps.ends,
         roughness=steps.roughness,
         width=high - low,

@@ -1,6 +1,7 @@
 """Which way is up, and how surely: floors and treads are level, risers and walls are plumb."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,14 +17,30 @@ NARROWEST = math.radians(0.7)
 """Smallest such angle [rad]."""
 EDGES = math.radians(0.35)
 """By how much patches over edges turn the mean, root mean square in clouds that were cast [rad]."""
-BEST = math.radians(0.1)
+BEST = math.radians(0.02)
 """Standard uncertainty of a plane's lean at best [rad]."""
 FEWEST_PATCHES = 12
 """Level and plumb patches from which up is estimated."""
 
 
-def refined(patches: Patches, up: Array, sigma: float) -> tuple[Array, float]:
-    """Direction up, and its standard uncertainty.
+@dataclass(frozen=True, eq=False)
+class Upward:
+    """Which way is up, and how what was built stands to it."""
+
+    up: Array
+    """Unit vector, shape (3,)."""
+    sigma: float
+    """Its standard uncertainty [rad]."""
+    built: Array
+    """Up of what was built level and plumb, be that out of true or not, shape (3,)."""
+    against: Array
+    """Covariance of that one's angles, shape (3, 3) [rad^2]."""
+
+
+def refined(
+    patches: Patches, up: Array, sigma: float, *, eye: Array | None, local: float
+) -> Upward:
+    """Direction up, by what was built and by what is stated.
 
     Minimises the squares of the sines between level patches and up and of the cosines between
     plumb patches and up: the eigenvector to the least eigenvalue of the plumb ones' scatter matrix
@@ -37,11 +54,14 @@ def refined(patches: Patches, up: Array, sigma: float) -> tuple[Array, float]:
         Direction that is up as stated.
     sigma : float
         Standard uncertainty of it [rad].
+    eye : array, shape (3,), or None
+        The sensor [m]; None: not known.
+    local : float
+        Error of the range that differs from one direction to the next, as a share of it [1].
 
     Returns
     -------
-    up, sigma
-        Unit vector, and its standard uncertainty [rad].
+    Upward
     """
     stated = up
     normal, weight = patches.normal, patches.weight
@@ -50,7 +70,7 @@ def refined(patches: Patches, up: Array, sigma: float) -> tuple[Array, float]:
         along = normal @ up
         level, plumb = np.abs(along) > math.cos(near), np.abs(along) < math.sin(near)
         if level.sum() + plumb.sum() < FEWEST_PATCHES:
-            return stated, sigma
+            return Upward(stated, sigma, stated, (sigma**2 + OUT_OF_TRUE**2) * np.eye(3))
         scatter = (normal * (weight * (plumb * 1.0 - level))[:, None]).T @ normal
         up = np.linalg.eigh(scatter)[1][:, 0]
         up = up * np.sign(up @ stated)
@@ -60,34 +80,36 @@ def refined(patches: Patches, up: Array, sigma: float) -> tuple[Array, float]:
         # patches over the edge of a step lean all the same way: only the core counts
         near = min(max(3.0 * float(np.median(off)), NARROWEST), 0.7 * near)
     scatter_of = float(np.sqrt(np.mean(off**2)) / math.sqrt(max(len(off) / 8.0, 1.0)))
-    up, found = _by_planes(patches, up, math.hypot(scatter_of, EDGES))
-    found = math.hypot(found, OUT_OF_TRUE)
+    up, against = _by_planes(patches, up, math.hypot(scatter_of, EDGES), eye, local)
+    across = np.eye(3) - np.outer(up, up)
+    doubt = float(np.linalg.eigvalsh(across @ against @ across)[-1])
+    found = math.sqrt(doubt + OUT_OF_TRUE**2)
     if math.acos(min(1.0, float(up @ stated))) > 3 * math.hypot(sigma, found):
-        return up, found  # what was stated contradicts what was built
+        return Upward(up, found, up, against)  # what was stated contradicts what was built
     share = found**2 / (found**2 + sigma**2)
     mixed = up + share * (stated - up)
-    return mixed / np.linalg.norm(mixed), math.sqrt(share) * sigma
+    return Upward(mixed / np.linalg.norm(mixed), math.sqrt(share) * sigma, up, against)
 
 
-def _by_planes(patches: Patches, up: Array, sigma: float) -> tuple[Array, float]:
-    """Direction up and its doubt, with what large planes say of it (weighted least squares)."""
+def _by_planes(
+    patches: Patches, up: Array, sigma: float, eye: Array | None, local: float
+) -> tuple[Array, Array]:
+    """Direction up and its covariance, with what large planes say (weighted least squares)."""
     weights, pulled = np.eye(3) / sigma**2, np.zeros(3)
-    planes = leans(patches, up, math.radians(NEAR))
+    planes = leans(patches, up, math.radians(NEAR), eye=eye, local=local)
     for lean in planes:
         weight = 1.0 / (lean.sigma**2 + BEST**2)
         weights += weight * np.outer(lean.along, lean.along)
         pulled += weight * lean.angle * lean.along
     covariance = np.linalg.inv(weights)
-    level = np.eye(3) - np.outer(up, up)
     moved = covariance @ pulled
-    doubt = float(np.linalg.eigvalsh(level @ covariance @ level)[-1])
     # where planes and patches contradict each other, the doubt grows by it (Birge 1932)
     chi2 = float(moved @ moved) / sigma**2 + sum(
         (lean.angle - float(moved @ lean.along)) ** 2 / (lean.sigma**2 + BEST**2) for lean in planes
     )
     found = up + moved
-    grown = math.sqrt(max(chi2 / max(len(planes), 1), 1.0))
-    return found / np.linalg.norm(found), math.sqrt(doubt) * grown
+    grown = max(chi2 / max(len(planes), 1), 1.0)
+    return found / np.linalg.norm(found), np.asarray(covariance * grown)
 
 
 def frame(up: Array, side: Array) -> Array:

@@ -17,13 +17,12 @@ LAYER, THINNEST = 0.06, 0.008
 """Thickness of the layer in which a plane is sought, and the distance up to which a patch is always
 on it [m]."""
 FEWEST = 12
-"""Patches of a plane; more of them say no more, because their errors are alike."""
+"""Patches of a plane, and directions over it in which the range errs each by itself."""
 LEAST = 0.15
 """Least spread of a plane's patches, root mean square, where it may tilt [m]:
 those of a tread and a riser are shorter."""
-SCATTER = 0.003
-"""Least scatter of patches about a plane [m]: ranges err by as much from one direction to the
-next."""
+AWAY = 1.2
+"""Distance of a plane from a sensor of which nobody says where it stood [m]."""
 ALIKE = math.radians(1.5)
 """Angle between a plane and its patches from which it is a chance [rad]."""
 SHARE = 0.15
@@ -45,7 +44,9 @@ class Lean:
     """Its standard uncertainty [rad]."""
 
 
-def leans(patches: Patches, up: Array, near: float) -> list[Lean]:
+def leans(
+    patches: Patches, up: Array, near: float, *, eye: Array | None, local: float
+) -> list[Lean]:
     """What large planes say of a direction up.
 
     Parameters
@@ -56,13 +57,19 @@ def leans(patches: Patches, up: Array, near: float) -> list[Lean]:
         Unit vector, true within a few degrees.
     near : float
         Angle within which a patch counts as level or plumb [rad].
+    eye : array, shape (3,), or None
+        The sensor [m]; None: not known.
+    local : float
+        Error of the range that differs from one direction to the next, as a share of it [1].
 
     Returns
     -------
     list of Lean
         Of a floor in two directions, of a wall in that of its normal; none of what is small.
     """
-    middle = patches.middle - patches.middle.mean(axis=0)
+    centre = patches.middle.mean(axis=0)
+    middle = patches.middle - centre
+    sensor = None if eye is None else eye - centre
     along_up = patches.normal @ up
     side = np.eye(3)[int(np.argmin(np.abs(up)))]
     first = np.cross(up, side) / np.linalg.norm(np.cross(up, side))
@@ -79,7 +86,7 @@ def leans(patches: Patches, up: Array, near: float) -> list[Lean]:
             spread, ways = np.linalg.eigh(plane.spread)
             for variance, way in zip(spread, ways.T, strict=True):
                 if variance > LEAST**2:
-                    sigma = plane.scatter / math.sqrt(variance * FEWEST)
+                    sigma = plane.doubt(up, sensor, local) / math.sqrt(variance)
                     found.append(Lean(way @ across, -float(way @ plane.slopes), sigma))
     left = np.flatnonzero(np.abs(along_up) < math.sin(near))
     least = SHARE * float(patches.weight[left].sum())
@@ -103,7 +110,7 @@ def leans(patches: Patches, up: Array, near: float) -> list[Lean]:
         left = np.setdiff1d(left, looks[plane.taken])
         spread = np.linalg.det(plane.spread) / max(plane.spread[0, 0], 1e-9)
         if plane.sound and plane.weight > least and spread > LEAST**2:
-            sigma = plane.scatter / math.sqrt(spread * FEWEST)
+            sigma = plane.doubt(ahead, sensor, local) / math.sqrt(spread)
             found.append(Lean(ahead, float(plane.slopes[1]), sigma))
     return found
 
@@ -116,12 +123,24 @@ class _Plane:
     """Rise of it along each of both directions, shape (2,)."""
     spread: Array
     """Covariance of the places of its patches, shape (2, 2) [m^2]."""
+    middle: Array
+    """Of its patches, shape (3,) [m]."""
     scatter: float
     """Of its patches [m]."""
+    count: int
+    """How many lie on it."""
     weight: float
     """Of the patches that lie on it."""
     sound: bool
     """Whether it is one: patches enough, which look where it looks."""
+
+    def doubt(self, normal: Array, eye: Array | None, local: float) -> float:
+        """Standard uncertainty of where its middle lies along the normal [m].
+
+        What the patches scatter averages out over all of them, the range over few directions.
+        """
+        away = AWAY if eye is None else abs(float((self.middle - eye) @ normal))
+        return math.hypot(self.scatter / math.sqrt(self.count), local * away / math.sqrt(FEWEST))
 
 
 def _plane(patches: Patches, rows: Indices, middle: Array, normal: Array, across: Array) -> _Plane:
@@ -143,7 +162,8 @@ def _plane(patches: Patches, rows: Indices, middle: Array, normal: Array, across
         on = off < (max(2.7 * scatter, THINNEST) if turn > 2 else LAYER)
     places = columns[on, 1:]
     if len(places) < FEWEST:
-        return _Plane(core | on, fit[1:], np.zeros((2, 2)), scatter, 0.0, False)
+        nowhere = np.zeros((2, 2)), np.zeros(3)
+        return _Plane(core | on, fit[1:], *nowhere, scatter, len(places), 0.0, False)
     spread = np.cov(places, rowvar=False, bias=True)
     own = normal - fit[1:] @ across
     looks = patches.normal[rows[on]]
@@ -151,4 +171,5 @@ def _plane(patches: Patches, rows: Indices, middle: Array, normal: Array, across
     alike = float(own @ looks / (np.linalg.norm(own) * np.linalg.norm(looks)))
     sound = alike > math.cos(ALIKE)
     own_weight = float(weight[on].sum())
-    return _Plane(core | on, fit[1:], spread, max(scatter, SCATTER), own_weight, sound)
+    centre = middle[rows[on]].mean(axis=0)
+    return _Plane(core | on, fit[1:], spread, centre, scatter, len(places), own_weight, sound)

@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.readers.flight import UNCHECKED, independent
+from kaidan.readers.flight import UNCHECKED
 from kaidan.readers.kinds import Array, Indices
+from kaidan.readers.stairfit.doubts import SMALLEST, across, common, place_of
 from kaidan.readers.stairfit.staircase_line import (
     Assigned,
     Edges,
@@ -32,14 +33,6 @@ LANES = (0.05, 0.2)
 """Widths of the lanes in which ends are sought, the second where the first holds too few [m]."""
 FEWEST_LANES = 3
 """Lanes in which an end must be seen."""
-LOCAL, ALIKE_WITHIN = 0.28, 0.16
-"""Share of the doubt of the range that differs from one direction to the next [1], and the angle
-over which its correlation falls to 1/e [rad]: what calibrating a sensor leaves is smooth."""
-FLOOR = 0.12
-"""Share of the doubt of the range by which the level of the floor is off [1]: less than in one
-direction, because it is a mean over them."""
-SMALLEST = 5e-4
-"""Standard uncertainty of a nosing at best [m]: edges are not sharper."""
 STRIP = 0.1
 """Width of the strips across a step in which it must be seen [m]."""
 SHORTEST_FLOOR = 0.08
@@ -76,6 +69,8 @@ class Steps:
     floor: float
     """Level of the floor, NaN: not seen [m]."""
     floor_sigma: float
+    with_floor: Array
+    """Covariance of s and z of the nosings with that level, shape (m, 2) [m^2]."""
     ends: bool
     """Whether the landing above was seen."""
     landing: float
@@ -99,7 +94,15 @@ class Steps:
 
 
 def steps_of(
-    line: StairLine, s: Array, t: Array, z: Array, *, noise: float, eye: Array, range_error: float
+    line: StairLine,
+    s: Array,
+    t: Array,
+    z: Array,
+    *,
+    noise: float,
+    eye: Array,
+    range_error: float,
+    level: float,
 ) -> Steps | None:
     """Single steps along a line, or None where fewer than three are left.
 
@@ -111,10 +114,12 @@ def steps_of(
         Points of the lane in the frame of the heading [m].
     noise : float
         Scatter of the points [m].
-    eye : array, shape (2,)
-        (s, z) of the sensor [m].
+    eye : array, shape (3,)
+        (s, t, z) of the sensor [m].
     range_error : float
         Doubt of measured distances as a share of them [1].
+    level : float
+        Standard uncertainty of up against what was built [rad].
     """
     tight = min(max(3.0 * noise, 0.008), 0.35 * line.rise)
     every = s, t, z
@@ -126,14 +131,14 @@ def steps_of(
     if line.last - line.first < 2:
         return None
     line = _without_odd(line, s, t, z, tight)
-    found, sigma = _alone(line, *every, noise, tight)
+    found, sigma, places = _alone(line, *every, noise, tight)
     seen = np.flatnonzero(np.isfinite(sigma).any(axis=1))
     if len(seen) < 3:
         return None
     if np.ptp(seen) + 1 < len(found):  # of a step at an end nothing was measured
         line = replace(line, first=line.first + int(seen[0]), last=line.first + int(seen[-1]))
         line = _without_odd(line, s, t, z, tight)
-        found, sigma = _alone(line, *every, noise, tight)
+        found, sigma, places = _alone(line, *every, noise, tight)
     at = assigned(line, s, t, z, tight)
     within = (at.step >= line.first) & (at.step <= line.last)
     off = at.off[(at.tread | at.riser) & within]
@@ -145,23 +150,29 @@ def steps_of(
         return None
     for axis in (0, 1):
         _fill(number, found[:, axis], sigma[:, axis], measured[:, axis])
-    floor, floor_sigma, run_up = _floor(line, found[0], s, t, z, noise, tight)
-    found, sigma, measured, landing = _last_riser(
-        found, sigma, measured, line, s, t, z, noise, tight
+    floor, floor_sigma, run_up, before = _floor(line, found[0], s, t, z, tight)
+    found, sigma, measured, places, landing = _last_riser(
+        found, sigma, measured, places, line, s, t, z, noise, tight
     )
     rms = float(np.sqrt(np.mean(np.minimum(np.abs(off), tight) ** 2)))
     on = at.tread | at.riser
     width = _width(at.step[on], t[on], line)
-    covariance = independent((sigma**2 + SMALLEST**2)[:, :, None] * np.eye(2))
-    covariance += LOCAL**2 * range_error**2 * smooth_field(found - eye, width[1] - width[0])
+    unseen = ~np.isfinite(places[:, :, 0, 0])
+    regular = np.column_stack([found[:, 0], np.full(len(found), sum(width) / 2), found[:, 1]])
+    places[:, :, 0][unseen] = np.repeat(regular, 2, axis=0).reshape(-1, 2, 3)[unseen]
+    places[:, :, 1][unseen] = [0.0, across(width[1] - width[0]), 0.0]
+    covariance = common(
+        found, np.vstack([places.reshape(-1, 2, 3), before[None]]),
+        eye=eye, range_error=range_error, level=level,
+    ) + np.diag(np.r_[sigma.ravel(), floor_sigma] ** 2 + SMALLEST**2)  # fmt: skip
     angles = nosing_angles(line, s, t, z, width, floor)
     if turn_of(angles)[0] == "curved":  # its first nosings lie elsewhere than those of a line
         angles = nosing_angles(whole, s, t, z, width, floor)
-    away = float(np.hypot(*(found[0] - eye)))
-    floor_sigma = math.hypot(floor_sigma, FLOOR * range_error * away)
+    m = len(found)
     return Steps(
-        line=line, at=found, covariance=covariance, measured=measured,
-        floor=floor, floor_sigma=floor_sigma,
+        line=line, at=found, covariance=covariance[:-1, :-1].reshape(m, 2, m, 2),
+        measured=measured, floor=floor, floor_sigma=math.sqrt(covariance[-1, -1]),
+        with_floor=covariance[:-1, -1].reshape(m, 2),
         ends=math.isfinite(landing), landing=landing, run_up=run_up,
         roughness=rms, residual=float(np.median(np.abs(off))),
         explained=explained_share(line, s, t, z, tight), depth=_depth(line, s, t, z),
@@ -172,12 +183,16 @@ def steps_of(
 
 def _alone(
     line: StairLine, s: Array, t: Array, z: Array, noise: float, tight: float
-) -> tuple[Array, Array]:
-    """(s, z) of the nosings, each measured alone, and their doubt; NaN: neither face nor end."""
+) -> tuple[Array, Array, Array]:
+    """(s, z) of the nosings, each measured alone, their doubt, and where its points lie.
+
+    NaN: neither face nor end; the places are those of `place_of`, shape (m, 2, 2, 3), NaN of ends.
+    """
     at = assigned(line, s, t, z, tight)
     number = np.arange(line.first, line.last + 1)
     regular = line.at(number)
     found, sigma = regular.copy(), np.full(regular.shape, np.nan)
+    places = np.full((len(number), 2, 2, 3), np.nan)
     inner = at.inner
     treads = _by_step(line, at.step, at.tread & inner)
     risers = _by_step(line, at.step, at.riser & inner)
@@ -185,6 +200,9 @@ def _alone(
         face = s[riser] - line.skew * t[riser]
         found[row, 0], sigma[row, 0] = _mean(face, len(tread))
         found[row, 1], sigma[row, 1] = _mean(z[tread], len(riser))
+        for axis, rows in enumerate((riser, tread)):
+            if np.isfinite(sigma[row, axis]):
+                places[row, axis] = place_of(s, t, z, rows)
     for axis, ends in ((0, fronts), (1, tops)):
         for wide in LANES:
             lacking = np.flatnonzero(np.isnan(sigma[:, axis]))
@@ -197,7 +215,7 @@ def _alone(
                 here = edges.step == number[row]
                 end = _end(at_0[here], edges.gap[here], noise, float(regular[row, axis]))
                 found[row, axis], sigma[row, axis] = end
-    return found, sigma
+    return found, sigma, places
 
 
 def _by_step(line: StairLine, step: Indices, on: NDArray[np.bool_]) -> list[Indices]:
@@ -207,36 +225,6 @@ def _by_step(line: StairLine, step: Indices, on: NDArray[np.bool_]) -> list[Indi
     order = np.argsort(number, kind="stable")
     count = np.bincount(number, minlength=line.last - line.first + 1)
     return np.split(rows[order], np.cumsum(count)[:-1])
-
-
-def smooth_field(away: Array, width: float) -> Array:
-    """Covariance of nosings under an error of the range of 1 that varies smoothly with direction.
-
-    The error is correlated by exp(-(angle / a)^2). A nosing is the mean over its width w: with the
-    weights of a normal distribution of the same spread, w / sqrt(12), the integral is
-
-        K_jk = R_j R_k d_j d_k^T exp(-|d_j - d_k|^2 / a^2)
-               / sqrt(1 + (w^2 / R_j^2 + w^2 / R_k^2) / (6 a^2)).
-
-    Parameters
-    ----------
-    away : array, shape (m, 2)
-        (s, z) of the nosings from the sensor [m].
-    width : float
-        Of the flight [m].
-
-    Returns
-    -------
-    array, shape (m, 2, m, 2)
-        [m^2]
-    """
-    ranges = np.maximum(np.hypot(*away.T), 1e-6)
-    ray = away / ranges[:, None]
-    apart = ((ray[:, None] - ray) ** 2).sum(axis=2)
-    wide = (width / ranges) ** 2
-    alike = np.exp(-apart / ALIKE_WITHIN**2)
-    alike /= np.sqrt(1.0 + (wide[:, None] + wide) / (6.0 * ALIKE_WITHIN**2))
-    return np.asarray(np.einsum("ji,jk,kl->jikl", away, alike, away))
 
 
 def _depth(line: StairLine, s: Array, t: Array, z: Array) -> float:
@@ -395,20 +383,24 @@ def _reach(ahead: Array) -> float:
 
 
 def _floor(
-    line: StairLine, first: Array, s: Array, t: Array, z: Array, noise: float, tight: float
-) -> tuple[float, float, float]:
-    """Level of the floor, its doubt, and how far it was seen; NaN where it was not."""
+    line: StairLine, first: Array, s: Array, t: Array, z: Array, tight: float
+) -> tuple[float, float, float, Array]:
+    """Level of the floor, its doubt, how far it was seen, and `place_of` it; NaN where it was not.
+
+    Where it was not its place is anywhere.
+    """
+    nowhere = math.nan, 0.0, math.nan, np.zeros((2, 3))
     ahead = s - line.skew * t - first[0]
     r = line.rise
     before = (ahead < -0.03) & (ahead > -1.5) & (z < first[1] - 0.25 * r) & (z > first[1] - 1.8 * r)
     level, sigma, count = _densest(z[before], max(tight, 0.01))
     if count < FLOOR_SEEN:
-        return math.nan, 0.0, math.nan
+        return nowhere
     on = before & (np.abs(z - level) < tight)
     reach = _reach(-ahead[on])
     if reach < SHORTEST_FLOOR:
-        return math.nan, 0.0, math.nan
-    return level, math.hypot(sigma, SMALLEST), reach
+        return nowhere
+    return level, sigma, reach, place_of(s, t, z, np.flatnonzero(on))
 
 
 def _narrow(t: Array, on: NDArray[np.bool_]) -> bool:
@@ -419,9 +411,9 @@ def _narrow(t: Array, on: NDArray[np.bool_]) -> bool:
 
 
 def _last_riser(
-    found: Array, sigma: Array, measured: NDArray[np.bool_], line: StairLine, s: Array, t: Array,
-    z: Array, noise: float, tight: float,
-) -> tuple[Array, Array, NDArray[np.bool_], float]:  # fmt: skip
+    found: Array, sigma: Array, measured: NDArray[np.bool_], places: Array, line: StairLine,
+    s: Array, t: Array, z: Array, noise: float, tight: float,
+) -> tuple[Array, Array, NDArray[np.bool_], Array, float]:  # fmt: skip
     """Nosings with that of the landing, whose riser may be another one, and the landing's length.
 
     The length is NaN where no landing was seen.
@@ -435,30 +427,35 @@ def _last_riser(
     if count >= FLOOR_SEEN and _reach(s[on] - last[0]) > g + 0.1 and (alone or not _narrow(t, on)):
         if not alone:
             found[-1, 1], sigma[-1, 1], measured[-1, 1] = height, doubt, True
-        return found, sigma, measured, _reach(s[on] - last[0])
+            places[-1, 1] = place_of(s, t, z, np.flatnonzero(on))
+        return found, sigma, measured, places, _reach(s[on] - last[0])
     above = (s > last[0] + g + 0.03) & (s < last[0] + g + 1.2)
     above &= (z > last[1] + 0.2 * r) & (z < last[1] + 1.7 * r)
     height, doubt, count = _densest(z[above], max(tight, 0.01))
     if count < FLOOR_SEEN:
-        return found, sigma, measured, math.nan
+        return found, sigma, measured, places, math.nan
     on = above & (np.abs(z - height) < tight)
     reach = _reach(s[on] - last[0] - g)
     narrow = _narrow(t, on)
     high = height > last[1] + HIGHEST_LAST * r
     if reach < 0.1 + 0.5 * g or count < 0.5 * above.sum() or narrow or high:
-        return found, sigma, measured, math.nan
+        return found, sigma, measured, places, math.nan
     face = (np.abs(s - last[0] - g) < max(2 * tight, 0.04)) & (z > last[1] + 0.1 * r)
     face &= z < height - 0.1 * r
+    here = np.full((2, 2, 3), np.nan)
+    here[1] = place_of(s, t, z, np.flatnonzero(on))
     if face.sum() >= FEWEST_POINTS:
         front, doubt_s = float(np.median(s[face])), noise / math.sqrt(face.sum())
+        here[0] = place_of(s, t, z, np.flatnonzero(face))
     elif abs(height - last[1] - r) < ODD_UNSEEN * r:
         front, doubt_s = last[0] + g, UNCHECKED
     else:
-        return found, sigma, measured, math.nan
+        return found, sigma, measured, places, math.nan
     return (
         np.vstack([found, [front, height]]),
         np.vstack([sigma, [doubt_s, doubt]]),
         np.vstack([measured, [True, True]]),
+        np.concatenate([places, here[None]]),
         reach,
     )
 
