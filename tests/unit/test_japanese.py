@@ -111,6 +111,9 @@ def test_appendices_are_said(found, turns):
     words = re.compile(r"[a-z]{3}")
     assert missing(text for text in said if words.search(text)) == {}
     turned = in_japanese(document(found))
+    heads = [each.text for each in turned.parts if isinstance(each, of.Heading)]
+    assert any(each.startswith("付録:") for each in heads)
+    assert not any(re.search(r"[a-z]{4}", each.partition(":")[0]) for each in heads)
     assert [each for each in turned.parts if isinstance(each, of.Lines)] == stays != []
 
 

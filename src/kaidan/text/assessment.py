@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 from kaidan.modes import FAILURE_MODES, SLIDES_DOWN, SLIDES_UP, TURNING, Verdict
 from kaidan.text import dynamic, limits, measuring, plan, traction, turning
+from kaidan.text.tables import decimals
 from kaidan.text.unweighed import rows, thresholds
 from kaidan.text.words import place, subject
 
@@ -232,9 +233,7 @@ def _finding(one: "FindingShown") -> str:
     where += "" if one.step is None else f" step {one.step}"
     if one.margin is None:
         return f"{'holds' if one.holds else 'fails'} ({one.label}{where})"
-    digits = 1 if one.unit in ("deg", "m/s") else 2
-    while digits < 4 and 0 < abs(one.margin) < 0.5 * 10**-digits:  # which side of 0 it is on
-        digits += 1
+    digits = decimals(one.margin, 1 if one.unit in ("deg", "m/s") else 2)
     value = f"{one.margin:+.{digits}f} {one.unit}"
     if one.margin_best is not None and abs(one.margin_best - one.margin) > 0.5 * 10**-digits:
         value += f", at best {one.margin_best:+.{digits}f}"

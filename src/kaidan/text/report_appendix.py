@@ -111,7 +111,7 @@ def _inputs(mission: "Mission") -> Table:
             (row.of, row.field, row.symbol, row.value, row.doubt, row.source)
             for row in mission.inputs
         ),
-        (8, 20, 9, 17, 9, 37),
+        (11, 20, 7, 17, 11, 34),
     )
 
 

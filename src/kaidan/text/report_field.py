@@ -13,7 +13,7 @@ from kaidan.text.assessment import (
     unknown_line,
 )
 from kaidan.text.document import Block, Facts, Heading, Paragraph, Picture, Points, Table, Verdict
-from kaidan.text.tables import fixed
+from kaidan.text.tables import decimals, fixed
 from kaidan.text.words import place
 
 if TYPE_CHECKING:
@@ -113,7 +113,9 @@ def watch(mission: "Mission") -> list[str]:
     ]
     for one in sorted(fails, key=lambda one: one.holds_best is not False):  # the certain ones first
         where = place(one.phase, one.step)
-        margin = "" if one.margin is None else f": {fixed(one.margin, 1, '+')} {one.unit}"
+        margin = ""
+        if one.margin is not None:
+            margin = f": {fixed(one.margin, decimals(one.margin, 1), '+')} {one.unit}"
         sure = "Certain" if one.holds_best is False else "Possible"
         said.append(f"{sure}: {one.label}{where}{margin}.")
     if answer.friction is None:

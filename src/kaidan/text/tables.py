@@ -45,6 +45,19 @@ def fixed(value: float | None, digits: int = 1, sign: str = "") -> str:
     return "-" if value is None else f"{round(value, digits) + 0.0:{sign}.{digits}f}"
 
 
+def decimals(value: float, digits: int) -> int:
+    """So many decimals that a number other than 0 does not look like it; 4 at most.
+
+    Examples
+    --------
+    >>> decimals(-0.02, 1), decimals(2.25, 1), decimals(0.0, 1)
+    (2, 1, 1)
+    """
+    while digits < 4 and 0 < abs(value) < 0.5 * 10**-digits:
+        digits += 1
+    return digits
+
+
 def _number(value: float) -> str:
     return f"{value:.5g}" if abs(value) < 1e5 else f"{value:.0f}"
 
