@@ -175,6 +175,8 @@ class _Tilted:
         """
         path = self.path
         onto = rocking[self._carried(rocking, 0)[0] > 0.0]
+        if len(onto) == 0:
+            return Rock(math.inf, -1)
         counts, beside = np.zeros((2, len(path.poses) + 1), dtype=np.bool_)
         counts[rows] = True
         beside[onto], beside[np.maximum(onto - 1, 0)] = True, True
