@@ -48,8 +48,9 @@ def test_none_are_none_and_contacts_at_one_place_are_not_known():
 
 
 def test_a_draw_of_contacts_at_one_place_leaves_the_others():
-    place = np.array([0.1, -1.0, 0.1])
+    place = np.array([0.1, -1.0, -1.0])
     found = cone_margins([place, -0.1, 0.0, 0.7, [0.1, 1.0, 0.5], -0.1, 0.0, 0.7, 0.0, 9.8])
+    np.testing.assert_allclose(found[1:], 0.7, atol=1e-5)
     assert np.isnan(found).tolist() == [True, False, False]
 
 
