@@ -97,12 +97,20 @@ function ways(found) {
 }
 
 // Flights in the plan, with their numbers: the nosings and the lane, as the answer has them.
+// How far beyond the flights the plan shows floors, and the edge around it [m].
+const BEYOND = 5, EDGE = 0.5;
+
 function plan(found) {
   const points = found.flights.flatMap((flight) => flight.lane);
   if (points.length === 0) return null;
-  const [xs, ys] = [points.map((each) => each[0]), points.map((each) => each[1])];
-  const [left, low] = [Math.min(...xs) - 1, Math.min(...ys) - 1];
-  const [wide, tall] = [Math.max(...xs) + 1 - left, Math.max(...ys) + 1 - low];
+  const floors = found.floors.flatMap((floor) => floor.outlines).flat();
+  const [[left, right], [low, high]] = [0, 1].map((axis) => {
+    const [flights, all] = [points, [...points, ...floors]].map((each) => each.map((point) => point[axis]));
+    const most = (values) => values.reduce((one, other) => Math.max(one, other));
+    const least = (values) => values.reduce((one, other) => Math.min(one, other));
+    return [Math.max(least(all), least(flights) - BEYOND) - EDGE, Math.min(most(all), most(flights) + BEYOND) + EDGE];
+  });
+  const [wide, tall] = [right - left, high - low];
   const k = 1000;
   const at = ([x, y]) => [(x - left) * k, (low + tall - y) * k];
   const outlines = found.floors.flatMap((floor) => floor.outlines).map((each) => s("path", { class: "floor", d: `${line(each.map(at))}Z` }));
