@@ -146,6 +146,16 @@ def test_the_page_for_the_field_says_how_to_turn_on_a_landing():
     ) in page_of(mission)
 
 
+def test_a_robot_that_nobody_weighed_has_a_report_without_a_traverse():
+    """There is a range of centroids, hence no one traverse."""
+    (mission,) = kaidan.report("talon", "ada", friction=0.8).missions
+    assert mission.traverse is None
+    page = page_of(mission)
+    assert mission.assessment.reason.startswith("Until weighed")
+    assert mission.assessment.reason in page
+    assert "The traverse" not in page
+
+
 def test_the_same_report_is_the_same_file_also_once_read_back():
     found = kaidan.report("kenaf", "ibc", friction=0.8)
     again = Report.from_json(found.to_json())

@@ -96,7 +96,8 @@ def mission(question: Question) -> Mission:
 
 def _traverse(question: Question, assessment: Assessment) -> TraverseReport | None:
     """Traverse that the assessment stands on; None where it stands on none."""
-    if question.model != CONTACT.name or question.yaw or assessment.contact is None:
+    weighed = question.robot.com_range is None  # else there is no one traverse
+    if not weighed or question.model != CONTACT.name or question.yaw or assessment.contact is None:
         return None
     planned, search = found_plan(question)
     return traverse_report(planned, driven(planned), search=search)
