@@ -11,13 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.readers.kinds import Array, Indices
+from kaidan.readers.stairfit.doubts import ALIKE_WITHIN
 from kaidan.readers.stairfit.patches import Patches, directions
 
 LAYER, THINNEST = 0.06, 0.008
 """Thickness of the layer in which a plane is sought, and the distance up to which a patch is always
 on it [m]."""
-FEWEST = 12
-"""Patches of a plane, and directions over it in which the range errs each by itself."""
+FEWEST, AVERAGED = 12, 20
+"""Patches of a plane, and those over which their scatter averages out: more of them say no more."""
 LEAST = 0.15
 """Least spread of a plane's patches, root mean square, where it may tilt [m]:
 those of a tread and a riser are shorter."""
@@ -86,7 +87,7 @@ def leans(
             spread, ways = np.linalg.eigh(plane.spread)
             for variance, way in zip(spread, ways.T, strict=True):
                 if variance > LEAST**2:
-                    sigma = plane.doubt(up, sensor, local) / math.sqrt(variance)
+                    sigma = plane.doubt(float(variance), way @ across, up, sensor, local)
                     found.append(Lean(way @ across, -float(way @ plane.slopes), sigma))
     left = np.flatnonzero(np.abs(along_up) < math.sin(near))
     least = SHARE * float(patches.weight[left].sum())
@@ -110,7 +111,7 @@ def leans(
         left = np.setdiff1d(left, looks[plane.taken])
         spread = np.linalg.det(plane.spread) / max(plane.spread[0, 0], 1e-9)
         if plane.sound and plane.weight > least and spread > LEAST**2:
-            sigma = plane.doubt(ahead, sensor, local) / math.sqrt(spread)
+            sigma = plane.doubt(float(spread), up, ahead, sensor, local)
             found.append(Lean(ahead, float(plane.slopes[1]), sigma))
     return found
 
@@ -134,13 +135,22 @@ class _Plane:
     sound: bool
     """Whether it is one: patches enough, which look where it looks."""
 
-    def doubt(self, normal: Array, eye: Array | None, local: float) -> float:
-        """Standard uncertainty of where its middle lies along the normal [m].
+    def doubt(
+        self, variance: float, way: Array, normal: Array, eye: Array | None, local: float
+    ) -> float:
+        """Standard uncertainty of its slope along a direction, in which it has a variance [rad].
 
-        What the patches scatter averages out over all of them, the range over few directions.
+        What the patches scatter averages out. The range errs by a smooth function of the direction,
+        which has the length L on the plane. With normal weights of the variance e^2 a slope fitted
+        to it has the variance (k - k^3) / (2 e^2), where k = 1 / sqrt(1 + 4 e^2 / L^2).
         """
-        away = AWAY if eye is None else abs(float((self.middle - eye) @ normal))
-        return math.hypot(self.scatter / math.sqrt(self.count), local * away / math.sqrt(FEWEST))
+        ray = AWAY * normal if eye is None else self.middle - eye
+        distance = max(float(np.linalg.norm(ray)), 1e-6)
+        sideways = math.sqrt(max(1.0 - float(ray @ way / distance) ** 2, 1e-6))
+        length = ALIKE_WITHIN * distance / sideways
+        k = 1.0 / math.sqrt(1.0 + 4.0 * variance / length**2)
+        smooth = (local * float(ray @ normal)) ** 2 * (k - k**3) / 2.0
+        return math.sqrt((self.scatter**2 / min(self.count, AVERAGED) + smooth) / variance)
 
 
 def _plane(patches: Patches, rows: Indices, middle: Array, normal: Array, across: Array) -> _Plane:
