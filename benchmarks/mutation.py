@@ -52,14 +52,15 @@ def live(path: Path) -> dict[str, list[FunctionType]]:
     gc.unfreeze()  # what the tests have set aside
     held: dict[str, list[FunctionType]] = {}
     for each in gc.get_objects():
-        if isinstance(each, FunctionType) and each.__code__.co_filename == str(path):
+        if type(each) is FunctionType and each.__code__.co_filename == str(path):
             held.setdefault(each.__code__.co_qualname, []).append(each)
     return held
 
 
 def caches() -> list[_lru_cache_wrapper]:
     """Functions that remember their answers, but for those that are frozen."""
-    return [each for each in gc.get_objects() if isinstance(each, _lru_cache_wrapper)]
+    # isinstance would look through a weak proxy, whose object may be gone
+    return [each for each in gc.get_objects() if type(each) is _lru_cache_wrapper]
 
 
 def all_caches() -> list[_lru_cache_wrapper]:
