@@ -54,6 +54,22 @@ def test_frictions_and_radii_refuse_to_the_letter():
     assert Stairs(rise=0.17, going=0.28, nosing_radius_low=0.04).nosing_radii == (0.04, 0.04)
 
 
+def test_at_faces_rigid_grousers_hold_as_smooth_belts_on_less_friction():
+    """Where no grouser stands, of ends alike: mu / (1 + h / R)^2 there, whatever the heights."""
+    same = robot(front_radius=0.1, rear_radius=0.1)
+    grip = traverse_of(Question.in_one_posture(same, FLIGHT)).grip
+    phi, height = np.arctan([0.6, 0.7, 0.8]), 0.02
+    faces = np.arctan(np.tan(phi[[0, 2]]) / (1.0 + height / 0.1) ** 2)
+    smooth, found = (grip.by_friction((phi[0],) * 3, each) for each in (0.0, height))
+    at_faces = found < smooth - 1e-3
+    assert 0 < at_faces.sum() < len(found)
+    less = grip.by_friction((phi[0], phi[0], faces[0]))
+    assert found[at_faces] == pytest.approx(less[at_faces], abs=1e-12)
+    assert (found <= smooth + 1e-6).all()
+    unlike = grip.by_friction(tuple(phi), height)
+    assert unlike == pytest.approx(grip.by_friction((phi[0], phi[1], faces[1])), abs=1e-12)
+
+
 def test_a_smooth_belt_is_judged_by_friction_alone():
     stated, silent = asked(belt="smooth"), asked()
     assert stated.findings == silent.findings

@@ -56,12 +56,13 @@ class Holding:
     def __init__(self, alone=ALONE):
         self.alone, self.asked = alone, []
 
-    def by_friction(self, phi):
+    def by_friction(self, phi, height=0.0):
         self.asked.append(tuple(math.tan(each) for each in phi))
-        return self.alone
+        return self.alone + (0.01 if height else 0.0)
 
     def with_grousers(self, phi, each, alone):
-        assert alone is self.alone
+        smooth = alone - (0.01 if each.rigid else 0.0)  # as high as they are rigid
+        assert smooth.tolist() == pytest.approx(self.alone.tolist(), nan_ok=True)
         return HELD[each.spacing]
 
     at_once = with_grousers
@@ -85,7 +86,7 @@ def driven(grip=None, tractions=(0.5, 1.5)):
 @pytest.fixture(autouse=True)
 def grousers(monkeypatch):
     """Two cases of grousers; the fifth pose is in the midst of an exchange of contacts."""
-    cases = tuple(SimpleNamespace(spacing=each) for each in HELD)
+    cases = tuple(SimpleNamespace(spacing=each, height=0.02, rigid=each < 0.05) for each in HELD)
     monkeypatch.setattr(module, "grousers_of", lambda question, track, *, best: cases)
     monkeypatch.setattr(module, "lasting", lambda path: np.arange(6) != 4)
 
@@ -94,13 +95,14 @@ def test_grousers_hold_in_the_worst_of_cases_after_a_slip():
     """Least 0 at the fourth pose. It slips where friction does not hold, but grousers do."""
     grip = Holding()
     found = supply(asked(), driven(grip), track())
-    assert grip.asked == [pytest.approx((0.5, 0.7, 0.6)), (0.06, pytest.approx(0.8 * 0.5))]
+    each = pytest.approx((0.5, 0.7, 0.6))  # of rigid ones, and of soft ones as of a smooth belt
+    assert grip.asked == [each, each, (0.06, pytest.approx(0.8 * 0.5))]
     assert found == Supply(0.0, pytest.approx(0.5), Phase.TRAVERSE, 3, 0.06, {Phase.TRAVERSE: 2e-3})
     smooth = supply(asked(), driven(), track(grousers=False))
     assert smooth[:4] == (-0.2, pytest.approx(math.tan(math.atan(0.5) + 0.2)), Phase.TRAVERSE, 3)
     assert smooth[4:] == (0.0, {})
     best = supply(asked(), driven(grip), track(), best=True)
-    assert grip.asked[2] == pytest.approx((0.8, 1.0, 0.9))
+    assert grip.asked[3] == pytest.approx((0.8, 1.0, 0.9))
     assert best.required == pytest.approx(0.8)
 
 
@@ -116,7 +118,7 @@ def test_of_a_phase_alone():
 def test_friction_that_nobody_stated_is_none():
     grip = Holding()
     found = supply(asked(stated=False), driven(grip), track())
-    assert grip.asked == [(0.0, 0.0, 0.0), (0.06, 0.0)]
+    assert grip.asked == [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.06, 0.0)]
     assert (found.margin, found.required) == (0.0, 0.0)
 
 
@@ -155,9 +157,9 @@ def test_while_it_stands(direction, monkeypatch):
     """It stands on those that hold at once, the worst of cases and poses; NaN is not known."""
 
     class Grip(Holding):
-        def by_friction(self, phi):
+        def by_friction(self, phi, height=0.0):
             self.alone = np.where(ALONE == -0.4, np.nan, ALONE + phi[0])
-            return self.alone
+            return super().by_friction(phi, height)
 
     def made(path, *, descending, acceleration):
         assert (path, descending, acceleration) == ("its path", direction == "down", 0.0)

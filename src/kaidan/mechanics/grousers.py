@@ -270,6 +270,40 @@ def phases_friction(*, theta: Number, q: Number) -> Number:
     return np.maximum(standing_friction(theta=theta, beta=0.0, share=q), bounded)
 
 
+def face_friction(*, mu: Number, h: Number, curvature: Number) -> Number:
+    """Friction that grousers on a round end have left at a riser's face.
+
+    ``mu / (1 + h k)^2``: they come round the end apart from one another, push it off the face, and
+    their tips run so much faster than the belt. A rule for trials, not derived.
+
+    Assumptions: rigid grousers, 1 to 10 mm high round an end of 29 mm in the trials.
+
+    Parameters
+    ----------
+    mu : float or array
+        Friction of a smooth belt at the face [1].
+    h : float or array
+        Height of the grouser above the belt, under load [m]; zero is a smooth belt.
+    curvature : float or array
+        Of the belt there [1/m]: one over the radius of the end.
+
+    Returns
+    -------
+    float or array
+        [1]
+
+    Examples
+    --------
+    >>> print(round(face_friction(mu=0.6, h=0.010, curvature=1 / 0.029), 3))
+    0.332
+
+    References
+    ----------
+    Fitted: docs/theory/grousers.md.
+    """
+    return mu / (1.0 + h * curvature) ** 2
+
+
 def slip_height(*, psi: Number, s: Number, mu_k: Number, mu_required: Number) -> Number:
     """Kinetic-energy height of a robot that has slipped back by a spacing of its grousers.
 

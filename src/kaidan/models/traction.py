@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.grousers import standing_run
@@ -87,8 +88,11 @@ def _standing(question: Question, grip: Grip, *, best: bool) -> float:
     nosings, treads, faces = question.surface.of_parts(best=best)
     phi = math.atan(nosings), math.atan(treads), math.atan(faces)
     cases = grousers_of(question, track, best=best) if _bears(question, track) else ()
-    alone = grip.by_friction(phi)
-    each = [grip.at_once(phi, one, alone) for one in cases] or [alone]
+    each = [
+        grip.at_once(phi, one, alone)
+        for one, alone in zip(cases, _by_friction(grip, phi, cases), strict=True)
+    ]
+    each = each or [grip.by_friction(phi)]
     return float(np.fmin.reduce(np.concatenate(each)))
 
 
@@ -159,10 +163,14 @@ def supply(
     surface, grip = question.surface, found.grip
     frictions = (0.0,) * 3 if surface is None else surface.of_parts(best=best)
     phi = math.atan(frictions[0]), math.atan(frictions[1]), math.atan(frictions[2])
-    alone = held = grip.by_friction(phi)
     if _bears(question, track, found):
         cases = grousers_of(question, track, best=best)
-        held = np.minimum.reduce([grip.with_grousers(phi, each, alone) for each in cases])
+        by_friction = _by_friction(grip, phi, cases)
+        pairs = zip(cases, by_friction, strict=True)
+        held = np.minimum.reduce([grip.with_grousers(phi, one, own) for one, own in pairs])
+        alone = np.minimum.reduce(by_friction)
+    else:
+        alone = held = grip.by_friction(phi)
     rows = lasting(found.path) & ~found.comes_off
     if phase is not None:
         rows &= found.phase_of_pose == phase.value
@@ -188,6 +196,18 @@ def supply(
         slip=slip,
         heights=heights,
     )
+
+
+def _by_friction(
+    grip: Grip, phi: tuple[float, float, float], cases: tuple[Grousers, ...]
+) -> list[NDArray[np.float64]]:
+    """What each case of grousers holds where none of them stands."""
+    known: dict[float, NDArray[np.float64]] = {}
+    heights = [each.height if each.rigid else 0.0 for each in cases]
+    for height in heights:
+        if height not in known:
+            known[height] = grip.by_friction(phi, height)
+    return [known[height] for height in heights]
 
 
 def grousers_of(question: Question, track: Track, *, best: bool) -> tuple[Grousers, ...]:

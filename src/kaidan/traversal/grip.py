@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from kaidan import contact
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.grousers import (
+    face_friction,
     phases_friction,
     roll_off_length,
     roll_off_sine,
@@ -32,7 +33,7 @@ from kaidan.mechanics.grousers import (
     tip_tilt,
 )
 from kaidan.mechanics.grousers_at_edges import edge_tilt, reach_over_edge, tip_overlap
-from kaidan.traversal.pose_contacts import NOSING, NOWHERE, TREAD, PoseContacts, contacts_of
+from kaidan.traversal.pose_contacts import FACE, NOSING, NOWHERE, TREAD, PoseContacts, contacts_of
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
@@ -90,21 +91,28 @@ class Grip:
         self._required = self.coulomb[first]
         self._known: dict[Grousers, Array] = {}
 
-    def by_friction(self, phi: tuple[float, float, float]) -> Array:
-        """Angle by which the cones of smooth belts may shrink [rad].
+    def by_friction(self, phi: tuple[float, float, float], height: float = 0.0) -> Array:
+        """Angle by which the cones of belts may shrink without a grouser that stands [rad].
 
         Parameters
         ----------
         phi : tuple of float
             Angles of friction of nosings, treads and riser faces [rad].
+        height : float
+            Of rigid grousers, which on an end's arc hold less at a face than a smooth belt [m].
         """
-        if phi[0] == phi[1] == phi[2]:
+        at, alike = self._unlike, phi[0] == phi[1] == phi[2]
+        if alike and height <= 0.0:
             return np.asarray(phi[0] - self.coulomb)
-        found = np.full(len(self._required), -np.inf)
-        rows, i, j = self._pairs
-        one, other = self._belt(rows, i, phi), self._belt(rows, j, phi)
-        np.maximum.at(found, rows, self._margin(rows, i, j, one, other))
-        return found[self._like]
+        found, judged = np.full(len(self._required), np.inf), np.ones(len(self._required), np.bool_)
+        if alike:
+            found = phi[0] - self._required
+            judged = ((at.place == FACE) & at.is_one).any(axis=1)
+        rows, i, j = (each[judged[self._pairs[0]]] for each in self._pairs)
+        of_pairs = np.where(judged, -np.inf, np.inf)
+        one, other = (self._belt(rows, k, phi, height) for k in (i, j))
+        np.maximum.at(of_pairs, rows, self._margin(rows, i, j, one, other))
+        return np.asarray(np.minimum(found, of_pairs)[self._like])
 
     def with_grousers(
         self, phi: tuple[float, float, float], grousers: Grousers, by_friction: Array
@@ -173,9 +181,14 @@ class Grip:
         rows, pair = np.nonzero(both & carries)
         return rows, i[pair], j[pair]
 
-    def _belt(self, rows: Whole, k: Whole, phi: tuple[float, float, float]) -> tuple[Array, Array]:
+    def _belt(
+        self, rows: Whole, k: Whole, phi: tuple[float, float, float], height: float = 0.0
+    ) -> tuple[Array, Array]:
         """Axis and half angle of the cone under the belt."""
-        return self._unlike.normal[rows, k], np.array(phi)[self._unlike.place[rows, k]]
+        at = self._unlike
+        place, half = at.place[rows, k], np.array(phi)[at.place[rows, k]]
+        at_face = face_friction(mu=np.tan(half), h=height, curvature=at.curvature[rows, k])
+        return at.normal[rows, k], np.where(place == FACE, np.arctan(at_face), half)
 
     def _margin(
         self, rows: Whole, i: Whole, j: Whole, one: tuple[Array, Array],

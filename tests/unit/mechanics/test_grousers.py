@@ -4,6 +4,7 @@ from scipy.optimize import brentq, linprog
 
 from kaidan.mechanics.cones import cone_margin
 from kaidan.mechanics.grousers import (
+    face_friction,
     phases_friction,
     roll_off_length,
     roll_off_sine,
@@ -154,3 +155,10 @@ def test_cones_by_a_linear_programme():
         if found + 1e-4 < min(p_1, p_2):
             assert not held(case, found + 1e-4)
     assert decided > 20
+
+
+def test_at_a_face_grousers_round_a_small_end_hold_less():
+    """Twice as far out as the belt, a quarter; nothing of it on the flat, or without any."""
+    assert face_friction(mu=0.8, h=0.03, curvature=1 / 0.03) == pytest.approx(0.2)
+    assert face_friction(mu=0.8, h=0.0, curvature=1 / 0.03) == 0.8
+    assert face_friction(mu=0.8, h=0.03, curvature=0.0) == 0.8
