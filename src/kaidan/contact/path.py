@@ -188,7 +188,7 @@ class Path:
             raise ValueError("traverse: tilts need with_margins=True")
         chosen = np.atleast_1d(np.asarray(rows, dtype=np.int64))
         found = np.empty((len(chosen), TILT_COLUMNS))
-        each = np.broadcast_to(np.asarray(tolerance, dtype=np.float64), len(chosen)).copy()
+        each = np.full(len(chosen), tolerance, dtype=np.float64)
         kernel().flow_tilts(
             self.ground.table, self.body.table, self.poses.table, self.margins.table, chosen,
             side, each, found,
