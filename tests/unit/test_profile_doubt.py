@@ -37,6 +37,18 @@ def test_doubt_of_steps_adds_up_from_nosing_to_nosing():
     np.testing.assert_array_equal(same.covariance, found)
 
 
+def test_the_last_rise_may_be_known_worse_than_the_others():
+    """By hand: 3 mm of each, 5 mm of the last one, which moves the last nosing alone."""
+    known, worse = (
+        Profile.of_stairs(doubted(rise=3e-3, last_rise=last)).covariance for last in (0.0, 5e-3)
+    )
+    assert worse[5, 5] == pytest.approx(9e-6 + 9e-6 + 25e-6)
+    np.testing.assert_array_equal(worse[:5, :5], known[:5, :5])
+    alone = Profile.of_stairs(doubted(last_rise=5e-3)).covariance
+    assert np.sqrt(np.diag(alone)) == pytest.approx([0, 0, 0, 0, 0, 5e-3])
+    np.testing.assert_array_equal(known, Profile.of_stairs(doubted(rise=3e-3)).covariance)
+
+
 def test_doubt_of_nosings_apart():
     found = Profile.of_points(POINTS, sigma=(1e-3, 2e-3))
     np.testing.assert_allclose(found.covariance, np.diag([1e-6, 4e-6] * 3))

@@ -38,6 +38,9 @@ EXACT = 1e-4
 """Standard uncertainty below which a nosing counts as exact [m]: files round to it."""
 ALIKE = 0.01
 """Probability of a chi squared as large as this one, from which steps count as all alike [1]."""
+ODD = 1.96
+"""Standard uncertainties from which the last rise of a flight counts as another one: of those that
+are like the others 5 % measure so."""
 CERTAIN = 3.0
 """Standard uncertainties from which something stands out of its doubt."""
 _LEVEL = math.tan(math.radians(0.2))
@@ -202,6 +205,24 @@ class FlightEstimate:
         corr = float(found[2, 3]) / (s_going * s_rise)
         return RegularFlight(rise, going, s_rise, s_going, corr, chi2, freedom)
 
+    @cached_property
+    def odd_last(self) -> tuple[float, float] | None:
+        """Last rise and its standard uncertainty [m], where it is not like the others.
+
+        The others are taken as regular, so that a rise of which only the end of the face was seen
+        is known to the doubt of that end, not of two.
+        """
+        m = len(self)
+        if m < 3 or self.is_exact:
+            return None
+        number = np.arange(m, dtype=np.float64)
+        design = np.kron(np.column_stack([np.ones(m), number]), np.eye(2))
+        design = np.column_stack([design, np.eye(2 * m)[-1]])
+        found = np.linalg.inv(design.T @ self.weights @ design)
+        fit = found @ design.T @ self.weights @ self.line().ravel()
+        off, sigma = float(fit[4]), math.sqrt(found[4, 4])
+        return (float(fit[3]) + off, sigma) if abs(off) > ODD * sigma else None
+
     @property
     def weights(self) -> Array:
         """Inverse of the covariance in the order of `full_covariance`, shape (2m, 2m) [m^-2]."""
@@ -289,6 +310,7 @@ class FlightEstimate:
         """
         line, regular = self.line(), self.regular
         step_going, step_rise = self.doubt_of_a_step()
+        last_sigma = 0.0
         if self.is_exact:  # without the rounding of arithmetic
             line = line.round(MICROMETRE)
             regular = replace(
@@ -311,13 +333,19 @@ class FlightEstimate:
             sheet |= {"first_rise": float(line[0, 1])} if self.begins else {}
             step_rise = max(self.step_spread, min(step_rise, UNCHECKED))
             step_going = max(self.step_spread, min(step_going, UNCHECKED))
+            if self.odd_last is not None:
+                sheet["last_rise"], last_sigma = self.odd_last
         else:
             angle, spacing = self.gravity, self.scale * regular.spacing
             sheet["rises"] = tuple(np.diff(line[:, 1], prepend=0.0).tolist())
             sheet["goings"] = tuple(np.diff(line[:, 0]).tolist())
         if not self.is_exact:
             sheet["uncertainty"] = StairsUncertainty(
-                angle=angle, nosing_spacing=spacing, rise=step_rise, going=step_going
+                angle=angle,
+                nosing_spacing=spacing,
+                rise=step_rise,
+                going=step_going,
+                last_rise=last_sigma,
             )
         seen = {"foot_seen": self.begins, "head_seen": self.ends}
         sheet |= {key: False for key, was in seen.items() if not was}

@@ -53,7 +53,9 @@ def line_of_flights(flights: Sequence[Stairs]) -> tuple[Array, Array, Array | No
     for number, flight in enumerate(flights):
         treads = (*flight.step_goings, max(behind(flights, number), 1e-3))
         sigma += [(0.0, flight.uncertainty.rise)]
-        sigma += [(flight.uncertainty.going, flight.uncertainty.rise)] * (len(treads) - 1)
+        sigma += [(flight.uncertainty.going, flight.uncertainty.rise)] * (len(treads) - 2)
+        last = max(flight.uncertainty.rise, flight.uncertainty.last_rise)
+        sigma += [(flight.uncertainty.going, last)]
         if len(flights) > 1:  # the common doubt of one flight alone goes with its angle
             common += common_doubts(flight, len(nosings))
         for rise, tread in zip(flight.step_rises, treads, strict=True):

@@ -69,6 +69,9 @@ class StairsUncertainty(Sheet):
     going: float = quantity(
         "m", 0.0, 0.05, "of each single going, apart from the others", default=0.0
     )
+    last_rise: float = quantity(
+        "m", 0.0, 0.05, "of the last rise, where it is more than that of each", default=0.0
+    )
 
 
 class Stairs(Sheet):

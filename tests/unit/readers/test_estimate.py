@@ -81,6 +81,28 @@ def test_first_riser_stands_apart_and_is_assumed_where_no_floor_was_seen():
     assert blind.line()[0, 1] == pytest.approx(0.18)
 
 
+def test_a_last_riser_that_differs_stands_apart_with_its_doubt():
+    """By hand: a line through five nosings, 1 mm each, is known to sqrt(1.1) mm at the next.
+
+    The one of 6 mm is 20 mm too high, which the sum over all steps does not tell.
+    """
+    own = np.r_[np.full(5, 0.001), 0.006]
+    each = np.array([np.diag([0.002**2, one**2]) for one in own])
+    high, usual = (
+        dataclasses.replace(flight(rises=(*(0.18,) * 5, last)), covariance=independent(each))
+        for last in (0.20, 0.185)
+    )
+    sheet = high.stairs()
+    assert high.regular.alike > 0.01
+    assert sheet.rise == pytest.approx(0.18, abs=0.001)
+    assert sheet.last_rise == pytest.approx(0.20, abs=1e-5)
+    expected = math.hypot(0.006, 0.001 * math.sqrt(1.1))
+    assert sheet.uncertainty.last_rise == pytest.approx(expected, rel=1e-3)
+    assert sheet.uncertainty.rise < 0.003
+    assert usual.stairs().last_rise is None
+    assert usual.stairs().uncertainty.last_rise == 0.0
+
+
 def test_neighbours_that_err_alike_know_their_distance_better():
     """By hand: 3 mm each with a correlation of 0.8 leave sqrt(2 * 0.2) * 3 mm of a going."""
     alike = flight()
