@@ -170,7 +170,7 @@ def test_japanese_has_the_verdict_why_where_and_what_to_do(desk, server):
     notes = desk.locator(".notes li").all()
     english = [each for each in notes if each.get_attribute("lang") == "en"]
     assert len(notes) > 4
-    assert len(english) == 1  # what the robot's sheet says
+    assert len(english) == 2  # what the sheets of the robot and of the stairs say
     sentences = [advice.FLAT, "It rocks by 1.5 deg until the next contact arrests it.", "It sings."]
     sentences += httpx.post(server.address + "api/assess", json=BODY, timeout=60).json()["notes"]
     said = "async all => { const { japanese } = await import('/js/i18n.js'); "
