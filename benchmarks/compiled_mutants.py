@@ -45,6 +45,8 @@ def seen():
     return [k for k in range({count}) if SEEN[k]]
 
 """
+# a == 1 and a == 2 within a conditional expression would become a switch as for a == 1 or a == 2
+NO_SWITCH = "# cython: optimize.use_switch=False\n"
 NATIVE = "kaidan.contact._native"
 
 
@@ -143,7 +145,7 @@ class CompiledMutants:
         from typed_source import kernel_functions, typed_source
 
         choices = Choices(paths)
-        text = typed_source(choices)
+        text = NO_SWITCH + typed_source(choices)
         library = folder / f"mutants-{hashlib.sha256(text.encode()).hexdigest()[:16]}.so"
         if not library.exists():
             with tempfile.TemporaryDirectory() as work:

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from rigid_teeth import Steps, Teeth, slip
 
+from kaidan.contact import Grousers
 from kaidan.models.quasi_static import traverse_of
 from kaidan.physics import Outcome, TrialSpec, run
 from kaidan.physics.tracks import DrivenGrousers
 from kaidan.question import Question
 from kaidan.robot import Robot, Track
 from kaidan.terrain.stairs import Stairs
-from kaidan.traversal.grip import Grousers
 
 WITHIN = 1.07
 """Spacings in which the teeth hold: a thirtieth for the grid, and what the other nosing's teeth

@@ -357,7 +357,7 @@ EXAMPLES = {
     "share": 0.4, "x_0": 0.4, "x_n": 0.05,
     "x_z": 0.3, "backward": 0.01, "forward": 0.02, "v": 0.3, "theta": 0.5, "l_c": 0.27, "R": 0.06,
     "F": 80.0, "c_rr": 0.05, "r": 0.05, "eta": 0.7, "T": 2.0, "gamma": 0.4, "psi": 0.3,
-    "gauge": 0.3, "g": 9.8, "holds": 1.0,
+    "gauge": 0.3, "g": 9.8, "holds": 1.0, "lever": 0.07, "gyration": 0.13,
 }  # fmt: skip
 
 NEEDS_NUMPY = {

@@ -84,7 +84,9 @@ def test_of_one_verdict_a_margin_worth_telling_is_help():
     ],
 )
 def test_a_slower_speed_has_less_kinetic_energy_than_is_left(energy, speed):
-    found = [each.question.speed for each in _slower(KENAF, energy)]
+    # of which a sudden stop leaves to a rotation what a moment of inertia and a height say
+    left = KENAF.energy_threshold() / KENAF.kinetic_height
+    found = [each.question.speed for each in _slower(KENAF, energy * left)]
     assert found == ([] if speed is None else [pytest.approx(speed)])
 
 
@@ -200,7 +202,7 @@ def test_what_is_tried_where_it_tips(tried):
 def test_what_is_tried_for_its_energy(tried):
     """The margin, and the threshold that was taken off it."""
     asked = KENAF.changed(speed=0.3)
-    slower = ("slower", pytest.approx(-0.002 + asked.energy_threshold))
+    slower = ("slower", pytest.approx(-0.002 + asked.energy_threshold()))
     assert tried("energy", asked, searched=True, energy=-0.002) == [slower]
     assert tried("energy", asked, searched=True) == []
     assert tried("drive", asked, searched=True, energy=-0.002) == []

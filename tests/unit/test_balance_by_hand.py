@@ -28,10 +28,11 @@ from kaidan.traversal import Fall, FirstRock
 from kaidan.traversal.rotations import ROCKING, TAKEN_UP
 
 NONE = np.zeros(3)
-OVER = Spread(*[NONE] * 9)
+OVER = Spread(*[NONE] * 10)
 ON, LANDS = SimpleNamespace(phase=Phase.TRAVERSE), SimpleNamespace(phase=Phase.LAND)
 ASKED = SimpleNamespace(
-    yaw=0.0, terrain=None, energy_threshold=0.01, robot=SimpleNamespace(tolerated_impact=0.5),
+    yaw=0.0, terrain=None, energy_threshold=lambda slip=0.0: 0.01 + 0.5 * slip,
+    robot=SimpleNamespace(tolerated_impact=0.5),
     allowance_d=SimpleNamespace(low=0.01, high=0.02),
     allowance_M=SimpleNamespace(low=0.03, high=0.05),
 )  # fmt: skip
@@ -217,13 +218,14 @@ def test_rocking_is_what_was_seen_or_is_foretold():
 
 def of_phase(phase, down, up=math.inf, step=1, uphill_step=2):
     return SimpleNamespace(
-        phase=phase, energy_margin=down, uphill_energy_margin=up, energy_margin_step=step,
-        uphill_energy_margin_step=uphill_step,
-    )  # fmt: skip
+        phase=phase, steadiness=(down, step), uphill_steadiness=(up, uphill_step)
+    )
 
 
 def test_the_least_energy_of_the_phases_by_hand():
-    """Less the threshold of 10 mm; a slip back onto grousers takes off its height downhill."""
+    """Less the threshold of 10 mm, which a slip back onto grousers raises by half its height here,
+    downhill.
+    """
     phases = (
         of_phase(Phase.ENTER, 0.09, 0.001, step=1),
         of_phase(Phase.TRAVERSE, 0.08, 0.07, step=3, uphill_step=5),
@@ -241,8 +243,8 @@ def test_the_least_energy_of_the_phases_by_hand():
     least = [pytest.approx(each, abs=2e-7) for each in (0.07, 0.05, 0.06)]
     assert energy() == (Phase.TRAVERSE, 5, least, least)  # uphill, of the two alike the first
     held = SimpleNamespace(
-        worst=SimpleNamespace(heights={Phase.TRAVERSE: 0.05, Phase.ENTER: 0.03}),
-        best=SimpleNamespace(heights={Phase.TRAVERSE: 0.04, Phase.ENTER: 0.01}),
+        worst=SimpleNamespace(heights={Phase.TRAVERSE: 0.10, Phase.ENTER: 0.06}),
+        best=SimpleNamespace(heights={Phase.TRAVERSE: 0.08, Phase.ENTER: 0.02}),
     )
     worst = [pytest.approx(each) for each in (0.03, 0.03, 0.02)]
     best = [pytest.approx(each) for each in (0.04, 0.04, 0.03)]

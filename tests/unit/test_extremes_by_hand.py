@@ -13,6 +13,7 @@ from kaidan.traversal import Phase, extremes
 from kaidan.traversal.brief import by_how_long
 from kaidan.traversal.extremes import (
     Rise,
+    _as_on_the_flat,
     _came_down,
     _CameDown,
     _least_rise,
@@ -73,9 +74,9 @@ def looked_at(monkeypatch):
     def of(*, descending=False, whole=True, rises=(), profile=STEPS):
         asked = []
 
-        def energy(path, rows, side):
+        def energy(path, rows, side, weights):
             asked.append(("energy", side, rows.tolist()))
-            return (0.002, PLACES[rows[0]]) if len(rows) else (math.inf, math.nan)
+            return (0.002 * weights[0], PLACES[rows[0]]) if len(rows) else (math.inf, math.nan)
 
         def rock(path, rows, side, *given):
             asked.append(("rock", side, rows.tolist()))
@@ -97,14 +98,20 @@ def looked_at(monkeypatch):
             "_came_down": lambda *given: _CameDown(np.arange(8.0), mark(3)[:8]),
             "_on_a_flight": lambda *given: mark(2, 8),
             "_least_energy": energy,
+            "_as_on_the_flat": lambda path, body, side: np.full(COUNT, 0.5 + 0.25 * side),
             "_rock": rock,
             "_rotated": rotated,
         }.items():
             monkeypatch.setattr(extremes, name, found)
         path = SimpleNamespace(poses=Rows(front_point=np.zeros((8, 2))))
-        found = phase_extremes(path, profile, PHASE, descending, 0.0, rises, 0.5, whole)
-        kinds = ("energy", "rock", "rotated")
-        return found, [[each[1:] for each in asked if each[0] == kind] for kind in kinds]
+        body = SimpleNamespace(stance=SimpleNamespace(flat_length=0.5))
+        found = phase_extremes(path, profile, PHASE, descending, 0.0, rises, body, whole)
+        energies, *others = (
+            [each[1:] for each in asked if each[0] == kind]
+            for kind in ("energy", "rock", "rotated")
+        )
+        assert energies[::2] == energies[1::2]  # as it is, and as if it were about the flat
+        return found, [energies[::2], *others]
 
     return of
 
@@ -131,6 +138,7 @@ def test_which_poses_count_on_the_way_up(looked_at):
     enter, traverse, land = found
     assert (traverse.energy_margin, traverse.energy_margin_step) == (0.002, 1)
     assert (land.energy_margin_step, land.uphill_energy_margin_step) == (3, 3)
+    assert (traverse.steadiness, land.uphill_steadiness) == ((0.0015, 1), (0.0005, 3))
     assert (enter.tilt_downhill, enter.tilt_uphill) == ((0.1, 5), (-0.1, 5))
     assert [each.static_margin for each in found] == [0.25, 2.25, 5.25]
     # only landing the trailing end slides down what it comes off
@@ -159,6 +167,32 @@ def test_where_nosings_carry_their_rises_count(looked_at):
     assert (traverse.energy_margin, traverse.energy_margin_step) == (0.001, 2)
     assert (traverse.uphill_energy_margin, traverse.uphill_energy_margin_step) == (0.004, 3)
     assert (land.energy_margin, land.energy_margin_step) == (0.002, 3)
+    assert (traverse.steadiness, traverse.uphill_steadiness) == ((0.001, 2), (0.004, 3))
+    assert land.steadiness == (0.0015, 3)
+
+
+def test_a_rise_as_one_about_the_flat():
+    """By hand: radius of gyration 0.2 m, centroid 0.1 m above the flat, so a sudden stop leaves
+    1/5 of its energy to a rotation about the flat. 0.2 m above the line of a belt: 1/2; behind it,
+    where the belt pulls through the centroid: none.
+    """
+    body = SimpleNamespace(least_gyration=0.2, stance=SimpleNamespace(com_height=0.1))
+    half = math.sqrt(0.5)
+    path = SimpleNamespace(
+        x=np.zeros(3),
+        z=np.full(3, 0.3),
+        poses=SimpleNamespace(
+            rear_point=np.array([(-0.2, 0.2), (-0.2, 0.1), (-0.3, 0.0)]),
+            rear_normal=np.array([(0.0, 1.0), (0.0, 1.0), (-half, half)]),
+            front_point=np.array([(0.3, 0.2), (0.1, 0.3), (0.2, 0.3 - 0.2 * math.sqrt(0.5))]),
+            front_normal=np.array([(0.0, 1.0), (-1.0, 0.0), (0.0, 1.0)]),
+        ),
+    )
+    found = _as_on_the_flat(path, body, 1.0)
+    assert found[:2] == pytest.approx([1.0, 0.4])
+    assert found[2] > 1e5
+    # uphill: a face 0.1 m ahead, against which the belt pulls upward; and 0.1414 m: 1/3
+    assert _as_on_the_flat(path, body, -1.0) == pytest.approx([1.0, 1.0, 0.6])
 
 
 def test_which_poses_count_on_the_way_down(looked_at):

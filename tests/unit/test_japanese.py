@@ -1,14 +1,16 @@
 """Sentences in Japanese: every one that answers say, with the same numbers."""
 
 import re
+import warnings
 from string import Formatter
 
 import pytest
+from matplotlib.text import Text
 
 import kaidan
-from kaidan.documents import report_bytes, report_file
+from kaidan.documents import japanese_pictures, report_bytes, report_file
 from kaidan.errors import InputError
-from kaidan.modes import FAILURE_MODES
+from kaidan.modes import FAILURE_MODES, Acceptance
 from kaidan.text import advice, unweighed
 from kaidan.text import document as of
 from kaidan.text.japanese import in_japanese, japanese, patterns
@@ -85,6 +87,18 @@ NAMED = ("figure", "source", "symbol", "value", "model", "as an option")
 """Columns of the appendix with names and words of sheets."""
 
 
+@pytest.mark.parametrize("accept", Acceptance)
+def test_the_manner_of_going_is_said_in_japanese_but_for_options(accept):
+    manner = {"speed": "0.2m/s", "payload": "5kg@100mm,200mm", "yaw": "3deg", "flippers": "flat"}
+    report = kaidan.report("absolem", "ibc", friction=0.7, accept=accept.value, **manner)
+    tables = [each for each in in_japanese(document(report)).parts if isinstance(each, of.Table)]
+    (inputs,) = (each for each in tables if each.heads[0] == "対象")
+    rows = [row for row in inputs.rows if row[0] == "走り方"]
+    left = {word for row in rows for cell in row for word in re.findall("[a-z]{3,}", cell)}
+    assert left == {"flat", "contact", "theta"}
+    assert len(rows) == 13
+
+
 @pytest.mark.parametrize("turns", [False, True])
 def test_appendices_are_said(found, turns):
     if turns:
@@ -134,6 +148,52 @@ def test_a_report_in_japanese(found, form, monkeypatch):
     assert has not in report_bytes(found, form)
     if form == "html":
         assert "摩擦が決め手です(進入、1 段目)。必要 0.91、想定 0.60〜1.00。" in made.decode()
+
+
+@pytest.fixture
+def words(monkeypatch):
+    """Words of the figures of a report, drawn in Japanese as on a system that has a typeface."""
+
+    def of_report(report):
+        monkeypatch.setattr(japanese_pictures, "typeface", lambda: "DejaVu Sans")
+        said = []
+        for _, figure in report_file._figures(report):
+            japanese_pictures.put_in_japanese(figure)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of this typeface, which has no kana
+                figure.canvas.draw()
+            said += [each.get_text() for each in figure.findobj(Text) if each.get_visible()]
+        return said
+
+    return of_report
+
+
+@pytest.mark.parametrize(
+    ("robot", "stairs", "manner"),
+    [
+        ("absolem", "ibc", {"flippers": "flat", "friction": "0.6..1"}),
+        ("ozbot-atr", "ibc", {"friction": 0.6, "direction": "down", "flippers": "stowed"}),
+        ("kenaf", "ibc", {}),
+        ("talon", "ibc", {"friction": 0.9}),
+    ],
+)
+def test_pictures_have_no_english_word_but_names(words, robot, stairs, manner):
+    found = kaidan.report(robot, stairs, **manner)
+    for name in (robot, stairs):
+        assert japanese(name, "picture") is None
+    units_and_symbols = re.compile(
+        r"\$[^$]*\$|\b(mm|m|deg|CAUTION|NO-GO|GO|C_L|C_N|N m|s)\b|" + f"{robot}|{stairs}"
+    )
+    left = [each for each in words(found) if re.search("[a-z]{2}", units_and_symbols.sub("", each))]
+    assert left == []
+
+
+def test_without_a_typeface_pictures_stay_as_they_are(found, monkeypatch):
+    monkeypatch.setattr(japanese_pictures, "typeface", lambda: None)
+    (_, figure), *_ = report_file._figures(found)
+    before = [each.get_text() for each in figure.findobj(Text)]
+    japanese_pictures.put_in_japanese(figure)
+    assert [each.get_text() for each in figure.findobj(Text)] == before
 
 
 def test_another_language_is_refused(found):

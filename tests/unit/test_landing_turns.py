@@ -142,6 +142,40 @@ def test_only_what_drives_back_is_said_to_go_back_and_forth(fields, how):
     assert japanese(said) is not None
 
 
+@pytest.mark.parametrize("most", [None, 1000])
+def test_a_manoeuvre_of_many_moves_is_no_go_yet(most):
+    """9 where the sheet states none: sqrt(9) stops of 10 mm are the 30 mm all round."""
+    robot = BOX if most is None else BOX.model_copy(update={"turning_moves": most})
+    answer = kaidan.assess(robot, flight(**HALF | {"upper_landing": 1.45}), **SURE)
+    (found,) = answer.turns
+    assert (found.way, found.tight, found.most_moves) == ("manoeuvre", False, most or 9)
+    assert found.moves > 9
+    assert answer.findings["turning"].holds == (most == 1000)
+    assert answer.findings["turning"].holds_best
+    said = (
+        f"It can turn by 180 deg on the upper landing only bit by bit in {found.moves} drives and "
+        "turns on the spot, more than 9 (turning_moves of its sheet): try it, or turn elsewhere."
+    )
+    assert (said in (answer.reason, *answer.notes)) == (most is None)
+    assert (answer.verdict == "caution") == (most is None)
+    assert japanese(said) is not None
+
+
+def test_a_turn_that_nobody_measured_is_no_go_yet():
+    answer = kaidan.assess(BOX, flight(upper_turn="unknown"), **SURE)
+    assert (answer.turns[0].way, answer.turns[0].turn_deg) == ("unknown", None)
+    assert (answer.verdict, answer.governs) == ("caution", "turning")
+    with pytest.raises(InputError, match="upper_passage goes with upper_turn"):
+        flight(upper_turn="unknown", upper_passage=1.0)
+
+
+def test_of_a_landing_that_one_sheet_knows_that_one_counts():
+    one = flight(name="one", upper_turn="unknown")
+    two = flight(name="two", lower_turn="half", lower_landing=3.0, lower_landing_width=3.0)
+    found = turns_of(Question.of(BOX, [one, two], flippers="stowed"))
+    assert [each.landing for each in found] == ["landing below two"]
+
+
 def test_a_circle_that_fits_elsewhere_is_not_said_to_be_too_large():
     """1.30 m of 1.35 m, but a lane of 0.62 m leads 0.31 m from a wall, where 0.65 m are needed."""
     sizes = {"upper_landing": 1.35, "upper_landing_width": 1.36, "width": 0.62}

@@ -252,7 +252,8 @@ def test_landings_go_into_the_sheet_of_stairs(tmp_path):
 @pytest.mark.parametrize(
     ("given", "text"),
     [
-        ({"upper_turn": "180"}, 'stairs: upper_turn = "180" is not one of none, quarter, half'),
+        ({"upper_turn": "180"},
+         'stairs: upper_turn = "180" is not one of none, quarter, half, unknown'),
         ({"u_tape": "1m"}, "u_tape = 1 m is not within 0 to 0.1 m"),
         ({"upper_turn": "half"},
          "stairs: upper_turn = half needs width and upper_landing and upper_landing_width too"),
@@ -301,6 +302,11 @@ def test_completing_a_sheet_changes_nothing_else(sheet):
     assert [line for line in before if line not in after] == (
         ['#title = ""'] if sheet is Robot else ['#title = ""', '#angle = "0deg"']
     )
+
+
+def test_a_sheet_nested_without_end_is_refused_in_a_line():
+    with pytest.raises(InputError, match="x: not a sheet: tables or lists nested too deeply"):
+        completed("a = " + 20_000 * "[", {"mass": 1.0}, origin="x")
 
 
 def test_a_table_is_added_where_there_is_none():

@@ -8,8 +8,10 @@ import pytest
 
 from kaidan import contact
 from kaidan.contact import Contact, Event, EventRecord, Feature, FeatureKind, PartKind
+from kaidan.contact.columns import GROUND_COLUMNS, POSE_COLUMNS, POSE_PHI, POSE_X, POSE_Z, X, Z
+from kaidan.contact.kernel.passings import along_flat
 from kaidan.traversal.contact_forces import contact_forces
-from kaidan.traversal.nosing_events import TOUCH, along_flat, nosing_events
+from kaidan.traversal.nosing_events import TOUCH, nosing_events
 
 G = 9.80665
 
@@ -99,13 +101,13 @@ def test_place_along_a_flat_by_hand():
     c, s = math.cos(turned), math.sin(turned)
     centroid = np.array([1.5, 0.7])
     x, z = (centroid + points @ np.array([[c, s], [-s, c]])).T
-    path = SimpleNamespace(
-        ground=SimpleNamespace(x=x, z=z), parts=run.parts,
-        x=centroid[:1], z=centroid[1:], inclination=np.array([turned]),
-    )  # fmt: skip
-    along, gap = along_flat(path, np.array([0]), np.arange(4), 0)
-    np.testing.assert_allclose(along, [[0.0, length, 0.0, length]], atol=1e-12)
-    np.testing.assert_allclose(gap, [[0.0, 0.0, 0.03, -0.01]], atol=1e-12)
+    ground, poses = np.zeros((4, GROUND_COLUMNS)), np.zeros((1, POSE_COLUMNS))
+    ground[:, [X, Z]] = np.stack([x, z], axis=1)
+    poses[0, [POSE_X, POSE_Z, POSE_PHI]] = *centroid, turned
+    each = [along_flat(ground, run.body.table, poses, 0, 0, k) for k in range(4)]
+    along, gap = zip(*each, strict=True)
+    np.testing.assert_allclose(along, [0.0, length, 0.0, length], atol=1e-12)
+    np.testing.assert_allclose(gap, [0.0, 0.0, 0.03, -0.01], atol=1e-12)
 
 
 COM = (5.0, 1.3)

@@ -11,7 +11,7 @@ from kaidan.robot import Robot, Track
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Phase, extremes, traverse
-from kaidan.traversal.extremes import Rise, _closed, _least_energy, rises_about_stays
+from kaidan.traversal.extremes import Rise, _closed, rises_about_stays
 from kaidan.traversal.samples import samples_of
 from kaidan.traversal.static_criterion import Criterion, Loss
 
@@ -127,27 +127,6 @@ def test_where_nothing_holds_the_friction_is_infinite_there(monkeypatch):
     monkeypatch.setattr(extremes, "samples_of", nothing_holds)
     land = of_phases(kerb(0.1))[Phase.LAND]
     assert (land.required_friction, land.required_friction_step) == (math.inf, 1)
-
-
-def test_the_least_energy_is_worked_out_only_where_it_may_be():
-    """Pose k needs k mm about its pivot and along the flow 3.5 mm, but pose 2 needs 2.5 mm."""
-    rise = 1e-3 * np.arange(20.0)
-    asked = []
-
-    def energy(rows):
-        asked.extend(rows.tolist())
-        return np.where(rows == 2, 2.5e-3, 3.5e-3), np.ones(len(rows))
-
-    path = SimpleNamespace(
-        margins=SimpleNamespace(back_rise=rise, front_rise=rise[::-1]),
-        poses=SimpleNamespace(front_point=np.stack([np.arange(20.0), np.zeros(20)], axis=1)),
-        energy=energy,
-    )
-    assert _least_energy(path, np.arange(20), 1.0) == (2.5e-3, 2.0)
-    assert asked == list(range(8))  # from pose 3 on the pivot alone needs more
-    # to the front the last pose needs least about its pivot
-    assert _least_energy(path, np.arange(20), -1.0) == (3.5e-3, 16.0)
-    assert asked[8:] == list(range(19, 11, -1))
 
 
 def test_of_two_rotations_of_a_phase_the_larger_counts():

@@ -19,6 +19,7 @@ from kaidan.assessment.plan_search import (
     off_angles,
     shortened,
 )
+from kaidan.assessment.plan_sturdy import Sturdier
 from kaidan.assessment.verdict import conclude
 from kaidan.errors import InputError
 from kaidan.models import judge
@@ -396,8 +397,9 @@ def test_where_only_the_verdict_counts_it_is_the_same(friction, flippers):
     drives = Drives()
     for stairs in (STAIRS, Stairs(name="steep", rise=0.2, going=0.21, steps=6)):
         plan = Question.of("absolem", stairs, friction=friction, flippers=flippers)
-        ranked, whole = drives.rank(plan), Drives().judge(plan)
-        assert conclude(plan, ranked).verdict is conclude(plan, whole).verdict
+        whole = Drives().judge(plan)
+        assert drives.rank(plan) == -conclude(plan, whole).verdict.rank
+        assert drives.required_friction(plan) == whole.required_friction
 
 
 def test_the_way_off_that_promises_least_is_looked_at_first():
@@ -426,6 +428,28 @@ def test_what_is_certainly_no_failure_is_judged_to_be_none(friction):
         assert not (sound and failure)
         told.add(sound)
     assert told == ({False} if friction < 0.5 else told)
+
+
+@pytest.mark.parametrize("flippers", ["flat", "35deg,-13deg/traverse:flat/land:-60deg,-20deg"])
+def test_what_is_no_failure_tells_the_friction_that_judging_it_finds(flippers):
+    plan = Question.of("absolem", STAIRS, friction=1.2, flippers=flippers)
+    judged, looked_at = Drives(), Drives()
+    judged.rank(plan)
+    assert looked_at.is_no_failure(plan)
+    assert looked_at.required_friction(plan) == judged.required_friction(plan)
+
+
+@pytest.mark.parametrize("friction", [0.8, 1.4])
+def test_no_phase_comes_to_more_than_its_score_lets_one_hope_for(friction):
+    question = Question.of("absolem", STAIRS, friction=friction).changed(best_of=())
+    search = Search(question, "nose-first", LIMITS)
+    sturdier = Sturdier(search.scores, LIMITS, Drives())
+    angles = [math.radians(each) for each in (-60.0, -20.0, 10.0, 35.0)]
+    postures = [Posture(front=one, rear=two) for one, two in product(angles, repeat=2)]
+    for phase in search.scores.phases:
+        hopes = sturdier._hopes(phase, postures)
+        for posture, hope in zip(postures, hopes, strict=True):
+            assert sturdier._judged(phase, posture) <= hope
 
 
 def test_some_plans_are_certainly_no_failure_and_unsure_ones_never():

@@ -76,7 +76,7 @@ def test_of_a_mode_the_smallest_margin_of_all_parts_counts():
 
 def of_move(monkeypatch, **given):
     monkeypatch.setattr(module.traction, "standing_margins", lambda question, move: (0.1, 0.3))
-    question = SimpleNamespace(energy_threshold=0.01)
+    question = SimpleNamespace(kinetic_height=0.01)
     return {one.mode: one for one in _of_move(question, change(**given))}
 
 

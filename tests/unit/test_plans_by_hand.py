@@ -23,7 +23,7 @@ from kaidan.assessment.plan_search import (
     _on_the_whole,
     _rank,
 )
-from kaidan.assessment.plan_sturdy import OUT, Sturdier, Worth
+from kaidan.assessment.plan_sturdy import ANY, OUT, Sturdier, Worth
 from kaidan.assessment.plans import Plan, cost_of, cost_of_drop, off, off_angles, pressed, words
 from kaidan.models.findings import Finding, Findings
 from kaidan.modes import FALL_DOWNHILL, POSTURE_TOLERANCE, Phase, Verdict
@@ -147,22 +147,36 @@ def test_the_plan_of_an_answer():
 
 @pytest.fixture
 def sturdier(monkeypatch):
-    """A search about a plan, GO at front angles of some degrees; and what it judges."""
+    """A search about a plan, GO at front angles of some degrees; and what it judges.
+
+    Scores promise `promised` more than there is; None: they are not looked at.
+    """
     judged = []
 
-    def of(holds, limits=(-90.0, 90.0), tolerance=2.0):
-        def worth(self, phase, posture, beaten):
+    def of(holds, limits=(-90.0, 90.0), tolerance=2.0, promised=None):
+        def worth(angle):
+            at = math.degrees(angle) if isinstance(angle, float) else -50.0
+            return Worth(GO if holds[0] <= at <= holds[1] else CAUTION, -abs(at - sum(holds) / 2))
+
+        def judge(self, phase, posture):
             angle = posture.front
             judged.append(round(math.degrees(angle)) if isinstance(angle, float) else angle)
-            at = math.degrees(angle) if isinstance(angle, float) else -50.0
-            holds_there = GO if holds[0] <= at <= holds[1] else CAUTION
-            return Worth(holds_there, -abs(at - sum(holds) / 2)), True
+            return worth(angle)
 
-        monkeypatch.setattr(Sturdier, "_judged", worth)
+        def hopes(self, phase, postures):
+            each = (worth(one.front) for one in postures)
+            return [one._replace(margin=one.margin + promised) for one in each]
+
+        monkeypatch.setattr(Sturdier, "_judged", judge)
+        monkeypatch.setattr(Sturdier, "_held", lambda self, phase, posture: ANY)
+        monkeypatch.setattr(Sturdier, "_hopes", hopes)
         question = asked(tolerance=math.radians(tolerance))
         scores = SimpleNamespace(question=question, facing="nose-first")
         low, high = map(math.radians, limits)
-        return Sturdier(scores, (low, high), None), judged
+        search = Sturdier(scores, (low, high), None)
+        if promised is None:
+            search._scored = None
+        return search, judged
 
     return of
 
@@ -200,6 +214,72 @@ def test_a_phase_that_holds_nowhere_has_no_plan(sturdier):
     search, judged = sturdier((200.0, 210.0))
     assert search.plan(plan_of(20.0, 25.0)) is None
     assert len(judged) == len(set(judged))  # none is judged twice
+
+
+@pytest.fixture
+def gripping(sturdier):
+    """The same with grousers; scores say in how many ways each angle fails by friction alone."""
+
+    def of(holds, limits=(-90.0, 90.0), tolerance=2.0, fails=lambda angle: 1):
+        search, judged = sturdier(holds, limits)
+        judged.clear()
+        track = ONE.track.model_copy(update={"belt": "grousers"})
+        robot = ONE.model_copy(update={"track": track})
+        search.question = asked(robot, tolerance=math.radians(tolerance))
+
+        def score(phase, posture):
+            return Score(
+                passes=False, failing=-fails(math.degrees(posture.front)), margin=0, drop=0
+            )
+
+        search.scores = SimpleNamespace(
+            work_out=list, of=score, off=score, about=lambda posture: [posture]
+        )
+        return search, judged
+
+    return of
+
+
+def test_with_grousers_angles_that_hold_are_found_wherever_they_lie(gripping):
+    """Of every 18 deg from -90, 18 is GO; of every 4 about it 18 and 22 are the best."""
+    for start in (-80.0, 0.0, 11.0, 51.0):
+        (found,) = front_of(gripping((10.0, 30.0))[0].plan(plan_of(start)))
+        assert found in (18.0, 22.0)
+    search, judged = gripping((10.0, 30.0), limits=(-6.0, 18.0))
+    assert front_of(search.plan(plan_of(0.0))) == [16.0]  # about 12; 20 is not allowed
+    assert max(judged) == 18
+    search, judged = gripping((200.0, 210.0))
+    assert search.plan(plan_of(0.0)) is None
+    flat = math.floor(math.degrees(ONE.flippers()["front"].flat_angle) - 2.0)
+    assert {flat, *range(-90, 91, 18)} <= set(judged)
+    assert len(judged) == len(set(judged))  # none is judged twice
+
+
+def test_with_grousers_angles_are_tried_about_those_that_lack_little(gripping):
+    """0 deg is no GO by a margin of 2.9 deg, so 4 is tried about it; by one of 3.1 it is left."""
+    assert front_of(gripping((0.5, 5.3), tolerance=1.0)[0].plan(plan_of(50.0))) == [4.0]
+    assert gripping((0.9, 5.3), tolerance=1.0)[0].plan(plan_of(50.0)) is None
+
+
+def test_only_what_grousers_may_mend_is_judged(gripping):
+    search, judged = gripping((10.0, 30.0), fails=lambda angle: 1 if angle < 19.0 else 2)
+    assert front_of(search.plan(plan_of(0.0))) == [18.0]
+    assert max(judged) == 20  # off 18; neither 22 nor 30
+    search, judged = gripping((10.0, 30.0), fails=lambda angle: 2)
+    assert search.plan(plan_of(0.0)) is None
+    assert judged == [0]
+
+
+@pytest.mark.parametrize("holds", [(9.5, 30.5), (23.5, 29.5), (60.5, 80.5)])
+def test_what_promises_too_little_is_not_judged_and_changes_nothing(sturdier, holds):
+    for start in (-10.0, 0.0, 11.0, 45.0):
+        plain, judged = sturdier(holds)
+        expected, count = plain.plan(plan_of(start)), len(judged)
+        judged.clear()
+        scored, judged = sturdier(holds, promised=0.5)
+        assert scored.plan(plan_of(start)) == expected
+        assert len(judged) < count / 2
+        judged.clear()
 
 
 def test_the_worst_is_looked_at_until_it_is_beaten(sturdier):
@@ -372,11 +452,11 @@ def ways(monkeypatch):
 
     def of(ranks, plan, beaten=None, passes=()):
         looked_at = []
-        drives = SimpleNamespace(is_no_failure=lambda k: k in passes)
-        monkeypatch.setattr(plan_search, "off_angles", lambda question: range(len(ranks)))
-        monkeypatch.setattr(
-            plan_search, "_rank_of", lambda k, drives: (looked_at.append(k), ranks[k])[1]
+        drives = SimpleNamespace(
+            is_no_failure=lambda k: k in passes,
+            rank=lambda k: (looked_at.append(k), ranks[k])[1],
         )
+        monkeypatch.setattr(plan_search, "off_angles", lambda question: range(len(ranks)))
         return _judged_off(plan, beaten, drives), len(looked_at)
 
     return of
@@ -431,8 +511,8 @@ def test_which_plans_may_be_better(monkeypatch):
     """Than a CAUTION; than a GO of 9 deg by its scores or by those of the best."""
     monkeypatch.setattr(plan_search, "off_angles", lambda question: question)
 
-    def may(each, bar, of_best=None, **more):
-        return _may_be_better(searching(**more), each, bar, of_best, None)
+    def may(each, bar, of_best=None, drives=None, **more):
+        return _may_be_better(searching(**more), each, bar, of_best, drives)
 
     caution, go = (CAUTION, True, -1, 9.0), (GO, True, 0, 9.0)
     assert may(candidate(), caution)
@@ -451,8 +531,8 @@ def test_which_plans_may_be_better(monkeypatch):
     # where it fails off its angles the weakest way tells
     fails = candidate(off=(True, -1, 0.0))
     for rank, better in ((GO, True), (CAUTION, False)):
-        monkeypatch.setattr(plan_search, "_rank_of", lambda one, drives, rank=rank: rank)
-        assert may(fails, go, questions=["way"]) is better
+        drives = SimpleNamespace(rank=lambda one, rank=rank: rank)
+        assert may(fails, go, questions=["way"], drives=drives) is better
     assert may(fails, go)
     worse = candidate(failing=-1, off=(True, -2, 0.0))
     assert may(worse, (CAUTION, True, -1, 0.0))

@@ -49,6 +49,14 @@ def test_the_last_rise_may_be_known_worse_than_the_others():
     np.testing.assert_array_equal(known, Profile.of_stairs(doubted(rise=3e-3)).covariance)
 
 
+def test_the_first_rise_may_be_known_worse_and_lifts_all():
+    known, worse = (
+        Profile.of_stairs(doubted(rise=3e-3, first_rise=first)).covariance for first in (0.0, 5e-3)
+    )
+    np.testing.assert_allclose((worse - known)[1::2, 1::2], np.full((3, 3), 16e-6))
+    np.testing.assert_array_equal(worse[::2], known[::2])
+
+
 def test_doubt_of_nosings_apart():
     found = Profile.of_points(POINTS, sigma=(1e-3, 2e-3))
     np.testing.assert_allclose(found.covariance, np.diag([1e-6, 4e-6] * 3))

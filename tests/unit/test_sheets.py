@@ -20,8 +20,8 @@ FLIGHT = {"rise": 0.18, "going": 0.28}
 SURFACE = {"friction_low": 0.5, "friction_high": 0.6}
 ROBOT_FIELDS = (
     "name, title, mass, com_from_front, com_height, com_range, inertia, max_impact_speed, "
-    "fall_reserve, width, height, turning_centre, track, front_flippers, rear_flippers, states, "
-    "theta_d, theta_M, drive, "
+    "fall_reserve, width, height, turning_centre, turning_moves, track, front_flippers, "
+    "rear_flippers, states, theta_d, theta_M, drive, "
     "uncertainty, sources, notes"
 )
 

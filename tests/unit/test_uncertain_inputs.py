@@ -190,7 +190,7 @@ def test_where_the_criterion_says_nothing_there_is_no_spread_of_it():
 def test_an_exact_question_has_one_sample():
     question = asked([0.0] * 6)
     found = spread(question, traverse_of(question))
-    assert [each.tolist() for each in found[:-1]] == [[0.0]] * 9
+    assert [each.tolist() for each in found[:-1]] == [[0.0]] * 10
     at = nominal(question, question.flight)
     assert all(each.shape == (1, 1) for each in at)
     assert list(draws(question, at)) == [at]

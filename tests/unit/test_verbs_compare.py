@@ -180,3 +180,16 @@ def test_processes_say_what_one_says():
     alone, shared = (compare(robots, stairs, friction=0.8, workers=each) for each in (1, 2))
     assert len(alone.cells) == 2 * WORTH_A_PROCESS
     assert shared == alone
+
+
+@pytest.mark.parametrize(
+    ("given", "text"),
+    [
+        ({"stairs": []}, "compare: no stairs are given"),
+        ({"robots": []}, "compare: no robots are given"),
+    ],
+)
+def test_a_comparison_of_nothing_is_refused(given, text):
+    with pytest.raises(InputError) as refused:
+        compare(**given, friction=1.0)
+    assert str(refused.value) == text

@@ -94,3 +94,17 @@ def test_targets_are_large_enough_for_gloves(page):
 def test_the_page_does_not_scroll_sideways(page):
     opened(page)
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+@pytest.mark.parametrize("wide", [640, 820])
+def test_a_tablet_held_upright_has_the_verdict_in_sight_and_room_for_sliders(desk, wide):
+    desk.set_viewport_size({"width": wide, "height": 1180})
+    opened(desk)
+    assert desk.locator(".light").bounding_box()["y"] < 1180 - 200
+    desk.evaluate(
+        "for (const each of document.querySelectorAll('.inputs details')) each.open = true"
+    )
+    assert desk.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    panels = desk.locator(".inputs > *")
+    for each in panels.all():
+        assert each.evaluate("panel => panel.scrollWidth <= panel.clientWidth")

@@ -130,6 +130,38 @@ def test_charts_say_where_one_is(desk):
 
 
 @pytest.mark.slow
+def test_a_robot_that_nobody_weighed_is_marked_in_every_list(desk):
+    desk.goto("#/check?robot=talon&stairs=ibc&surface=concrete-dry")
+    group = desk.locator("optgroup", has=desk.locator("option[value=talon]"))
+    assert group.get_attribute("label") == "Catalogue, CAUTION until weighed"
+    assert verdict(desk, "caution") == "CAUTION"
+    for tab in ("Traverse", "Margin chart", "Acceleration plane", "Map of poses"):
+        desk.get_by_role("tab", name=tab).click()
+        assert "Weigh it" in desk.inner_text("[role=tabpanel]:visible")
+    for view in ("Building", "Jobs"):
+        desk.get_by_role("link", name=view).click()
+        marked = desk.locator("label.check:visible", has_text="CAUTION until weighed")
+        assert marked.count() == 4
+
+
+@pytest.mark.parametrize("wide", [320, 390])
+@pytest.mark.parametrize("language", ["en", "ja"])
+def test_the_head_has_two_rows_on_a_phone_whatever_it_says(desk, wide, language):
+    desk.set_viewport_size({"width": wide, "height": 700})
+    desk.add_init_script(f"localStorage.setItem('kaidan.language', '{language}')")
+    desk.goto("./")
+    desk.wait_for_selector("body.ready")
+    words = desk.evaluate("""async () => {
+      const { state, verdict } = await (await fetch("api/texts")).json();
+      const all = [...Object.values(verdict), state.empty, state.failed, state.offline_short];
+      return all.map((each) => each[document.documentElement.lang]);
+    }""")
+    for word in words:
+        desk.evaluate("word => { document.querySelector('.chip span').textContent = word; }", word)
+        # two rows of targets of 44 px, the gap between them and the padding
+        assert desk.locator("header").bounding_box()["height"] < 3 * 44, word
+
+
 def test_what_is_refused_stands_in_the_words_of_the_command(desk):
     desk.goto("#/check?robot=nobody&stairs=ibc")
     desk.wait_for_selector('.light[data-verdict="failed"]')

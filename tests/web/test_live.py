@@ -56,6 +56,43 @@ def test_a_sensor_that_falls_silent_is_noticed(desk, server, climbing):
     desk.wait_for_selector("#alarm.calm")
 
 
+def test_a_posture_of_which_nothing_can_be_foreseen_is_not_called_free_of_alarm(desk, server):
+    body = {
+        "robot": "absolem",
+        "stairs": "ibc",
+        "flippers": "stowed",
+    }  # 0.50 m on a spacing of 0.33
+    name = httpx.post(f"{server.address}api/live", json=body).json()["id"]
+    ready(desk, name)
+    fed(server, name, ROWS[:3])
+    desk.wait_for_selector("#alarm.unknown")
+    assert desk.inner_text("#said") == "NO PREDICTION"
+    assert "p = 0.3309 m is more than L / 2 = 0.25 m" in desk.inner_text("#why")
+    assert desk.inner_text("#margin") == desk.inner_text("#phase") == "–"
+
+
+def test_it_speaks_the_language_of_the_page_and_lists_no_robot_that_nobody_weighed(desk):
+    desk.add_init_script("localStorage.setItem('kaidan.language', 'ja')")
+    ready(desk)
+    assert desk.inner_text("#said") == "未開始"
+    names = desk.locator("#robot option").evaluate_all("all => all.map((each) => each.value)")
+    assert "absolem" in names
+    assert "talon" not in names
+
+
+def test_it_begins_with_the_question_of_the_page(desk):
+    desk.goto("#/check?robot=kenaf&stairs=ada&direction=down&flippers=flat")
+    desk.get_by_role("link", name="Live").click()
+    desk.wait_for_selector("body[data-ready]")
+    fields = ("robot", "stairs", "direction", "facing", "flippers")
+    shown = [desk.locator(f"#{each}").input_value() for each in fields]
+    assert shown == ["kenaf", "ada", "down", "nose-first", "flat"]
+    desk.goto("live.html?robot=nobody&stairs=ibc&direction=sideways")
+    desk.wait_for_selector("body[data-ready]")
+    shown = [desk.locator(f"#{each}").input_value() for each in fields]
+    assert shown == ["absolem", "ibc", "up", "nose-first", "stowed"]
+
+
 def test_the_numbers_are_those_of_the_server_also_for_who_comes_later(desk, server, climbing):
     last = fed(server, climbing, ROWS[:100])["states"][-1]
     ready(desk, climbing)

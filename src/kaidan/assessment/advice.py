@@ -187,7 +187,7 @@ def _candidates(
         yield from _grousers(question)
     energy = found.of(ENERGY)
     if governs == ENERGY.key and energy is not None:
-        yield from _slower(question, float(energy.worst[0]) + question.energy_threshold)
+        yield from _slower(question, float(energy.worst[0]) + question.energy_threshold())
     if governs in _ROTATES:
         if conclusion.margin_best > 0:
             yield from _measured(question)
@@ -321,10 +321,11 @@ def _nosings(
 
 
 def _slower(question: Question, energy: float) -> Iterator[Candidate]:
-    """Speed whose kinetic energy is below the energy margin [m]."""
+    """Speed of which a sudden stop takes less than the energy margin [m]."""
     if not energy > 0:
         return
-    speed = math.ceil(1e2 * math.sqrt(2 * STANDARD_GRAVITY * energy)) / 1e2 - 0.01
+    height = question.kinetic_height * energy / question.energy_threshold()
+    speed = math.ceil(1e2 * math.sqrt(2 * STANDARD_GRAVITY * height)) / 1e2 - 0.01
     if speed >= SLOWEST:
         yield Candidate(text.slower(speed), question.changed(speed=speed))
 

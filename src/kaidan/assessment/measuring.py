@@ -100,8 +100,8 @@ def _grouped(
 def draws_of(question: Question, doubts: tuple[Doubt, ...]) -> dict[str, Array]:
     """Draws of each input: normal ones as the answer has them, of a range from 0, worst, to 1."""
     count = sample_count(question)
-    unit = unit_draws(count)
-    found = {each.name: unit[SAMPLED.index(each.name)] for each in doubts if each.name in SAMPLED}
+    sampled = [each.name for each in doubts if each.name in SAMPLED]
+    found = {name: unit_draws(count)[SAMPLED.index(name)] for name in sampled}
     ranged = [each.name for each in doubts if each.ends is not None]
     return found | dict(zip(ranged, _even_draws(count, len(ranged)), strict=True))
 

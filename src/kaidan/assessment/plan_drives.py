@@ -9,6 +9,7 @@ import numpy as np
 
 from kaidan import contact
 from kaidan.assessment.plan_scores import ENOUGH, outline_key, terrain_key
+from kaidan.assessment.verdict import conclude
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.models import judge, planned
 from kaidan.models.findings import Findings
@@ -19,7 +20,7 @@ from kaidan.models.quasi_static import (
     findings_of,
     profile_of,
 )
-from kaidan.models.traction import standing_margins
+from kaidan.models.traction import nosing_radii, standing_margins
 from kaidan.modes import CONTACT
 from kaidan.question import Question
 from kaidan.terrain.profile import Profile
@@ -44,8 +45,8 @@ class Passed(NamedTuple):
     """Whether it arrives and has friction, drive and tilt to the fall to spare."""
 
 
-def is_no_failure(question: Question) -> bool:
-    """Whether a plan is certainly no NO-GO; False: it has to be judged.
+def friction_without_failure(question: Question) -> float:
+    """Friction that a plan requires which is certainly no NO-GO [1]; NaN: it has to be judged.
 
     It arrives, in the best case with friction at every pose, and with traction to spare; so it does
     under gravity tilted by the reserve to either side. Nothing else makes a NO-GO.
@@ -57,14 +58,19 @@ def is_no_failure(question: Question) -> bool:
     """
     surface = question.surface
     if question.uncertain or question.robot.track.has_grousers or question.yaw:
-        return False
+        return math.nan
     if surface is not None and surface.differs:
-        return False
-    planned_ = planned.drive(question, over=partial(_passed, reserve=question.reserve))
-    return planned_.arrived and not any(
+        return math.nan
+    needed: list[float] = []
+    over = partial(_passed, reserve=question.reserve, needed=needed)
+    planned_ = planned.drive(question, over=over)
+    fails = any(
         standing_margins(question, each)[1] <= 0.0 or each.spare_torque <= 0.0
         for each in planned_.moves
     )
+    if fails or not planned_.arrived:
+        return math.nan
+    return max([*needed, *(each.required_friction for each in planned_.moves)])
 
 
 def _passed(
@@ -72,9 +78,11 @@ def _passed(
     question: Question,
     *,
     reserve: float,
+    needed: list[float],
     start: contact.Placement | None = None,
     until: float | None = None,
 ) -> Passed:
+    """A part of a plan; `needed` gets the friction that it requires [1]."""
     down = question.direction == "down"
     driven = profile.reflected() if down else profile
     body = question.outline if question.facing == "nose-first" else question.outline.turned_round()
@@ -86,12 +94,32 @@ def _passed(
         return Passed(path, False)
     phase = phases_of(path, driven, down, body.stance.flat_length)
     samples = samples_of(path, phase, along)
-    slides = math.atan(samples.friction[samples.lasts].max()) >= math.atan(question.friction[1])
+    required = float(samples.friction[samples.lasts].max())
+    slides = math.atan(required) >= math.atan(question.friction[1])
     stalls = drive_margin(question, np.nanmax(samples.traction) / STANDARD_GRAVITY) <= 0.0
     if slides or stalls:
         return Passed(path, False)
     survives = (contact.arrives(**there, tilt=tilt) for tilt in (reserve, -reserve))
+    needed.append(required)
     return Passed(path, all(survives))
+
+
+def _plan_key(question: Question) -> Hashable:
+    """What tells a plan from others, as far as the friction goes that it requires."""
+    surface = question.surface
+    return (
+        terrain_key(profile_of(question)),
+        nosing_radii(question),
+        outline_key(question.outline),
+        question.robot.track,
+        tuple(question.postures.values()),
+        None if surface is None else surface.of_parts(),
+        *_manner(question),
+    )
+
+
+def _manner(question: Question) -> tuple[Hashable, ...]:
+    return question.direction, question.facing, question.acceleration
 
 
 class Drives:
@@ -99,6 +127,8 @@ class Drives:
 
     def __init__(self) -> None:
         self._known: dict[Hashable, dict[Sought, Traverse]] = {}
+        self._required: dict[Hashable, float] = {}
+        """Friction that plans require which were judged [1]."""
 
     def over(
         self, profile: Profile, question: Question, *, sought: Sought = None, **how: Any
@@ -114,8 +144,8 @@ class Drives:
             As for `kaidan.traversal.traverse`.
         """
         terrain, body = terrain_key(profile), outline_key(question.outline)
-        manner = question.direction, question.facing, question.acceleration
-        known = self._known.setdefault((terrain, body, manner, tuple(sorted(how.items()))), {})
+        manner = *_manner(question), *sorted(how.items())
+        known = self._known.setdefault((terrain, body, manner), {})
         if sought not in known:
             alike = next(iter(known.values()), None)
             known[sought] = (
@@ -129,17 +159,39 @@ class Drives:
         """Findings of a plan, good enough to compare it with others."""
         return self._judge(question)
 
-    def rank(self, question: Question) -> Findings:
-        """The same where only the verdict counts: how far a fall is off is not known."""
+    def rank(self, question: Question) -> int:
+        """Rank of a plan's verdict with its sign turned; how far a fall is off is not looked for.
+
+        Larger is better.
+        """
+        found = self._found(question)
+        self._required[_plan_key(question)] = found.required_friction
+        return -conclude(question, found).verdict.rank
+
+    def required_friction(self, question: Question) -> float:
+        """Friction that a plan requires [1]; infinite: none is enough; NaN: not known."""
+        key = _plan_key(question)
+        if key not in self._required:
+            self._required[key] = self._found(question).required_friction
+        return self._required[key]
+
+    def is_no_failure(self, question: Question) -> bool:
+        """Whether a plan is certainly no NO-GO; False: it has to be judged."""
+        if question.model != CONTACT.name:
+            return False
+        required = friction_without_failure(question)
+        if math.isnan(required):
+            return False
+        self._required[_plan_key(question)] = required
+        return True
+
+    def _found(self, question: Question) -> Findings:
+        """Findings of a plan where only the verdict counts, not how far a fall is off."""
         if question.uncertain:
             return self._judge(question)
         d, M = question.allowance_d, question.allowance_M
         sought = question.reserve, d.high + M.high, d.low + M.low
         return self._judge(question, sought=sought)
-
-    def is_no_failure(self, question: Question) -> bool:
-        """Whether a plan is certainly no NO-GO; False: it has to be judged."""
-        return question.model == CONTACT.name and is_no_failure(question)
 
     def _judge(self, question: Question, **how: Any) -> Findings:
         if question.model != CONTACT.name:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.assessment.plan_scores import ENOUGH, Score, Scores
-from kaidan.assessment.plans import Plan, cost_of, cost_of_change, cost_of_drop, pressed, words
+from kaidan.assessment.plans import Plan, cost_of, cost_of_drop, costs_of_changes, pressed, words
 from kaidan.modes import Facing, Phase
 from kaidan.question import Question
 from kaidan.robot import Posture
@@ -138,12 +138,7 @@ class Search:
         shape = tuple(len(each) for each in choices)
         costs, changes = np.zeros(shape), np.zeros(shape, dtype=np.int64)
         for k in range(count - 1):
-            one = np.array(
-                [
-                    [0.0 if a == b else cost_of_change(robot, a, b) for b in choices[k + 1]]
-                    for a in choices[k]
-                ]
-            )
+            one = costs_of_changes(robot, choices[k], choices[k + 1])
             wide = [1] * count
             wide[k], wide[k + 1] = one.shape
             costs += one.reshape(wide)

@@ -287,7 +287,7 @@ def _may_be_better(
         return True
     # where the plan promises to fail: one judgement tells
     off = search.weakest_first(off_angles(each.plan.question(search.question)))
-    return not off or _rank_of(off[0], drives) >= bar[0]
+    return not off or drives.rank(off[0]) >= bar[0]
 
 
 def holds_off_its_angles(question: Question, drives: Drives | None = None) -> bool:
@@ -302,7 +302,10 @@ def holds_off_its_angles(question: Question, drives: Drives | None = None) -> bo
     """
     drives = Drives() if drives is None else drives
     middle = question.changed(robot=question.robot.middle)
-    return _judged_off(_judged(shortened(middle), drives), None, drives).sturdy
+    judged = _judged(shortened(middle), drives)
+    # any worse verdict tells
+    worse = (judged.merit[0] - 1, True, 0, math.inf)
+    return _judged_off(judged, worse, drives).sturdy
 
 
 def friction_off_its_angles(question: Question, drives: Drives | None = None) -> float:
@@ -317,7 +320,7 @@ def friction_off_its_angles(question: Question, drives: Drives | None = None) ->
     """
     drives = Drives() if drives is None else drives
     middle = shortened(question.changed(robot=question.robot.middle))
-    each = (drives.rank(off).required_friction for off in off_angles(middle))
+    each = (drives.required_friction(off) for off in off_angles(middle))
     return max((one for one in each if math.isfinite(one)), default=0.0)
 
 
@@ -336,11 +339,6 @@ def _judged(question: Question, drives: Drives) -> Judged:
     return judged_of(question, drives.judge(question))
 
 
-def _rank_of(question: Question, drives: Drives) -> int:
-    """Rank of a plan's verdict with its sign turned: larger is better."""
-    return -conclude(question, drives.rank(question)).verdict.rank
-
-
 def _judged_off(
     plan: Judged, beaten: Standing | None, drives: Drives, search: Search | None = None
 ) -> _Off:
@@ -357,7 +355,7 @@ def _judged_off(
             return _Off(plan, worst, tested=False)
         if worst[0] == -Verdict.CAUTION.rank and drives.is_no_failure(off):
             continue
-        worst = (min(worst[0], _rank_of(off, drives)), *plan.merit[1:])
+        worst = (min(worst[0], drives.rank(off)), *plan.merit[1:])
         if worst != plan.merit and worst[0] <= -Verdict.NO_GO.rank:
             break
     return _Off(plan, worst, tested=True)

@@ -6,6 +6,7 @@ from itertools import pairwise, product
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kaidan.mechanics import Number
 from kaidan.modes import Facing, Phase
@@ -49,14 +50,25 @@ def cost_of_drop(drop: Number) -> Number:
 
 def cost_of(robot: Robot, postures: Sequence[Posture]) -> float:
     """Margin that the changes of a plan have to gain [deg]."""
-    return sum(cost_of_change(robot, one, two) for one, two in pairwise(postures) if one != two)
+    changes = [(one, two) for one, two in pairwise(postures) if one != two]
+    return sum(float(costs_of_changes(robot, [one], [two])[0, 0]) for one, two in changes)
 
 
-def cost_of_change(robot: Robot, one: Posture, two: Posture) -> float:
-    """Margin that a change has to gain: by itself, and by how far flippers turn [deg]."""
-    was = angles_of(robot, one)
-    turns = (abs(angle - was[end]) for end, angle in angles_of(robot, two).items())
-    return A_CHANGE + A_TURN * math.degrees(sum(turns))
+def costs_of_changes(
+    robot: Robot, before: Sequence[Posture], after: Sequence[Posture]
+) -> NDArray[np.float64]:
+    """Margin that a change from each posture to each other has to gain, (n, m) [deg].
+
+    By itself, and by how far flippers turn; nothing where the posture stays.
+    """
+    one, two = (
+        np.array([list(angles_of(robot, each).values()) for each in some])
+        for some in (before, after)
+    )
+    turned = np.abs(one[:, None] - two).sum(axis=-1)
+    number = {posture: k for k, posture in enumerate((*before, *after))}
+    a, b = ([number[each] for each in some] for some in (before, after))
+    return np.where(np.not_equal.outer(a, b), A_CHANGE + A_TURN * np.degrees(turned), 0.0)
 
 
 def words(robot: Robot) -> Iterator[Posture]:

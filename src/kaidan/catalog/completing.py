@@ -49,6 +49,8 @@ def _refuse_no_toml(text: str, origin: str) -> None:
         tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{origin}: not valid TOML: {error}") from None
+    except RecursionError:
+        raise InputError(f"{origin}: not a sheet: tables or lists nested too deeply") from None
 
 
 def _holds(text: str, figures: Mapping[str, Any]) -> bool:

@@ -99,6 +99,8 @@ def _turn(
     said = {f"{end}_turn": _one(answers, kind, f"{end}_turn", default="none")}
     if said[f"{end}_turn"] == "none":
         return {}
+    if said[f"{end}_turn"] == "unknown":
+        return said
     needed = [f"{end}_{each}" for each in _LANDING]
     if "width" not in found:
         needed.insert(0, "width")

@@ -14,7 +14,7 @@ from kaidan.contact.codes import (
     RotationOutcome,
     Status,
 )
-from kaidan.contact.contacts import Contact, PairForces, cone_margins, pair_forces, spring_loads
+from kaidan.contact.contacts import Contact, PairForces, pair_forces, spring_loads
 from kaidan.contact.heights import TouchingHeights, touching_heights
 from kaidan.contact.margin_records import Job, Margins, Summaries, Tilts
 from kaidan.contact.path import Path, joined
@@ -34,6 +34,7 @@ from kaidan.contact.rest import Settled, resting_height, settle
 from kaidan.contact.slipping import held_while_slipping
 from kaidan.contact.standing import stand_in_turn
 from kaidan.contact.steepest import steepest_flight
+from kaidan.contact.supports import Grousers, Supports
 from kaidan.contact.switch import (
     kernel_in_use,
     use_kernel,
@@ -61,6 +62,7 @@ __all__ = [
     "FeatureKind",
     "FeatureTable",
     "Ground",
+    "Grousers",
     "Job",
     "Margins",
     "PairForces",
@@ -75,12 +77,12 @@ __all__ = [
     "Settled",
     "Status",
     "Summaries",
+    "Supports",
     "Tilts",
     "TouchingHeights",
     "Ways",
     "arrives",
     "body_table",
-    "cone_margins",
     "ground_table",
     "held_while_slipping",
     "joined",

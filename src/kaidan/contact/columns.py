@@ -104,14 +104,6 @@ FLIGHT_COLUMNS = 3
 SETTLED_FOUND, SETTLED_Z, SETTLED_PHI, SETTLED_REAR, SETTLED_FRONT = range(5)
 SETTLED_COLUMNS = 5
 
-# Two contacts and their friction cones: place of each from the centroid [m], tilt of its normal and
-# angle of friction [rad]; sum of their forces [N/kg].
-(
-    CONE_1_X, CONE_1_Z, CONE_1_ALPHA, CONE_1_PHI, CONE_2_X, CONE_2_Z, CONE_2_ALPHA, CONE_2_PHI,
-    CONE_W_X, CONE_W_Z,
-) = range(10)  # fmt: skip
-CONE_COLUMNS = 10
-
 # Nosings that pass an end of a flat: arclength [m], whether it is reached (1.0) or left, point,
 # part, row of the pose before, share of the way to the next.
 PASSED_S, PASSED_REACHED, PASSED_POINT, PASSED_PART, PASSED_ROW, PASSED_SHARE = range(6)
@@ -125,3 +117,21 @@ PASSED_COLUMNS = 6
     WAY_BEHIND, WAY_BEGIN, WAY_END, WAY_AHEAD, WAY_PROMISE,
 ) = range(11)  # fmt: skip
 WAY_COLUMNS = 11
+
+# Supports, as many rows a pose: whether it is one (1.0); of a contact on which the pose stands its
+# place from the centroid [m], tilt of its normal [rad], what it stands on (NOSING, TREAD, FACE),
+# point of the ground where a grouser may stand (-1: none), tilt of the normal of the tread there
+# [rad], curvature of the belt [1/m], lift of that point above the axle of the end that leans
+# against a face [m] (NaN: no face).
+(
+    SUPPORT_IS_ONE, SUPPORT_X, SUPPORT_Z, SUPPORT_NORMAL, SUPPORT_PLACE, SUPPORT_POINT,
+    SUPPORT_TREAD, SUPPORT_CURVATURE, SUPPORT_LIFT,
+) = range(9)  # fmt: skip
+SUPPORT_COLUMNS = 9
+NOSING, TREAD, FACE = range(3)
+NOWHERE = -1
+
+# Loads, a row a pose: sum of the contact forces [N/kg], angle of friction that smooth belts require
+# [rad].
+LOAD_X, LOAD_Z, LOAD_COULOMB = range(3)
+LOAD_COLUMNS = 3

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from kaidan.contact.codes import PartKind
 from kaidan.contact.columns import (
@@ -130,32 +129,3 @@ def spring_loads(
     loads = np.zeros(len(contacts))
     kernel().shared_loads(table, len(contacts), *com, tilt, gravity, loads)
     return loads
-
-
-def cone_margins(cones: Sequence[ArrayLike]) -> FloatArray:
-    """`kaidan.mechanics.cone_margin` of many poses in one call [rad].
-
-    Parameters
-    ----------
-    cones
-        Its arguments in their order, each one number or one a pose.
-
-    Returns
-    -------
-    ndarray (k,)
-        NaN for two contacts at one place.
-
-    Examples
-    --------
-    Two contacts on level ground, friction 1:
-
-    >>> angle = np.pi / 4
-    >>> found = cone_margins([-1.0, -0.1, 0.0, angle, 1.0, -0.1, 0.0, angle, 0.0, [9.8, 4.9]])
-    >>> np.degrees(found).round(2)
-    array([45., 45.])
-    """
-    table = np.ascontiguousarray(np.stack(np.broadcast_arrays(*cones), axis=-1), dtype=np.float64)
-    found = np.empty(len(table))
-    if len(table):
-        kernel().cone_margins(table, found)
-    return found

@@ -19,7 +19,16 @@ from kaidan.contact.columns import (
 )
 from kaidan.contact.contacts import MOST, Contact, contacts_of
 from kaidan.contact.margin_records import Margins, Tilts
-from kaidan.contact.records import Body, Events, Ground, Placement, Poses, RotationRecord, Rotations
+from kaidan.contact.records import (
+    Body,
+    BoolArray,
+    Events,
+    Ground,
+    Placement,
+    Poses,
+    RotationRecord,
+    Rotations,
+)
 from kaidan.contact.switch import kernel
 from kaidan.contact.tables import FloatArray, IntArray, margin_tables
 from kaidan.mechanics import STANDARD_GRAVITY
@@ -88,12 +97,6 @@ class Path:
     def arrives_with_momentum(self) -> bool:
         """Grade three: it arrived and no rotation topples with the momentum gained."""
         return self.status is Status.OK and not bool(self.rotations.topples_with_momentum.any())
-
-    def parts(self, rows: IntArray, part: IntArray | int) -> Body:
-        """One part of the robot at each of some poses."""
-        if self.bodies is None:
-            return Body(self.body.table[np.broadcast_to(part, len(rows))])
-        return Body(self.bodies[rows, part])
 
     @property
     def reach(self) -> float:
@@ -168,6 +171,40 @@ class Path:
             )
         return self.margins.energy[chosen], self.margins.energy_side[chosen]
 
+    def least_energy(
+        self, rows: IntArray, side: float, weights: FloatArray, tie: float
+    ) -> tuple[float, int]:
+        """Smallest weighted rise of the centroid that a fall to one side needs, of some poses.
+
+        Parameters
+        ----------
+        rows
+            Shape (k,): rows of the poses, ascending, one at least.
+        side
+            +1 back, -1 front.
+        weights
+            Shape (k,): of the rise of each [1].
+        tie
+            Difference of rises that is none [m].
+
+        Returns
+        -------
+        rise : float
+            Of the smaller barrier along the flow or about the pivot of that side, whichever is
+            more [m].
+        row : int
+            The first pose that needs no more.
+        """
+        if self.margins is None:
+            raise ValueError("traverse: energy needs with_margins=True")
+        rises = self.margins.back_rise if side > 0 else self.margins.front_rise
+        order = np.argsort(weights * rises[rows], kind="stable")
+        least, row = kernel().least_flow_energy(
+            self.ground.table, self.body.table, self.poses.table, self.margins.table,
+            rows[order], side, weights[order], tie,
+        )  # fmt: skip
+        return least, row if row >= 0 else int(rows[0])
+
     def tilts(self, rows: ArrayLike, side: float, tolerance: ArrayLike = ROCKING) -> Tilts:
         """Tilts of gravity beyond which some poses rotate by more than rocking, to one side.
 
@@ -194,6 +231,47 @@ class Path:
             side, each, found,
         )  # fmt: skip
         return Tilts(found)
+
+    def tilt_jumps(
+        self, rows: IntArray, side: float, whence: FloatArray, of_tilt: BoolArray,
+        half: FloatArray, falls: BoolArray, within: float, *, acceleration: float = 0.0,
+        gravity: float = STANDARD_GRAVITY,
+    ) -> tuple[FloatArray, FloatArray]:  # fmt: skip
+        """Places between poses and the next of the line where rocking, or the tilt after it, jumps.
+
+        Parameters
+        ----------
+        rows
+            The first of each two (k,).
+        side
+            +1 back, -1 front.
+        whence
+            Inclination from which each came down by rocking [rad]; minus infinity: from none.
+        of_tilt
+            Where the tilt jumps, and not the rocking.
+        half
+            Figure between those before and after [rad].
+        falls
+            Where it is more before.
+        within
+            To which the places are found [m].
+        acceleration, gravity
+            As for :meth:`margins_of`.
+
+        Returns
+        -------
+        before, after : ndarray (k,)
+            Shares of the arclength to the next pose.
+        """
+        low, high = np.empty((2, len(rows)))
+        margins, found = margin_tables(1)
+        kernel().find_tilt_jumps(
+            self.ground.table, self.body.table, self.poses.table, rows, side,
+            np.ascontiguousarray(whence), of_tilt.astype(np.int64), np.ascontiguousarray(half),
+            falls.astype(np.int64), within, acceleration, gravity, TOUCH, np.empty(1),
+            np.empty((1, POSE_COLUMNS)), margins, found, low, high,
+        )  # fmt: skip
+        return low, high
 
     def contacts_at(self, place: Placement, touch: float = 1e-7) -> tuple[Contact, ...]:
         """Contacts of the robot at a place: gaps up to ``touch`` [m]."""
@@ -357,9 +435,9 @@ class Path:
         return (events.s - begin) / (self.s[events.pose + 1] - begin)
 
     def _only(self, poses: FloatArray, margins: FloatArray) -> Path:
-        return replace(
-            self, poses=Poses(poses), margins=Margins(margins), events=self.events[:0],
-            rotations=self.rotations[:0],
+        return Path(
+            self.status, Poses(poses), self.events[:0], self.rotations[:0], Margins(margins),
+            self.ground, self.body, self.bodies,
         )  # fmt: skip
 
     def is_on_flat(self, feature: int, row: int) -> bool:

@@ -90,26 +90,6 @@ class Body(_Table):
         """Length of the straight underside of each part [m]."""
         return self._column(at.FLAT)
 
-    @property
-    def axis(self) -> FloatArray:
-        """Unit vectors from the first to the second disc of each part (m, 2)."""
-        return self.table[:, at.E_X : at.E_Z + 1]
-
-    @property
-    def sine(self) -> FloatArray:
-        """Of the taper of each part: difference of the radii over the distance of the centres."""
-        return self._column(at.SINE)
-
-    @property
-    def cosine(self) -> FloatArray:
-        """Of the taper of each part."""
-        return self._column(at.COSINE)
-
-    @property
-    def side(self) -> FloatArray:
-        """+1 if the underside lies to the right of the axis, else -1, of each part."""
-        return self._column(at.SIDE)
-
 
 class Poses(_Table):
     """Stable poses of a path in their order."""

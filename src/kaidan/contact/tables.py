@@ -22,7 +22,6 @@ from numpy.typing import ArrayLike, NDArray
 from kaidan.contact.codes import PartKind
 from kaidan.contact.columns import (
     BODY_COLUMNS,
-    CONE_COLUMNS,
     CONTACT_COLUMNS,
     CONVEX,
     DISC,
@@ -31,6 +30,7 @@ from kaidan.contact.columns import (
     GROUND_COLUMNS,
     JOB_COLUMNS,
     LENGTH,
+    LOAD_COLUMNS,
     MARGIN_COLUMNS,
     PASSED_COLUMNS,
     POINT_COLUMNS,
@@ -41,6 +41,7 @@ from kaidan.contact.columns import (
     ROTATION_COLUMNS,
     SETTLED_COLUMNS,
     SUMMARY_COLUMNS,
+    SUPPORT_COLUMNS,
     TILT_COLUMNS,
     U_X,
     U_Z,
@@ -74,16 +75,19 @@ PointTable = Annotated[FloatArray, POINT_COLUMNS]
 ZoneTable = Annotated[FloatArray, ZONE_COLUMNS]
 FlightTable = Annotated[FloatArray, FLIGHT_COLUMNS]
 PassedTable = Annotated[FloatArray, PASSED_COLUMNS]
-ConeTable = Annotated[FloatArray, CONE_COLUMNS]
+SupportTable = Annotated[FloatArray, SUPPORT_COLUMNS]
+LoadTable = Annotated[FloatArray, LOAD_COLUMNS]
 SettledTable = Annotated[FloatArray, SETTLED_COLUMNS]
 WayTable = Annotated[FloatArray, WAY_COLUMNS]
 #: Numbers that belong together, in the kernel: four, or x, z, cosine, sine and a point, or x, z and
 #: inclination, tangent (3) of the line of poses, rear and front contact, or of a part's side
-#: whether it faces down, its normal, and how far the pivot lies beyond its line.
+#: whether it faces down, its normal, and how far the pivot lies beyond its line; or of the tip of a
+#: grouser whether it can stand, tilt, run, loss of sine and how far ahead.
 Four = tuple[float, float, float, float]
 Pose = tuple[float, float, float, float, float, float]
 Held = tuple[float, float, float, float, float, float, int, int]
 Side = tuple[bool, float, float, float]
+Tip = tuple[bool, float, float, float, float]
 
 #: Points closer than this to the line of those beside them are dropped [m]; far below any scan,
 #: far above the rounding of coordinates of some metres.

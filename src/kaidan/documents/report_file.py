@@ -38,7 +38,8 @@ def report_bytes(found: "Report", form: str, language: str = "en") -> bytes:
         What `kaidan.report` answers.
     form : {"html", "pdf"}
     language : {"en", "ja"}
-        Of the text; pictures, lines of commands and words of sheets are in English.
+        Of the text; lines of commands and words of sheets are in English, and so are pictures where
+        the system has no Japanese typeface.
 
     Returns
     -------
@@ -53,6 +54,7 @@ def report_bytes(found: "Report", form: str, language: str = "en") -> bytes:
     MissingExtraError
         ``kaidan[report]`` is not installed.
     """
+    from kaidan.documents.japanese_pictures import put_in_japanese
     from kaidan.figures.saving import figure_bytes
     from kaidan.text.japanese import in_japanese
     from kaidan.text.report import document
@@ -60,19 +62,22 @@ def report_bytes(found: "Report", form: str, language: str = "en") -> bytes:
     if language not in LANGUAGES:
         known = ", ".join(LANGUAGES)
         raise InputError(f"report: language {shown(language)} is not known; known: {known}")
-    whole = document(found)
+    if form not in FORMATS:
+        raise InputError(f"report: format {shown(form)} is not known; known: {', '.join(FORMATS)}")
+    whole, figures = document(found), dict(_figures(found))
     if language == "ja":
         whole = in_japanese(whole)
+        for each in figures.values():
+            put_in_japanese(each)
     if form == "html":
         from kaidan.documents.html_page import page
 
-        pictures = {key: figure_bytes(each, "svg") for key, each in _figures(found)}
-        return page(whole, pictures).encode()
-    if form == "pdf":
-        from kaidan.documents.pdf_pages import pages
+        return page(
+            whole, {key: figure_bytes(each, "svg") for key, each in figures.items()}
+        ).encode()
+    from kaidan.documents.pdf_pages import pages
 
-        return pages(whole, {key: figure_bytes(each, "png") for key, each in _figures(found)})
-    raise InputError(f"report: format {shown(form)} is not known; known: {', '.join(FORMATS)}")
+    return pages(whole, {key: figure_bytes(each, "png") for key, each in figures.items()})
 
 
 def _figures(found: "Report") -> "Iterator[tuple[str, Figure]]":

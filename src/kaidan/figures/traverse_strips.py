@@ -96,7 +96,7 @@ def _energy(axes: Axes, found: "TraverseReport") -> None:
             0.006, 0.3, "dotted: over the uphill end", transform=axes.transAxes, color=look.GREY,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8}, zorder=4,
         )  # fmt: skip
-    _level(axes, threshold, f"$v^2/2g$ = {threshold:.2f} mm")
+    _level(axes, threshold, f"sudden stop: {threshold:.2f} mm")
     _about_what_stays(axes, found, np.where(downhill, values, np.inf))
 
 
@@ -117,7 +117,7 @@ def _about_what_stays(axes: Axes, found: "TraverseReport", values: look.Array) -
         axes.plot([low, high], [least, least], color=look.BLUE, linewidth=0.9, linestyle="-.")
         if not named:
             named = True
-            text = f" {least:.1f} mm for any rotation, arrested or not"
+            text = f" {look.signed(round(least, 1) + 0.0, 1)} mm for any rotation, arrested or not"
             axes.text(low, least, text, color=look.BLUE, va="bottom", fontsize=look.SMALL, zorder=4)
 
 

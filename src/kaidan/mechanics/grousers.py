@@ -68,6 +68,49 @@ def tip_tilt(*, theta: Number, h: Number, r: Number, curvature: Number = 0.0) ->
     return np.maximum(theta - reach, 0.0)
 
 
+def height_behind(*, theta: Number, h: Number, s: Number, r: Number) -> Number:
+    """Height of a grouser over a nosing, where the one before it keeps the belt off the riser.
+
+    ``h - sin(theta) [h sin(theta) + r (1 - sin(theta)) - s cos(theta)]+``
+
+    As a tip comes to the nosing the one before it is a spacing farther down the belt. A belt that
+    is nearly as steep as the riser's face recedes from it by less than h there, so the tip rests
+    against the face and pushes the belt off.
+
+    Assumptions: rigid grousers; straight belt; an upright face, at least a spacing high.
+
+    Parameters
+    ----------
+    theta : float or array
+        Tilt of the belt's normal from the tread's [rad], 0 to pi/2.
+    h : float or array
+        Height of the grousers under load [m].
+    s : float or array
+        Spacing of the grousers along the belt [m].
+    r : float or array
+        Radius of the nosing [m].
+
+    Returns
+    -------
+    float or array
+        [m]: h up to tan(theta) = s / h where r is 0, and zero where the belt is upright.
+
+    Examples
+    --------
+    >>> print(round(height_behind(theta=np.radians(45), h=0.010, s=0.040, r=0.0), 9))
+    0.01
+    >>> print(round(height_behind(theta=np.radians(86.6), h=0.0175, s=0.0394, r=0.0), 4))
+    0.0024
+
+    References
+    ----------
+    Derived: docs/theory/grousers.md.
+    """
+    lean = np.sin(theta)
+    pressed = np.maximum(h * lean + r * (1.0 - lean) - s * np.cos(theta), 0.0)
+    return np.maximum(h - lean * pressed, 0.0)
+
+
 def roll_off_length(*, theta: Number, h: Number, r: Number) -> Number:
     """Length along the belt over which a grouser that has passed a nosing rolls off it.
 

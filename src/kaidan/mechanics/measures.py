@@ -294,7 +294,8 @@ def kinetic_energy_height(*, v: Number, g: Number = STANDARD_GRAVITY) -> Number:
 
     ``v^2 / (2 g)``
 
-    To be set beside an energy margin: what is smaller than this can be used up by a sudden stop.
+    All of it can be used up by a sudden stop only if all of it goes into a rotation: see
+    `sudden_stop_height`.
 
     Parameters
     ----------
@@ -318,3 +319,51 @@ def kinetic_energy_height(*, v: Number, g: Number = STANDARD_GRAVITY) -> Number:
     Hand: M v^2 / 2 = M g h.
     """
     return v**2 / (2.0 * g)
+
+
+def sudden_stop_height(
+    *, v: Number, lever: Number, gyration: Number, g: Number = STANDARD_GRAVITY
+) -> Number:
+    """Rise of the centroid that a sudden stop or start of the belts can bring about.
+
+    ``v^2 / (2 g) * lever^2 / (gyration^2 + lever^2)``
+
+    ::
+
+              C  --> v     the belt pulls at the contact, lever below the centroid: what remains
+              |            of the motion is a rotation about the contact with the angular momentum
+        lever |            M v lever, and a part of the energy is lost as the contact takes it up
+        ------o------ belt
+
+    A bound for any history of speeds between rest and v, about either outermost contact, and for a
+    rotation that comes back from the other one.
+
+    Assumptions: contacts that close do not bounce, and the speed changes once while the robot
+    rotates.
+
+    Parameters
+    ----------
+    v : float or array
+        Speed of the belts [m/s].
+    lever : float or array
+        Centroid above the line of the belt at the contact [m].
+    gyration : float or array
+        Radius of gyration about the centroid [m].
+    g : float
+        Gravity [m/s^2].
+
+    Returns
+    -------
+    float or array
+        Height [m], less than `kinetic_energy_height`.
+
+    Examples
+    --------
+    >>> print(round(sudden_stop_height(v=2.0, lever=0.1, gyration=0.2, g=10.0), 12))
+    0.04
+
+    References
+    ----------
+    Derived: docs/theory/measures.md.
+    """
+    return kinetic_energy_height(v=v, g=g) * lever**2 / (gyration**2 + lever**2)

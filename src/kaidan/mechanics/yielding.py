@@ -65,6 +65,9 @@ def theta_d_two_contacts(
     q is the share that the upper nosing carries; first order in eta / p. It is what the paper
     measures as theta_d (Fig. 15), and one measurement of it gives w_n.
 
+    Assumption: the lowest nosing bears all of the pull along the stairs. If the two share it evenly
+    w_n is a tenth less for the same theta_d.
+
     Parameters
     ----------
     L, p, C_L, C_N : float or array
@@ -165,13 +168,15 @@ def theta_s_sup_yielding(
 
 
 def tail_grips(*, w_n: Number, R: Number, mu: Number) -> Number:
-    """Whether a round end that leaves a nosing can be pulled down round it.
+    """Whether a round end that leaves a nosing is pulled down round it.
 
     ``w_n >= R (1 - mu / sqrt(1 + mu^2))``
 
     On the end the contact turns by phi. Beyond phi = atan(1/mu) the friction that drives the robot
     pulls its tail down by more than the nosing pushes it up. The nosing gets so far only if the
-    end, which rises by R (1 - cos(phi)), still presses on it. ``w_n`` is the most by which it does.
+    end, which rises by R (1 - cos(phi)), still presses on it. ``w_n`` is the most by which it does
+    under the flat. Close to the limit the nosing is 2 w_n cos(a) deep in the prolonged flat, so
+    there the criterion is no bound; trials against it found no fall (docs/theory/yielding.md).
 
     Parameters
     ----------

@@ -281,25 +281,28 @@ def _energy(
 ) -> Finding:
     """Smallest energy margin of any pose that nothing obliges to rotate, less the threshold.
 
-    Towards the downhill end the height of a slip back onto grousers adds to the threshold of its
-    phase. The robot over the edge of the upper landing, and on the first nosing, where the nose
+    Towards the downhill end the speed of a slip back onto grousers adds to that of the threshold in
+    its phase. The robot over the edge of the upper landing, and on the first nosing, where the nose
     comes down onto the flight, is obliged to rotate: figures of a phase leave that out. With
     `flight` False only what is not the flight counts. A robot that falls has none.
     """
     slips = ({}, {}) if held is None else (held.worst.heights, held.best.heights)
+    threshold = question.energy_threshold()
     least, phase, step = math.inf, None, None
     worst, best = np.full(1, math.inf), np.full(1, math.inf)
     for each in phases:
-        down, up = each.energy_margin, each.uphill_energy_margin
-        of_slip = [heights.get(each.phase, 0.0) for heights in slips]
+        (down, step_down), (up, step_up) = each.steadiness, each.uphill_steadiness
+        of_slip = [
+            question.energy_threshold(heights.get(each.phase, 0.0)) - threshold for heights in slips
+        ]
         values = []
         if not flight:
             if each.phase is (Phase.LAND if found.descending else Phase.ENTER):
-                values.append((down - of_slip[0], down - of_slip[1], each.energy_margin_step))
+                values.append((down - of_slip[0], down - of_slip[1], step_down))
         else:
-            values.append((down - of_slip[0], down - of_slip[1], each.energy_margin_step))
+            values.append((down - of_slip[0], down - of_slip[1], step_down))
             if each.phase is Phase.TRAVERSE:
-                values.append((up, up, each.uphill_energy_margin_step))
+                values.append((up, up, step_up))
         for low, high, at in values:
             if low < least - _PLACE:
                 least, phase, step = low, each.phase, at
@@ -311,8 +314,8 @@ def _energy(
         phase, step = found.end
     return Finding(
         mode=ENERGY,
-        worst=worst - question.energy_threshold,
-        best=best - question.energy_threshold,
+        worst=worst - threshold,
+        best=best - threshold,
         failing=Verdict.CAUTION,
         phase=phase,
         step=step,

@@ -108,8 +108,8 @@ class ContactFigures(Part):
     rotations: tuple[RotationFigures, ...]
     """Every rotation of the traverse, in order."""
     energy_threshold_mm: float
-    """Energy margin below which the robot may rock: v^2/2g of the stated speed, else of the
-    paper's 0.1 m/s [mm]."""
+    """Energy margin on the flat below which a sudden stop or start may rock the robot [mm]: of the
+    stated speed, else of the paper's 0.1 m/s."""
     speed_stated: bool
     """Whether that is the requested speed."""
     rear_length_mm: float | None
@@ -162,7 +162,7 @@ def figures_of(
         ),
         phases=tuple(_phase(each) for each in phases),
         rotations=tuple(_rotation(each) for each in found.chains),
-        energy_threshold_mm=1e3 * question.energy_threshold,
+        energy_threshold_mm=1e3 * question.energy_threshold(),
         speed_stated=bool(question.speed),
         rear_length_mm=None if found.rear_length is None else 1e3 * found.rear_length[0],
         margin_centroid_mm=1e3 * found.centroid_margin

@@ -10,8 +10,8 @@ TurnWay = Literal["straight", "spin", "corner", "manoeuvre", "none", "unknown"]
 class TurnFigures(Part):
     """How a robot turns on a landing."""
 
-    turn_deg: float
-    """Angle between both ways, to the left positive [deg]."""
+    turn_deg: float | None
+    """Angle between both ways, to the left positive [deg]; null: not known."""
     way: TurnWay
     """Straight on, on the spot, round the corner in one go, by a manoeuvre, not at all; unknown:
     its width, or the landing, is."""
@@ -32,6 +32,18 @@ class TurnFigures(Part):
     straight on, round the corner, or none was found."""
     reversals: int
     """Changes between driving forward and back among them."""
+    most_moves: int
+    """Moves of a manoeuvre up to which it counts, of the robot's sheet."""
+
+    @property
+    def long(self) -> bool:
+        """Whether it takes a manoeuvre of more moves than count."""
+        return self.way == "manoeuvre" and self.moves > self.most_moves
+
+    @property
+    def holds(self) -> bool:
+        """Whether it turns in the worst case too."""
+        return self.way not in ("none", "unknown") and not (self.tight or self.long)
 
 
 class LandingTurn(TurnFigures):

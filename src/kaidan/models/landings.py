@@ -1,7 +1,8 @@
 """Turning on landings: in the posture of the climb, else in another one that does.
 
 Best case: the footprint as it is. Worst case: larger all round by what a driver needs for
-corrections. What is shown is the first way that holds in the worst case, else in the best.
+corrections, and of no more moves than the robot's sheet states. What is shown is the first way that
+has room in the worst case, else in the best.
 """
 
 import math
@@ -29,8 +30,8 @@ from kaidan.models.landing_figures import LandingTurn, LandingTurns, TurnWay
 from kaidan.modes import TURNING, Phase
 from kaidan.outline import Outline, footprint_of
 from kaidan.question import Question
-from kaidan.robot import Posture
-from kaidan.terrain.landings import Landing
+from kaidan.robot import Posture, Robot
+from kaidan.terrain.landings import TURNS, Landing
 
 Array = NDArray[np.float64]
 KEPT = 0.1
@@ -146,7 +147,7 @@ def _rounds(footprint: Footprint, level: bool, a: float, b: float, deep: float) 
     return turns and deep >= needed
 
 
-def shown(found: Turned, climbing: str, turn: float, *, flippers: bool) -> dict[str, Any]:
+def shown(found: Turned, climbing: str, turn: float | None, robot: Robot) -> dict[str, Any]:
     """Fields of `TurnFigures`, in its order.
 
     Parameters
@@ -154,21 +155,21 @@ def shown(found: Turned, climbing: str, turn: float, *, flippers: bool) -> dict[
     found : Turned
     climbing : str
         Posture in which the robot climbs.
-    turn : float
-        Angle between both ways [rad].
-    flippers : bool
-        Whether the robot has any.
+    turn : float, optional
+        Angle between both ways [rad]; None: not known.
+    robot : Robot
     """
     return {
-        "turn_deg": math.degrees(turn),
+        "turn_deg": None if turn is None else math.degrees(turn),
         "way": found.way,
         "tight": found.tight,
-        "flippers": found.posture if flippers else "",
+        "flippers": found.posture if robot.flippers() else "",
         "changed": found.posture != climbing,
         "circle_m": circle(found.footprint),
         "room_m": found.room,
         "moves": found.path.moves if found.path else 0,
         "reversals": found.path.reversals if found.path else 0,
+        "most_moves": robot.turning_moves,
     }
 
 
@@ -190,12 +191,10 @@ def _turns(question: Question) -> Iterator[LandingTurn]:
         if robot.flippers() and climbing != "stowed":
             names.append("stowed")
         tried = tuple((name, _footprint(question, name)) for name in names)
-        found = _turned_on(tried, landing._replace(place=""))
-        turn = math.pi if landing.turn == "half" else math.pi / 2
-        yield LandingTurn(
-            landing=landing.place,
-            **shown(found, climbing, turn, flippers=bool(robot.flippers())),
-        )
+        known = landing.turn != "unknown"
+        found = _turned_on(tried, landing._replace(place="")) if known else turned(tried, None)
+        turn = TURNS[landing.turn] if known else None
+        yield LandingTurn(landing=landing.place, **shown(found, climbing, turn, robot))
 
 
 def _posture_at(question: Question, landing: Landing) -> Posture:
@@ -270,7 +269,7 @@ def beside(question: Question, found: Findings) -> Findings:
     Findings
     """
     turns = turns_of(question)
-    worst = any(each.way in ("none", "unknown") or each.tight for each in turns)
+    worst = not all(each.holds for each in turns)
     best = any(each.way == "none" for each in turns)
     finding = Finding(
         mode=TURNING,

@@ -199,7 +199,7 @@ def _of_move(question: Question, each: Move) -> tuple[Finding, ...]:
         margins = traction.standing_margins(question, each)
         worst, best = (np.array([margin]) for margin in margins)
         slides = certain(SLIDES_DOWN, 0.0)
-        energy = certain(ENERGY, each.energy - question.energy_threshold, failing=Verdict.CAUTION)
+        energy = certain(ENERGY, each.energy - question.kinetic_height, failing=Verdict.CAUTION)
         found += [replace(slides, worst=worst, best=best), energy]
     if not math.isnan(each.spare_torque):
         found.append(certain(FLIPPER_TORQUE, each.spare_torque))

@@ -301,8 +301,9 @@ def sliding_margin(question: Question, basis: Basis) -> Array:
 
 def _sliding(over: Spread, phase: Phase | None, mu: float, required: float) -> Array:
     """Margin of slope against sliding of each sample [rad]."""
-    steeper = over.inclination if phase is Phase.TRAVERSE else over.angle
-    margin = np.arctan(np.maximum(mu + over.friction, 0.0)) - math.atan(required) - steeper
+    margin = (
+        np.arctan(np.maximum(mu + over.friction, 0.0)) - math.atan(required) - over.steeper(phase)
+    )
     return np.asarray(margin)
 
 
@@ -372,7 +373,8 @@ def _obstacles(
     if phase in (None, Phase.LAND):
         leaves, length = question.leaves, sum(found.outline.reach)
         ends = zip(found.profile.landings, leaves[:: -1 if found.descending else 1], strict=True)
-        inner = (each for each in question.landings if each.end == "between")
+        inner = (each for each in question.landings
+                 if each.end == "between" and each.turn != "unknown")  # fmt: skip
         deep = [*ends, *((min(each.lengths), 0.0) for each in inner)]
         room = min(float(run_up_margin(depth=d, length=length, leaf=leaf)) for d, leaf in deep)
         each.append(Finding.certain(LANDING_ROOM, room, failing=Verdict.CAUTION, model=_NAME))

@@ -46,6 +46,8 @@ class Spread(NamedTuple):
     """Of the slope itself [rad]: it goes off the margins of friction and drive in full."""
     inclination: Array
     """Of the steepest inclination on the flight, which does so where the flight decides [rad]."""
+    landing_inclination: Array
+    """The same with the uphill end over the landing already [rad]."""
     friction: Array
     """Of the static friction [1]."""
     over_landing: Phase = Phase.LAND
@@ -56,6 +58,11 @@ class Spread(NamedTuple):
         if phase is self.over_landing and downhill:
             return self.landing
         return self.tip_downhill if downhill else self.tip_uphill
+
+    def steeper(self, phase: Phase | None) -> Array:
+        """Of the inclination that goes off the margin of friction of a phase [rad]."""
+        known = {Phase.TRAVERSE: self.inclination, self.over_landing: self.landing_inclination}
+        return self.angle if phase is None else known.get(phase, self.angle)
 
     def energy(self, phase: Phase) -> Array:
         """Of the energy margin of a phase [m]."""
@@ -78,7 +85,7 @@ def spread(question: Question, traverse: Traverse) -> Spread:
     Spread
     """
     if not question.uncertain:
-        return Spread(*np.zeros((9, 1)))
+        return Spread(*np.zeros((10, 1)))
     count, flight = sample_count(question), question.flight
     drawn = drawn_of_all(question)
     angle, friction, exact = drawn[3], drawn[5], np.zeros(count)
@@ -88,7 +95,7 @@ def spread(question: Question, traverse: Traverse) -> Spread:
     regular = isinstance(question.terrain, Stairs) and question.terrain.rise is not None
     if regular and not question.steps_uncertain:
         none = np.zeros(1)
-        return Spread(down, up, down, none, none, none, angle, angle, friction)
+        return Spread(down, up, down, none, none, none, angle, angle, angle, friction)
     found, nominal_ = _by_draws(question, traverse, drawn)
     down = _off(found.downhill, nominal_.downhill, down)
     return Spread(
@@ -102,6 +109,7 @@ def spread(question: Question, traverse: Traverse) -> Spread:
         else exact,
         angle=angle,
         inclination=_off(found.inclination, nominal_.inclination, angle),
+        landing_inclination=_off(found.landing_inclination, nominal_.landing_inclination, angle),
         friction=friction,
         over_landing=Phase.ENTER if question.direction == "down" else Phase.LAND,
     )

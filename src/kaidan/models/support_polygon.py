@@ -148,10 +148,10 @@ def tips(question: Question, flight: Stairs, *, failing: Verdict) -> tuple[Findi
 
 
 def energy_finding(question: Question, energy: float) -> Finding:
-    """Finding of the energy margin [m] against the kinetic-energy height."""
+    """Finding of the energy margin [m] against the energy threshold."""
     return Finding.certain(
         ENERGY,
-        energy - question.energy_threshold,
+        energy - question.energy_threshold(),
         failing=Verdict.CAUTION,
         phase=Phase.TRAVERSE,
         model=_NAME,
@@ -327,7 +327,7 @@ def _holding(question: Question, flight: Stairs) -> Callable[[Array], NDArray[np
     """Function that says whether the robot holds at each of some yaws."""
     gauge, at, a = gauge_of(question), nominal(question, flight), question.acceleration
     drawn = next(draws(question, at))
-    d, M, threshold = question.allowance_d, question.allowance_M, question.energy_threshold
+    d, M, threshold = question.allowance_d, question.allowance_M, question.energy_threshold()
 
     def holds(psi: Array) -> NDArray[np.bool_]:
         edges = _edges(at, gauge, psi)

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from kaidan.contact import Grousers
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.grousers import standing_run
 from kaidan.mechanics.rubber import height_lost, rubber_modulus
@@ -16,7 +17,7 @@ from kaidan.question import Question
 from kaidan.robot import Robot, Track
 from kaidan.terrain.stairs import NOSING_RADII, Stairs
 from kaidan.traversal import Traverse
-from kaidan.traversal.grip import Grip, Grousers
+from kaidan.traversal.grip import Grip
 from kaidan.traversal.moves import Move
 from kaidan.traversal.phases import step_at
 from kaidan.traversal.samples import lasting

@@ -23,6 +23,8 @@ BEFORE = 0.05
 """Distance from the stairs at which a robot on the landing starts [m]."""
 BEYOND = 0.02
 """Distance by which the whole flat is past the stairs at the end [m]."""
+NEXT = math.radians(20.0)
+"""Rotation as it settles beyond which it has not settled but fallen [rad]."""
 
 
 class Course(NamedTuple):
@@ -35,8 +37,6 @@ class Course(NamedTuple):
     z: float
     phi: float
     """Start: centroid [m] and inclination [rad]."""
-    stands: bool
-    """Whether the contact model finds a stable pose there."""
     slope: float
     """Slope of the line of the nosings, of the steepest flight [rad]: negative going down."""
     spacing: float
@@ -92,19 +92,14 @@ def course_of(spec: TrialSpec) -> Course:
     slope, spacing = slope_of(profile, flat), profile.nosing_spacing
     goal, goal_x = math.inf, _past(profile, spec.downhill)
     if spec.begin == "landing":
-        first = float(profile.nosings[0, 0])
-        x, phi = first - BEFORE - (spec.start_offset or 0.0) * spacing - ahead, 0.0
+        before = BEFORE + (spec.start_offset or 0.0) * spacing
+        x, phi = _on_the_landing(outline, profile, before)
         end = goal_x
     else:
         phi = slope
         x, goal = _on_the_flight(spec, profile, slope, rear, front)
         end = min(goal_x, goal * math.cos(slope) - rear + spacing)
-    pose = contact.settle(profile.points, outline.parts, x, phi, kinds=outline.kinds)
-    stands = pose.found and abs(pose.inclination - phi) < math.radians(20.0)
-    if stands:
-        z, phi = pose.z, pose.inclination
-    else:
-        z = _above(profile, x, phi, stance.com_height)
+    z, phi = _at_rest(outline, profile, x, phi)
     distance = max(spacing, (end + back - x)) / max(0.3, math.cos(slope))
     if spec.begin == "flight" and math.isfinite(goal):
         tip = rear if not spec.downhill else front
@@ -116,7 +111,6 @@ def course_of(spec: TrialSpec) -> Course:
         x=x,
         z=z,
         phi=phi,
-        stands=stands,
         slope=slope,
         spacing=spacing,
         rear=rear,
@@ -146,6 +140,40 @@ def slope_of(profile: Profile, room: float) -> float:
         if 1 < len(flight) < len(profile.nosings)
     ]
     return max(slopes, key=abs, default=profile.angle)
+
+
+def _on_the_landing(outline: Outline, profile: Profile, before: float) -> tuple[float, float]:
+    """Centroid x [m] and inclination [rad] at rest on the landing.
+
+    Flippers that reach below the flat lift an end of it, so the robot leans whatever its place, and
+    its foremost point is that of the pose in which it leans, not that of the flat on the floor.
+
+    Parameters
+    ----------
+    outline : Outline
+        Robot as driven.
+    profile : Profile
+        Terrain as driven.
+    before : float
+        Distance of the foremost point from the first nosing [m].
+    """
+    floor = np.array([[-1.0, 0.0], [1.0, 0.0]]) * (2.0 * max(outline.reach) + 2.0)
+    pose = contact.settle(floor, outline.parts, 0.0, 0.0, kinds=outline.kinds)
+    phi = pose.inclination if pose.found else 0.0
+    discs = outline.parts.reshape(-1, 3)
+    foremost = discs[:, 0] * math.cos(phi) - discs[:, 1] * math.sin(phi) + discs[:, 2]
+    return float(profile.nosings[0, 0] - before - foremost.max()), phi
+
+
+def _at_rest(outline: Outline, profile: Profile, x: float, phi: float) -> tuple[float, float]:
+    """Height of the centroid [m] and inclination [rad] of the stable pose next to an inclination.
+
+    Where there is none within `NEXT` the robot is held at that inclination on what it touches.
+    """
+    pose = contact.settle(profile.points, outline.parts, x, phi, kinds=outline.kinds)
+    if pose.found and abs(pose.inclination - phi) < NEXT:
+        return pose.z, pose.inclination
+    return contact.resting_height(profile.points, outline.parts, x, phi, kinds=outline.kinds), phi
 
 
 def _on_the_flight(
@@ -182,10 +210,3 @@ def _past(profile: Profile, down: bool) -> float:
         )
         + BEYOND
     )
-
-
-def _above(profile: Profile, x: float, phi: float, height: float) -> float:
-    """Height of the centroid of a robot whose flat lies on the line through the nosings [m]."""
-    nearest = profile.nosings[int(np.abs(profile.nosings[:, 0] - x).argmin())]
-    away = (x - nearest[0]) * math.tan(phi)
-    return float(nearest[1] + away + height / math.cos(phi))

@@ -124,7 +124,7 @@ def _set_options(scene: Any, spec: TrialSpec) -> None:
 def _robot(scene: Any, spec: TrialSpec, course: Course) -> Any:
     """Body of the robot at its start, with its joints and its inertia."""
     mujoco = engine()
-    lift = CLEARANCE + (standing_out(spec) if course.stands or spec.begin == "flight" else 0.0)
+    lift = CLEARANCE + standing_out(spec)
     x = course.x - lift * math.sin(course.phi)
     z = course.z + lift * math.cos(course.phi)
     body = scene.worldbody.add_body(name=ROBOT, pos=[x, 0.0, z], quat=turned(course.phi))

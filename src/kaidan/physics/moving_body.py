@@ -51,6 +51,11 @@ class MovingBody(ABC):
     def set_going(self) -> None:
         """Give the robot the belt's speed, where it starts moving."""
 
+    @property
+    def sets_out(self) -> float:
+        """Inclination at which it sets out [rad]: its own on the flight, level on the landing."""
+        return self.pose()[2] if self.spec.begin == "flight" else 0.0
+
     @abstractmethod
     def diverged(self) -> bool:
         """Whether the simulation has left the realm of robots."""
@@ -116,13 +121,16 @@ class MovingBody(ABC):
         return not low - FALLEN <= phi <= high + FALLEN
 
     def settle(self) -> Outcome | None:
-        """Let it rest, on a tether and then free: how that ended; None: it stands in its place."""
-        course = self.course
-        weight = self.spec.mass()[0] * STANDARD_GRAVITY * math.sin(course.slope)
+        """Let it rest, on a tether and then free: how that ended; None: it stands in its place.
+
+        On the landing no slope pulls at it, and the tether is slack.
+        """
+        course, on_the_flight = self.course, self.spec.begin == "flight"
+        pull = self.spec.mass()[0] * STANDARD_GRAVITY * math.sin(course.slope) * on_the_flight
         phi, place = self.pose()[2], self.along_nosings(course.downhill_end)
         for share, time in self.tether:
             steps = max(4, round(time / self.spec.step))
-            self.pull(share * weight)
+            self.pull(share * pull)
             for part in range(4):
                 self.drive(0.0, steps // 4 + (part < steps % 4), on=False)
                 now = self.pose()[2]

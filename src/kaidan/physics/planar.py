@@ -188,8 +188,8 @@ class RubberBody(MovingBody):
 
     def set_going(self) -> None:
         """Give the robot the belt's speed."""
-        phi = self.state[2]
-        self.state[3:5] += self.belt.speed(0.0) * np.array([math.cos(phi), math.sin(phi)])
+        way = self.sets_out
+        self.state[3:5] += self.belt.speed(0.0) * np.array([math.cos(way), math.sin(way)])
 
     def diverged(self) -> bool:
         """Whether the simulation has left the realm of robots."""

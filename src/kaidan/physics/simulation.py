@@ -146,9 +146,9 @@ class Simulation(MovingBody):
         """Give the robot the belt's speed, where it starts moving."""
         if self.belt.ramp > 0.0:
             return
-        speed = self.belt.speed(0.0)
-        phi = self.pose()[2]
+        speed, way = self.belt.speed(0.0), self.sets_out
         if self.joints is not None:
-            self.data.qvel[self.joints[1]] += (speed * math.cos(phi), speed * math.sin(phi), 0.0)
+            self.data.qvel[self.joints[1]] += (speed * math.cos(way), speed * math.sin(way), 0.0)
             return
-        self.data.qvel[:3] += speed * self.axes[:, 0]
+        ahead = self.axes[:, 0] * (1.0, 1.0, self.spec.begin == "flight")
+        self.data.qvel[:3] += speed * ahead / np.linalg.norm(ahead)

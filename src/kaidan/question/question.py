@@ -9,7 +9,7 @@ import numpy as np
 from kaidan.allowance import LARGEST_ALLOWANCE, Allowance
 from kaidan.errors import InputError
 from kaidan.mechanics import STANDARD_GRAVITY
-from kaidan.mechanics.measures import kinetic_energy_height
+from kaidan.mechanics.measures import kinetic_energy_height, sudden_stop_height
 from kaidan.mechanics.yielding import yielding_loss
 from kaidan.modes import CONTACT, MODELS, PHYSICS, Acceptance, Phase
 from kaidan.question.fields import FACINGS, TRACKS, QuestionFields
@@ -474,9 +474,26 @@ class Question(QuestionFields):
         return resistance if self.direction == "up" else -resistance
 
     @property
-    def energy_threshold(self) -> float:
-        """Energy margin below which it may rock: v^2/2g of the stated or the paper's speed [m]."""
+    def kinetic_height(self) -> float:
+        """v^2/2g of the stated or the paper's speed [m]."""
         return float(kinetic_energy_height(v=self.speed or ROCKING_SPEED))
+
+    def energy_threshold(self, slip: float = 0.0) -> float:
+        """Energy margin below which a sudden stop or start may rock it on its flat [m].
+
+        Parameters
+        ----------
+        slip : float
+            v^2/2g of a slip back onto its grousers, which ends as the belts run [m].
+        """
+        speed = math.sqrt(2.0 * STANDARD_GRAVITY)
+        return float(
+            sudden_stop_height(
+                v=speed * (math.sqrt(self.kinetic_height) + math.sqrt(slip)),
+                lever=self.stance.com_height,
+                gyration=self.outline.least_gyration,
+            )
+        )
 
     @property
     def reserve(self) -> float:

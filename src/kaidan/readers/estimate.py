@@ -9,13 +9,16 @@ from typing import Any
 from kaidan.errors import InputError
 from kaidan.readers.flight import MICROMETRE, FlightEstimate
 from kaidan.readers.kinds import Array, Provenance
+from kaidan.terrain.landings import TURNS
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import UNSTATED_LANDING, Stairs
 from kaidan.text.refusals import sentence
-from kaidan.text.turning import not_judged
+from kaidan.text.turning import OTHER_ANGLE, not_judged
 
 STRAIGHT_ON = math.radians(15.0)
 """Angle between two flights up to which the robot goes straight on [rad]."""
+AS_STATED = math.radians(5.0)
+"""Difference from a quarter or a half up to which a turn is one [rad]."""
 
 
 @dataclass(frozen=True)
@@ -73,9 +76,9 @@ class StairsEstimate:
     def stairs(self) -> tuple[Stairs, ...]:
         """Data sheets of the flights from bottom to top, as a question takes them.
 
-        A landing between two flights has the turn on it, the nearer of a quarter and a
-        half, where it was seen to be as wide as both flights side by side. Where it was not, the
-        notes of the lower flight's sheet say that the turn is not judged, and why.
+        A landing between two flights has the turn on it, a quarter or a half, where it was seen to
+        be as wide as both flights side by side. Where it was not, or the way turns by another
+        angle, the turn is unknown, and the notes of the lower flight's sheet say why.
         """
         sheets = [
             flight.stairs(
@@ -123,17 +126,21 @@ def _turning(sheet: Stairs, landing: LandingEstimate) -> Stairs:
     if abs(landing.turn) < STRAIGHT_ON:
         return sheet
     stated = {name: getattr(sheet, name) for name in sheet.model_fields_set}
-    half = abs(landing.turn) > math.radians(135.0)
-    turning = {"upper_turn": "half" if half else "quarter"} | (
+    sizes = (
         {"upper_landing_width": round(landing.width, MICROMETRE)}
         if math.isfinite(landing.width)
         else {}
     )
-    try:
-        return Stairs(**stated | turning)
-    except InputError as error:
-        why = str(error).removeprefix(f"{Stairs.label}: ")
-        return Stairs(**stated | {"notes": not_judged(landing.turn, sheet.name, why)})
+    why = OTHER_ANGLE
+    for turn, angle in TURNS.items():
+        if abs(abs(landing.turn) - angle) > AS_STATED:
+            continue
+        try:
+            return Stairs(**stated | sizes | {"upper_turn": turn})
+        except InputError as error:
+            why = str(error).removeprefix(f"{Stairs.label}: ")
+    notes = not_judged(landing.turn, sheet.name, why)
+    return Stairs(**stated | {"upper_turn": "unknown", "notes": notes})
 
 
 def _or_unseen(length: float) -> float:

@@ -23,6 +23,7 @@ from kaidan.terrain.doubt import factor
 from kaidan.terrain.polyline import frozen
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import (
+    LARGEST_DOUBT,
     MOST_TWISTED,
     UNSTATED_LANDING,
     Stairs,
@@ -38,9 +39,9 @@ EXACT = 1e-4
 """Standard uncertainty below which a nosing counts as exact [m]: files round to it."""
 ALIKE = 0.01
 """Probability of a chi squared as large as this one, from which steps count as all alike [1]."""
-ODD = 1.96
-"""Standard uncertainties from which the last rise of a flight counts as another one: of those that
-are like the others 5 % measure so."""
+LAST_SPREAD = 0.02
+"""Standard deviation of the last rise about the others [m], where nobody drew it: floors are laid
+after the steps. A judgement; ISO 14122-3 lets an end riser differ by 15 %, 27 mm of 180."""
 CERTAIN = 3.0
 """Standard uncertainties from which something stands out of its doubt."""
 _LEVEL = math.tan(math.radians(0.2))
@@ -179,18 +180,16 @@ class FlightEstimate:
 
         Where chi squared says that steps are not alike, each nosing has the variance of those
         about it too: weights of what was measured to a tenth of a millimetre would make one odd
-        riser turn the line.
+        riser turn the line. The last one is then one of them.
         """
         m = len(self)
         if m < 2:
             return RegularFlight(*(math.nan,) * 6, 0)
-        number = np.arange(m, dtype=np.float64)
-        design = np.kron(np.column_stack([np.ones(m), number]), np.eye(2))
-        weights = self.weights
+        design, weights = self._uniform, self.weights
         line, freedom = self.line().ravel(), 2 * m - 4
 
         def fitted(weights: Array) -> tuple[Array, Array, Array]:
-            found = np.linalg.inv(design.T @ weights @ design)
+            found = np.asarray(np.linalg.inv(design.T @ weights @ design))
             fit = found @ design.T @ weights @ line
             return found, fit, line - design @ fit
 
@@ -199,36 +198,52 @@ class FlightEstimate:
         if chi2_tail(chi2, freedom) < ALIKE:
             plain = fitted(np.eye(2 * m))[2]
             odd = float(plain @ plain) / freedom * np.eye(2 * m)
-            found, fit, _ = fitted(np.asarray(np.linalg.inv(np.linalg.inv(weights) + odd)))
+            found, fit, _ = fitted(np.asarray(np.linalg.inv(self._measured + odd)))
         going, rise = float(fit[2]), float(fit[3])
         s_going, s_rise = float(np.sqrt(found[2, 2])), float(np.sqrt(found[3, 3]))
         corr = float(found[2, 3]) / (s_going * s_rise)
         return RegularFlight(rise, going, s_rise, s_going, corr, chi2, freedom)
 
-    @cached_property
-    def odd_last(self) -> tuple[float, float] | None:
-        """Last rise and its standard uncertainty [m], where it is not like the others.
+    @property
+    def last_rise(self) -> tuple[float, float]:
+        """Last rise and its standard uncertainty beside the others [m], of more than two nosings.
 
-        The others are taken as regular, so that a rise of which only the end of the face was seen
-        is known to the doubt of that end, not of two.
+        Estimated from what was measured of it and from `LAST_SPREAD` about the others, which are
+        taken as regular.
         """
         m = len(self)
-        if m < 3 or self.is_exact:
-            return None
+        design = np.column_stack([self._uniform, np.eye(2 * m)[-1]])
+        weights = np.asarray(np.linalg.inv(self._measured))
+        normal = design.T @ weights @ design
+        normal[4, 4] += LAST_SPREAD**-2
+        found = np.linalg.inv(normal)
+        fit = found @ design.T @ weights @ self.line().ravel()
+        return float(fit[3] + fit[4]), math.sqrt(found[4, 4])
+
+    @property
+    def _uniform(self) -> Array:
+        """Columns of s0, z0, going and rise in s and z of all nosings, shape (2m, 4)."""
+        m = len(self)
         number = np.arange(m, dtype=np.float64)
-        design = np.kron(np.column_stack([np.ones(m), number]), np.eye(2))
-        design = np.column_stack([design, np.eye(2 * m)[-1]])
-        found = np.linalg.inv(design.T @ self.weights @ design)
-        fit = found @ design.T @ self.weights @ self.line().ravel()
-        off, sigma = float(fit[4]), math.sqrt(found[4, 4])
-        return (float(fit[3]) + off, sigma) if abs(off) > ODD * sigma else None
+        return np.asarray(np.kron(np.column_stack([np.ones(m), number]), np.eye(2)))
+
+    @property
+    def _measured(self) -> Array:
+        """Covariance of what was measured in the order of `full_covariance`, shape (2m, 2m)."""
+        least = 1e-14 if self.covariance.any() else EXACT**2
+        size = 2 * len(self)
+        return np.asarray(self.covariance.reshape(size, size) + least * np.eye(size))
 
     @property
     def weights(self) -> Array:
-        """Inverse of the covariance in the order of `full_covariance`, shape (2m, 2m) [m^-2]."""
-        least = 1e-14 if self.covariance.any() else EXACT**2
-        size = 2 * len(self)
-        covariance = self.covariance.reshape(size, size) + least * np.eye(size)
+        """Inverse of the covariance of nosings about a uniform flight, shape (2m, 2m) [m^-2].
+
+        In the order of `full_covariance`. Beyond what was measured the last one of a flight that
+        was not drawn has `LAST_SPREAD`.
+        """
+        covariance = self._measured
+        if not self.is_exact and len(self) > 2:
+            covariance[-1, -1] += LAST_SPREAD**2
         return np.asarray(np.linalg.inv(covariance))
 
     @property
@@ -287,6 +302,15 @@ class FlightEstimate:
         going, rise = np.sqrt(np.diag(pair) + self.step_spread**2).tolist()
         return going, rise
 
+    def _doubt_of_the_ends(self, listed: bool) -> tuple[float, float]:
+        """Standard uncertainty of the first and of the last rise [m]; of a list as measured."""
+        covariance = self.full_covariance()
+        first = math.sqrt(covariance[1, 1]) if self.begins else 0.0
+        if not listed:
+            return first, self.last_rise[1] if len(self) > 2 else 0.0
+        apart = covariance[-1, -1] + covariance[-3, -3] - 2 * covariance[-1, -3]
+        return first, math.sqrt(max(apart, 0.0))
+
     def stairs(
         self, name: str = "stairs", *, lower: float = math.nan, upper: float = math.nan
     ) -> Stairs:
@@ -310,7 +334,6 @@ class FlightEstimate:
         """
         line, regular = self.line(), self.regular
         step_going, step_rise = self.doubt_of_a_step()
-        last_sigma = 0.0
         if self.is_exact:  # without the rounding of arithmetic
             line = line.round(MICROMETRE)
             regular = replace(
@@ -333,19 +356,21 @@ class FlightEstimate:
             sheet |= {"first_rise": float(line[0, 1])} if self.begins else {}
             step_rise = max(self.step_spread, min(step_rise, UNCHECKED))
             step_going = max(self.step_spread, min(step_going, UNCHECKED))
-            if self.odd_last is not None:
-                sheet["last_rise"], last_sigma = self.odd_last
+            if not self.is_exact and len(self) > 2:
+                sheet["last_rise"] = self.last_rise[0]
         else:
             angle, spacing = self.gravity, self.scale * regular.spacing
             sheet["rises"] = tuple(np.diff(line[:, 1], prepend=0.0).tolist())
             sheet["goings"] = tuple(np.diff(line[:, 0]).tolist())
         if not self.is_exact:
+            first, last = self._doubt_of_the_ends("rises" in sheet)
             sheet["uncertainty"] = StairsUncertainty(
                 angle=angle,
                 nosing_spacing=spacing,
                 rise=step_rise,
                 going=step_going,
-                last_rise=last_sigma,
+                first_rise=min(first, LARGEST_DOUBT),
+                last_rise=min(last, LARGEST_DOUBT),
             )
         seen = {"foot_seen": self.begins, "head_seen": self.ends}
         sheet |= {key: False for key, was in seen.items() if not was}

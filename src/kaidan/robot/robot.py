@@ -42,6 +42,9 @@ IN_LINE = 1e-6
 """Angle off the flat up to which a flipper lies in line with it [rad]."""
 
 
+TURNING_MOVES = 9
+"""Moves of a manoeuvre on a landing up to which it is GO where the sheet states none: each stop is
+10 mm off (a judgement), n of them sqrt(n) times that, and there are 30 mm all round."""
 FALL_RESERVE = math.radians(8.0)
 """Tilt to the fall that a robot must keep where it rocks and the sheet states none [rad]: it parts
 the climbs of the paper's rig from its falls (docs/decisions.md)."""
@@ -96,6 +99,13 @@ class Robot(Sheet):
         "point about which it turns on the spot, behind the front end of the flat underside; none: "
         "the middle of what carries it",
         default=None,
+    )
+    turning_moves: int = Field(
+        default=TURNING_MOVES,
+        ge=1,
+        le=1000,
+        description="most drives and turns on the spot of a manoeuvre on a landing that is GO",
+        json_schema_extra={"unit": "moves"},
     )
     track: Track = Field(description="main tracks")
     front_flippers: FlipperPair | None = Field(default=None, description="front flippers")

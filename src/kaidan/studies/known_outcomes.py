@@ -1,7 +1,7 @@
 """Robots on stairs whose outcome is public, and what kaidan answers: agreement and errors counted.
 
 The pairs are those of the catalogue's ``outcomes.toml``: what the sources say of robot, stairs and
-manner, fixed before an answer was looked at.
+manner, fixed before an answer was looked at but where a note says otherwise.
 """
 
 import math

@@ -52,7 +52,7 @@ def line_of_flights(flights: Sequence[Stairs]) -> tuple[Array, Array, Array | No
     common: list[Array] = []
     for number, flight in enumerate(flights):
         treads = (*flight.step_goings, max(behind(flights, number), 1e-3))
-        sigma += [(0.0, flight.uncertainty.rise)]
+        sigma += [(0.0, max(flight.uncertainty.rise, flight.uncertainty.first_rise))]
         sigma += [(flight.uncertainty.going, flight.uncertainty.rise)] * (len(treads) - 2)
         last = max(flight.uncertainty.rise, flight.uncertainty.last_rise)
         sigma += [(flight.uncertainty.going, last)]

@@ -12,6 +12,7 @@
       <---- depth ---->         '------------'
 """
 
+import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Literal, NamedTuple
@@ -19,17 +20,22 @@ from typing import Literal, NamedTuple
 from kaidan.errors import InputError
 from kaidan.terrain.stairs import Stairs, Turn
 
+TURNS = {"quarter": math.pi / 2, "half": math.pi}
+"""Angles of turns that sheets state [rad]."""
+End = Literal["lower", "between", "upper"]
+
 
 class Landing(NamedTuple):
     """A landing on which the way turns, seen on the way up."""
 
     place: str
     """As people say it: "lower landing"."""
-    end: Literal["lower", "between", "upper"]
+    end: End
     turn: Turn
-    """quarter or half."""
+    """quarter, half or unknown."""
     depth: float
-    """Clear, in line with the arrival, less the leaf of a door opposite [m]."""
+    """Clear, in line with the arrival, less the leaf of a door opposite [m]; NaN here and below: of
+    an unknown turn."""
     width: float
     """Clear, across it [m]."""
     arrives: float
@@ -81,10 +87,12 @@ def _each(flights: Sequence[Stairs]) -> Iterator[Landing]:
         yield _below(first, None)
     for below, above in pairwise(flights):
         _refuse_contradiction(below, above)
-        if below.upper_turn != "none":
+        if below.upper_turn not in ("none", "unknown"):
             yield _above(below, above)
-        elif above.lower_turn != "none":
+        elif above.lower_turn not in ("none", below.upper_turn):
             yield _below(above, below)
+        elif below.upper_turn == "unknown":
+            yield _above(below, above)
     if last.upper_turn != "none":
         yield _above(last, None)
 
@@ -92,6 +100,10 @@ def _each(flights: Sequence[Stairs]) -> Iterator[Landing]:
 def _above(flight: Stairs, following: Stairs | None) -> Landing:
     """Landing at the upper end of a flight."""
     depth, width, own = flight.upper_landing, flight.upper_landing_width, flight.width
+    place = f"landing above {flight.name}" if following else "upper landing"
+    end: End = "between" if following else "upper"
+    if flight.upper_turn == "unknown":
+        return _unknown(place, end)
     assert depth is not None
     assert width is not None
     assert own is not None
@@ -99,8 +111,8 @@ def _above(flight: Stairs, following: Stairs | None) -> Landing:
     leaves = passage or (following.width if following and following.width else own)
     leaf = max(flight.upper_leaf, following.lower_leaf if following else 0.0)
     return Landing(
-        f"landing above {flight.name}" if following else "upper landing",
-        "between" if following else "upper",
+        place,
+        end,
         flight.upper_turn,
         depth - leaf,
         width,
@@ -113,6 +125,10 @@ def _above(flight: Stairs, following: Stairs | None) -> Landing:
 def _below(flight: Stairs, before: Stairs | None) -> Landing:
     """Landing at the lower end of a flight; its depth lies along that flight."""
     depth, width, own = flight.lower_landing, flight.lower_landing_width, flight.width
+    place = f"landing below {flight.name}" if before else "lower landing"
+    end: End = "between" if before else "lower"
+    if flight.lower_turn == "unknown":
+        return _unknown(place, end)
     assert depth is not None
     assert width is not None
     assert own is not None
@@ -122,8 +138,8 @@ def _below(flight: Stairs, before: Stairs | None) -> Landing:
     if flight.lower_turn == "quarter":
         depth, width = width, depth
     return Landing(
-        f"landing below {flight.name}" if before else "lower landing",
-        "between" if before else "lower",
+        place,
+        end,
         flight.lower_turn,
         depth,
         width,
@@ -133,10 +149,15 @@ def _below(flight: Stairs, before: Stairs | None) -> Landing:
     )
 
 
+def _unknown(place: str, end: End) -> Landing:
+    """Landing with a turn of which no more is known."""
+    return Landing(place, end, "unknown", *(math.nan,) * 4, level="")
+
+
 def _refuse_contradiction(below: Stairs, above: Stairs) -> None:
     """Refuse two sheets that state another turn of the same landing, or a passage on it."""
     turns = (below.upper_turn, above.lower_turn)
-    if "none" not in turns and turns[0] != turns[1]:
+    if not {"none", "unknown"} & set(turns) and turns[0] != turns[1]:
         raise InputError(
             f"stairs: upper_turn of {below.name!r} is {turns[0]}, lower_turn of {above.name!r} is "
             f"{turns[1]}: both are the landing between them"

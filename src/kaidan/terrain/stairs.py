@@ -35,6 +35,8 @@ Length = tuple[float, ...]
 _RISE = (0.02, 0.6)
 _ODD_RISE = (0.005, 0.6)
 _GOING = (0.02, 2.5)
+LARGEST_DOUBT = 0.05
+"""Largest standard uncertainty of a single rise or going [m]."""
 _MOST_RISERS = 10_000
 _STEEPEST = 1.5533
 """Past 89 degrees no goings are left [rad]."""
@@ -47,8 +49,9 @@ BESIDE = 0.1
 MOST_TWISTED = 400
 """Most risers of a flight whose nosings have slopes across or skews."""
 
-Turn = Literal["none", "quarter", "half"]
-"""Turn on a landing, by a quarter or a half."""
+Turn = Literal["none", "quarter", "half", "unknown"]
+"""Turn on a landing, by a quarter or a half; unknown: by another angle, or on a landing that nobody
+measured."""
 
 _CrossSlope = Annotated[float, Field(ge=-0.35, le=0.35)]
 _Skew = Annotated[float, Field(ge=-0.8, le=0.8)]
@@ -64,14 +67,19 @@ class StairsUncertainty(Sheet):
     angle: float = quantity("rad", 0.0, 0.35, "of the angle", default=0.0)
     nosing_spacing: float = quantity("m", 0.0, 0.2, "of the nosing spacing", default=0.0)
     rise: float = quantity(
-        "m", 0.0, 0.05, "of each single rise, apart from the others", default=0.0
+        "m", 0.0, LARGEST_DOUBT, "of each single rise, apart from the others", default=0.0
     )
     going: float = quantity(
-        "m", 0.0, 0.05, "of each single going, apart from the others", default=0.0
+        "m", 0.0, LARGEST_DOUBT, "of each single going, apart from the others", default=0.0
     )
+    first_rise: float = quantity(
+        "m", 0.0, LARGEST_DOUBT, "of the first rise, where it is more than that of each",
+        default=0.0,
+    )  # fmt: skip
     last_rise: float = quantity(
-        "m", 0.0, 0.05, "of the last rise, where it is more than that of each", default=0.0
-    )
+        "m", 0.0, LARGEST_DOUBT, "of the last rise, where it is more than that of each",
+        default=0.0,
+    )  # fmt: skip
 
 
 class Stairs(Sheet):
@@ -169,12 +177,12 @@ class Stairs(Sheet):
     lower_turn: Turn = Field(
         default="none",
         description="turn on the lower landing, 90 or 180 degrees: it takes width, "
-        "lower_landing and lower_landing_width",
+        "lower_landing and lower_landing_width; unknown: another angle, or not measured",
     )
     upper_turn: Turn = Field(
         default="none",
         description="turn on the upper landing, 90 or 180 degrees: it takes width, "
-        "upper_landing and upper_landing_width",
+        "upper_landing and upper_landing_width; unknown: another angle, or not measured",
     )
     lower_passage: float | None = quantity(
         "m",
@@ -258,7 +266,7 @@ class Stairs(Sheet):
         turn, passage, depth, across = (
             getattr(self, f"{end}_{of}") for of in ("turn", "passage", "landing", "landing_width")
         )
-        if turn == "none":
+        if turn in ("none", "unknown"):
             if passage is not None:
                 raise self.refuse(f"{end}_passage goes with {end}_turn = quarter or half")
             return

@@ -177,28 +177,34 @@ def robot_line(answer: "Assessment") -> str:
     )
 
 
-def margin_line(answer: "Assessment") -> str:
-    """Margin in the worst and in the best case."""
+def margin_line(answer: "Assessment", *, labels: bool = False) -> str:
+    """Margin in the worst and in the best case; failure modes by their keys, or by what they are.
+
+    Keys are what stands beside the rows of ``--details`` and in JSON.
+    """
     if answer.margin_deg is None:
         return "not known"
     best = answer.margin_best_deg
-    worst = f"{answer.margin_deg:+.1f} deg{_against(answer, answer.margin_deg)}"
+    worst = f"{answer.margin_deg:+.1f} deg{_against(answer, answer.margin_deg, labels)}"
     if best is None or abs(best - answer.margin_deg) < 0.05:
         return worst
     return f"{worst} in the worst case, {best:+.1f} deg in the best"
 
 
-def _against(answer: "Assessment", margin: float) -> str:
+def _against(answer: "Assessment", margin: float, labels: bool) -> str:
     """Failure mode whose margin of slope it is, in brackets; several are uncertain together."""
     decides = FAILURE_MODES.get(answer.governs)
     if margin == NO_SLOPE and decides is not None and decides.unit != "rad":
-        return f" ({answer.governs}: no slope would do)"
+        return f" ({decides.label if labels else answer.governs}: no slope would do)"
     each = {
         key: abs(one.margin - margin)
         for key, one in answer.findings.items()
         if one.margin is not None and FAILURE_MODES[key].unit == "rad"
     }
-    return f" ({min(each, key=lambda key: each[key])})" if each else ""
+    if not each:
+        return ""
+    least = min(each, key=lambda key: each[key])
+    return f" ({FAILURE_MODES[least].label if labels else least})"
 
 
 def _allowances(answer: "Assessment") -> str:

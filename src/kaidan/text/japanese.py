@@ -42,7 +42,6 @@ def patterns() -> dict[str, tuple[Pattern, ...]]:
         [FAILURE_MODES[name].label if name in FAILURE_MODES else each["en"], each["ja"]]
         for name, each in page["mode"].items()
     ]
-    tables["key"] = [[name, each["ja"]] for name, each in page["mode"].items()]
     return {
         name: tuple(_pattern(english, japanese, tables) for english, japanese in pairs)
         for name, pairs in tables.items()

@@ -53,4 +53,4 @@ def _overview(found: "Report") -> list[Block]:
 def _row(number: int, each: "Mission") -> tuple[str, ...]:
     answer = each.assessment
     verdict, _, names = headline(answer).partition("  ")
-    return str(number), names, verdict, margin_line(answer), answer.reason
+    return str(number), names, verdict, margin_line(answer, labels=True), answer.reason

@@ -64,7 +64,7 @@ def _facts(mission: "Mission") -> list[tuple[str, str]]:
         rows.append((name, change_line(change, answer)))
     rows += [
         ("Stairs", stairs_line(answer)),
-        ("Margin", margin_line(answer)),
+        ("Margin", margin_line(answer, labels=True)),
         ("Friction", friction_line(answer)),
     ]
     if card.time_s is not None and card.path_m is not None:

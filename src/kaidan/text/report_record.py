@@ -72,4 +72,4 @@ def _inclination(answer: "Assessment") -> str:
 def _task(name: str, answer: "Assessment | None") -> tuple[str, ...]:
     if answer is None:
         return name, Verdict.OUTSIDE_MODEL.label, "not known", "", ""
-    return name, headline(answer), margin_line(answer), "", ""
+    return name, headline(answer), margin_line(answer, labels=True), "", ""

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 SPINS = 0.2
 """Speed from which driven grousers spun at a first riser in MuJoCo [m/s]: 2 of 256 GOs, and none
-slower (docs/physics.md)."""
+slower (docs/physics.md); more at ends of 29 mm and less (docs/theory/grousers.md)."""
 
 
 def usual() -> str:
@@ -47,12 +47,12 @@ def notes(question: "Question", found: "TractionFigures") -> tuple[str, ...]:
             f"Where friction alone does not hold it, it {slips}: a tip stands on the tread behind "
             "a nosing. Left and right may hold one after the other, and the robot yaw meanwhile."
         )
+    if track.has_grousers:
         if question.direction == "up" and (question.speed or 0.0) >= SPINS:
             each.append(
                 "The rule of grousers knows no speed: in simulations some spun at this speed at a "
                 "first riser higher than the end's radius. Meet it at 0.1 m/s."
             )
-    if track.has_grousers:
         unknown = [
             name
             for name, value in (

@@ -18,8 +18,10 @@ def turning(turn: "TurnFigures", landing: str = "") -> str:
     landing : str
         Which landing, where the reader does not know.
     """
-    by = f"turn by {abs(turn.turn_deg):.0f} deg{f' on the {landing}' if landing else ''}"
+    by = f"{_by(turn)}{f' on the {landing}' if landing else ''}"
     if turn.way == "unknown":
+        if turn.turn_deg is None:
+            return f"Whether it can {by} is not known: its angle or sizes are not stated."
         what = "the landing is not drawn" if turn.room_m is None else "its width is not stated"
         if turn.circle_m is None:
             what = "the width of the robot is not stated"
@@ -31,7 +33,10 @@ def turning(turn: "TurnFigures", landing: str = "") -> str:
         if turn.circle_m <= (turn.room_m or 0.0):
             circles += ", but not on the line by which it arrives or goes on"
         return f"It cannot {by}: {circles}, and no manoeuvre was found."
-    return f"It can {by} only where it is less than 30 mm off: {posture}{_how(turn)}."
+    if turn.tight:
+        return f"It can {by} only where it is less than 30 mm off: {posture}{_how(turn)}."
+    most = f"more than {turn.most_moves} (turning_moves of its sheet)"
+    return f"It can {by} only {posture}{_how(turn)}, {most}: try it, or turn elsewhere."
 
 
 def turned(turn: "TurnFigures", landing: str) -> str:
@@ -44,23 +49,20 @@ def turned(turn: "TurnFigures", landing: str) -> str:
         Which landing, or the name of a floor.
     """
     raised = f"change the flippers to {turn.flippers} and " if turn.changed else ""
-    return f"On the {landing} {raised}turn by {abs(turn.turn_deg):.0f} deg: {_how(turn)}."
+    return f"On the {landing} {raised}{_by(turn)}: {_how(turn)}."
 
 
 def reason(turns: "Sequence[LandingTurn]") -> str:
-    """Why the worst of some turns fails: the first that fails, is not known, or has no room."""
+    """Why the worst of some turns fails: it fails, is not known, has no room, takes long."""
     ways = {"none": 0, "unknown": 1}
-    worst = min(turns, key=lambda one: ways.get(one.way, 2 if one.tight else 3))
+    worst = min(turns, key=lambda one: ways.get(one.way, 2 if one.tight else 3 if one.long else 4))
     return turning(worst, worst.landing)
 
 
 def every(turns: "Sequence[LandingTurn]") -> list[str]:
     """How the robot turns on each landing, or that it does not."""
     return [
-        turning(each, each.landing)
-        if each.way in ("none", "unknown") or each.tight
-        else turned(each, each.landing)
-        for each in turns
+        turned(each, each.landing) if each.holds else turning(each, each.landing) for each in turns
     ]
 
 
@@ -80,6 +82,10 @@ IN_LINE = (
 """What a traverse does where the way turns."""
 
 
+OTHER_ANGLE = "sheets know turns of 90 and 180 deg (kaidan building judges any in a model)"
+"""Why a turn by another angle is not judged."""
+
+
 def not_judged(turn: float, below: str, why: str) -> str:
     """Why a turn that was seen between two flights is not in their sheets.
 
@@ -96,6 +102,10 @@ def not_judged(turn: float, below: str, why: str) -> str:
         f"On the landing above {below} the way turns by {math.degrees(abs(turn)):.0f} deg, which "
         f"is not judged: {why}. Measure that landing."
     )
+
+
+def _by(turn: "TurnFigures") -> str:
+    return "turn" if turn.turn_deg is None else f"turn by {abs(turn.turn_deg):.0f} deg"
 
 
 def _how(turn: "TurnFigures") -> str:

@@ -212,12 +212,12 @@ def _energy(
 ) -> str:
     slips = _figure(found, "slip_heights_mm") or {}
     slip = 0.0 if finding.phase is None else slips.get(finding.phase.value, 0.0)
-    height = 1e3 * question.energy_threshold + slip
+    height, steady = (1e3 * question.energy_threshold(1e-3 * each) for each in (slip, 0.0))
     margin = 1e3 * finding.margin(question.risk) + height
-    of_slip = f", {slip:.2f} mm of it of a slip back onto its grousers" if slip else ""
+    of_slip = f", {height - steady:.2f} mm of it of a slip back onto its grousers" if slip else ""
     return (
-        f"The energy margin of {margin:.2f} mm is below the kinetic-energy height of "
-        f"{height:.2f} mm{of_slip}: the robot may rock{_place(conclusion)}."
+        f"The energy margin of {margin:.2f} mm is below the {height:.2f} mm of a sudden stop or "
+        f"start{of_slip}: the robot may rock{_place(conclusion)}."
     )
 
 

@@ -109,7 +109,7 @@ class Traverse:
         rises = rises_about_stays(self.criterion, self.descending) if self.whole else ()
         return phase_extremes(
             self.path, self.profile, self.phase_of_pose, self.descending, self.acceleration,
-            rises, self.outline.stance.flat_length, self.whole,
+            rises, self.outline, self.whole,
         )  # fmt: skip
 
     @cached_property

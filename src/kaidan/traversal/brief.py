@@ -38,7 +38,8 @@ def by_how_long(path: contact.Path, traction: Array, row: NDArray[np.int64]) -> 
     poses = path.poses
     if len(poses) == 0:
         return traction
-    exchange = (np.diff(poses.s) < contact.ONE_PLACE) | (np.diff(poses.leg) != 0)
+    s, leg = poses.s, poses.leg
+    exchange = (s[1:] - s[:-1] < contact.ONE_PLACE) | (leg[1:] != leg[:-1])
     run = np.append(0, np.cumsum(exchange))
     count = int(run[-1]) + 1
     first = np.searchsorted(run, np.arange(count))

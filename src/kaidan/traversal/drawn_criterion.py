@@ -54,6 +54,8 @@ class Drawn(NamedTuple):
     """The same downhill, with the uphill end over the landing [m]."""
     inclination: Array
     """Steepest inclination of the flat on the flight [rad]; minus infinity where there is none."""
+    landing_inclination: Array
+    """The same with the uphill end over the landing [rad]."""
 
 
 def drawn_criterion(
@@ -111,7 +113,7 @@ def _block(
     within: tuple[float, float],
 ) -> Drawn:
     none = np.full(len(drawn), np.inf)
-    found = Drawn(none, none, none, np.zeros(len(drawn)), none, none, -none)
+    found = Drawn(none, none, none, np.zeros(len(drawn)), none, none, -none, -none)
     for first, last in flights_of(nosings, tread.L):
         flight = drawn[:, first : last + 1]
         x, z = flight[..., 0].T, flight[..., 1].T
@@ -128,6 +130,7 @@ def _block(
             np.maximum(np.minimum.reduce([found.rise, down.rise, up.rise]), 0.0),
             np.maximum(np.minimum(found.landing_rise, down.landing_rise), 0.0),
             np.maximum(found.inclination, down.inclination),
+            np.maximum(found.landing_inclination, down.landing_inclination),
         )
     return found
 
@@ -151,7 +154,8 @@ class _Losses:
         count = x.shape[1]
         self.margin, self.landing = np.full(count, np.inf), np.full(count, np.inf)
         self.rise, self.landing_rise = np.full(count, np.inf), np.full(count, np.inf)
-        self.rocking, self.inclination = np.zeros(count), np.full(count, -np.inf)
+        self.rocking = np.zeros(count)
+        self.inclination, self.landing_inclination = np.full((2, count), -np.inf)
         self._lose(downhill)
         self._gain()
 
@@ -178,16 +182,15 @@ class _Losses:
             on_flight, on_landing = counts & ~landing, counts & landing
             self.margin = _least(self.margin, margin, on_flight)
             self.landing = _least(self.landing, margin, on_landing)
-            self.inclination = np.where(
-                on_flight, np.maximum(self.inclination, steepest), self.inclination
-            )
+            self.inclination = _most(self.inclination, steepest, on_flight)
+            self.landing_inclination = _most(self.landing_inclination, steepest, on_landing)
             x_s, z_s = (np.take_along_axis(each, s[None], axis=0)[0] for each in (x, z))
             settles = np.where(alone, before, on_flat)
             onto_r = np.arctan2(z_s - z[r], x_s - x[r])
             stands = np.where(s == r, settles, onto_r)
             turn = np.abs(stands - before)
             rocks = rocking(turn=turn, before=before, after=stands, theta_s=theta_s)
-            self.rocking = np.where(counts, np.maximum(self.rocking, rocks), self.rocking)
+            self.rocking = _most(self.rocking, rocks, counts)
             freed = self._freed(i, before, (x_s, z_s), np.where(s == r, -turn, turn))
             rise = self._rise(steepest, after, left - C_L) - freed
             self.rise = _least(self.rise, rise, on_flight)
@@ -291,6 +294,10 @@ class _Losses:
 
 def _least(so_far: Array, one: Array, counts: Bools) -> Array:
     return np.asarray(np.where(counts, np.minimum(so_far, one), so_far))
+
+
+def _most(so_far: Array, one: Array, counts: Bools) -> Array:
+    return np.asarray(np.where(counts, np.maximum(so_far, one), so_far))
 
 
 def _mean_slope(x: Array, z: Array) -> Array:

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from kaidan import contact
 from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.mechanics.measures import sudden_stop_height
+from kaidan.outline import Outline
 from kaidan.terrain.profile import Profile
 from kaidan.traversal.phases import Phase, over_the_top, step_at
 from kaidan.traversal.rotations import ROCKING, together
@@ -17,7 +19,6 @@ from kaidan.traversal.samples import corners, samples_of
 from kaidan.traversal.static_criterion import Criterion, flights_of
 from kaidan.traversal.tilting import first_rock
 
-_AT_ONCE = 8
 _TIE = 1e-9
 _PLACE = 1e-6
 """Distance that is none [m]."""
@@ -45,6 +46,11 @@ class PhaseExtremes:
     """The same towards the uphill end [m], as long as the next nosing uphill is still to come:
     over the last one the robot has to drop onto the landing."""
     uphill_energy_margin_step: int
+    steadiness: tuple[float, int]
+    """`energy_margin` where the belt pulls at the flat; elsewhere the rise about the flat that the
+    same sudden stop or start brings about [m], and the step."""
+    uphill_steadiness: tuple[float, int]
+    """The same towards the uphill end."""
     static_margin: float
     """Smallest static stability margin towards the downhill end [m]."""
     traction_over_weight: float
@@ -81,10 +87,11 @@ def phase_extremes(
     descending: bool,
     acceleration: float,
     rises: tuple[Rise, ...],
-    room: float,
+    body: Outline,
     whole: bool,
 ) -> tuple[PhaseExtremes, ...]:
     """Extreme figures of each phase that the traverse has, in their order."""
+    room = body.stance.flat_length
     rotated = _chain_angles(path, room)
     samples = samples_of(path, phase, acceleration)
     seen = samples.path
@@ -93,6 +100,7 @@ def phase_extremes(
     top = over_the_top(seen, profile, descending, room)
     closed, came_down = _closed(path, phase), _came_down(path, room, whole)
     whence = came_down.whence[samples.row]
+    sudden = {side: _as_on_the_flat(seen, body, side) for side in (-1.0, 1.0)}
     # of a pose between two phases the other one judges
     of_criterion = _on_a_flight(seen, profile, room) | (phase[samples.row] != Phase.TRAVERSE.value)
     extremes = []
@@ -110,15 +118,15 @@ def phase_extremes(
         if descending and name is Phase.ENTER and not profile.is_level:
             # the edge of the landing obliges it to rotate
             posed[:] = False
-        energy, step = _least_rise(of_rises, downhill=True)
-        uphill, uphill_step = _least_rise(of_rises, downhill=False)
-        least, at = _least_energy(seen, rows[posed], side)
-        if least < energy:
-            energy, step = least, step_at(profile, at, descending)
-        below = ~top[rows]
-        least, at = _least_energy(seen, rows[posed & below], -side)
-        if least < uphill:
-            uphill, uphill_step = least, step_at(profile, at, descending)
+        barriers = []
+        for down in (True, False):
+            counts, to = (rows[posed], side) if down else (rows[posed & ~top[rows]], -side)
+            flat = _least_rise(of_rises, downhill=down)
+            for weights in (np.ones(len(counts)), sudden[to][counts]):
+                least, at = _least_energy(seen, counts, to, weights)
+                there = least < flat[0]
+                barriers.append((least, step_at(profile, at, descending)) if there else flat)
+        (energy, step), steady, (uphill, uphill_step), uphill_steady = barriers
         judged = rows[~of_criterion[rows]] if whole and name is Phase.TRAVERSE else rows
         downhill_rows = rows[:0] if descending and name is Phase.ENTER else judged
         if not descending:
@@ -138,6 +146,8 @@ def phase_extremes(
                 energy_margin_step=step,
                 uphill_energy_margin=uphill,
                 uphill_energy_margin_step=uphill_step,
+                steadiness=steady,
+                uphill_steadiness=uphill_steady,
                 static_margin=float(np.nanmin(downhill)),
                 traction_over_weight=float(np.nanmax(np.where(slides, 0.0, samples.traction[rows])))
                 / STANDARD_GRAVITY,
@@ -236,30 +246,32 @@ def _came_down(path: contact.Path, flat_length: float, whole: bool) -> _CameDown
     return _CameDown(whence, back)
 
 
+def _as_on_the_flat(path: contact.Path, body: Outline, side: float) -> NDArray[np.float64]:
+    """Rise about the flat over that about the outermost contact, of one sudden stop, each pose."""
+    poses = path.poses
+    point, normal = (
+        (poses.rear_point, poses.rear_normal)
+        if side > 0
+        else (poses.front_point, poses.front_normal)
+    )
+    lever = (path.x - point[:, 0]) * normal[:, 0] + (path.z - point[:, 1]) * normal[:, 1]
+    flat, here = (
+        sudden_stop_height(v=1.0, lever=each, gyration=body.least_gyration)
+        for each in (body.stance.com_height, lever)
+    )
+    return np.asarray(flat / np.maximum(here, _PLACE * flat))
+
+
 def _least_energy(
     path: contact.Path,
     rows: NDArray[np.int64],
     side: float,
+    weights: NDArray[np.float64],
 ) -> tuple[float, float]:
-    """Smallest rise of the centroid that a fall to one side needs, and at which contact [m].
-
-    A fall to either side needs the smaller barrier of both along the flow, and a fall to this side
-    the rise about its pivot, whichever is more. So only poses whose pivot's rise is below the
-    least found are worked out.
-    """
-    assert path.margins is not None
+    """Smallest weighted rise that a fall to one side needs [m], and at which contact."""
     if len(rows) == 0:
         return math.inf, math.nan
-    bound = (path.margins.back_rise if side > 0 else path.margins.front_rise)[rows]
-    order = np.argsort(bound, kind="stable")
-    values = np.full(len(rows), np.inf)
-    done = 0
-    while done < len(order) and bound[order[done]] < values.min() + _TIE:
-        some = order[done : done + _AT_ONCE]
-        done += len(some)
-        values[some] = np.maximum(path.energy(rows[some])[0], bound[some])
-    least = float(values.min())
-    row = rows[np.flatnonzero(values <= least + _TIE)[0]]  # inf <= inf
+    least, row = path.least_energy(rows, side, weights, _TIE)
     return least, float(path.poses.front_point[row, 0])
 
 

@@ -247,7 +247,7 @@ def _outline(
 def _middle(outline: Outline) -> Array:
     """Middle of the tracks in the body frame [m]."""
     discs = outline.parts[outline.kinds == TRACK].reshape(-1, 3)[:, :2]
-    return np.asarray(discs.mean(axis=0))
+    return np.asarray(discs.sum(axis=0) / len(discs))
 
 
 def _torques(

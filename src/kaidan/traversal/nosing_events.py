@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 from kaidan import contact
 from kaidan.contact import Event, EventRecord, Events, Feature, FeatureKind
 
-Array = NDArray[np.float64]
-
 TOUCH = 1e-7
 """Gap up to which a nosing lies on the flat [m]: ten times what poses are solved to."""
 STRAIGHT = 1e-9
@@ -75,10 +73,11 @@ def nosing_events(path: contact.Path) -> Events:
 def _straight_pieces(path: contact.Path) -> NDArray[np.int64]:
     """Rows from which the path leads straight to the next, and where contacts change if known."""
     poses, margins = path.poses, path.margins
+    s, leg, inclination = poses.s, poses.leg, poses.inclination
     pieces = (
-        (poses.leg[1:] == poses.leg[:-1])
-        & (np.abs(np.diff(poses.inclination)) < STRAIGHT)
-        & (np.diff(poses.s) > 0)
+        (leg[1:] == leg[:-1])
+        & (np.abs(inclination[1:] - inclination[:-1]) < STRAIGHT)
+        & (s[1:] > s[:-1])
     )
     if margins is not None:
         contacts, outermost = margins.contacts, margins.outermost
@@ -90,29 +89,6 @@ def _straight_pieces(path: contact.Path) -> NDArray[np.int64]:
         near[:-1] |= changes[1:]
         pieces &= near
     return np.flatnonzero(pieces)
-
-
-def along_flat(
-    path: contact.Path,
-    rows: NDArray[np.int64],
-    points: NDArray[np.int64],
-    part: NDArray[np.int64] | int,
-) -> tuple[Array, Array]:
-    """Place along the flat of a part and gap to its line [m], of some poses and points.
-
-    The part is one, or one for each pose.
-    """
-    of, phi = path.parts(rows, part), path.inclination[rows]
-    x, z, radius = of.discs.T[:3, :, None]
-    (e_x, e_z), side = of.axis.T[:, :, None], of.side[:, None]
-    sine, cosine = of.sine[:, None], of.cosine[:, None]
-    c, s = np.cos(phi)[:, None], np.sin(phi)[:, None]
-    d_x = path.ground.x[points] - path.x[rows, None]
-    d_z = path.ground.z[points] - path.z[rows, None]
-    a_x, a_z = c * d_x + s * d_z - x, c * d_z - s * d_x - z
-    along = a_x * e_x + a_z * e_z
-    below = side * (a_x * e_z - a_z * e_x)
-    return along * cosine - below * sine, along * sine + below * cosine - radius
 
 
 def _once(passings: list[_Passing]) -> list[_Passing]:

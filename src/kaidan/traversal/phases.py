@@ -107,7 +107,8 @@ def _without_gaps(some: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 def _between(profile: Profile, room: float) -> list[Array]:
     """Nosings (2, 2) behind and ahead of each landing between flights [m]."""
-    wide = np.flatnonzero(np.diff(profile.nosings[:, 0]) >= room)
+    x = profile.nosings[:, 0]
+    wide = np.flatnonzero(x[1:] - x[:-1] >= room)
     return [profile.nosings[k : k + 2] for k in wide]
 
 

@@ -81,10 +81,11 @@ def rate(
     """
     driven = profile.reflected() if descending else profile
     along = -acceleration if descending else acceleration
+    lengths = [each.outline.stance.flat_length for each in parts]
+    zones_of = {each: tuple(landing_zones(driven, descending, each)) for each in set(lengths)}
     together: dict[Zones, list[int]] = {}
-    for k, each in enumerate(parts):
-        at = tuple(landing_zones(driven, descending, each.outline.stance.flat_length))
-        together.setdefault(at, []).append(k)
+    for k, length in enumerate(lengths):
+        together.setdefault(zones_of[length], []).append(k)
     found: dict[int, Rated | None] = {}
     for zones, which in together.items():
         found |= zip(
@@ -101,12 +102,14 @@ def _rated(
     longest = max(range(len(parts)), key=lambda k: spans[k][1] - spans[k][0])
     refuse_too_long(driven, parts[longest].outline, spans[longest], step)
     outlines = [each.outline for each in parts]
+    lengths = [each.stance.flat_length for each in outlines]
+    flights = {length: slopes_of_flights(driven, length) for length in set(lengths)}
     ratings = contact.rate_many(
         ground_for(driven, outlines),
         [each.parts for each in outlines],
         outlines[0].kinds,
-        [each.stance.flat_length for each in outlines],
-        [slopes_of_flights(driven, each.stance.flat_length) for each in outlines],
+        lengths,
+        [flights[length] for length in lengths],
         [
             Job(0, k, *ends, _inclination(part), along, part.outline.gyration)
             for k, (part, ends) in enumerate(zip(parts, spans, strict=True))

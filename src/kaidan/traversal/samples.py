@@ -103,7 +103,8 @@ def samples_of(path: contact.Path, phase: NDArray[np.str_], acceleration: float)
 
 def lasting(path: contact.Path) -> NDArray[np.bool_]:
     """Poses in which the robot stands for a while: not in the midst of an exchange of contacts."""
-    at_once = np.abs(np.diff(path.s)) < contact.ONE_PLACE
+    s = path.s
+    at_once = np.abs(s[1:] - s[:-1]) < contact.ONE_PLACE
     lasts = np.ones(len(path.poses), dtype=np.bool_)
     lasts[1:-1] = ~(at_once[1:] & at_once[:-1])
     return lasts
@@ -161,7 +162,7 @@ def _along_ends(path: contact.Path) -> NDArray[np.bool_]:
     for features, normal in ((poses.rear, poses.rear_normal), (poses.front, poses.front_normal)):
         corner = contact.FeatureTable.of(features).kind == contact.FeatureKind.VERTEX
         on_body = np.arctan2(normal[:, 0], normal[:, 1]) + poses.inclination
-        turns = np.abs(np.diff(on_body)) > _ALIKE
+        turns = np.abs(on_body[1:] - on_body[:-1]) > _ALIKE
         moves |= turns & (corner[1:] | corner[:-1])
     return np.asarray(moves & on)
 

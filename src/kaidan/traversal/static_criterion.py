@@ -199,8 +199,8 @@ def flights_of(nosings: Array, L: float) -> list[tuple[int, int]]:
     """First and last nosing of each run without a landing in between."""
     if len(nosings) < 2:
         return []
-    apart = np.hypot(*np.diff(nosings, axis=0).T)
-    cuts = [-1, *np.flatnonzero(apart >= L).tolist(), len(nosings) - 1]
+    along, up = (nosings[1:] - nosings[:-1]).T
+    cuts = [-1, *np.flatnonzero(np.hypot(along, up) >= L).tolist(), len(nosings) - 1]
     return [(a + 1, b) for a, b in pairwise(cuts) if b > a + 1]
 
 

@@ -193,17 +193,18 @@ class _Tilted:
         if len(begin) == 0:
             return Rock(math.inf, -1)
         # from one nosing to the next the rocking jumps; or if hardly, the tilt
-        by = (
-            np.where(steeper[may] > _JUMP * np.maximum(before, after)[0], 0, 1),
-            np.arange(len(begin)),
+        of_tilt = steeper[may] <= _JUMP * np.maximum(before, after)[0]
+        by = of_tilt.astype(np.int64), np.arange(len(begin))
+        low, high = path.tilt_jumps(
+            begin,
+            self.side,
+            self.whence[begin],
+            of_tilt,
+            0.5 * (before + after)[by],
+            before[by] > after[by],
+            _PLACE,
+            acceleration=self.acceleration,
         )
-        half, falls = 0.5 * (before + after)[by], before[by] > after[by]
-        length = path.s[begin + 1] - path.s[begin]
-        low, high = np.zeros(len(begin)), np.ones(len(begin))
-        while float((length * (high - low)).max()) > _PLACE:
-            middle = 0.5 * (low + high)
-            first = (self._carried_between(begin, middle)[by] > half) == falls
-            low, high = np.where(first, middle, low), np.where(first, high, middle)
         (rocked, one), (rocks, other) = (
             self._carried_between(begin, share) for share in (low, high)
         )

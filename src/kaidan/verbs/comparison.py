@@ -143,11 +143,15 @@ def compare(
     apart = [each for each in asked if isinstance(each, str) and each.strip().lower() in gross]
     known = [sheet_of(each, Robot)
              for each in asked if each not in apart]  # fmt: skip
+    if not asked:
+        raise InputError("compare: no robots are given")
     if not known:
         raise InputError(f"no centroid is published of {', '.join(apart)}: nothing to compare")
     flights = [
         sheet_of(each, Stairs) for each in (catalog.names("stairs") if stairs is None else stairs)
     ]
+    if not flights:
+        raise InputError("compare: no stairs are given")
     questions = [
         Question.of(robot, flight, flippers=laid(robot, flippers), **manner)
         for flight in flights

@@ -132,7 +132,7 @@ def report_of(
         assessment=assessment,
         status=passage.status.name.lower().replace("_", "-"),
         arrived=passage.arrived,
-        energy_threshold_mm=1e3 * question.energy_threshold,
+        energy_threshold_mm=1e3 * question.energy_threshold(),
         events=_events(passage),
         event_log=_event_log(passage, leading, rows),
         rotations=rotations_shown(passage, rows),

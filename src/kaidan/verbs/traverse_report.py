@@ -262,7 +262,7 @@ class TraverseReport(Answer):
     arrived: bool
     """Whether the whole robot stands on the other landing."""
     energy_threshold_mm: float
-    """Energy margin below which the robot may rock [mm]: v^2/2g."""
+    """Energy margin on the flat below which a sudden stop or start may rock the robot [mm]."""
     events: tuple[EventShown, ...]
     event_log: tuple[LogEntryShown, ...]
     """The same events, those that belong together as one."""

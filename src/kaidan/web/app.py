@@ -10,6 +10,7 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse, Response
 from fastapi.staticfiles import StaticFiles
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 
 import kaidan
 from kaidan import catalog
@@ -22,7 +23,7 @@ from kaidan.text.japanese import patterns
 from kaidan.text.page import page_texts
 from kaidan.web import file_routes, job_routes, live_routes, openapi, report_routes
 from kaidan.web.asking import VERBS
-from kaidan.web.bodies import LARGEST_BODY, LARGEST_UPLOAD, json_of, while_there
+from kaidan.web.bodies import GONE, LARGEST_BODY, LARGEST_UPLOAD, json_of, while_there
 from kaidan.web.job_table import JobTable
 from kaidan.web.jobs import Jobs
 from kaidan.web.remembered import Remembered
@@ -93,6 +94,10 @@ def _add_errors(app: FastAPI) -> None:
     async def refuse(request: Request, error: Exception) -> JSONResponse:
         return JSONResponse({"error": str(error), "kind": "input"}, 422)
 
+    @app.exception_handler(ClientDisconnect)
+    async def let_go(request: Request, error: Exception) -> Response:
+        return Response(status_code=GONE)  # it left in the middle of its body; nobody reads this
+
     @app.exception_handler(HTTPException)
     async def say(request: Request, error: Exception) -> JSONResponse:
         assert isinstance(error, HTTPException)
@@ -110,11 +115,12 @@ def _add_errors(app: FastAPI) -> None:
 
 def _add_catalogue(app: FastAPI) -> None:
     @app.get("/api/catalogue")
-    async def catalogue() -> dict[str, list[dict[str, str]]]:
-        """Names and titles of robots, stairs and surfaces."""
+    async def catalogue() -> dict[str, list[dict[str, str | bool]]]:
+        """Names and titles of robots, stairs and surfaces, and which robots nobody weighed."""
         return {
             kind: [
                 {"name": name, "title": _SHEETS[kind].named(name).title}
+                | ({"unweighed": True} if folder == "unweighed" else {})
                 for folder in folders
                 for name in catalog.names(folder)
             ]

@@ -19,7 +19,7 @@ LARGEST_UPLOAD = 256 << 20
 """Largest upload [bytes]."""
 FORM = {"max_files": 1, "max_fields": 32, "max_part_size": LARGEST_BODY}
 """What a form may have."""
-_GONE = 499
+GONE = 499
 """Status of what nobody reads any more."""
 
 
@@ -94,7 +94,7 @@ async def while_there(request: Request, reply: Coroutine[Any, Any, Reply]) -> Re
     work, gone = asyncio.ensure_future(reply), asyncio.ensure_future(_gone(request))
     try:
         await asyncio.wait({work, gone}, return_when=asyncio.FIRST_COMPLETED)
-        return sent(await work) if work.done() else Response(status_code=_GONE)
+        return sent(await work) if work.done() else Response(status_code=GONE)
     finally:
         gone.cancel()
         work.cancel()

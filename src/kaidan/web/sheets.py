@@ -72,7 +72,7 @@ def _written(path: Path) -> tuple[str, dict[str, Any]] | None:
     """Sheet in TOML, or profile of a table of points; None: neither."""
     if not path.is_file() or path.stat().st_size > LARGEST_SHEET:
         return None
-    with suppress(ValueError):
+    with suppress(ValueError, RecursionError):
         text = path.read_text(encoding="utf-8")
         table = tomllib.loads(text)
         kind, sheet = ("robots", Robot) if "track" in table else ("stairs", Stairs)

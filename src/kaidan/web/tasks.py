@@ -48,6 +48,12 @@ def done(task: Mapping[str, Any]) -> Done:
         )
 
 
+def prepare(verb: str) -> None:
+    """Import and load what a verb needs, by answering it once."""
+    question = {"robot": "absolem", "stairs": "ibc", "flippers": "flat"}
+    done({"kind": "ask", "verb": verb, "body": question})
+
+
 def refusal(status: int, kind: str, text: str) -> Done:
     """What is sent where there is no answer."""
     line = " ".join(text.split())

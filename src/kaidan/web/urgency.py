@@ -31,9 +31,10 @@ class Hands:
     """
 
     def __init__(self, count: int, limits: Limits, folder: Path) -> None:
-        self.estimates = Workers(min(count, 2), limits, folder)
-        self.quick = Workers(count, limits, folder, nice=QUICK)
-        self.thorough = Workers(count, limits, folder, nice=THOROUGH, ready=False)
+        few = min(count, 2)
+        self.estimates = Workers(few, limits, folder, ready=few, first="estimate")
+        self.quick = Workers(count, limits, folder, nice=QUICK, ready=count, first="assess")
+        self.thorough = Workers(count, limits, folder, nice=THOROUGH, ready=1, first="assess")
         self._every = (self.estimates, self.quick, self.thorough)
 
     async def __aenter__(self) -> Self:

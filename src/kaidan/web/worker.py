@@ -21,7 +21,8 @@ _EVERY = 0.2
 def main() -> None:
     """Answer tasks from standard input until it ends.
 
-    Arguments are the most memory [bytes] and by how much other processes go first.
+    Arguments are the most memory [bytes], by how much other processes go first, and a verb that it
+    answers once before its first task, or nothing.
     """
     tasks = sys.stdin.buffer
     answers = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
@@ -35,6 +36,8 @@ def main() -> None:
     from kaidan.progress import followed
     from kaidan.web import tasks as known
 
+    if sys.argv[3]:
+        known.prepare(sys.argv[3])
     said = 0.0
 
     def follow(what: str, done: int, of: int) -> None:

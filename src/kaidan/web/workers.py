@@ -55,9 +55,9 @@ class _Worker:
         """Whether it had no memory left, so that nobody knows what is whole in it."""
 
     @classmethod
-    async def begin(cls, limits: Limits, folder: Path, nice: int) -> Self:
+    async def begin(cls, limits: Limits, folder: Path, nice: int, first: str) -> Self:
         process = await asyncio.create_subprocess_exec(
-            sys.executable, "-m", "kaidan.web.worker", str(limits.memory), str(nice),
+            sys.executable, "-m", "kaidan.web.worker", str(limits.memory), str(nice), first,
             stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
             stderr=asyncio.subprocess.DEVNULL, cwd=folder,
             env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1",
@@ -111,23 +111,33 @@ class Workers:
         Where each has a folder for passing files.
     nice : int
         By how much other processes go first.
-    ready : bool
-        Whether they run before the first question.
+    ready : int
+        How many of them begin before they are needed.
+    first : str
+        Verb that these answer once before the first question, whose reply would wait for their
+        imports otherwise.
     """
 
     def __init__(
-        self, count: int, limits: Limits, folder: Path, *, nice: int = 0, ready: bool = True
+        self,
+        count: int,
+        limits: Limits,
+        folder: Path,
+        *,
+        nice: int = 0,
+        ready: int = 0,
+        first: str = "",
     ) -> None:
         self.count, self.limits, self.folder = count, limits, folder
-        self.nice, self.ready = nice, ready
+        self.nice, self.ready, self.first = nice, ready, first
         self._idle: list[_Worker | None] = [None] * count
         self._all: set[_Worker] = set()
         self._line: deque[asyncio.Future[_Worker | None]] = deque()
         self._under_way: set[asyncio.Task[Reply]] = set()
 
     async def __aenter__(self) -> Self:
-        if self.ready:
-            self._idle = [await self._begin(self.nice) for _ in range(self.count)]
+        for place in range(self.count - self.ready, self.count):  # the last is asked first
+            self._idle[place] = await self._begin(self.nice, self.first)
         return self
 
     async def __aexit__(self, *ended: object) -> None:
@@ -231,9 +241,9 @@ class Workers:
             await self._drop(worker)
         return await self._begin(self.nice)
 
-    async def _begin(self, nice: int) -> _Worker:
+    async def _begin(self, nice: int, first: str = "") -> _Worker:
         folder = Path(tempfile.mkdtemp(dir=self.folder))
-        worker = await _Worker.begin(self.limits, folder, nice)
+        worker = await _Worker.begin(self.limits, folder, nice, first)
         self._all.add(worker)
         return worker
 

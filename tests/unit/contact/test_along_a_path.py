@@ -9,8 +9,8 @@ import pytest
 from contact_cases import flight, stadium
 from kaidan import contact
 from kaidan.contact import Event, EventRecord, Feature, FeatureKind, using_kernel
+from kaidan.contact.kernel.passings import along_flat
 from kaidan.contact.records import Events
-from kaidan.traversal.nosing_events import along_flat
 
 ROBOT = stadium(0.470, 0.196, 0.071, 0.06)
 TOUCH = 1e-7
@@ -33,17 +33,15 @@ def by_hand(path, rows):
     length = float(path.body.flat_length[0])
     found = []
     for row in rows:
-        (w_0, w_1), (gap_0, gap_1) = zip(
-            *(along_flat(path, np.array([k]), points, 0) for k in (row, row + 1)), strict=True
-        )
-        for k, point in enumerate(points):
+        for point in points:
+            tables = path.ground.table, path.body.table, path.poses.table
+            (w_0, gap_0), (w_1, gap_1) = (along_flat(*tables, k, 0, point) for k in (row, row + 1))
             lay, lies = (
-                abs(gap[0, k]) < TOUCH and 0 <= w[0, k] <= length
-                for w, gap in ((w_0, gap_0), (w_1, gap_1))
+                abs(gap) < TOUCH and 0 <= w <= length for w, gap in ((w_0, gap_0), (w_1, gap_1))
             )
             if lay != lies:
-                end = 0.0 if min(w_0[0, k], w_1[0, k]) < 0 else length
-                share = (end - w_0[0, k]) / (w_1[0, k] - w_0[0, k])
+                end = 0.0 if min(w_0, w_1) < 0 else length
+                share = (end - w_0) / (w_1 - w_0)
                 s = path.s[row] + share * (path.s[row + 1] - path.s[row])
                 found.append((s, float(lies), point, 0, row, share))
     return np.array(sorted(found))

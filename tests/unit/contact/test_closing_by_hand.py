@@ -76,6 +76,29 @@ def test_what_has_sunk_in_and_falls_closes_at_once_unless_it_has_passed_beside(s
         assert below(start, GROWS, 0.8, deep) == NEVER
 
 
+def test_what_has_sunk_in_and_grows_is_still_in_at_the_end():
+    for start in (-0.5 * BESIDE, -1.5 * BESIDE):
+        assert below(start, GROWS, 0.01) > 0.01
+    # past the lowest point of a short dip, which ends 0.118 rad later
+    assert crossing(0.95, 1.0, math.pi - 0.2, 0.05) > 0.05
+
+
+def test_within_what_counts_as_sunk_in():
+    """The least value of a gap of size 1, or where one begins, as a share of it."""
+    for share, closes in ((1.5, False), (0.5, False), (-0.5, False), (-1.5, True)):
+        angle = crossing(1.0 + share * PENETRATED, 1.0, math.pi + 0.3, 0.6)
+        # lowest after 0.3 rad; within sqrt(2 * 1.5 * PENETRATED) of that it is below zero
+        assert angle == (pytest.approx(0.3, abs=3e-6) if closes else NEVER), share
+    # slowly: 0.1 um/rad
+    for share, angle in ((0.25, 5e-6), (-0.25, 0.0), (-0.75, 0.0), (-1.25, 0.0)):
+        found = crossing_angle(share * PENETRATED, 0.0, -1e-7, 0.8, 0.6, PENETRATED)
+        assert found == pytest.approx(angle, abs=1e-9), share
+    # at rest on its top just below zero: the pivot under another name
+    for rate in (0.0, 0.5e-9, -0.5e-9):
+        found = crossing_angle(-1.0 - 0.75 * PENETRATED, 1.0, rate, 0.8, 0.6, PENETRATED)
+        assert found == NEVER
+
+
 def test_what_is_never_positive_never_closes():
     assert crossing(-1.0, 1.0, 0.0, 0.5) == NEVER
     assert crossing(-1.1, 1.0, 0.2, 0.5) == NEVER

@@ -97,3 +97,30 @@ def test_phases_are_the_same_with_every_energy_worked_out(seed):
     assert np.isfinite(whole.path.margins.energy).all()
     if len(bare.path.poses) > 200:
         assert np.isnan(bare.path.margins.energy).any(), "by bound, not at every pose"
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("low", [0.1, 1.0])
+@pytest.mark.parametrize("seed", range(6))
+def test_the_least_energy_is_worked_out_only_where_it_may_be(seed, low, side):
+    """The least over all poses; unknown stays what needs more about its pivot alone."""
+    whole, bare = run_of(seed), run_of(seed, with_energy=False)
+    rows = np.arange(3, len(whole.poses), 2)
+    weights = np.random.default_rng(seed).uniform(low, 1.0, len(rows))
+    pivot = weights * (whole.margins.back_rise if side > 0 else whole.margins.front_rise)[rows]
+    needed = np.maximum(weights * whole.margins.energy[rows], pivot)
+    least, row = bare.least_energy(rows, side, weights, 1e-9)
+    assert least == needed.min()
+    assert row == rows[np.flatnonzero(needed <= least + 1e-9)[0]]
+    known = ~np.isnan(bare.margins.energy)
+    assert not known[np.setdiff1d(range(len(known)), rows)].any()
+    # in the order of the pivots' rises, each below the least of those before it
+    order = np.argsort(pivot, kind="stable")
+    before = np.minimum.accumulate(np.r_[np.inf, needed[order]])[:-1]
+    assert known[rows[order]].tolist() == (pivot[order] < before + 1e-9).tolist()
+    assert known.sum() < len(rows)
+
+
+def test_without_margins_the_least_energy_refuses():
+    with pytest.raises(ValueError, match="energy needs with_margins"):
+        run_of(0, with_margins=False).least_energy(np.arange(3), 1.0, np.ones(3), 1e-9)

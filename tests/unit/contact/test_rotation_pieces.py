@@ -7,7 +7,19 @@ import numpy as np
 import pytest
 
 from kaidan.contact import body_table, ground_table
-from kaidan.contact.columns import LENGTH, PART, POINT, X1, X2, Z1, Z2
+from kaidan.contact.columns import (
+    LENGTH,
+    PART,
+    POINT,
+    POSE_COLUMNS,
+    POSE_PHI,
+    POSE_X,
+    POSE_Z,
+    X1,
+    X2,
+    Z1,
+    Z2,
+)
 from kaidan.contact.kernel.closing import (
     FROM_DISC_1,
     FROM_DISC_2,
@@ -22,6 +34,7 @@ from kaidan.contact.kernel.closing import (
 )
 from kaidan.contact.kernel.event_location import PENETRATED
 from kaidan.contact.kernel.gaps import gap
+from kaidan.contact.kernel.passings import along_flat
 from kaidan.contact.kernel.rotation import (
     NEVER,
     angle_until_over,
@@ -327,6 +340,21 @@ def test_a_gap_that_grows_falls_and_grows_again_closes_in_between():
     tau = found - 0.75
     assert lowest + 0.1 * found - 0.125 * math.sin(tau) == pytest.approx(0.0, abs=2 * PENETRATED)
     assert tau < 0.6435
+
+
+@pytest.mark.parametrize("place", [-0.1, 0.2, 0.7])
+@pytest.mark.parametrize("off", [-0.02, 0.0, 0.3])
+def test_place_of_a_point_along_a_tapered_flat(off, place):
+    phi = 0.4
+    a, b = (disc(each, 0.0, 0.0, phi) for each in (1, 2))
+    lean = math.asin((RADIUS[1] - RADIUS[2]) / abs(b - a))
+    normal = -1j * (b - a) / abs(b - a) * cmath.exp(1j * lean)  # out of the underside
+    begin = a + RADIUS[1] * normal
+    c = complex(*GROUND[EDGE, :2]) - (begin + place * 1j * normal + off * normal)
+    poses = np.zeros((2, POSE_COLUMNS))
+    poses[1, [POSE_X, POSE_Z, POSE_PHI]] = c.real, c.imag, phi
+    found = along_flat(GROUND, BODY, poses, 1, 1, EDGE)
+    assert found == (pytest.approx(place, abs=ROUNDING), pytest.approx(off, abs=ROUNDING))
 
 
 def test_a_foot_beyond_the_flat_or_the_segment_is_none():

@@ -5,6 +5,7 @@ from scipy.optimize import brentq, linprog
 from kaidan.mechanics.cones import cone_margin
 from kaidan.mechanics.grousers import (
     face_friction,
+    height_behind,
     phases_friction,
     roll_off_length,
     roll_off_sine,
@@ -32,6 +33,24 @@ def test_tip_tilt_by_coordinates(theta, curvature):
         centre = (r + 1 / curvature) * normal
         h = np.hypot(*(round_ - centre[:, None])) - 1 / curvature
     assert tip_tilt(theta=theta, h=h, r=r, curvature=curvature) == pytest.approx(beta, abs=1e-9)
+
+
+@pytest.mark.parametrize("theta", np.radians([55.0, 70.0, 80.0, 86.6, 89.9]))
+@pytest.mark.parametrize("r", [0.0, 0.02])
+def test_the_grouser_before_keeps_the_belt_off_the_riser_by_coordinates(theta, r):
+    # oracle: the belt moved off level until the tip a spacing down it lies in the face, x = 0
+    h, s = 0.018, 0.030
+    along = np.array([np.cos(theta), np.sin(theta)])
+    into = np.array([np.sin(theta), -np.cos(theta)])
+    nosing = np.array([r, -r]) - r * into
+
+    def tip(off):
+        return nosing - [off, 0.0] - s * along + h * into
+
+    off = brentq(lambda off: tip(off)[0], 0.0, 1.0) if tip(0.0)[0] > 0.0 else 0.0
+    expected = h - into @ [off, 0.0]  # of the belt above the nosing, along its normal
+    assert height_behind(theta=theta, h=h, s=s, r=r) == pytest.approx(expected, abs=1e-12)
+    assert (off > 0.0) == (h * np.sin(theta) + r * (1 - np.sin(theta)) > s * np.cos(theta))
 
 
 @pytest.mark.parametrize("theta", SLOPES)

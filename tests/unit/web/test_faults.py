@@ -1,7 +1,9 @@
 """No request takes the server down: a worker that is killed, hangs or eats memory."""
 
+import logging
 import os
 import signal
+import socket
 import subprocess
 import threading
 import time
@@ -77,6 +79,24 @@ def test_what_eats_memory_ends():
         assert answer.status_code == 422
         assert answer.json()["kind"] in ("memory", "input")
         assert client.post("/api/assess", json=QUESTION).status_code == 200
+
+
+def test_a_client_that_leaves_in_the_middle_of_its_body_is_no_fault(caplog):
+    with served() as client:
+        logger = logging.getLogger("uvicorn.error")
+        logger.addHandler(caplog.handler)
+        try:
+            url = client.base_url
+            with socket.create_connection((url.host, url.port)) as connection:
+                head = (
+                    f"POST /api/assess HTTP/1.1\r\nHost: {url.host}:{url.port}\r\n"
+                    "Content-Type: application/json\r\nContent-Length: 1000\r\n\r\n"
+                )
+                connection.sendall(head.encode() + b'{"robot"')
+            assert client.post("/api/assess", json=QUESTION).status_code == 200
+        finally:
+            logger.removeHandler(caplog.handler)
+    assert caplog.records == []
 
 
 def test_too_many_at_once_are_sent_away_and_nothing_is_left_behind(tmp_path, workers):

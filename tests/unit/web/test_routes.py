@@ -33,6 +33,11 @@ def test_the_words_are_those_of_the_command(client):
 def test_the_catalogue_has_every_name_and_each_whole_sheet(client):
     found = client.get("/api/catalogue").json()
     assert {"name": "kenaf", "title": kaidan.Robot.named("kenaf").title} in found["robots"]
+    unweighed = {each["name"] for each in found["robots"] if each.get("unweighed")}
+    assert "talon" in unweighed
+    for each in found["robots"]:
+        has_range = kaidan.Robot.named(each["name"]).com_range is not None
+        assert (each["name"] in unweighed) == has_range
     sheet = client.get("/api/catalogue/stairs/ibc").json()
     assert sheet == json.loads(kaidan.Stairs.named("ibc").to_json())
     assert client.get("/api/catalogue/stairs/nowhere").json()["kind"] == "not-found"

@@ -36,8 +36,9 @@ def test_flights_of_a_building_model_become_stairs(client, pytestconfig):
     assert client.post("/api/assess", json=body).json()["verdict"] in ("go", "caution", "no-go")
 
 
-def test_what_is_no_known_file_is_refused_in_words(client):
-    answer = sent(client, b"hello")
+@pytest.mark.parametrize("content", [b"hello", b"a = " + b"[" * 20_000], ids=["text", "deep"])
+def test_what_is_no_known_file_is_refused_in_words(client, content):
+    answer = sent(client, content)
     assert answer.status_code == 422
     assert "no known format" in answer.json()["error"]
 

@@ -3,6 +3,7 @@
 import asyncio
 import contextlib
 import os
+import subprocess
 import sys
 import threading
 import time
@@ -38,6 +39,20 @@ def test_a_quick_question_does_not_wait_for_a_long_one():
         assert client.post("/api/assess", json=QUICK).status_code == 200
         assert done == []
         asking.join()
+
+
+@pytest.mark.parametrize("verb", ["estimate", "assess"])
+def test_a_prepared_worker_imports_nothing_for_its_first_question(verb):
+    program = (
+        "import sys; from kaidan.web import tasks; tasks.prepare(sys.argv[1]); "
+        "before = set(sys.modules); "
+        "body = {'robot': 'absolem', 'stairs': 'ada', 'friction': 0.7, 'flippers': 'stowed'}; "
+        "head, _ = tasks.done({'kind': 'ask', 'verb': sys.argv[1], 'body': body}); "
+        "print(head['status'], sorted(set(sys.modules) - before))"
+    )
+    command = [sys.executable, "-c", program, verb]
+    said = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert said.stdout == "200 []\n"
 
 
 def test_the_estimate_is_the_closed_form_without_advice(client):

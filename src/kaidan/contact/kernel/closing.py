@@ -131,7 +131,7 @@ def crossing_angle(
     ):
         return NEVER
     start = level + even
-    if start <= -0.5 * deep and rate < -RESTING:
+    if start <= 0.0 and rate < -RESTING:
         return 0.0 if start > -deep * (BESIDE / PENETRATED) else NEVER
     rho = math.sqrt(even * even + rate * rate)
     if level <= -rho:  # never positive; a feature through the pivot itself is one of these

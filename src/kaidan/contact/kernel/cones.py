@@ -11,20 +11,8 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.columns import (
-    CONE_1_ALPHA,
-    CONE_1_PHI,
-    CONE_1_X,
-    CONE_1_Z,
-    CONE_2_ALPHA,
-    CONE_2_PHI,
-    CONE_2_X,
-    CONE_2_Z,
-    CONE_W_X,
-    CONE_W_Z,
-)
 from kaidan.contact.entries import entry
-from kaidan.contact.tables import ConeTable, FloatRow, Four
+from kaidan.contact.tables import Four
 
 #: Halvings: of less than half a turn down to 1e-5 rad.
 HALVINGS = 18
@@ -75,55 +63,53 @@ def cones_hold(one: Four, two: Four, three: Four, four: Four, t: float) -> bool:
 
 
 @entry
-def cone_margins(cones: ConeTable, found: FloatRow) -> None:
+def cone_margin(
+    x_1: float, z_1: float, alpha_1: float, phi_1: float,
+    x_2: float, z_2: float, alpha_2: float, phi_2: float, w_x: float, w_z: float,
+) -> float:  # fmt: skip
     """Angle by which the cones of two contacts may shrink while they hold the robot [rad].
 
     Parameters
     ----------
-    cones
-        A row a pose: of each contact its place from the centroid [m], tilt of the normal and angle
-        of friction [rad]; and the sum of their forces [N/kg].
-    found
-        To be filled; minus infinity where no friction is enough, NaN for contacts at one place.
+    x_1, z_1, x_2, z_2
+        Places of the contacts from the centroid [m].
+    alpha_1, phi_1, alpha_2, phi_2
+        Tilt of the normal and angle of friction of each [rad].
+    w_x, w_z
+        Sum of their forces [N/kg].
+
+    Returns
+    -------
+    float
+        Minus infinity where no friction is enough, NaN for contacts at one place.
     """
-    for row in range(cones.shape[0]):
-        x_1 = cones[row, CONE_1_X]
-        z_1 = cones[row, CONE_1_Z]
-        w_x = cones[row, CONE_W_X]
-        w_z = cones[row, CONE_W_Z]
-        phi_1 = cones[row, CONE_1_PHI]
-        phi_2 = cones[row, CONE_2_PHI]
-        d_x = cones[row, CONE_2_X] - x_1
-        d_z = cones[row, CONE_2_Z] - z_1
-        d = math.sqrt(d_x * d_x + d_z * d_z)
-        if d == 0.0:
-            found[row] = math.nan
-            continue
-        e_x = d_x / d
-        e_z = d_z / d
-        across_2 = -(x_1 * w_z - z_1 * w_x) / d
-        across_1 = -w_x * e_z + w_z * e_x - across_2
-        along = w_x * e_x + w_z * e_z
-        size = NO_FORCE * math.sqrt(w_x * w_x + w_z * w_z)
-        f_x = -across_1 * e_z
-        f_z = across_1 * e_x
-        h_x = along * e_x - across_2 * e_z
-        h_z = along * e_z + across_2 * e_x
-        alpha_1 = cones[row, CONE_1_ALPHA]
-        alpha_2 = cones[row, CONE_2_ALPHA]
-        one = edge(f_x, f_z, e_x, e_z, alpha_1 + phi_1, 1.0, size)
-        two = edge(f_x, f_z, e_x, e_z, alpha_1 - phi_1, -1.0, size)
-        three = edge(h_x, h_z, -e_x, -e_z, alpha_2 + phi_2, 1.0, size)
-        four = edge(h_x, h_z, -e_x, -e_z, alpha_2 - phi_2, -1.0, size)
-        high = min(phi_1, phi_2)
-        low = max(phi_1, phi_2) - 0.5 * math.pi + 1e-3
-        if not cones_hold(one, two, three, four, math.tan(low)):
-            found[row] = -math.inf
-            continue
-        for _ in range(HALVINGS):
-            middle = 0.5 * (low + high)
-            if cones_hold(one, two, three, four, math.tan(middle)):
-                low = middle
-            else:
-                high = middle
-        found[row] = low
+    d_x = x_2 - x_1
+    d_z = z_2 - z_1
+    d = math.sqrt(d_x * d_x + d_z * d_z)
+    if d == 0.0:
+        return math.nan
+    e_x = d_x / d
+    e_z = d_z / d
+    across_2 = -(x_1 * w_z - z_1 * w_x) / d
+    across_1 = -w_x * e_z + w_z * e_x - across_2
+    along = w_x * e_x + w_z * e_z
+    size = NO_FORCE * math.sqrt(w_x * w_x + w_z * w_z)
+    f_x = -across_1 * e_z
+    f_z = across_1 * e_x
+    h_x = along * e_x - across_2 * e_z
+    h_z = along * e_z + across_2 * e_x
+    one = edge(f_x, f_z, e_x, e_z, alpha_1 + phi_1, 1.0, size)
+    two = edge(f_x, f_z, e_x, e_z, alpha_1 - phi_1, -1.0, size)
+    three = edge(h_x, h_z, -e_x, -e_z, alpha_2 + phi_2, 1.0, size)
+    four = edge(h_x, h_z, -e_x, -e_z, alpha_2 - phi_2, -1.0, size)
+    high = min(phi_1, phi_2)
+    low = max(phi_1, phi_2) - 0.5 * math.pi + 1e-3
+    if not cones_hold(one, two, three, four, math.tan(low)):
+        return -math.inf
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if cones_hold(one, two, three, four, math.tan(middle)):
+            low = middle
+        else:
+            high = middle
+    return low

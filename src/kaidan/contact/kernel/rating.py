@@ -299,14 +299,15 @@ def rate_rotations(
         lowest = min(lowest, rotations[row, START_PHI], rotations[row, END_PHI])
         highest = max(highest, rotations[row, START_PHI], rotations[row, END_PHI])
         stands = -1
-        if rotations[row, OUTCOME] == RotationOutcome.ARRESTED:
+        arrested = int(rotations[row, OUTCOME]) == RotationOutcome.ARRESTED
+        if arrested:
             stands = flight_at(poses, at, flights)
         if begins:
             flight = stands
         elif stands != flight:
             flight = -1
         begins = False
-        if rotations[row, OUTCOME] == RotationOutcome.ARRESTED:
+        if arrested:
             speed = max(speed, impact_speed(ground, body, rotations, row, found))
         spare = min(spare, rotations[row, BARRIER] / size - fallen)
         most = max(most, angle)

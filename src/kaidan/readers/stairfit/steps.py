@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.readers.flight import UNCHECKED
+from kaidan.readers.flight import LAST_SPREAD, UNCHECKED
 from kaidan.readers.kinds import Array, Indices
 from kaidan.readers.stairfit.doubts import SMALLEST, across, common, place_of
 from kaidan.readers.stairfit.staircase_line import (
@@ -49,6 +49,9 @@ HIGHEST_LAST = 1.3
 LANDING_ACROSS = 0.6
 """Least width of a landing with a riser of its own, over that of the flight [1]: a box on it is
 narrower."""
+LAST_UNSEEN = 2 * LAST_SPREAD
+"""Standard uncertainty of the last level where nothing of it was seen [m]: what last rises are like
+says more."""
 MOST_FITTED = 30_000
 """Points of a lane to which the line is fitted; single steps are measured in all of them."""
 FLOOR_SEEN = 15
@@ -154,6 +157,8 @@ def steps_of(
     found, sigma, measured, places, landing = _last_riser(
         found, sigma, measured, places, line, s, t, z, noise, tight
     )
+    if not measured[-1, 1]:
+        sigma[-1, 1] = math.hypot(sigma[-1, 1], LAST_UNSEEN)
     rms = float(np.sqrt(np.mean(np.minimum(np.abs(off), tight) ** 2)))
     on = at.tread | at.riser
     width = _width(at.step[on], t[on], line)
@@ -213,7 +218,10 @@ def _alone(
             at_0 = edges.at - line.skew * edges.t if axis == 0 else edges.at
             for row in lacking.tolist():
                 here = edges.step == number[row]
-                end = _end(at_0[here], edges.gap[here], noise, float(regular[row, axis]))
+                last = axis == 1 and row == len(number) - 1
+                gap = edges.gap[here]
+                far = _farthest(line.rise, gap) if last else EDGE_OFF
+                end = _end(at_0[here], gap, noise, float(regular[row, axis]), far)
                 found[row, axis], sigma[row, axis] = end
     return found, sigma, places
 
@@ -263,9 +271,21 @@ def _mean(values: Array, others: int) -> tuple[float, float]:
     return float(core.mean()), spread / math.sqrt(len(core))
 
 
-def _end(ends: Array, gap: Array, noise: float, regular: float) -> tuple[float, float]:
-    """Where an element ends in its lanes, and its standard uncertainty; NaN: too few of them."""
-    if len(ends) < FEWEST_LANES or abs(float(np.median(ends)) - regular) >= EDGE_OFF:
+def _farthest(rise: float, gap: Array) -> float:
+    """Distance from its regular place up to which an end is that of the last riser [m].
+
+    That may be another one, and rows of points end up to half their distance beyond or before it.
+    """
+    half = 0.5 * float(np.median(gap)) if len(gap) else 0.0
+    return max(EDGE_OFF, ODD_UNSEEN * rise) + half
+
+
+def _end(ends: Array, gap: Array, noise: float, regular: float, far: float) -> tuple[float, float]:
+    """Where an element ends in its lanes, and its standard uncertainty.
+
+    NaN: too few of them, or they end as far from the regular place as something else does.
+    """
+    if len(ends) < FEWEST_LANES or abs(float(np.median(ends)) - regular) >= far:
         return math.nan, math.nan
     end = float(np.median(ends))
     spread = 1.4826 * float(np.median(np.abs(ends - end)))

@@ -18,6 +18,7 @@ from kaidan.answer import Answer, Part
 from kaidan.campaign import Work, rows_of
 from kaidan.campaign.plans import seed_of
 from kaidan.campaign.trials import physics_version, text
+from kaidan.contact import Grousers
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.models.quasi_static import traverse_of
 from kaidan.models.traction import SLIDING
@@ -27,7 +28,6 @@ from kaidan.physics.mean_forces import WINDOW
 from kaidan.question import Question
 from kaidan.robot import Robot, Track
 from kaidan.terrain.stairs import Stairs
-from kaidan.traversal.grip import Grousers
 
 ROBOT = Robot(
     name="long and low",

@@ -47,7 +47,7 @@ def turn_on(
         to_flight=after.identity,
         path=[tuple(pose) for pose in found.path.poses.tolist()] if found.path else (),
         footprint=tuple(footprint) if math.isfinite(footprint.width) else None,
-        **shown(found, climbing, turn, flippers=bool(robot.flippers())),
+        **shown(found, climbing, turn, robot),
     )
 
 

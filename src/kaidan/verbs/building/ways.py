@@ -195,7 +195,7 @@ def _turning(
         return  # there is room to go round, or it is a way there and back
     lower, upper = (before, leg) if leg.up else (leg, before)
     shown = turn(lower.flight, upper.flight)
-    if shown.way not in ("none", "unknown") and not shown.tight:
+    if shown.holds:
         return
     verdict = Verdict.NO_GO if shown.way == "none" else Verdict.CAUTION
     yield Hindrance(verdict, "turning", floor.name, turning.turning(shown), -math.inf)

@@ -1,5 +1,7 @@
 // A climb that is watched: numbers, chart, alarm with sound. Judged by the server; here it is shown.
 
+import { preference, prefer } from "./js/storage.js";
+
 const SILENT = 1.0; // s without a state after which the sensor counts as silent
 const SEEN = 20; // s of the chart
 const TICK = 50; // ms between two requests of a replay
@@ -85,20 +87,21 @@ function show() {
   const state = states.at(-1);
   const silence = (performance.now() - last) / 1000;
   const silent = Boolean(state) && !over && !replay?.paused && silence > SILENT;
-  const next = !state ? "idle" : silent ? "silent" : state.alarm ? "alarm" : "calm";
+  const outside = state?.status === "outside-model";
+  const next = !state ? "idle" : silent ? "silent" : state.alarm ? "alarm" : outside ? "unknown" : "calm";
   if (next !== mood || !at("said").textContent || language !== show.language) {
     mood = next;
     show.language = language;
     at("alarm").className = mood;
-    at("mark").textContent = { idle: "○", calm: "●", alarm: "▲", silent: "✕" }[mood];
+    at("mark").textContent = { idle: "○", calm: "●", alarm: "▲", silent: "✕", unknown: "?" }[mood];
     at("said").textContent = t(mood);
-    at("why").textContent = mood === "alarm" ? t("alarm_do") : mood === "silent" ? t("silent_do", { s: SILENT }) : "";
+    at("why").textContent = `${mood}_do` in texts ? t(`${mood}_do`, { s: SILENT, why: state?.message }) : "";
   }
   at("margin").textContent = number(state?.margin_deg, 1);
   at("time").textContent = state && state.time_to_tip_s === null && state.margin_deg !== null ? `> ${head?.horizon_s ?? 2}` : number(state?.time_to_tip_s, 1);
   at("tilt").textContent = number(state?.tilt_deg, 1);
-  at("phase").textContent = state ? t(state.phase) : "–";
-  if (state?.message) at("note").textContent = state.message;
+  at("phase").textContent = state && !outside ? t(state.phase) : "–";
+  if (state?.message && !outside) at("note").textContent = state.message;
   draw();
 }
 
@@ -122,7 +125,7 @@ function draw() {
 // For a screen reader: a sentence now and then; the alarm speaks for itself at once.
 setInterval(() => {
   const state = states.at(-1);
-  if (state && mood !== "silent" && !over) at("status").textContent = t("state", { margin: number(state.margin_deg, 1), phase: t(state.phase) });
+  if (state && mood !== "silent" && mood !== "unknown" && !over) at("status").textContent = t("state", { margin: number(state.margin_deg, 1), phase: t(state.phase) });
 }, 5000);
 setInterval(show, 250);
 
@@ -155,7 +158,7 @@ function setLoud(on) {
 
 setInterval(() => {
   if (loud && mood === "alarm") beep(880);
-  if (loud && mood === "silent") beep(440);
+  if (loud && (mood === "silent" || mood === "unknown") && !over) beep(440);
 }, 450);
 at("sound").onclick = () => setLoud(!loud);
 at("try").onclick = () => {
@@ -263,13 +266,21 @@ at("pause").onclick = () => {
   at("pause").textContent = t(replay.paused ? "go_on" : "pause");
 };
 
-at("language").onchange = () => speak(at("language").value);
+at("language").onchange = () => {
+  prefer("language", at("language").value);
+  speak(at("language").value);
+};
 const catalogue = await ask("api/catalogue", {});
 for (const [id, kind, first] of [["robot", "robots", "absolem"], ["stairs", "stairs", "ibc"]]) {
-  for (const each of catalogue[kind]) at(id).append(new Option(`${each.name}: ${each.title}`, each.name));
+  for (const each of catalogue[kind].filter((each) => !each.unweighed)) at(id).append(new Option(`${each.name}: ${each.title}`, each.name));
   at(id).value = first;
 }
-speak(new URLSearchParams(location.search).get("lang") ?? navigator.language.slice(0, 2));
+const given = new URLSearchParams(location.search);
+for (const id of ["robot", "stairs", "direction", "facing", "flippers"]) {
+  const value = given.get(id);
+  if (value && (!at(id).options || [...at(id).options].some((each) => each.value === value))) at(id).value = value;
+}
+speak(given.get("lang") ?? preference("language", navigator.language.slice(0, 2)));
 const named = location.hash.slice(1);
 if (named) connect(named);
 document.body.dataset.ready = "yes";

@@ -6,6 +6,7 @@ import { h, line, replace, s } from "./dom.js";
 import { said, t } from "./i18n.js";
 import { symbol } from "./light.js";
 import { catalogue } from "./question.js";
+import { robotBoxes } from "./robot.js";
 import { change, clear, packed, state } from "./state.js";
 import { figure, shown } from "./units.js";
 
@@ -22,14 +23,6 @@ export function buildingView() {
   const node = h("section", { class: "panel building" }, h("h2", {}, t("building.heading")), h("p", {}, t("building.lead")),
     h("div", { class: "picker" }, h("label", { for: "model" }, t("building.file")), input), boxes, ground.node,
     button(t("building.ask"), judge, { class: "main" }), outcome);
-
-  function fillBoxes() {
-    replace(boxes, h("legend", {}, t("building.robots")), catalogue.robots.map((robot) => {
-      const box = h("input", { type: "checkbox", value: robot.name, onchange: () => (box.checked ? chosen.add(robot.name) : chosen.delete(robot.name)) });
-      box.checked = chosen.has(robot.name);
-      return h("label", { class: "check" }, box, h("span", {}, robot.title));
-    }));
-  }
 
   async function judge() {
     if (!file || chosen.size === 0) return replace(outcome, h("p", { role: "alert", class: "refused" }, t("building.pick")));
@@ -72,7 +65,7 @@ export function buildingView() {
     ];
   }
 
-  return { node, update() { fillBoxes(); ground.update(); } };
+  return { node, update() { replace(boxes, robotBoxes(chosen)); ground.update(); } };
 }
 
 function verdictOf(cell) {

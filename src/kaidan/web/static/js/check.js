@@ -16,6 +16,7 @@ import { findingsTable, verdictPanel } from "./verdict.js";
 
 const TABS = ["side", "margin", "plane", "map", "findings", "text"];
 const LABELS = { side: "side.heading", margin: "chart.margin", plane: "chart.plane", map: "chart.map", findings: "answer.findings", text: "answer.text" };
+const ONE_CENTROID = ["side", "margin", "plane", "map"]; // what a robot does not have before it is weighed
 const SETTLED = 120; // after the last change of a slider, the whole question is put [ms]
 
 export function checkView(shell) {
@@ -76,7 +77,7 @@ export function checkView(shell) {
       return;
     }
     verdict.working();
-    lines.quick.ask(quickBody(body), (answer) => {
+    if (!current.robot.com_range) lines.quick.ask(quickBody(body), (answer) => {
       if (current.answer === null && answer) verdict.estimated(answer, body.flippers === "best");
       if (current.answer === null && answer && !pictures.hidden) charts(answer);
     });
@@ -115,6 +116,11 @@ export function checkView(shell) {
     const { answer, body } = current;
     if (!answer || shownFor[state.tab] === answer) return;
     shownFor[state.tab] = answer;
+    if (current.robot.com_range && ONE_CENTROID.includes(state.tab)) {
+      if (state.tab === "side") side.none(t("robot.unweighed_picture"));
+      else replace(views[state.tab], h("p", {}, t("robot.unweighed_picture")));
+      return;
+    }
     if (state.tab === "side") lines.side.ask(body, (report, error) => (error ? side.none(error.message) : side.show(report)), { cancel: true });
     if (state.tab === "findings") replace(views.findings, findingsTable(answer));
     if (state.tab === "map") lines.map.ask(body, (map, error) => (error ? noMap(views.map, error.message) : drawMap(views.map, map)), { cancel: true });

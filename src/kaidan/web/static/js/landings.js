@@ -15,7 +15,7 @@ export function landingsOf(sheet) {
   const held = (name) => state.stairsFigures[name] ?? valueOf(sheet, name);
   const groups = ENDS.map((end) => {
     const turn = choice({
-      label: t("landing.turn"), options: ["none", "quarter", "half"].map((each) => [each, t(`landing.${each}`)]),
+      label: t("landing.turn"), options: ["none", "quarter", "half", "unknown"].map((each) => [each, t(`landing.${each}`)]),
       get: () => held(`${end}_turn`) ?? "none", set: (value) => change({ stairsFigures: { [`${end}_turn`]: value } }),
     });
     const sliders = LENGTHS.map(([of, low, high]) => [of, slider({
@@ -26,7 +26,7 @@ export function landingsOf(sheet) {
     const node = h("fieldset", { class: "landing" }, h("legend", {}, t(`landing.${end}`)), turn.node,
       h("div", { class: "figures" }, sliders.map(([, each]) => each.node)), missing);
     function update() {
-      const turns = (held(`${end}_turn`) ?? "none") !== "none";
+      const turns = ["quarter", "half"].includes(held(`${end}_turn`));
       turn.update();
       for (const [of, each] of sliders) {
         each.node.hidden = OF_A_TURN.includes(of) && !turns;

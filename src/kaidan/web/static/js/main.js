@@ -56,7 +56,7 @@ function build() {
     h("a", { class: "skip", href: "#answer", onclick: (event) => { event.preventDefault(); document.getElementById("answer")?.focus(); } }, t("app.skip")),
     h("header", {},
       h("p", { class: "brand" }, h("b", {}, "kaidan"), h("span", { lang: "ja", "aria-hidden": "true" }, " 階段")),
-      h("nav", { "aria-label": "kaidan" }, links, h("a", { href: "live.html" }, t("app.live"))), chip,
+      h("nav", { "aria-label": "kaidan" }, links, h("a", { href: "live.html", onclick: (event) => { event.currentTarget.href = `live.html?${watched()}`; } }, t("app.live"))), chip,
       h("details", { class: "settings" }, h("summary", {}, t("app.settings")), h("div", {},
         select(t("app.language"), "language", [["en", "English"], ["ja", "日本語"]], language),
         select(t("app.units"), "lengths", [["mm", "mm"], ["in", "inch"]], lengths),
@@ -66,6 +66,12 @@ function build() {
     h("div", { id: "sheet" }), status);
   document.body.classList.add("ready");
   update();
+}
+
+// What the live page begins with: it takes names of the catalogue and one posture.
+function watched() {
+  const { robot, stairs, direction, facing, flippers } = state;
+  return new URLSearchParams({ robot, stairs, direction, facing, flippers: flippers === "flat" ? flippers : "" });
 }
 
 function openView(name) {

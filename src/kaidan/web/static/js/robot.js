@@ -26,6 +26,18 @@ const FIGURES = [
   ["mass", "mass", "mass", 0.5, 1500],
 ];
 
+const listed = (which) => catalogue.robots.filter(which).map((each) => [each.name, each.title]);
+
+// Robots of the catalogue to be ticked: their names go into the set that is given.
+export function robotBoxes(chosen) {
+  return [h("legend", {}, t("building.robots")), catalogue.robots.map((robot) => {
+    const box = h("input", { type: "checkbox", value: robot.name, onchange: () => (box.checked ? chosen.add(robot.name) : chosen.delete(robot.name)) });
+    box.checked = chosen.has(robot.name);
+    const mark = robot.unweighed ? h("small", {}, ` ${t("robot.until_weighed")}`) : null;
+    return h("label", { class: "check" }, box, h("span", {}, robot.title, mark));
+  })];
+}
+
 export function robotPanel(current) {
   const figures = h("div", { class: "figures" });
   const drawing = h("div", { class: "drawing" });
@@ -41,7 +53,7 @@ export function robotPanel(current) {
         ? [[state.robot, unpacked(state.robot)?.title || unpacked(state.robot)?.name || "?"]] : [];
       return [
         [t("robot.given"), given], [t("robot.saved"), kept],
-        [t("robot.catalogue"), catalogue.robots.map((each) => [each.name, each.title])],
+        [t("robot.catalogue"), listed((each) => !each.unweighed)], [t("robot.unweighed"), listed((each) => each.unweighed)],
         ["", [[own, t("robot.own")]]],
       ];
     },

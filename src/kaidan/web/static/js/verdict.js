@@ -86,17 +86,22 @@ function toDo(answer) {
   return h("div", { class: "do" }, h("h3", {}, t("answer.do")), planned, changes.length ? h("ul", {}, changes) : null, otherwise);
 }
 
+// Whether a manoeuvre takes more moves than the robot's sheet counts as sure.
+function long(turn) {
+  return turn.way === "manoeuvre" && turn.moves > turn.most_moves;
+}
+
 // How it turns on landings, or that it does not.
 function turnsOf({ turns }) {
   if (turns.length === 0) return null;
   return h("ul", { class: "turns", "aria-label": t("landing.turns") }, turns.map((turn) => {
-    const kind = turn.way === "none" ? "no-go" : turn.way === "unknown" || turn.tight ? "caution" : "go";
+    const kind = turn.way === "none" ? "no-go" : turn.way === "unknown" || turn.tight || long(turn) ? "caution" : "go";
     const landing = (language === "ja" ? japanese(turn.landing, "landing") : null) ?? turn.landing;
     const way = turn.way === "manoeuvre" && turn.reversals === 0 ? "forward" : turn.way;
     const how = t(`landing.way_${way}`, { moves: turn.moves, circle: shown(turn.circle_m, "length"), room: shown(turn.room_m, "length") });
     const posture = turn.way === "none" ? "landing.nearest" : "landing.flippers";
-    const more = [turn.flippers && (turn.way === "none" || turn.changed) ? t(posture, { flippers: turn.flippers }) : "", turn.tight && turn.way !== "none" ? t("landing.tight") : ""];
-    return h("li", {}, symbol(kind, 18), " ", h("b", {}, t("landing.turn_on", { landing, angle: `${Math.abs(turn.turn_deg).toFixed(0)}°` })), " ", how, ...more);
+    const more = [turn.flippers && (turn.way === "none" || turn.changed) ? t(posture, { flippers: turn.flippers }) : "", turn.tight && turn.way !== "none" ? t("landing.tight") : "", long(turn) ? t("landing.long", { most: turn.most_moves }) : ""];
+    return h("li", {}, symbol(kind, 18), " ", h("b", {}, t("landing.turn_on", { landing, angle: turn.turn_deg === null ? "?" : `${Math.abs(turn.turn_deg).toFixed(0)}°` })), " ", how, ...more);
   }));
 }
 
@@ -142,12 +147,12 @@ export function findingsTable(answer) {
     const holds = each.holds === null ? t("answer.maybe") : each.holds ? t("answer.yes") : t("answer.no");
     return h("tr", { class: each.holds === false ? "fails" : null },
       h("th", { scope: "row" }, modeName(key, answer)),
-      h("td", {}, each.holds === false ? symbol("no-go", 16) : each.holds ? symbol("go", 16) : null, ` ${holds}`),
+      h("td", {}, each.holds === false ? symbol("no-go", 16) : each.holds ? symbol("go", 16) : null, h("span", {}, ` ${holds}`)),
       h("td", {}, figure(each.margin, kind, { plus: true, of: `findings.${key}.margin` })),
       h("td", {}, figure(each.margin_best, kind, { plus: true, of: `findings.${key}.margin_best` })),
       h("td", {}, placeName(each.phase, each.step)));
   });
-  return h("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": t("answer.findings") },
+  return h("div", { class: "scroll findings", tabindex: "0", role: "region", "aria-label": t("answer.findings") },
     h("table", {},
       h("thead", {}, h("tr", {}, ["mode", "holds", "margin", "margin_best", "where"].map((each) => h("th", { scope: "col" }, t(`answer.${each}`))))),
       h("tbody", {}, rows)));

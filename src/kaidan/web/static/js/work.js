@@ -7,6 +7,7 @@ import { h, replace } from "./dom.js";
 import { has, language, said, t } from "./i18n.js";
 import { symbol } from "./light.js";
 import { bodyOf, catalogue, sheetOf } from "./question.js";
+import { robotBoxes } from "./robot.js";
 import { change, state } from "./state.js";
 import { figure } from "./units.js";
 
@@ -38,13 +39,7 @@ export function workView(shell) {
     return made.node;
   }
 
-  function robots() {
-    return h("fieldset", { class: "robots" }, h("legend", {}, t("building.robots")), catalogue.robots.map((robot) => {
-      const box = h("input", { type: "checkbox", value: robot.name, onchange: () => (box.checked ? chosen.add(robot.name) : chosen.delete(robot.name)) });
-      box.checked = chosen.has(robot.name);
-      return h("label", { class: "check" }, box, h("span", {}, robot.title));
-    }));
-  }
+  const robots = () => h("fieldset", { class: "robots" }, robotBoxes(chosen));
 
   const FORMS = {
     compare: () => robots(),

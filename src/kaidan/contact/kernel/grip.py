@@ -1,0 +1,323 @@
+r"""With how much to spare friction and grousers hold a pose on its supports.
+
+::
+
+      support      with a grouser on it     else          two supports carry, one on either side of
+      nosing       stands on the tread      Coulomb       the line of the load; which two of several
+      riser face   over the edge, if low    Coulomb       depends on where grousers stand
+      tread, floor                          Coulomb
+"""
+
+from __future__ import annotations
+
+import math
+
+from kaidan.contact.columns import (
+    FACE,
+    LOAD_COULOMB,
+    LOAD_X,
+    LOAD_Z,
+    NOSING,
+    NOWHERE,
+    SUPPORT_CURVATURE,
+    SUPPORT_IS_ONE,
+    SUPPORT_LIFT,
+    SUPPORT_NORMAL,
+    SUPPORT_PLACE,
+    SUPPORT_POINT,
+    SUPPORT_TREAD,
+    SUPPORT_X,
+    SUPPORT_Z,
+    TREAD,
+)
+from kaidan.contact.entries import entry
+from kaidan.contact.kernel.cones import cone_margin
+from kaidan.contact.kernel.grousers import (
+    edge_tilt,
+    face_friction,
+    height_behind,
+    phases_friction,
+    reach_over_edge,
+    roll_off_length,
+    roll_off_sine,
+    standing_friction,
+    standing_run,
+    tip_overlap,
+    tip_tilt,
+)
+from kaidan.contact.kernel.peaks import larger
+from kaidan.contact.tables import FloatRow, IntArray, LoadTable, SupportTable, Tip
+
+#: Share of the phases that counts where four nosings or more are under the belts [1]: fitted with
+#: `kaidan.mechanics.grousers.phases_friction` (docs/theory/grousers.md).
+MANY = 0.75
+#: Radius of a nosing that is sharp [m].
+SHARP = 1e-6
+#: Distance of two supports below which they count as that far apart [m].
+APART = 1e-3
+#: Largest slope for which grousers on several nosings are looked at [rad].
+STEEPEST = 1.5
+
+
+def smaller(one: float, other: float) -> float:
+    """The smaller of two numbers; NaN if either is."""
+    return -larger(-one, -other)
+
+
+def carry(supports: SupportTable, first: int, i: int, j: int, loads: LoadTable, row: int) -> bool:
+    """Whether two supports of a pose may carry it: on either side of its load, or the outer two."""
+    one = first + i
+    other = first + j
+    if supports[one, SUPPORT_IS_ONE] == 0.0 or supports[other, SUPPORT_IS_ONE] == 0.0:
+        return False
+    if i == 0 and j == 1:
+        return True
+    slope = loads[row, LOAD_X] / loads[row, LOAD_Z]
+    ahead = supports[one, SUPPORT_X] - slope * supports[one, SUPPORT_Z]
+    behind = supports[other, SUPPORT_X] - slope * supports[other, SUPPORT_Z]
+    return bool(ahead * behind <= 0.0)
+
+
+def friction_at(
+    supports: SupportTable, at: int, nosings: float, treads: float, faces: float, height: float
+) -> float:
+    """Angle of friction under the belt; rigid grousers push an end off a face [rad]."""
+    if supports[at, SUPPORT_PLACE] == NOSING:
+        return nosings
+    if supports[at, SUPPORT_PLACE] == TREAD:
+        return treads
+    if height <= 0.0:
+        return faces
+    left = face_friction(math.tan(faces), height, supports[at, SUPPORT_CURVATURE])
+    return math.atan2(left, 1.0)
+
+
+def margin_of(
+    supports: SupportTable, one: int, alpha: float, phi: float, ahead: float, other: int,
+    other_alpha: float, other_phi: float, loads: LoadTable, row: int,
+) -> float:  # fmt: skip
+    """Margin of two supports with their cones, the first so far ahead of its place [m]."""
+    normal = supports[one, SUPPORT_NORMAL]
+    return cone_margin(
+        supports[one, SUPPORT_X] + ahead * math.cos(normal),
+        supports[one, SUPPORT_Z] - ahead * math.sin(normal), alpha, phi,
+        supports[other, SUPPORT_X], supports[other, SUPPORT_Z], other_alpha, other_phi,
+        loads[row, LOAD_X], loads[row, LOAD_Z],
+    )  # fmt: skip
+
+
+@entry
+def belt_margins(
+    supports: SupportTable, slots: int, loads: LoadTable, like: IntArray, nosings: float,
+    treads: float, faces: float, height: float, found: FloatRow,
+) -> None:  # fmt: skip
+    """Angle by which the cones of the belts may shrink without a grouser that stands, of each pose.
+
+    Parameters
+    ----------
+    supports, slots, loads, like
+        As :func:`kaidan.contact.kernel.supports.find_alike` takes and fills them.
+    nosings, treads, faces
+        Angles of friction [rad].
+    height
+        Of rigid grousers, which on an end's arc hold less at a face than a smooth belt [m].
+    found
+        To be filled [rad].
+    """
+    one_friction = nosings == treads and treads == faces
+    for row in range(loads.shape[0]):
+        if like[row] != row:
+            found[row] = found[like[row]]
+            continue
+        first = row * slots
+        at_face = False
+        for at in range(first, first + slots):
+            if supports[at, SUPPORT_IS_ONE] == 1.0 and supports[at, SUPPORT_PLACE] == FACE:
+                at_face = True
+        found[row] = math.inf
+        if one_friction:
+            found[row] = nosings - loads[row, LOAD_COULOMB]
+            if not at_face:
+                continue
+        most = -math.inf
+        for j in range(slots):
+            for i in range(j):
+                if not carry(supports, first, i, j, loads, row):
+                    continue
+                one = first + i
+                other = first + j
+                margin = margin_of(
+                    supports, one, supports[one, SUPPORT_NORMAL],
+                    friction_at(supports, one, nosings, treads, faces, height), 0.0,
+                    other, supports[other, SUPPORT_NORMAL],
+                    friction_at(supports, other, nosings, treads, faces, height), loads, row,
+                )  # fmt: skip
+                most = larger(most, margin)
+        found[row] = smaller(found[row], most)
+
+
+def tip_at(
+    supports: SupportTable, at: int, h: float, s: float, w: float, r: float, rigid: bool,
+    side: float,
+) -> Tip:  # fmt: skip
+    """Tip of a grouser as it comes to stand at a support.
+
+    Returns
+    -------
+    Whether one can; tilt of the normal under it [rad]; length along the belt over which it stands
+    on the tread [m]; sine of the tilt that it loses while another rolls off its nosing [1]; how far
+    it stands ahead of the nosing, along the belt [m].
+    """
+    tread = supports[at, SUPPORT_TREAD]
+    leans = side * (tread - supports[at, SUPPORT_NORMAL])
+    if not (supports[at, SUPPORT_IS_ONE] == 1.0 and supports[at, SUPPORT_POINT] != NOWHERE):
+        return False, 0.0, 0.0, 0.0, 0.0
+    if not (h > 0.0 and leans > 0.0):
+        return False, 0.0, 0.0, 0.0, 0.0
+    curvature = supports[at, SUPPORT_CURVATURE]
+    if not math.isnan(supports[at, SUPPORT_LIFT]):
+        radius = 1.0 / curvature
+        # the robot stands on its grousers, so the axle is higher by one
+        lift = supports[at, SUPPORT_LIFT] - h
+        if lift > reach_over_edge(radius, h, s):
+            return False, 0.0, 0.0, 0.0, 0.0
+        over = edge_tilt(tip_overlap(radius, h, s, lift), r)
+        return True, tread - side * over, 0.0, 0.0, 0.0
+    theta = min(max(leans, 1e-6), 0.5 * math.pi - 1e-6)
+    if rigid and curvature == 0.0:
+        h = height_behind(theta, h, s, r)
+    run = standing_run(theta, h, s, r, w)
+    climb = math.sin(theta - tip_tilt(theta, h, r, curvature))
+    missed = min(run, 0.0) / max(r, SHARP) if rigid else 0.0
+    beta = theta - math.asin(max(climb + missed, 0.0))
+    if not (leans < 0.5 * math.pi and beta < theta):
+        return False, 0.0, 0.0, 0.0, 0.0
+    gamma = roll_off_sine(run, roll_off_length(theta, h, r), max(r, SHARP))
+    return True, tread - side * beta, run, gamma, max(run, 0.0) + r * climb
+
+
+def margin_standing(
+    supports: SupportTable, one: int, other: int, loads: LoadTable, row: int, tip: Tip,
+    nosings: float, treads: float, faces: float, h: float, rigid: bool, side: float,
+) -> float:  # fmt: skip
+    """Margin of two supports, a grouser standing at the first [rad]; minus infinity: none can.
+
+    A rigid one stands farther uphill than its nosing, so it bears less of the load if it is the
+    upper support. The other support may be a grouser's top, or roll off a nosing with its edge:
+    then the worse of two times counts, see `kaidan.mechanics.grousers.roll_off_sine`.
+    """
+    if not tip[0]:
+        return -math.inf
+    tilt = tip[1]
+    axis = supports[other, SUPPORT_NORMAL]
+    phi = friction_at(supports, other, nosings, treads, faces, 0.0)
+    if not rigid:
+        return margin_of(supports, one, tilt, treads, 0.0, other, axis, phi, loads, row)
+    d_x = supports[one, SUPPORT_X] - supports[other, SUPPORT_X]
+    d_z = supports[one, SUPPORT_Z] - supports[other, SUPPORT_Z]
+    ahead = side * tip[4] if side * d_x > 0.0 else 0.0
+    gamma = 0.0
+    if supports[other, SUPPORT_PLACE] == NOSING and supports[other, SUPPORT_POINT] != NOWHERE:
+        axis -= side * (h / max(math.sqrt(d_x * d_x + d_z * d_z), APART))
+        gamma = tip[3]
+    rolled = axis - side * math.asin(min(gamma, 1.0))
+    margin = margin_of(supports, one, tilt, treads, ahead, other, rolled, phi, loads, row)
+    if gamma <= 0.0:
+        return margin
+    lean = side * (tilt - supports[one, SUPPORT_NORMAL])
+    later = tilt - side * (lean - math.asin(max(math.sin(lean) - gamma, 0.0)))
+    then = margin_of(supports, one, later, treads, ahead, other, axis, phi, loads, row)
+    return smaller(margin, then)
+
+
+def margin_of_several(
+    supports: SupportTable, at: int, several: int, required: float, tip: Tip, nosings: float,
+    s: float, rigid: bool, side: float,
+) -> float:  # fmt: skip
+    """Margin of a pose on three supports or more, a grouser standing at one of them [rad].
+
+    Rigid grousers hold in the mean over their phases. Others share the load, and one with no less
+    than its part will stand.
+    """
+    if not tip[0]:
+        return -math.inf
+    theta = min(required, STEEPEST)
+    if rigid:
+        q = max(tip[2], 0.0) / s
+        needed = phases_friction(theta, MANY * q if several > 3 else q)
+    else:
+        lean = min(max(side * (tip[1] - supports[at, SUPPORT_NORMAL]), 0.0), theta)
+        needed = standing_friction(theta, theta - lean, 1.0 / several)
+    return nosings - math.atan2(needed, 1.0)
+
+
+@entry
+def standing_margins(
+    supports: SupportTable, slots: int, loads: LoadTable, like: IntArray, nosings: float,
+    treads: float, faces: float, h: float, s: float, w: float, r: float, rigid: bool, side: float,
+    found: FloatRow,
+) -> None:  # fmt: skip
+    """Margin of each pose with a grouser that stands at each of its supports.
+
+    Which two of several supports carry depends on where grousers stand. So the least over the pairs
+    counts: with that support among them, or else with the better of the two.
+
+    Parameters
+    ----------
+    supports, slots, loads, like
+        As :func:`kaidan.contact.kernel.supports.find_alike` takes and fills them.
+    nosings, treads, faces
+        Angles of friction [rad].
+    h, s, w
+        Height of the grousers under load, their spacing, width of their tips along the belt [m].
+    r
+        Radius of the nosings [m].
+    rigid
+        Whether they are rigid and sharp.
+    side
+        +1 where the robot climbs, -1 where it goes down.
+    found
+        To be filled, as many a pose as it has slots [rad]; minus infinity: none can stand there.
+    """
+    for row in range(loads.shape[0]):
+        first = row * slots
+        if like[row] != row:
+            for slot in range(slots):
+                found[first + slot] = found[like[row] * slots + slot]
+            continue
+        several = 0
+        for slot in range(slots):
+            found[first + slot] = math.inf
+            if supports[first + slot, SUPPORT_IS_ONE] == 1.0:
+                several += 1
+        for j in range(several):
+            of_j = tip_at(supports, first + j, h, s, w, r, rigid, side)
+            for i in range(j):
+                if not carry(supports, first, i, j, loads, row):
+                    continue
+                of_i = tip_at(supports, first + i, h, s, w, r, rigid, side)
+                one = margin_standing(
+                    supports, first + i, first + j, loads, row, of_i, nosings, treads, faces, h,
+                    rigid, side,
+                )  # fmt: skip
+                other = margin_standing(
+                    supports, first + j, first + i, loads, row, of_j, nosings, treads, faces, h,
+                    rigid, side,
+                )  # fmt: skip
+                for slot in range(slots):
+                    own = larger(one, other)
+                    if slot == i:
+                        own = one
+                    if slot == j:
+                        own = other
+                    found[first + slot] = smaller(found[first + slot], own)
+        for slot in range(slots):
+            at = first + slot
+            if found[at] == math.inf:
+                found[at] = -math.inf
+            if several > 2:
+                tip = tip_at(supports, at, h, s, w, r, rigid, side)
+                of_all = margin_of_several(
+                    supports, at, several, loads[row, LOAD_COULOMB], tip, nosings, s, rigid, side
+                )
+                found[at] = smaller(found[at], of_all)

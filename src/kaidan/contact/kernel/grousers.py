@@ -1,0 +1,82 @@
+"""Tips of grousers as they come to stand at a contact: `kaidan.mechanics.grousers`, one by one."""
+
+from __future__ import annotations
+
+import math
+
+
+def tip_tilt(theta: float, h: float, r: float, curvature: float) -> float:
+    """Tilt of the normal where the tip of a grouser stands deepest behind a nosing [rad]."""
+    a = h * (1.0 + 0.5 * h * curvature)
+    b = r * (1.0 + r * curvature)
+    reach = 2.0 * math.atan2(math.sqrt(a), math.sqrt(max(2.0 * b - a, 0.0)))
+    return max(theta - reach, 0.0)
+
+
+def height_behind(theta: float, h: float, s: float, r: float) -> float:
+    """Height of a grouser over a nosing, the one before it against the riser's face [m]."""
+    lean = math.sin(theta)
+    pressed = max(h * lean + r * (1.0 - lean) - s * math.cos(theta), 0.0)
+    return max(h - lean * pressed, 0.0)
+
+
+def roll_off_length(theta: float, h: float, r: float) -> float:
+    """Length along the belt over which a grouser that has passed a nosing rolls off it [m]."""
+    if h > r * (1.0 - math.sin(theta)):
+        return r * math.cos(theta)
+    return math.sqrt(max(h * (2.0 * r - h), 0.0))
+
+
+def standing_run(theta: float, h: float, s: float, r: float, w: float) -> float:
+    """Length along the belt over which a grouser stands on the tread behind a nosing [m]."""
+    on_tread = max(h - r * (1.0 - math.cos(theta)), 0.0) / math.tan(theta)
+    climb = r * math.sin(theta - tip_tilt(theta, h, r, 0.0))
+    room = s - w - roll_off_length(theta, h, r) - climb
+    return min(on_tread, room)
+
+
+def roll_off_sine(run: float, off: float, r: float) -> float:
+    """Sine of the tilt that a grouser loses while another one rolls off its nosing [1]."""
+    return max(off - max(run, 0.0), 0.0) / (2.0 * r)
+
+
+def standing_friction(theta: float, beta: float, share: float) -> float:
+    """Least friction with which a robot holds, a grouser under a share of its load [1]."""
+    lean = math.tan(theta - beta)
+    slope = math.tan(theta)
+    q = 1.0 + slope * lean
+    missing = slope - share * lean
+    root = math.sqrt(max(q * q - 4.0 * (1.0 - share) * lean * missing, 0.0))
+    return max(2.0 * missing / (q + root), 0.0)
+
+
+def phases_friction(theta: float, q: float) -> float:
+    """Friction with which a robot holds in the mean over the phases of its grousers [1]."""
+    if q >= 1.0:  # a tip stands at every phase
+        return 0.0
+    bounded = math.tan(theta) * (1.0 - 2.0 * q) / (1.0 - q)
+    return max(standing_friction(theta, 0.0, q), bounded)
+
+
+def face_friction(mu: float, h: float, curvature: float) -> float:
+    """Friction that grousers on a round end have left at a riser's face [1]."""
+    return mu / ((1.0 + h * curvature) * (1.0 + h * curvature))
+
+
+def reach_over_edge(radius: float, h: float, s: float) -> float:
+    """Height above the axle at which a tip that comes round a track's end passes over an edge."""
+    angle = min(0.5 * s / radius, math.acos(radius / (radius + h)))
+    return (radius + h) * math.sin(angle)
+
+
+def tip_overlap(radius: float, h: float, s: float, lift: float) -> float:
+    """How far behind an upright face a tip stands that passes its edge [m]."""
+    angle = math.asin(min(max(lift / (radius + h), -1.0), 1.0))
+    face = max(radius, (radius + h) * math.cos(angle - s / radius))
+    return (radius + h) * math.cos(angle) - face
+
+
+def edge_tilt(overlap: float, r: float) -> float:
+    """Tilt of the normal on which a tip stands that overlaps a rounded edge [rad]."""
+    inside = min(max(overlap, 0.0), r)
+    return math.atan2(r - inside, math.sqrt(inside * (2.0 * r - inside)))

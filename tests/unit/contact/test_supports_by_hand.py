@@ -1,0 +1,239 @@
+"""What a pose stands on, and what friction and grousers make of it, by hand and by the formulas."""
+
+import math
+
+import numpy as np
+import pytest
+
+from contact_cases import flight, stadium
+from kaidan.contact import Grousers, Supports, traverse, using_kernel
+from kaidan.contact.columns import (
+    FACE,
+    LOAD_COLUMNS,
+    LOAD_COULOMB,
+    LOAD_X,
+    LOAD_Z,
+    NOSING,
+    SUPPORT_COLUMNS,
+    SUPPORT_CURVATURE,
+    SUPPORT_IS_ONE,
+    SUPPORT_LIFT,
+    SUPPORT_NORMAL,
+    SUPPORT_PLACE,
+    SUPPORT_POINT,
+    SUPPORT_TREAD,
+    SUPPORT_X,
+    SUPPORT_Z,
+)
+from kaidan.contact.kernel import grousers as kernel
+from kaidan.contact.kernel.grip import belt_margins, standing_margins
+from kaidan.contact.kernel.supports import find_alike
+from kaidan.mechanics import grousers, grousers_at_edges
+
+G = 9.8
+HALVED = 1e-5
+"""To which the kernel halves a margin [rad]."""
+SLOPE, HEIGHT = math.radians(30.0), 0.1
+SOFT = Grousers(height=0.01, spacing=0.04, tip_width=0.0, nosing_radius=0.0, rigid=False)
+"""Tips without a radius to climb stand on the tread at once."""
+SAME_FORMULA = 1e-12
+
+
+def drawn(low, high, seed):
+    return np.random.default_rng(seed).uniform(low, high, 2000)
+
+
+def same(function, formula, **inputs):
+    found = [function(*each) for each in zip(*(v.tolist() for v in inputs.values()), strict=True)]
+    np.testing.assert_allclose(found, formula(**inputs), rtol=SAME_FORMULA, atol=SAME_FORMULA)
+
+
+def test_tips_are_those_of_the_formulas():
+    theta, share = drawn(0.01, 1.5, 0), drawn(0.0, 0.99, 1)
+    h, s, r, w = (drawn(0.001, most, k) for k, most in enumerate((0.02, 0.08, 0.02, 0.02), 2))
+    curvature = np.where(share < 0.5, 0.0, drawn(2.0, 30.0, 6))
+    same(kernel.tip_tilt, grousers.tip_tilt, theta=theta, h=h, r=r, curvature=curvature)
+    same(kernel.height_behind, grousers.height_behind, theta=theta, h=h, s=s, r=r)
+    same(kernel.roll_off_length, grousers.roll_off_length, theta=theta, h=h, r=r)
+    same(kernel.standing_run, grousers.standing_run, theta=theta, h=h, s=s, r=r, w=w)
+    same(kernel.roll_off_sine, grousers.roll_off_sine, run=h - 0.01, off=s, r=r)
+    same(
+        kernel.standing_friction, grousers.standing_friction, theta=theta, beta=theta * w / 0.02,
+        share=share,
+    )  # fmt: skip
+    same(kernel.phases_friction, grousers.phases_friction, theta=theta, q=share)
+    same(kernel.face_friction, grousers.face_friction, mu=theta, h=h, curvature=curvature)
+
+
+def test_a_tip_at_every_phase_needs_no_friction():
+    assert kernel.phases_friction(0.6, 1.0) == 0.0
+
+
+def test_tips_over_an_edge_are_those_of_the_formulas():
+    R, h, s = drawn(0.03, 0.2, 0), drawn(0.001, 0.02, 1), drawn(0.01, 0.08, 2)
+    lift = R * drawn(-0.9, 0.9, 3)
+    same(kernel.reach_over_edge, grousers_at_edges.reach_over_edge, R=R, h=h, s=s)
+    same(kernel.tip_overlap, grousers_at_edges.tip_overlap, R=R, h=h, s=s, lift=lift)
+    same(kernel.edge_tilt, grousers_at_edges.edge_tilt, overlap=0.02 - h, r=0.5 * s)
+
+
+def on_slope(*along, **other):
+    """Supports of one pose on nosings of a slope, the centroid above its zero, treads level.
+
+    Two rows of room are left.
+    """
+    slots = len(along) + 2
+    table = np.zeros((slots, SUPPORT_COLUMNS))
+    table[:, [SUPPORT_POINT, SUPPORT_TREAD, SUPPORT_LIFT]] = -1.0, math.nan, math.nan
+    for k, u in enumerate(along):
+        table[k, SUPPORT_IS_ONE] = 1.0
+        table[k, SUPPORT_X] = u * math.cos(SLOPE) + HEIGHT * math.sin(SLOPE)
+        table[k, SUPPORT_Z] = u * math.sin(SLOPE) - HEIGHT * math.cos(SLOPE)
+        table[k, SUPPORT_NORMAL], table[k, SUPPORT_PLACE] = -SLOPE, NOSING
+        table[k, SUPPORT_POINT], table[k, SUPPORT_TREAD] = k, 0.0
+    for column, value in other.items():
+        table[: len(along), {"curvature": SUPPORT_CURVATURE, "place": SUPPORT_PLACE}[column]] = (
+            value
+        )
+    return table, slots
+
+
+def loads(count=1):
+    table = np.zeros((count, LOAD_COLUMNS))
+    table[:, [LOAD_X, LOAD_Z, LOAD_COULOMB]] = 0.0, G, SLOPE
+    return table
+
+
+def standing(table, slots, phi, one, count=1, like=(0,)):
+    found = np.empty(len(table))
+    standing_margins(table, slots, loads(count), np.array(like), phi, phi, phi, *one, 1.0, found)
+    return found.reshape(-1, slots)
+
+
+def lever(here, there):
+    """Share of the load of a contact on the slope: the gravity line meets it at -h tan(theta)."""
+    return (there + HEIGHT * math.tan(SLOPE)) / (there - here)
+
+
+def test_two_nosings_hold_by_the_share_of_the_one_on_which_a_grouser_stands():
+    lower, upper, phi = -0.2, 0.3, 0.5
+    found = standing(*on_slope(lower, upper), phi, SOFT)
+    for slot, share in enumerate((lever(lower, upper), lever(upper, lower))):
+        needed = grousers.standing_friction(theta=SLOPE, beta=0.0, share=share)
+        assert found[0, slot] == pytest.approx(phi - math.atan(needed), abs=HALVED)
+
+
+def test_no_grouser_stands_where_there_is_no_tread_or_no_grouser():
+    table, slots = on_slope(-0.2, 0.3)
+    assert (standing(table, slots, 0.5, SOFT._replace(height=0.0))[0, :2] == -math.inf).all()
+    table[1, SUPPORT_POINT] = -1.0
+    found = standing(table, slots, 0.5, SOFT)
+    assert found[0, 0] > -math.inf
+    assert found[0, 1] == -math.inf
+
+
+def test_of_three_nosings_all_share_the_load():
+    """The third bears no more than it has to: a third of the load on soft grousers."""
+    phi = 0.5
+    found = standing(*on_slope(-0.2, 0.3, 0.05), phi, SOFT)[0, :3]
+    needed = grousers.standing_friction(theta=SLOPE, beta=0.0, share=1 / 3)
+    of_all = phi - math.atan(needed)
+    pairs = {
+        k: standing(*on_slope(*each), phi, SOFT)[0, :2]
+        for k, each in {(0, 1): (-0.2, 0.3), (0, 2): (-0.2, 0.05)}.items()
+    }
+    # the outer two; the lower one and the third, between which the gravity line passes
+    lower = min(pairs[0, 1][0], pairs[0, 2][0], of_all)
+    upper = min(pairs[0, 1][1], max(pairs[0, 2]), of_all)
+    third = min(max(pairs[0, 1]), pairs[0, 2][1], of_all)
+    assert found == pytest.approx([lower, upper, third], abs=HALVED)
+
+
+@pytest.mark.parametrize(("more", "many"), [((0.05,), 1.0), ((0.05, 0.1), 0.75)])
+def test_of_rigid_grousers_the_mean_over_the_phases_bounds(more, many):
+    one, phi = Grousers(0.008, 0.04, 0.004, 0.0, rigid=True), 0.5
+    run = grousers.standing_run(theta=SLOPE, h=0.008, s=0.04, r=0.0, w=0.004)
+    needed = grousers.phases_friction(theta=SLOPE, q=many * run / 0.04)
+    found = standing(*on_slope(-0.2, 0.3, *more), phi, one)
+    assert found[0, : 2 + len(more)].max() == pytest.approx(phi - math.atan(needed), abs=HALVED)
+
+
+def test_poses_that_stand_alike_have_the_margins_of_the_first():
+    table, slots = on_slope(-0.2, 0.3)
+    three = np.vstack([table] * 3)
+    three[slots, SUPPORT_X] += 1e-3
+    three[2 * slots, SUPPORT_POINT] = 7.0  # which nosing it is plays no part
+    like, scratch = np.empty((2, 3), dtype=np.int64)
+    find_alike(three, slots, loads(3), scratch, like)
+    assert like.tolist() == [0, 1, 0]
+    found = standing(three, slots, 0.5, SOFT, 3, like)
+    assert found[2].tolist() == found[0].tolist() != found[1].tolist()
+
+
+def test_belts_hold_by_friction_less_slope_and_rigid_grousers_by_less_at_a_face():
+    table, slots = on_slope(-0.2, 0.3)
+    found = np.empty(1)
+    belt_margins(table, slots, loads(), np.array([0]), 0.7, 0.2, 0.2, 0.0, found)
+    assert found[0] == pytest.approx(0.7 - SLOPE, abs=HALVED)
+    table, slots = on_slope(-0.2, 0.3, place=FACE, curvature=10.0)
+    for height in (0.0, 0.01):
+        left = math.atan(math.tan(0.7) / (1.0 + 10.0 * height) ** 2)
+        belt_margins(table, slots, loads(), np.array([0]), 0.1, 0.1, 0.7, height, found)
+        assert found[0] == pytest.approx(left - SLOPE, abs=HALVED)
+        # one friction everywhere: no more than smooth belts hold
+        belt_margins(table, slots, loads(), np.array([0]), 0.7, 0.7, 0.7, height, found)
+        assert found[0] == pytest.approx(left - SLOPE, abs=HALVED)
+
+
+ROBOT = stadium(0.470, 0.196, 0.071, 0.06)
+SPACING = 0.15
+
+
+def supports_of(path):
+    count = len(path.poses)
+    return Supports(
+        path, force=(np.zeros(count), np.full(count, G)), coulomb=np.full(count, SLOPE),
+        treads=np.zeros(len(path.ground)), climbs=True, steep=math.radians(60.0), touch=1e-7,
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def path():
+    return traverse(flight(SLOPE, SPACING, 8), ROBOT, -0.6, 1.4)
+
+
+def test_the_flat_stands_on_every_nosing_under_it(path):
+    """Of 0.47 m at 0.15 m: three or four, a spacing apart."""
+    supports = supports_of(path)
+    within = (path.x > 0.3) & (path.x < 0.6)  # neither end of the flat over a landing
+    points = supports.points[within & (np.abs(path.inclination - SLOPE) < 1e-9)]
+    assert len(points) > 50
+    stands = [sorted(row[row >= 0].tolist()) for row in points]
+    assert {len(each) for each in stands} == {3, 4}
+    for each in stands:
+        x = path.ground.x[each]
+        np.testing.assert_allclose(np.diff(x), SPACING * math.cos(SLOPE), atol=1e-9)
+
+
+def test_more_supports_than_there_is_room_for_at_first():
+    path = traverse(flight(SLOPE, 0.05, 16), ROBOT, -0.6, 1.0)
+    on = (supports_of(path).points >= 0).sum(axis=1)
+    assert on.max() == 10  # 0.47 / 0.05, and one more
+
+
+def test_the_native_kernel_finds_the_same_as_the_plain_one(path):
+    phi, one = (0.5, 0.6, 0.4), Grousers(0.01, 0.04, 0.004, 0.005, rigid=True)
+    found = []
+    for choice in ("plain", "auto"):
+        with using_kernel(choice):
+            supports = supports_of(path)
+            found.append(
+                (
+                    supports.points,
+                    supports.belt_margins(phi, 0.01),
+                    supports.standing_margins(phi, one),
+                    supports.standing_margins(phi, one._replace(rigid=False)),
+                )
+            )
+    for plain, native in zip(*found, strict=True):
+        np.testing.assert_array_equal(plain, native)

@@ -1,0 +1,131 @@
+"""What closes first in a turn, by geometry alone: points within the parts, lines within the ends.
+
+Robots on one point or one end of a part, wherever that leaves the rest of them above the ground.
+"""
+
+import cmath
+import math
+
+import numpy as np
+import pytest
+
+from amounts import few_of
+from contact_cases import random_robot, steps
+from kaidan.contact import body_table, ground_table
+from kaidan.contact import columns as at
+from kaidan.contact.kernel.first_closing import first_closing
+
+OPEN = -1e-9  # m: gaps are closed to 1e-12, coordinates of some metres are rounded
+TRIED = 300  # poses tried on each terrain
+LOOKS = np.array([0.01, 0.1, 0.25, 0.4, 0.55, 0.7, 0.8, 0.9, 0.96, 0.99, 0.999])
+
+
+def outline_distance(part, p):
+    """Distance of points from the hull of two discs, negative within."""
+    a, b = complex(part[0], part[1]), complex(part[3], part[4])
+    along = (b - a) / abs(b - a)
+    q = (p - a) * along.conjugate()
+    u, v = q.real, abs(q.imag)
+    sine = (part[2] - part[5]) / abs(b - a)
+    cosine = math.sqrt(1.0 - sine * sine)
+    w = u * cosine - v * sine
+    flat = np.where(
+        w < abs(b - a) * cosine,
+        u * sine + v * cosine,
+        np.hypot(u - abs(b - a), v) + part[2] - part[5],
+    )
+    return np.where(w > 0.0, flat, np.hypot(u, v)) - part[2]
+
+
+def room(ground, parts, c, phi):
+    """Least distance between parts and ground at each pose; `parts` with ends apart."""
+    turn = np.exp(-1j * phi)[:, None]
+    points = ground[:, 0] + 1j * ground[:, 1]
+    starts, u, length = points[:-1], ground[:-1, 2] + 1j * ground[:-1, 3], ground[:-1, 4]
+    least = np.full(len(c), np.inf)
+    for part in parts:
+        least = np.minimum(least, outline_distance(part, (points - c[:, None]) * turn).min(1))
+        for x, z, r in (part[:3], part[3:]):
+            centre = c + complex(x, z) / turn[:, 0]
+            off = (centre[:, None] - starts) * u.conj()
+            away = np.abs(off - np.clip(off.real, 0.0, length)).min(1)
+            least = np.minimum(least, away - r)
+        # no part runs through the ground, between two of its points
+        a, b = (c + complex(*part[i : i + 2]) / turn[:, 0] for i in (0, 3))
+        axis = a + (b - a) * np.linspace(0.0, 1.0, 30)[:, None]
+        above = axis.imag - np.interp(axis.real, points.real, points.imag)
+        least = np.minimum(least, above.min(0))
+    return least
+
+
+def stands(rng, ground, parts):
+    """Poses on one contact: feature, pivot's centre of rotation, way it rolls a radian, c, phi."""
+    for _ in range(TRIED):
+        which = int(rng.integers(len(parts)))
+        phi = rng.uniform(-1.3, 1.3)
+        end = int(rng.integers(2))
+        x, z, r = parts[which][3 * end : 3 * end + 3]
+        k = int(rng.integers(len(ground) - 1))
+        u = complex(*ground[k, 2:4])
+        foot = complex(*ground[k, :2])
+        if rng.random() < 0.5:
+            # of the long ones before and behind all steps what is near these
+            share = rng.uniform(0.0, min(ground[k, at.LENGTH], 2.0))
+            foot += u * (share if k > 0 else ground[k, at.LENGTH] - share)
+            centre, roll = foot + 1j * r * u, -r * u
+            code = at.POINT * k + at.PART * which + at.DISC_1 + end
+        elif k > 0 and ground[k, at.CONVEX] == 1.0:
+            centre, roll = foot + r * cmath.exp(1j * rng.uniform(0.3, 2.8)), 0.0
+            code = at.POINT * k + at.PART * which
+        else:
+            continue
+        yield code, foot, roll, centre - complex(x, z) * cmath.exp(1j * phi), phi
+
+
+def turned(stand, angles):
+    """Centroid and inclination after turns; the disc's centre rolls, the rest turns about it."""
+    _, foot, roll, c, phi = stand
+    if roll == 0.0:
+        return foot + (c - foot) * np.exp(1j * angles), phi + angles
+    centre = foot - 1j * roll
+    return centre + roll * angles + (c - centre) * np.exp(1j * angles), phi + angles
+
+
+TERRAINS = [
+    steps(0.17, 0.28, 4, 1.0, 1.0),
+    [(-1, 0), (0, 0), (0.2, 0.1), (0.5, 0.05), (0.6, 0.3), (0.9, 0.3), (0.9, 0.1), (1.2, 0.5)],
+    [(-1, 0.3), (-0.4, 0.0), (0.3, -0.2), (1.0, 0.1), (1.6, 0.6), (1.8, 0.2), (2.6, 0.5)],
+]
+
+
+@pytest.mark.parametrize("terrain", range(len(TERRAINS)))
+@pytest.mark.parametrize("seed", few_of(40, fast=1))
+def test_nothing_sinks_in_before_and_something_does_behind(seed, terrain):
+    rng = np.random.default_rng(seed)
+    ground = ground_table(TERRAINS[terrain])
+    counts = [0, 0]
+    for _ in range(4):
+        parts, kinds = random_robot(rng, least_radius=0.02)
+        body = body_table(parts, kinds)
+        every = list(stands(rng, ground, parts))
+        c, phi = (np.array([each[i] for each in every]) for i in (3, 4))
+        for i in np.flatnonzero(room(ground, parts, c, phi) > OPEN):
+            code, foot, roll, c_i, phi_i = every[i]
+            sense, end = rng.choice([-1.0, 1.0]), rng.uniform(0.05, math.pi / 2)
+            if roll != 0.0:
+                k = code >> at.POINT_BITS
+                behind = abs(foot - complex(*ground[k, :2]))
+                left = behind if sense > 0.0 else ground[k, at.LENGTH] - behind
+                end = min(end, left / abs(roll))
+            tables = memoryview(ground), memoryview(body)
+            given = *tables, code, c_i.real, c_i.imag, phi_i, sense, end
+            closed, angle, _ = first_closing(*given, int(i) % len(ground))
+            looks = np.append(sense * angle * LOOKS, sense * (angle + 1e-3))
+            gaps = room(ground, parts, *turned(every[i], looks))
+            assert gaps[:-1].min() > OPEN, (every[i], sense, angle)
+            if closed < 0:
+                assert angle == end
+            else:
+                assert gaps[-1] < OPEN, (every[i], sense, angle)
+            counts[closed >= 0] += 1
+    assert min(counts) > 5
