@@ -56,7 +56,7 @@ SOURCE = "{mark}"
 CHECKED = """\
 from libc.stdlib cimport abort
 
-cdef inline Py_ssize_t within(Py_ssize_t index, Py_ssize_t count) noexcept nogil:
+cdef inline Py_ssize_t checked_index(Py_ssize_t index, Py_ssize_t count) noexcept nogil:
     if index < 0 or index >= count:
         abort()
     return index
@@ -89,13 +89,19 @@ def typed_source(change: Change | None = None) -> str:
 
 def kernel_functions() -> dict[str, Any]:
     """Functions of the kernel by name, in the order in which they are defined."""
-    modules = [importlib.import_module(f"{KERNEL_PACKAGE}.{name}") for name in KERNEL_MODULES]
-    return {
-        name: value
-        for module in modules
-        for name, value in vars(module).items()
-        if inspect.isfunction(value) and value.__module__ == module.__name__
-    }
+    return _functions([importlib.import_module(f"{KERNEL_PACKAGE}.{n}") for n in KERNEL_MODULES])
+
+
+def _functions(modules: list[ModuleType]) -> dict[str, Any]:
+    """Functions that some modules define; one of each name, as all become one module."""
+    found: dict[str, Any] = {}
+    for module in modules:
+        for name, value in vars(module).items():
+            if inspect.isfunction(value) and value.__module__ == module.__name__:
+                if name in found:
+                    raise ValueError(f"{name}: in {found[name].__module__} and {module.__name__}")
+                found[name] = value
+    return found
 
 
 def _hints(function: Callable[..., Any]) -> dict[str, Any]:
@@ -359,7 +365,7 @@ class _Typing(ast.NodeTransformer):
         if self.checked:
             rows = ast.Attribute(node.value, "rows", ast.Load())
             count = ast.BinOp(rows, ast.Mult(), ast.Constant(width))
-            index = ast.Call(ast.Name("within", ast.Load()), [index, count], [])
+            index = ast.Call(ast.Name("checked_index", ast.Load()), [index, count], [])
         at = ast.Attribute(node.value, "at", ast.Load())
         return ast.Subscript(at, index, node.ctx)
 

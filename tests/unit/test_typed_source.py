@@ -3,12 +3,13 @@
 import importlib
 import sys
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "native"))
 
-from typed_source import _compiled, typed_source
+from typed_source import _compiled, _functions, typed_source
 
 ODD = '''
 import math
@@ -84,6 +85,18 @@ def test_what_is_not_known_is_refused(odd, name):
         _compiled(getattr(odd, name), {})
 
 
+def test_two_functions_of_one_name_are_refused(odd):
+    def radius():
+        """Another one."""
+
+    radius.__module__ = "another"
+    another = ModuleType("another")
+    another.radius = radius
+    assert list(_functions([odd]))[:2] == ["radius", "shadowed"]
+    with pytest.raises(ValueError, match=r"^radius: in odd_kernel and another$"):
+        _functions([odd, another])
+
+
 def test_no_column_of_the_kernel_is_left_to_a_look_up():
     text = typed_source()
     assert "math." not in text
@@ -103,4 +116,4 @@ class Unchanged:
 
 def test_a_changed_kernel_checks_its_indices(odd):
     assert "body.at[part * " in _compiled(odd.radius, {})
-    assert "body.at[within(part * " in _compiled(odd.radius, {}, Unchanged())
+    assert "body.at[checked_index(part * " in _compiled(odd.radius, {}, Unchanged())
