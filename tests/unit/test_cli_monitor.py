@@ -177,4 +177,4 @@ def test_a_stream_is_answered_line_by_line():
         process.stdin.flush()
         assert json.loads(process.stdout.readline())["alarm"] is True
         process.stdin.close()
-        assert process.wait(timeout=20) == 1
+        assert process.wait(timeout=60) == 1

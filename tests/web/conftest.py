@@ -83,7 +83,7 @@ def opened(chromium, server, viewport):
         viewport=VIEWPORTS[viewport], base_url=server.address, locale="en-GB",
         has_touch=viewport == "phone", accept_downloads=True,
     )  # fmt: skip
-    context.set_default_timeout(20_000)
+    context.set_default_timeout(60_000)
     page = context.new_page()
     faults, elsewhere = [], []
     page.on("pageerror", lambda error: faults.append(str(error)))

@@ -41,7 +41,7 @@ def test_numbers_of_random_questions(desk, count):
     desk.wait_for_selector("nav a")
     seen = 0
     for _ in range(count):
-        with desk.expect_response("**/api/assess", timeout=20_000) as came:
+        with desk.expect_response("**/api/assess", timeout=60_000) as came:
             address = f"#/check?{urlencode(drawn(dice))}"
             desk.evaluate("address => { location.hash = address; }", address)
         found = came.value

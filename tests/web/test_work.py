@@ -12,7 +12,7 @@ def begin(page, kind):
     page.get_by_label("What to do").select_option(kind)
 
 
-def state(page, word, timeout=60_000):
+def state(page, word, timeout=180_000):
     page.wait_for_selector(f'.jobs li[data-state="{word}"]', timeout=timeout)
 
 

@@ -46,7 +46,7 @@ def scheduler(folder, workers=2, nanny=False):
     for _ in range(workers):
         processes.append(start("dask_worker", *quiet, *how, "--local-directory", str(folder)))
     try:
-        end = time.monotonic() + 30
+        end = time.monotonic() + 120
         while not file.exists() or not file.read_text():  # being written
             assert time.monotonic() < end
             time.sleep(0.05)

@@ -12,7 +12,7 @@ from serving import served
 SWEEP = {"robot": "absolem", "stairs": "ibc", "flippers": "flat", "friction": [0.8, 1.0, 1.2]}
 
 
-def until(client, job, holds, seconds=60.0):
+def until(client, job, holds, seconds=180.0):
     """Wait until something holds of a job."""
     end = time.monotonic() + seconds
     while not holds(client.get(f"/api/jobs/{job['id']}").json()):
