@@ -104,7 +104,7 @@ class Choices(ast.NodeTransformer):
         if isinstance(kind, str) and kind.startswith("("):
             kind = kind[1:-1].split(", ")
         for other in changes(was.slice):
-            if isinstance(kind, list) and other.value >= len(kind):  # type: ignore[attr-defined]
+            if isinstance(kind, list) and not _alike(kind, was.slice.value, other):
                 continue
             changed = ast.Subscript(was.value, other, was.ctx)
             new = self._choice(was.slice, other, was, changed, new)
@@ -132,6 +132,12 @@ class Choices(ast.NodeTransformer):
             return bool(self.types._of(was) == self.types._of(other))  # type: ignore[attr-defined]
         except (AssertionError, IndexError, KeyError, NotImplementedError):
             return False
+
+
+def _alike(kinds: list[str], place: int, other: ast.AST) -> bool:
+    """Whether a tuple of these types has another place of the same type."""
+    assert isinstance(other, ast.Constant)
+    return other.value < len(kinds) and kinds[other.value] == kinds[place]
 
 
 class CompiledMutants:
