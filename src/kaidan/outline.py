@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.contact import BELLY, FLIPPER, TRACK
-from kaidan.mechanics.turning import Footprint
+from kaidan.mechanics.footprint import Footprint
 from kaidan.robot import FlipperPair, Payload, Posture, Robot, Stance
 
 Array = NDArray[np.float64]

@@ -8,7 +8,8 @@ import pytest
 
 from contact_cases import flight, stadium
 from kaidan.contact import traverse
-from kaidan.traversal.static_criterion import Tread, static_criterion
+from kaidan.traversal.criterion import Tread
+from kaidan.traversal.static_criterion import static_criterion
 
 G = 9.80665
 TOLERANCE = 1e-6  # rad; the brief's. The two differ by rounding of coordinates only: about 1e-13

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from kaidan import contact
-from kaidan.traversal.static_criterion import Tread, static_criterion
+from kaidan.traversal.criterion import Tread
+from kaidan.traversal.static_criterion import static_criterion
 
 
 def spikes(nosings):

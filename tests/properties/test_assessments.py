@@ -15,7 +15,7 @@ from amounts import examples
 from kaidan import Assessment, Payload, Robot, Stairs, Surface
 from kaidan.modes import Verdict
 from kaidan.robot import Track, Uncertainty
-from kaidan.terrain.stairs import StairsUncertainty
+from kaidan.terrain.stairs_uncertainty import StairsUncertainty
 
 assess = partial(one_posture.assess, model="closed-form")
 

@@ -5,8 +5,9 @@ import math
 import numpy as np
 import pytest
 
+from kaidan.traversal.criterion import Tread
 from kaidan.traversal.drawn_criterion import DrawnTread, drawn_criterion
-from kaidan.traversal.static_criterion import Tread, flights_of, static_criterion
+from kaidan.traversal.static_criterion import flights_of, static_criterion
 
 
 def flights(seed, count):

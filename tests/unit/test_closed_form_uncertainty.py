@@ -21,7 +21,7 @@ from closed_form_cases import (
     kenaf,
 )
 from kaidan import Surface
-from kaidan.terrain.stairs import StairsUncertainty
+from kaidan.terrain.stairs_uncertainty import StairsUncertainty
 
 
 def test_the_margin_at_the_chosen_risk():

@@ -17,7 +17,7 @@ from kaidan.models import judge
 from kaidan.models.quasi_static import findings_of, traverse_of
 from kaidan.modes import Phase, Verdict
 from kaidan.robot import Drive, Track, Uncertainty
-from kaidan.terrain.stairs import StairsUncertainty
+from kaidan.terrain.stairs_uncertainty import StairsUncertainty
 from one_posture import assess
 
 G = 9.80665

@@ -18,7 +18,8 @@ from kaidan.models.support_polygon import margins_of, yaw_limit
 from kaidan.question import Question
 from kaidan.robot import Robot, Track, Uncertainty
 from kaidan.surface import Surface
-from kaidan.terrain.stairs import Stairs, StairsUncertainty
+from kaidan.terrain.stairs import Stairs
+from kaidan.terrain.stairs_uncertainty import StairsUncertainty
 from one_posture import assess
 
 KENAF = Robot.named("kenaf")

@@ -14,6 +14,7 @@ from kaidan.robot import Robot
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import driving
+from kaidan.traversal.criterion import Tread
 from kaidan.traversal.driving import (
     CLEARANCE,
     LONGEST,
@@ -25,7 +26,6 @@ from kaidan.traversal.driving import (
     way,
     whole_of,
 )
-from kaidan.traversal.static_criterion import Tread
 
 L, C_L, C_N, REAR, FRONT = 0.5, 0.2, 0.1, 0.06, 0.08
 TRACK = (C_L - L, REAR - C_N, REAR, C_L, FRONT - C_N, FRONT)

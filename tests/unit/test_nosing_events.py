@@ -21,15 +21,21 @@ class Rows(SimpleNamespace):
         return len(self.s)
 
 
-def path_of(passings, asked=None, **margins):
-    """A path of ten poses that reports some passings of its straight pieces."""
+@pytest.fixture(autouse=True)
+def passed(monkeypatch):
+    """A path made for it reports the passings that were made with it."""
 
-    def passed(rows, touch):
+    def told(path, rows, touch):
         assert touch == TOUCH
-        if asked is not None:
-            asked.extend(rows.tolist())
-        return np.array(passings, dtype=float).reshape(-1, 6)
+        if path.asked is not None:
+            path.asked.extend(rows.tolist())
+        return np.array(path.passings, dtype=float).reshape(-1, 6)
 
+    monkeypatch.setattr(contact, "nosings_passed", told)
+
+
+def path_of(passings, asked=None, **margins):
+    """A path of ten poses with some passings of its straight pieces."""
     n = np.arange(10.0)
     poses = Rows(
         leg=np.array([0] * 8 + [1] * 2),
@@ -38,8 +44,9 @@ def path_of(passings, asked=None, **margins):
         placements=np.c_[n, n**2, -n],
     )
     return SimpleNamespace(
-        poses=poses, passed=passed, margins=SimpleNamespace(**margins) if margins else None
-    )
+        poses=poses, passings=passings, asked=asked,
+        margins=SimpleNamespace(**margins) if margins else None,
+    )  # fmt: skip
 
 
 def test_pieces_are_straight_and_beside_a_change_of_contacts():

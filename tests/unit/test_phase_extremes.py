@@ -11,9 +11,9 @@ from kaidan.robot import Robot, Track
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Phase, extremes, traverse
+from kaidan.traversal.criterion import Criterion, Loss
 from kaidan.traversal.extremes import Rise, _closed, rises_about_stays
 from kaidan.traversal.samples import samples_of
-from kaidan.traversal.static_criterion import Criterion, Loss
 
 G = 9.80665
 KENAF = Outline.of(Robot.named("kenaf"))

@@ -8,7 +8,7 @@ import pytest
 from kaidan import Profile, Question, Stairs
 from kaidan.errors import InputError
 from kaidan.terrain.doubt import MOST_DOUBTED
-from kaidan.terrain.stairs import StairsUncertainty
+from kaidan.terrain.stairs_uncertainty import StairsUncertainty
 
 FLIGHT = Stairs(rise=0.2, going=0.3, steps=3)
 POINTS = Profile.of_stairs(FLIGHT).points

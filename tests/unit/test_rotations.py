@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from kaidan import contact
 from kaidan.contact import Feature, Placement
 from kaidan.outline import Outline
 from kaidan.robot import Posture, Robot, Track
@@ -354,7 +355,7 @@ ON_IT = math.atan2(0.1, 0.3)
     ("begin", "end", "slope"),
     [(0.0, 0.6, ON_IT), (-1e-3, 0.6, math.nan), (0.0, 0.601, math.nan), (0.0, 2.0, math.nan)],
 )
-def test_a_rotation_on_a_slope_by_hand(sense, begin, end, slope):
+def test_a_rotation_on_a_slope_by_hand(sense, begin, end, slope, monkeypatch):
     """From (0, 0.5) to (0.1, 0.3) on a path that rises by 0.5 rad, at 2 m/s^2 along it.
 
     Effective gravity has a cos(0.5) ahead and G + a sin(0.5) up; it is arrested by what carries at
@@ -370,10 +371,8 @@ def test_a_rotation_on_a_slope_by_hand(sense, begin, end, slope):
         rear_point=np.array([(-2, 0), (begin, 0), (0.1, 0)]),
         front=np.array([64, 65, 66]), rear=np.array([128, 129, 130]),
     )  # fmt: skip
-    path = SimpleNamespace(
-        rotations=[record], impact_speeds=lambda: np.array([0.7]), poses=poses,
-        row_before=lambda s: 1,
-    )  # fmt: skip
+    path = SimpleNamespace(rotations=[record], poses=poses, row_before=lambda s: 1)
+    monkeypatch.setattr(contact, "impact_speeds", lambda path: np.array([0.7]))
     phase = np.array(["enter", "traverse", "land"])
     stairs = Profile.of_stairs(Stairs(rise=0.1, going=0.3, steps=3))
     (found,) = rotations_of(path, stairs, phase, False, 0.5, 2.0)

@@ -11,7 +11,8 @@ from kaidan.errors import InputError, fault
 from kaidan.robot import Drive, FlipperPair, Payload, Posture, Robot, Track, Uncertainty
 from kaidan.sheet import PLACEHOLDER
 from kaidan.surface import Surface
-from kaidan.terrain.stairs import Stairs, StairsUncertainty
+from kaidan.terrain.stairs import Stairs
+from kaidan.terrain.stairs_uncertainty import StairsUncertainty
 
 TRACK = {"flat_length": 0.5}
 ROBOT = {"name": "r", "com_from_front": 0.25, "com_height": 0.1, "track": TRACK}

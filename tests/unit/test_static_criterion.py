@@ -11,14 +11,8 @@ from kaidan import Question, Robot, Stairs
 from kaidan.mechanics.margin import theta_s_inf, theta_s_sup
 from kaidan.models.quasi_static import traverse_of
 from kaidan.modes import Phase
-from kaidan.traversal.static_criterion import (
-    Criterion,
-    Loss,
-    Seesaw,
-    Tread,
-    flights_of,
-    static_criterion,
-)
+from kaidan.traversal.criterion import Criterion, Loss, Seesaw, Tread
+from kaidan.traversal.static_criterion import flights_of, static_criterion
 
 KENAF = Tread(0.470, 0.196, 0.071, 0.06, 0.06, 0.2)
 

@@ -14,7 +14,7 @@ from kaidan.robot import Robot
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Fall, FirstRock, Phase, Traverse, traverse
-from kaidan.traversal.static_criterion import Criterion, Loss, Tread
+from kaidan.traversal.criterion import Criterion, Loss, Tread
 from kaidan.traversal.tilting import LARGEST, WITHIN, largest_survived
 
 OUTLINE = Outline.of(Robot.named("kenaf"))

@@ -17,6 +17,7 @@ from kaidan.contact.codes import (
 from kaidan.contact.contacts import Contact, PairForces, pair_forces, spring_loads
 from kaidan.contact.heights import TouchingHeights, touching_heights
 from kaidan.contact.margin_records import Job, Margins, Summaries, Tilts
+from kaidan.contact.nosings import nosings_passed, without_nosings
 from kaidan.contact.path import Path, joined
 from kaidan.contact.rating import Ratings, rate_many
 from kaidan.contact.records import (
@@ -31,6 +32,7 @@ from kaidan.contact.records import (
     Rotations,
 )
 from kaidan.contact.rest import Settled, resting_height, settle
+from kaidan.contact.rotations import impact_speeds, rotated
 from kaidan.contact.slipping import held_while_slipping
 from kaidan.contact.standing import stand_in_turn
 from kaidan.contact.steepest import steepest_flight
@@ -85,13 +87,16 @@ __all__ = [
     "body_table",
     "ground_table",
     "held_while_slipping",
+    "impact_speeds",
     "joined",
     "kernel_in_use",
     "mirror",
+    "nosings_passed",
     "pair_forces",
     "plain_seconds",
     "rate_many",
     "resting_height",
+    "rotated",
     "settle",
     "spring_loads",
     "stand_in_turn",
@@ -102,4 +107,5 @@ __all__ = [
     "use_kernel",
     "using_kernel",
     "without_native",
+    "without_nosings",
 ]

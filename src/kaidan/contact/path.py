@@ -11,13 +11,11 @@ from numpy.typing import ArrayLike
 
 from kaidan.contact.codes import ROCKING, Feature, PartKind, Status
 from kaidan.contact.columns import (
-    CONTACT_COLUMNS,
     ENERGY,
-    PASSED_COLUMNS,
     POSE_COLUMNS,
     TILT_COLUMNS,
 )
-from kaidan.contact.contacts import MOST, Contact, contacts_of
+from kaidan.contact.contacts import Contact, contacts_of
 from kaidan.contact.margin_records import Margins, Tilts
 from kaidan.contact.records import (
     Body,
@@ -26,7 +24,6 @@ from kaidan.contact.records import (
     Ground,
     Placement,
     Poses,
-    RotationRecord,
     Rotations,
 )
 from kaidan.contact.switch import kernel
@@ -107,7 +104,7 @@ class Path:
     def first(self) -> Path:
         """First pose alone, with its margins; neither events nor rotations."""
         assert self.margins is not None
-        return self._only(self.poses.table[:1], self.margins.table[:1])
+        return self.with_poses(self.poses.table[:1], self.margins.table[:1])
 
     def row_before(self, s: float) -> int:
         """Row of the last pose of a line of poses that ends at an arclength [m].
@@ -289,27 +286,6 @@ class Path:
         )
         return rear, front
 
-    def impact_speeds(self) -> FloatArray:
-        """Speed at which an end comes down at the end of each rotation [m/s]; NaN: not arrested.
-
-        The rate just before the last impact, from the energy of the fall as a free rotation about
-        the pivot, times how far the contacts lie apart.
-        """
-        table, found = self.rotations.table, np.empty((MOST, CONTACT_COLUMNS))
-        speeds = np.full(len(table), math.nan)
-        for row in np.flatnonzero(self.rotations.arrested).tolist():
-            speeds[row] = kernel().impact_speed(
-                self.ground.table, self.body.table, table, row, found
-            )
-        return speeds
-
-    def rotated(self, rotation: RotationRecord, angle: float) -> Placement:
-        """Where the body is after a part of a rotation about its first pivot [rad]."""
-        x, z, phi = rotation.start
-        turn = rotation.sense * angle
-        x, z = kernel().turned(self.ground.table, self.body.table, rotation.pivot, x, z, phi, turn)
-        return Placement(x, z, phi + turn)
-
     def margins_of(
         self, rows: slice, *, acceleration: float = 0.0, gravity: float = STANDARD_GRAVITY,
     ) -> Margins:  # fmt: skip
@@ -337,33 +313,6 @@ class Path:
         )  # fmt: skip
         return Margins(table)
 
-    def without(
-        self, events: Events, *, acceleration: float = 0.0, gravity: float = STANDARD_GRAVITY
-    ) -> Path:
-        """Poses at which nosings come under the flat or leave it, as if these were not there.
-
-        Parameters
-        ----------
-        events
-            REACHED and LEFT, between two poses on one straight piece of the path.
-        acceleration, gravity
-            As for :meth:`margins_of`.
-
-        Returns
-        -------
-        Path
-            A pose for each event, with its margins just before the nosing is reached, or just
-            after it is left; neither events nor rotations.
-        """
-        poses = self._between(events.pose, self._shares(events))
-        points = np.array([Feature.of(each.feature).point for each in events], dtype=np.int64)
-        margins, found = margin_tables(len(poses))
-        kernel().margins_without(
-            self.ground.table, self.body.table, poses, points, acceleration, gravity, TOUCH,
-            margins, found,
-        )  # fmt: skip
-        return self._only(poses, margins)
-
     def between(
         self, rows: IntArray, shares: FloatArray, *, acceleration: float = 0.0,
         gravity: float = STANDARD_GRAVITY,
@@ -384,57 +333,24 @@ class Path:
         Path
             A pose for each, with its margins; neither events nor rotations.
         """
-        poses = self._between(rows, shares)
+        poses = self.table_between(rows, shares)
         margins, found = margin_tables(len(poses))
         kernel().pose_margins(
             self.ground.table, self.body.table, poses, len(poses), acceleration, gravity, TOUCH,
             margins, found,
         )  # fmt: skip
-        return self._only(poses, margins)
+        return self.with_poses(poses, margins)
 
-    def passed(self, rows: IntArray, touch: float) -> FloatArray:
-        """Nosings that a flat reaches or leaves on the way from some poses to the next.
-
-        Those of which an event tells are left out.
-
-        Parameters
-        ----------
-        rows
-            The first of each two poses, which lie on one straight piece of the path.
-        touch
-            Gap up to which a nosing lies on a flat [m].
-
-        Returns
-        -------
-        ndarray (k, 6)
-            Arclength [m], 1 where it is reached, point of the ground, part, row before, share of
-            the arclength to the next pose; in this order.
-        """
-        if len(rows) == 0:
-            return np.empty((0, PASSED_COLUMNS))
-        size, count = 0, 2 * len(rows) + 8
-        while count > size:
-            size = count
-            table = np.empty((size, PASSED_COLUMNS))
-            count = kernel().nosings_passed(
-                self.ground.table, self.body.table, self.poses.table, self.events.table, rows,
-                touch, self.reach, table,
-            )  # fmt: skip
-        found = table[:count]
-        return found[np.lexsort(found.T[::-1])]
-
-    def _between(self, rows: IntArray, shares: FloatArray) -> FloatArray:
+    def table_between(self, rows: IntArray, shares: FloatArray) -> FloatArray:
+        """Those poses as a table, without margins."""
         poses = np.empty((len(rows), POSE_COLUMNS))
         kernel().poses_between(
             self.ground.table, self.body.table, self.poses.table, rows, shares, poses
         )
         return poses
 
-    def _shares(self, events: Events) -> FloatArray:
-        begin = self.s[events.pose]
-        return (events.s - begin) / (self.s[events.pose + 1] - begin)
-
-    def _only(self, poses: FloatArray, margins: FloatArray) -> Path:
+    def with_poses(self, poses: FloatArray, margins: FloatArray) -> Path:
+        """Other poses of it, as tables; neither events nor rotations."""
         return Path(
             self.status, Poses(poses), self.events[:0], self.rotations[:0], Margins(margins),
             self.ground, self.body, self.bodies,

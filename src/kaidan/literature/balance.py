@@ -316,7 +316,7 @@ def _transitions(found: Traverse, stretches: tuple[Stretch, ...], speed: float) 
     firsts = {each.rows[0]: each.number for each in stretches}
     transitions: list[Transition] = []
     begun = -1
-    speeds = run.impact_speeds().tolist()
+    speeds = contact.impact_speeds(run).tolist()
     kinds = {
         contact.Event.NOSE_DROPS: Change.NOSE_DROPS,
         contact.Event.TIPS_BACK: Change.TIPS_BACK,

@@ -17,7 +17,8 @@ from kaidan.question import Question
 from kaidan.robot import Robot, Uncertainty
 from kaidan.surface import Surface
 from kaidan.terrain.profile import Profile
-from kaidan.terrain.stairs import Stairs, StairsUncertainty
+from kaidan.terrain.stairs import Stairs
+from kaidan.terrain.stairs_uncertainty import StairsUncertainty
 
 Array = np.typing.NDArray[np.float64]
 

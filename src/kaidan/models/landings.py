@@ -15,15 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.mechanics.clearance import corner_margin, spin_circle
-from kaidan.mechanics.turning import (
-    Footprint,
-    Goal,
-    Manoeuvre,
-    inscribed_circle,
-    manoeuvre,
-    on_the_spot,
-    walls_of,
-)
+from kaidan.mechanics.footprint import Footprint, inscribed_circle, walls_of
+from kaidan.mechanics.turning import Goal, Manoeuvre, manoeuvre, on_the_spot
 from kaidan.models.clearance import OFF_LINE
 from kaidan.models.findings import Finding, Findings, Later
 from kaidan.models.landing_figures import LandingTurn, LandingTurns, TurnWay

@@ -22,13 +22,8 @@ from kaidan.readers.kinds import Array
 from kaidan.terrain.doubt import factor
 from kaidan.terrain.polyline import frozen
 from kaidan.terrain.profile import Profile
-from kaidan.terrain.stairs import (
-    LARGEST_DOUBT,
-    MOST_TWISTED,
-    UNSTATED_LANDING,
-    Stairs,
-    StairsUncertainty,
-)
+from kaidan.terrain.stairs import MOST_TWISTED, UNSTATED_LANDING, Stairs
+from kaidan.terrain.stairs_uncertainty import LARGEST_DOUBT, StairsUncertainty
 
 UNCHECKED = 0.0095 / math.sqrt(12.0)
 """Standard deviation of single steps below which a reader cannot see [m]: evenly within the 9.5 mm

@@ -23,7 +23,8 @@ from kaidan.terrain.doubt import (
 )
 from kaidan.terrain.flights import line_of_flights
 from kaidan.terrain.polyline import ROUGHNESS, convex_corners, frozen, measured_line, upper_envelope
-from kaidan.terrain.stairs import Stairs, StairsUncertainty
+from kaidan.terrain.stairs import Stairs
+from kaidan.terrain.stairs_uncertainty import StairsUncertainty
 
 Array = NDArray[np.float64]
 

@@ -24,6 +24,7 @@ from pydantic import Field
 from kaidan import catalog
 from kaidan.errors import InputError
 from kaidan.sheet import Sheet, model_validator, quantity
+from kaidan.terrain.stairs_uncertainty import StairsUncertainty
 from kaidan.units import value_of
 
 NOSING_RADII = (0.002, 0.025)
@@ -35,8 +36,6 @@ Length = tuple[float, ...]
 _RISE = (0.02, 0.6)
 _ODD_RISE = (0.005, 0.6)
 _GOING = (0.02, 2.5)
-LARGEST_DOUBT = 0.05
-"""Largest standard uncertainty of a single rise or going [m]."""
 _MOST_RISERS = 10_000
 _STEEPEST = 1.5533
 """Past 89 degrees no goings are left [rad]."""
@@ -57,29 +56,6 @@ _CrossSlope = Annotated[float, Field(ge=-0.35, le=0.35)]
 _Skew = Annotated[float, Field(ge=-0.8, le=0.8)]
 _Rise = Annotated[float, Field(ge=_ODD_RISE[0], le=_ODD_RISE[1])]
 _Going = Annotated[float, Field(ge=_GOING[0], le=_GOING[1])]
-
-
-class StairsUncertainty(Sheet):
-    """Standard uncertainties (one sigma) of the flight's figures; zero means taken as exact."""
-
-    label: ClassVar[str] = "stairs: uncertainty"
-
-    angle: float = quantity("rad", 0.0, 0.35, "of the angle", default=0.0)
-    nosing_spacing: float = quantity("m", 0.0, 0.2, "of the nosing spacing", default=0.0)
-    rise: float = quantity(
-        "m", 0.0, LARGEST_DOUBT, "of each single rise, apart from the others", default=0.0
-    )
-    going: float = quantity(
-        "m", 0.0, LARGEST_DOUBT, "of each single going, apart from the others", default=0.0
-    )
-    first_rise: float = quantity(
-        "m", 0.0, LARGEST_DOUBT, "of the first rise, where it is more than that of each",
-        default=0.0,
-    )  # fmt: skip
-    last_rise: float = quantity(
-        "m", 0.0, LARGEST_DOUBT, "of the last rise, where it is more than that of each",
-        default=0.0,
-    )  # fmt: skip
 
 
 class Stairs(Sheet):

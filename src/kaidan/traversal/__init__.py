@@ -17,6 +17,7 @@ from kaidan import contact
 from kaidan.mechanics.rearing import rear_length_margin
 from kaidan.outline import Outline
 from kaidan.terrain.profile import Profile
+from kaidan.traversal.criterion import Criterion, Tread
 from kaidan.traversal.driving import criterion_of as criterion_of
 from kaidan.traversal.driving import refuse_too_long, span, way, whole_of
 from kaidan.traversal.events import TraverseEvent as TraverseEvent
@@ -31,7 +32,7 @@ from kaidan.traversal.rotations import Chain as Chain
 from kaidan.traversal.rotations import Rotation as Rotation
 from kaidan.traversal.rotations import chains_of, rotations_of, together
 from kaidan.traversal.samples import trailing_end_leaves
-from kaidan.traversal.static_criterion import Criterion, Tread, flights_of
+from kaidan.traversal.static_criterion import flights_of
 from kaidan.traversal.tilting import LARGEST, largest_survived
 from kaidan.traversal.tilting import Fall as Fall
 

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.oblique_support import edge_energy
 from kaidan.mechanics.rocking import rocking
-from kaidan.traversal.static_criterion import ROUNDING, Array, Tread, flights_of
+from kaidan.traversal.criterion import Tread
+from kaidan.traversal.static_criterion import ROUNDING, Array, flights_of
 
 Bools = NDArray[np.bool_]
 

@@ -13,8 +13,9 @@ from kaidan.errors import InputError
 from kaidan.outline import Outline
 from kaidan.robot.robot import IN_LINE
 from kaidan.terrain.profile import Profile
+from kaidan.traversal.criterion import Criterion, Tread
 from kaidan.traversal.phases import REMEMBERED, uneven_span
-from kaidan.traversal.static_criterion import Criterion, Tread, static_criterion
+from kaidan.traversal.static_criterion import static_criterion
 
 Array = NDArray[np.float64]
 

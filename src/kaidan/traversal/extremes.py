@@ -13,10 +13,11 @@ from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.measures import sudden_stop_height
 from kaidan.outline import Outline
 from kaidan.terrain.profile import Profile
+from kaidan.traversal.criterion import Criterion
 from kaidan.traversal.phases import Phase, over_the_top, step_at
 from kaidan.traversal.rotations import ROCKING, together
 from kaidan.traversal.samples import corners, samples_of
-from kaidan.traversal.static_criterion import Criterion, flights_of
+from kaidan.traversal.static_criterion import flights_of
 from kaidan.traversal.tilting import first_rock
 
 _TIE = 1e-9

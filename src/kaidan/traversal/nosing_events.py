@@ -46,8 +46,8 @@ def nosing_events(path: contact.Path) -> Events:
     """
     found = [
         _Passing(s, bool(reached), int(point), int(part), int(row), share)
-        for s, reached, point, part, row, share in path.passed(
-            _straight_pieces(path), TOUCH
+        for s, reached, point, part, row, share in contact.nosings_passed(
+            path, _straight_pieces(path), TOUCH
         ).tolist()
     ]
     places = path.poses.placements

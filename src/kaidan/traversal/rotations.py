@@ -240,7 +240,7 @@ def rotations_of(
     """
     found = []
     on_flights = slopes_of_flights(profile, flat_length)
-    for record, speed in zip(path.rotations, path.impact_speeds().tolist(), strict=True):
+    for record, speed in zip(path.rotations, contact.impact_speeds(path).tolist(), strict=True):
         row = path.row_before(record.s)
         psi = float(path.poses.path_direction[row])
         ahead, up = acceleration * math.cos(psi), STANDARD_GRAVITY + acceleration * math.sin(psi)

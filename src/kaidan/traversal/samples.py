@@ -74,7 +74,7 @@ def samples_of(path: contact.Path, phase: NDArray[np.str_], acceleration: float)
     count = len(path.poses)
     every = [
         path,
-        path.without(nosings, acceleration=acceleration),
+        contact.without_nosings(path, nosings, acceleration=acceleration),
         *peaks[0],
         path.between(*upright, acceleration=acceleration),
     ]

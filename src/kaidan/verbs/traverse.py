@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from kaidan.assessment import Assessment, found_plan, judged, off_plan
 from kaidan.assessment.plan_search import Found
 from kaidan.contact import Placement as Place
-from kaidan.contact import RotationRecord
+from kaidan.contact import RotationRecord, rotated
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.models import planned
 from kaidan.models.planned import Planned
@@ -322,7 +322,7 @@ def _followed(passage: Traverse, rotation: RotationRecord) -> list[Place]:
     """
     shares = np.linspace(0.0, 1.0, PLACEMENTS).tolist()
     if not rotation.arrested:
-        return [passage.path.rotated(rotation, share * FALL) for share in shares]
+        return [rotated(passage.path, rotation, share * FALL) for share in shares]
     start, end = np.array(rotation.start), np.array(rotation.end)
     return [Place(*((1 - share) * start + share * end).tolist()) for share in shares]
 

@@ -1,23 +1,18 @@
 """What a client writes, as questions of the verbs: names of the catalogue and sheets, no path."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from inspect import Parameter, signature
 from itertools import islice
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
-from kaidan import catalog
 from kaidan.answer import Answer, plain
-from kaidan.errors import InputError, UnknownNameError, did_you_mean, shown
+from kaidan.errors import InputError, shown
 from kaidan.question import Question
-from kaidan.robot import Payload, Posture, PostureChange, Robot
-from kaidan.spelling import JOINT
-from kaidan.surface import Surface
-from kaidan.terrain.profile import Profile
-from kaidan.terrain.stairs import Stairs
-from kaidan.units import range_of
+from kaidan.robot import Robot
+from kaidan.web.keywords import READ, made, refuse_unknown, robot_of, sheet_of
 
 if TYPE_CHECKING:
     from kaidan.verbs.report import Report
@@ -26,12 +21,6 @@ MOST_CELLS = 2_000
 """Largest sweep that is answered at once; a larger one is a job."""
 MOST_RECORDED = 500_000
 """Most samples of a recording that is replayed: an hour at more than 100 Hz."""
-_Sheet = TypeVar("_Sheet", Robot, Stairs, Surface)
-_CATALOGUES: dict[type[Any], tuple[catalog.Folder, ...]] = {
-    Robot: ("robots", "unweighed"),
-    Stairs: ("stairs",),
-    Surface: ("surfaces",),
-}
 
 
 @dataclass(frozen=True)
@@ -204,7 +193,7 @@ def answered(verb: str, body: Mapping[str, Any]) -> Answer:
         values |= {name: [values[name]] for name in one if not isinstance(values[name], list)}
     for name in asked.required if whole is None else ():
         if name not in values:
-            hint = ": give a name of the catalogue or a sheet" if name in _READ else ""
+            hint = ": give a name of the catalogue or a sheet" if name in READ else ""
             raise InputError(f"{verb}: no {name}{hint}")
     keywords = made(values, asked.several)
     if whole is not None:
@@ -242,7 +231,7 @@ def report_of(body: Mapping[str, Any]) -> "Report":
         if given is None:
             raise InputError(f"report: no {name}: give a name of the catalogue or a sheet")
     each_robot = robots if isinstance(robots, list) else [robots]
-    return report([_robot(each) for each in each_robot], keywords.pop("stairs"), **keywords)
+    return report([robot_of(each) for each in each_robot], keywords.pop("stairs"), **keywords)
 
 
 _LIVE = ("robot", "stairs", "direction", "facing", "flippers", "payload", "override")
@@ -304,103 +293,4 @@ def _parts(text: str) -> list[str]:
 
 
 def _robot_of_text(text: str) -> Robot:
-    return Robot.from_json(text) if text.lstrip().startswith("{") else _sheet(text, Robot)
-
-
-def refuse_unknown(verb: str, values: Mapping[str, Any], known: Collection[str]) -> None:
-    """Refuse a keyword that is none of those known."""
-    for name in values:
-        if name not in known:
-            hint = did_you_mean(name, known) or f"; known: {', '.join(sorted(known))}"
-            raise InputError(f"{verb}: {shown(name)} is not known{hint}")
-
-
-def made(values: Mapping[str, Any], several: Collection[str] = ()) -> dict[str, Any]:
-    """Keywords with sheets for what is more than a number or a text."""
-    return {
-        name: _READ[name](value, name in several) if name in _READ else value
-        for name, value in values.items()
-    }
-
-
-def _robot(given: Any, many: bool = False) -> Any:
-    """Robot of a name or a table; several where many are allowed."""
-    if many and isinstance(given, list):
-        return [_robot(each) for each in given]
-    return _sheet(given, Robot)
-
-
-def _stairs(given: Any, many: bool = False) -> Any:
-    """Flight, flights from bottom to top or profile, of names, tables or points.
-
-    Where many are allowed a list is that many.
-    """
-    if isinstance(given, str) and JOINT in given:
-        return tuple(_sheet(each, Stairs) for each in given.split(JOINT))
-    if isinstance(given, list):
-        if not many and given and all(isinstance(each, list) for each in given):
-            return Profile.of_points(given)
-        found = [_stairs(each) if many else _sheet(each, Stairs) for each in given]
-        return found if many else tuple(found)
-    if isinstance(given, Mapping) and "points" in given:
-        return Profile.from_dict(given)
-    if isinstance(given, Mapping) and given.keys() >= {"angle", "nosing_spacing"}:
-        refuse_unknown("stairs", given, ("angle", "nosing_spacing", "steps"))
-        return Stairs.inclined(**given)
-    return _sheet(given, Stairs)
-
-
-def _surface(given: Any, many: bool = False) -> Any:
-    """Surface of a name or a table; several where many are allowed."""
-    if many and isinstance(given, list):
-        return [_surface(each) for each in given]
-    return _sheet(given, Surface)
-
-
-def _sheet(given: Any, kind: type[_Sheet]) -> _Sheet:
-    if isinstance(given, Mapping):
-        return kind.model_validate(given)
-    if not isinstance(given, str):
-        raise InputError(
-            f"{kind.label} = {shown(given)} is not a name of the catalogue or a {kind.label} sheet"
-        )
-    stem = given.strip().lower()
-    known = [name for folder in _CATALOGUES[kind] for name in catalog.names(folder)]
-    if stem not in known and not (kind is Robot and stem in catalog.gross_robots()):
-        raise UnknownNameError(kind.label, given, known)
-    return kind.named(stem)
-
-
-def _flippers(given: Any, many: bool) -> Any:
-    if many and isinstance(given, list):
-        return given
-    if isinstance(given, Mapping):
-        return Posture.model_validate(given)
-    if isinstance(given, list) and given:
-        changes = (PostureChange.model_validate(each) for each in given[1:])
-        return (Posture.model_validate(given[0]), *changes)
-    return given
-
-
-def _limits(given: Any, many: bool) -> Any:
-    return range_of(given, "angle", option="limits")
-
-
-def _payload(given: Any, many: bool) -> Any:
-    if isinstance(given, Mapping):
-        return Payload.model_validate(given)
-    if isinstance(given, list):
-        return [_payload(each, many) for each in given]
-    return given
-
-
-_READ: Mapping[str, Callable[[Any, bool], Any]] = {
-    "robot": _robot,
-    "robots": _robot,
-    "stairs": _stairs,
-    "surface": _surface,
-    "flippers": _flippers,
-    "payload": _payload,
-    "limits": _limits,
-}
-"""What becomes of those that are more than a number or a text."""
+    return Robot.from_json(text) if text.lstrip().startswith("{") else sheet_of(text, Robot)

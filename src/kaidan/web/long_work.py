@@ -7,15 +7,8 @@ from typing import Any, NamedTuple
 
 from kaidan.answer import Answer
 from kaidan.errors import InputError, shown
-from kaidan.web.asking import (
-    VERBS,
-    answered,
-    building_of,
-    made,
-    read_of,
-    refuse_unknown,
-    report_of,
-)
+from kaidan.web.asking import VERBS, answered, building_of, read_of, report_of
+from kaidan.web.keywords import made, refuse_unknown
 
 FILES = ("read", "building")
 """Jobs that need a file."""

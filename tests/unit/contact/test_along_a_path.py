@@ -51,7 +51,7 @@ def by_hand(path, rows):
 def test_nosings_that_pass_an_end_of_the_flat(path, kernel):
     rows = straight(path)
     with using_kernel(kernel):
-        found = path.passed(rows, TOUCH)
+        found = contact.nosings_passed(path, rows, TOUCH)
     expected = by_hand(path, rows)
     assert len(found) > 8
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9)
@@ -61,7 +61,7 @@ def test_nosings_that_pass_an_end_of_the_flat(path, kernel):
 @pytest.mark.parametrize("named", ["feature", "other"])
 def test_what_an_event_tells_of_is_left_out(path, kernel, named):
     rows = straight(path)
-    found = path.passed(rows, TOUCH)
+    found = contact.nosings_passed(path, rows, TOUCH)
     s, _, point, part, row, _ = found[3].tolist()
     code = Feature(int(point), int(part), FeatureKind.VERTEX).code
     codes = {"feature": -1, "other": -1, named: code}
@@ -70,11 +70,13 @@ def test_what_an_event_tells_of_is_left_out(path, kernel, named):
     ]
     told = replace(path, events=Events.of(records))
     with using_kernel(kernel):
-        np.testing.assert_array_equal(told.passed(rows, TOUCH), np.delete(found, 3, axis=0))
+        np.testing.assert_array_equal(
+            contact.nosings_passed(told, rows, TOUCH), np.delete(found, 3, axis=0)
+        )
 
 
 def test_nothing_passes_on_no_way(path):
-    assert path.passed(np.empty(0, dtype=np.int64), TOUCH).shape == (0, 6)
+    assert contact.nosings_passed(path, np.empty(0, dtype=np.int64), TOUCH).shape == (0, 6)
 
 
 def slip(path, points, standing, friction, way, sense):

@@ -12,15 +12,8 @@ from kaidan.mechanics.clearance import (
     run_up_margin,
     spin_circle,
 )
-from kaidan.mechanics.turning import (
-    Footprint,
-    Goal,
-    blocked,
-    inscribed_circle,
-    inside,
-    manoeuvre,
-    walls_of,
-)
+from kaidan.mechanics.footprint import Footprint, blocked, inscribed_circle, inside, walls_of
+from kaidan.mechanics.turning import Goal, manoeuvre
 
 
 def corners(front, rear, w, x=0.0, y=0.0, psi=0.0, fill=1):

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from kaidan.mechanics.turning import Goal, walls_of
+from kaidan.mechanics.footprint import walls_of
+from kaidan.mechanics.turning import Goal
 from kaidan.models.landings import KEPT, LANE, Room, Turned, shown, turned
 from kaidan.outline import Outline, footprint_of
 from kaidan.readers.building import SAME_FLOOR, WALL, Building, Flight, Floor
