@@ -47,6 +47,8 @@ class Score(NamedTuple):
     """Smallest margin of slope in the worst case, `ENOUGH` at most [deg]."""
     drop: float
     """Largest rotation, with its sign turned [deg]."""
+    tipping: float = -90.0
+    """Smallest margin of slope against tipping alone, `ENOUGH` at most [deg]."""
 
     @property
     def value(self) -> float:
@@ -252,4 +254,5 @@ class Scores:
             failing=-sum(failing),
             margin=min(math.degrees(min(slides, *tips)), ENOUGH),
             drop=-math.degrees(rated.rotation),
+            tipping=min(math.degrees(min(tips)), ENOUGH),
         )

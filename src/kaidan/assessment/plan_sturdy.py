@@ -5,9 +5,10 @@ policy, at the angles and off them, and the worst of these counts. The most prom
 first: by their scores, or by what holds them where it is not one friction of smooth belts.
 """
 
+import heapq
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import chain, product
+from itertools import chain, islice, product
 from typing import NamedTuple
 
 import numpy as np
@@ -59,6 +60,10 @@ HOPELESS = Worth(-Verdict.CAUTION.rank, -3.0)
 """From which on no posture close by is tried."""
 ANY = Worth(-Verdict.GO.rank, ENOUGH)
 """As much as a phase can come to."""
+
+
+_Place = tuple[tuple[int, bool, float], int, int, Worth]
+"""Of a posture among others, the best first: its number, looks taken, what it comes to at most."""
 
 
 class Sturdier:
@@ -123,9 +128,11 @@ class Sturdier:
     def _anywhere(self, phase: Phase, posture: Posture) -> Posture | None:
         """Posture that is GO off its angles too, of those about the best of a coarse grid."""
         coarse = self._ranked(phase, self._grid(posture))
-        hopeful = [each for worth, each in coarse if worth > HOPELESS][:REFINED]
-        fine = dict.fromkeys(chain(*(self._close_to(each) for each in hopeful)))
-        for _, each in self._ranked(phase, fine):
+        hopeful = islice((each for worth, each in coarse if worth > HOPELESS), REFINED)
+        fine = dict.fromkeys(chain.from_iterable(map(self._close_to, hopeful)))
+        for worth, each in self._ranked(phase, fine):
+            if not worth.holds:
+                return None
             if self._worst(phase, each, SHORT_OF_GO).holds:
                 return each
         return None
@@ -150,23 +157,34 @@ class Sturdier:
             if all(low <= each <= high for each in angles.values()):
                 yield posture.model_copy(update=angles)
 
-    def _ranked(self, phase: Phase, postures: Iterable[Posture]) -> list[tuple[Worth, Posture]]:
+    def _ranked(self, phase: Phase, postures: Iterable[Posture]) -> Iterator[tuple[Worth, Posture]]:
         """Postures that lack friction at most, at their angles and off them, the best first.
 
-        What rotates on its way comes after what does not.
+        What rotates on its way comes after what does not. Each is looked at more closely only while
+        it may be the next: by its scores, off its angles, by what holds it, and judged.
         """
         each = list(postures)
         self.scores.work_out((phase, one) for one in each)
-        each = [one for one in each if self.scores.of(phase, one).failing >= -1]
-        self.scores.work_out((phase, way) for one in each for way in self.scores.about(one))
-        each = [one for one in each if self.scores.off(phase, one).failing >= -1]
-        worths = [(self._of(phase, one, SHORT_OF_GO), one) for one in each]
+        scores = [self.scores.of(phase, one) for one in each]
+        gentle = [-score.drop <= GENTLE for score in scores]
 
-        def order(one: tuple[Worth, Posture]) -> tuple[int, bool, float]:
-            gentle = -self.scores.of(phase, one[1]).drop <= GENTLE
-            return one[0].rank, gentle, one[0].margin
+        def place(k: int, most: Worth, looks: int) -> _Place:
+            return (-most.rank, not gentle[k], -most.margin), k, looks, most
 
-        return sorted(worths, key=order, reverse=True)
+        waiting = [place(k, _most(score), 0) for k, score in enumerate(scores) if _lacks(score)]
+        heapq.heapify(waiting)
+        while waiting:
+            _, k, looks, most = heapq.heappop(waiting)
+            if looks == 0 and _lacks(self.scores.off(phase, each[k])):
+                heapq.heappush(waiting, place(k, most, 1))
+            elif looks == 1:
+                most = min(most, self._held(*self._key(phase, each[k])))
+                heapq.heappush(waiting, place(k, most, 2))
+            elif looks == 2:
+                found = self._of(phase, each[k], SHORT_OF_GO)
+                heapq.heappush(waiting, place(k, found, 3))
+            elif looks == 3:
+                yield most, each[k]
 
     def _moved(self, phase: Phase, posture: Posture) -> Posture | None:
         """Posture moved as long as its worst gets better; None where that is no GO."""
@@ -292,6 +310,16 @@ class Sturdier:
                 found = self.drives.over(self.scores.profile, alone, start=start, until=until)
                 self._driven[key] = Basis(alone, found)
         return self._driven[key]
+
+
+def _lacks(score: Score) -> bool:
+    """Whether a phase lacks friction at most."""
+    return score.failing >= -1
+
+
+def _most(score: Score) -> Worth:
+    """What a phase of a score comes to at most, whatever holds it."""
+    return _worth(Verdict.GO, math.radians(score.tipping + SLACK))
 
 
 def _hope(score: Score) -> Worth:
