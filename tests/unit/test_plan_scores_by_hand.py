@@ -57,9 +57,11 @@ def test_the_score_of_a_drive():
     """Friction 0.6 to 1.0, less 0.07 rad downhill and 0.02 uphill; the smallest margin counts."""
     of = scores()._score
     slides = math.degrees(math.atan(0.6) - math.atan(0.5))
-    assert of(RATED) == Score(True, 0, pytest.approx(slides), pytest.approx(-math.degrees(0.2)))
+    drop, tips = (pytest.approx(math.degrees(each)) for each in (-0.2, 0.25 - 0.02))
+    assert of(RATED) == Score(True, 0, pytest.approx(slides), drop, tips)
     for given, margin in (({"downhill": 0.1}, 0.03), ({"uphill": 0.05}, 0.03)):
         assert of(RATED._replace(**given)).margin == pytest.approx(math.degrees(margin))
+        assert of(RATED._replace(**given)).tipping == pytest.approx(math.degrees(margin))
     easy = RATED._replace(required_friction=0.1, downhill=math.inf, uphill=math.inf)
     assert of(easy).margin == ENOUGH
     assert of(RATED._replace(required_friction=1.0)).passes is False
