@@ -6,14 +6,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from kaidan import contact, traversal
+from kaidan import contact
 from kaidan.contact import Placement, Status
 from kaidan.mechanics.rearing import rear_length_margin
 from kaidan.outline import Outline
 from kaidan.robot import Robot
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
-from kaidan.traversal import Fall, FirstRock, Phase, Traverse, traverse
+from kaidan.traversal import Fall, FirstRock, Phase, Traverse, passage, traverse
 from kaidan.traversal.criterion import Criterion, Loss, Tread
 from kaidan.traversal.tilting import LARGEST, WITHIN, largest_survived
 
@@ -61,7 +61,7 @@ def test_the_end_is_the_last_pose():
 
 def test_only_landing_the_trailing_end_comes_off(monkeypatch):
     leaves = np.array([True, True, False])
-    monkeypatch.setattr(traversal, "trailing_end_leaves", lambda path: leaves)
+    monkeypatch.setattr(passage, "trailing_end_leaves", lambda path: leaves)
     found = made(phase_of_pose=np.array(["traverse", "land", "land"])).comes_off
     assert found.tolist() == [False, True, False]
 
@@ -270,7 +270,7 @@ def test_a_fall_is_looked_for_under_gravity_tilted_towards_it(
 
     monkeypatch.setattr(contact, "arrives", arrives)
     monkeypatch.setattr(contact, "traverse", fallen)
-    monkeypatch.setattr(traversal, "phases_of", lambda *args: PHASES)
+    monkeypatch.setattr(passage, "phases_of", lambda *args: PHASES)
     found = made(descending=descending, until=3.0)
     fall = found.falls_downhill if downhill else found.falls_uphill
     assert 0.1 - WITHIN <= fall.tilt <= 0.1
@@ -282,7 +282,7 @@ def test_a_fall_is_looked_for_under_gravity_tilted_towards_it(
 
 def test_a_fall_without_any_tilt_is_that_of_the_path(monkeypatch):
     monkeypatch.setattr(contact, "arrives", lambda *, tilt, **way: tilt <= -0.1)
-    monkeypatch.setattr(traversal, "phases_of", lambda *args: PHASES)
+    monkeypatch.setattr(passage, "phases_of", lambda *args: PHASES)
     path = path_to(-1.0, NOSINGS[0] + 0.01, NOSINGS[1] + 0.01)
     fall = made(status=Status.FELL_BACKWARD, path=path).falls_downhill
     assert -0.1 - WITHIN <= fall.tilt <= -0.1
