@@ -28,6 +28,7 @@ KERNEL_MODULES = (
     "forces",
     "cones",
     "passings",
+    "way_order",
     "peaks",
     "supports",
     "grousers",
@@ -36,6 +37,7 @@ KERNEL_MODULES = (
     "margins",
     "energy_margins",
     "standing",
+    "impact",
     "rating",
     "batch",
 )

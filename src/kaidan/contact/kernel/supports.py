@@ -67,7 +67,7 @@ from kaidan.contact.columns import (
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.nearest_feature import first_index
 from kaidan.contact.kernel.passings import along_flat
-from kaidan.contact.kernel.peaks import EXACT, WHOLE
+from kaidan.contact.kernel.way_order import EXACT, WHOLE
 from kaidan.contact.tables import (
     BodyTable,
     FloatRow,
