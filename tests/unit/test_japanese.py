@@ -5,12 +5,16 @@ import warnings
 from string import Formatter
 
 import pytest
+from matplotlib.font_manager import findfont
 from matplotlib.text import Text
 
 import kaidan
-from kaidan.documents import japanese_pictures, report_bytes, report_file
+from kaidan import catalog
+from kaidan.documents import japanese_pictures, pdf_pages, report_bytes, report_file
 from kaidan.errors import InputError
 from kaidan.modes import FAILURE_MODES, Acceptance
+from kaidan.surface import Surface
+from kaidan.terrain.stairs import Stairs
 from kaidan.text import advice, unweighed
 from kaidan.text import document as of
 from kaidan.text.japanese import in_japanese, japanese, patterns
@@ -142,12 +146,33 @@ def test_every_refusal_of_a_file_is_said(why):
 def test_a_report_in_japanese(found, form, monkeypatch):
     pytest.importorskip("reportlab", reason="skipped: ReportLab not installed")
     monkeypatch.setattr(report_file, "_figures", lambda found: ())  # the same in any language
+    monkeypatch.setattr(pdf_pages, "typeface_files", list)
+    pdf_pages._japanese.cache_clear()
     made = report_bytes(found, form, "ja")
     has = {"html": b'<html lang="ja">', "pdf": b"HeiseiKakuGo-W5"}[form]
     assert has in made
     assert has not in report_bytes(found, form)
     if form == "html":
         assert "摩擦が決め手です(進入、1 段目)。必要 0.91、想定 0.60〜1.00。" in made.decode()
+
+
+def test_a_pdf_has_the_typeface_of_the_system_inside(found, monkeypatch):
+    pytest.importorskip("reportlab", reason="skipped: ReportLab not installed")
+    monkeypatch.setattr(report_file, "_figures", lambda found: ())
+    stand_in = findfont("DejaVu Serif")  # a TrueType font that every system with matplotlib has
+    monkeypatch.setattr(pdf_pages, "typeface_files", lambda: [__file__, stand_in])
+    pdf_pages._japanese.cache_clear()
+    made = report_bytes(found, "pdf", "ja")
+    pdf_pages._japanese.cache_clear()
+    assert b"DejaVuSerif" in made
+    assert b"HeiseiKakuGo" not in made
+
+
+def test_titles_of_the_catalogue_are_said_but_for_names():
+    titles = [Stairs.named(name).title for name in catalog.names("stairs")]
+    titles += [Surface.named(name).title for name in catalog.names("surfaces")]
+    assert [each for each in titles if japanese(each, "title") is None] == []
+    assert japanese("Kenaf, no arm", "title") == "Kenaf、アームなし"
 
 
 @pytest.fixture

@@ -39,14 +39,19 @@ def test_a_planner_gets_from_a_model_to_a_flight(page, server, house):
     margins = [float(each.get_attribute("value")) for each in shown.all()]
     assert margins == [c["margin_deg"] for c in answer["cells"] if c["margin_deg"] is not None]
     assert page.locator(".floor-plan .lane").count() == len(answer["flights"])
-    drawn, *floors = (
-        page.locator(each).evaluate_all("all => all.map((one) => one.getBoundingClientRect())")
-        for each in (".floor-plan", ".floor-plan .floor")
+    plans = page.locator(".floor-plan")
+    assert plans.count() == len({each["storey"] for each in answer["flights"]})
+    for plan in plans.all():
+        drawn = plan.bounding_box()
+        bottom = drawn["y"] + drawn["height"]
+        for each in plan.locator(".floor, .lane").all():
+            box = each.bounding_box()
+            assert drawn["y"] <= box["y"]
+            assert box["y"] + box["height"] <= bottom
+    named = page.locator(".floor-plan text").evaluate_all(
+        "all => all.map(each => each.getBoundingClientRect()).map(({x, y}) => `${x} ${y}`)"
     )
-    assert all(
-        drawn[0]["top"] <= each["top"] and each["bottom"] <= drawn[0]["bottom"]
-        for each in floors[0]
-    )
+    assert len(set(named)) == len(answer["flights"])  # no name lies over another one
     storeys = [storey["name"] for storey in answer["storeys"]]
     assert all(name in page.inner_text(".storeys") for name in storeys)
     page.get_by_role("button", name="Open this flight").nth(1).click()

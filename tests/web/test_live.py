@@ -1,5 +1,8 @@
 """The live page: the alarm of a replayed climb is seen and heard, and a lost server is noticed."""
 
+import base64
+import json
+
 import httpx
 import pytest
 
@@ -105,16 +108,46 @@ def test_it_speaks_the_language_of_the_page_and_lists_no_robot_that_nobody_weigh
 
 
 def test_it_begins_with_the_question_of_the_page(desk):
-    desk.goto("#/check?robot=kenaf&stairs=ada&direction=down&flippers=flat")
+    desk.goto("#/check?robot=absolem&stairs=ada&direction=down&flippers=angles&front=0.2")
     desk.get_by_role("link", name="Live").click()
     desk.wait_for_selector("body[data-ready]")
     fields = ("robot", "stairs", "direction", "facing", "flippers")
     shown = [desk.locator(f"#{each}").input_value() for each in fields]
-    assert shown == ["kenaf", "ada", "down", "nose-first", "flat"]
-    desk.goto("live.html?robot=nobody&stairs=ibc&direction=sideways")
+    assert shown == ["absolem", "ada", "down", "nose-first", "11.459deg,0.000deg"]
+    desk.get_by_role("link", name="Back to the question").click()
+    desk.wait_for_selector(".light[data-verdict]:not([data-verdict=working])")
+    assert desk.get_by_role("combobox", name="Stairs", exact=True).input_value() == "ada"
+
+
+def test_it_watches_own_stairs_a_load_and_changed_figures(desk):
+    stairs = {"name": "measured", "rise": 0.17, "going": 0.29, "steps": 9}
+    packed = base64.urlsafe_b64encode(json.dumps(stairs).encode()).decode().rstrip("=")
+    question = f"robot=absolem&stairs=~{packed}&flippers=flat&r.com_height=0.3&payload_mass=20"
+    desk.goto(f"#/check?{question}&payload_height=0.5&payload_behind=0.2")
+    desk.wait_for_selector(".light[data-verdict]:not([data-verdict=working])")
+    desk.get_by_role("link", name="Live").click()
     desk.wait_for_selector("body[data-ready]")
-    shown = [desk.locator(f"#{each}").input_value() for each in fields]
-    assert shown == ["absolem", "ibc", "up", "nose-first", "stowed"]
+    assert desk.locator("#stairs option:checked").inner_text() == "measured"
+    assert "load of the question: 20.0 kg" in desk.inner_text("#given")
+    with desk.expect_response("**/api/live") as begun:
+        desk.get_by_role("button", name="Watch a sensor").click()
+    sent = begun.value.request.post_data_json
+    assert sent["stairs"] == stairs
+    assert sent["override"] == {"com_height": 0.3}
+    assert sent["payload"] == [{"mass": 20, "from_front": 0.2, "height": 0.5}]
+    assert begun.value.json()["stairs"] == "measured"
+    desk.locator("#robot").select_option("kenaf")
+    assert desk.inner_text("#given") == ""
+
+
+def test_a_robot_that_cannot_be_watched_is_not_taken_for_another(desk):
+    desk.goto("#/check?robot=talon&stairs=ibc")
+    desk.wait_for_selector(".light[data-verdict]:not([data-verdict=working])")
+    desk.get_by_role("link", name="Live").click()
+    desk.wait_for_selector("body[data-ready]")
+    assert desk.locator("#robot").input_value() == ""
+    desk.get_by_role("button", name="Watch a sensor").click()
+    desk.locator("#error:not(:empty)").wait_for()
 
 
 def test_the_numbers_are_those_of_the_server_also_for_who_comes_later(desk, server, climbing):
@@ -143,7 +176,7 @@ def test_it_works_from_the_keyboard_in_japanese_and_for_assistive_technology(des
         desk.keyboard.press("Tab")
         order.append(desk.evaluate("document.activeElement.id || document.activeElement.tagName"))
     assert order == [
-        "A", "language", "sound", "try", "robot", "stairs", "direction", "facing", "flippers",
+        "back", "language", "sound", "try", "robot", "stairs", "direction", "facing", "flippers",
         "file", "speed", "replay", "watch",
     ]  # fmt: skip
     desk.get_by_label("Language").select_option("ja")

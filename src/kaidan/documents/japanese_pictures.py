@@ -31,6 +31,15 @@ def typeface() -> str | None:
     return next((name for name in TYPEFACES if name in there), None)
 
 
+def typeface_files() -> list[str]:
+    """Files of those of `TYPEFACES` that the system has, in their order; upright and regular."""
+    from matplotlib.font_manager import fontManager
+
+    fonts = [font for font in fontManager.ttflist if font.name in TYPEFACES]
+    usual = [font for font in fonts if font.weight in (400, "normal") and font.style == "normal"]
+    return [font.fname for font in sorted(usual, key=lambda font: TYPEFACES.index(font.name))]
+
+
 def put_in_japanese(figure: "Figure") -> None:
     """Put the words of a figure in Japanese; words without any, and all without a typeface, stay.
 

@@ -7,10 +7,13 @@ import io
 import re
 import textwrap
 from collections.abc import Mapping
+from contextlib import suppress
+from functools import cache
 from html import escape
 from pathlib import Path
 from typing import Any
 
+from kaidan.documents.japanese_pictures import typeface_files
 from kaidan.documents.marks import MARKS
 from kaidan.documents.scan_code import scan_code
 from kaidan.errors import needed
@@ -19,8 +22,8 @@ from kaidan.text import document as of
 from kaidan.text.tables import printable
 
 _FACES = {"Sans": "DejaVuSans", "Sans-Bold": "DejaVuSans-Bold", "Mono": "DejaVuSansMono"}
-_JAPANESE = "HeiseiKakuGo-W5"
-"""A typeface that readers of PDF have, or replace; it is not in the file."""
+_NOT_INSIDE = "HeiseiKakuGo-W5"
+"""Japanese typeface that readers of PDF have, or replace; it is not in the file."""
 _KANA_AND_KANJI = re.compile("[\u3000-\u9fff\uff00-\uffef]+")
 _TINTS = {"go": "#e3f4ee", "caution": "#fdf3d7", "no-go": "#fbe6d9", "outside-model": "#ececec"}
 _EDGES = {"go": "#00664b", "caution": "#7a5900", "no-go": "#a33b00", "outside-model": "#444444"}
@@ -72,7 +75,7 @@ def pages(document: of.Document, pictures: Mapping[str, bytes]) -> bytes:
     )
 
     def foot(canvas: Any, template: Any) -> None:
-        canvas.setFont("Sans" if document.language == "en" else _JAPANESE, 7.5)
+        canvas.setFont("Sans" if document.language == "en" else _japanese(), 7.5)
         canvas.drawString(_MARGIN * mm, 10 * mm, printable(document.foot))
         canvas.drawRightString(A4[0] - _MARGIN * mm, 10 * mm, str(template.page))
 
@@ -114,14 +117,12 @@ class _Setter:
     def register() -> None:
         """Make the typefaces known."""
         import matplotlib as mpl
-        from reportlab.pdfbase.cidfonts import UnicodeCIDFont
         from reportlab.pdfbase.pdfmetrics import registerFont
         from reportlab.pdfbase.ttfonts import TTFont
 
         folder = Path(mpl.get_data_path()) / "fonts" / "ttf"
         for name, file in _FACES.items():
             registerFont(TTFont(name, str(folder / f"{file}.ttf")))
-        registerFont(UnicodeCIDFont(_JAPANESE))
 
     def part(self, part: "of.Block | of.Sheet") -> list[Any]:
         """Flowables of a part."""
@@ -253,6 +254,24 @@ def _wrapped(lines: tuple[str, ...]) -> list[str]:
     ]
 
 
+@cache
+def _japanese() -> str:
+    """Typeface of kana and kanji: one of the system that can be in the file, else one that cannot.
+
+    Who prints at the foot of the stairs may have a reader without any.
+    """
+    from reportlab.pdfbase.cidfonts import UnicodeCIDFont
+    from reportlab.pdfbase.pdfmetrics import registerFont
+    from reportlab.pdfbase.ttfonts import TTFError, TTFont
+
+    for file in typeface_files():
+        with suppress(TTFError, OSError):  # one with curves of PostScript
+            registerFont(TTFont("Japanese", file))
+            return "Japanese"
+    registerFont(UnicodeCIDFont(_NOT_INSIDE))
+    return _NOT_INSIDE
+
+
 def _text(text: str) -> str:
     plain = escape(printable(text), quote=False)
-    return _KANA_AND_KANJI.sub(lambda run: f'<font name="{_JAPANESE}">{run[0]}</font>', plain)
+    return _KANA_AND_KANJI.sub(lambda run: f'<font name="{_japanese()}">{run[0]}</font>', plain)

@@ -31,15 +31,16 @@ def sheets_of(file: str) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``robots``, ``stairs`` (of several flights a list from bottom to top), and ``notes``: why
-        something that was found is not among them.
+        ``robots``, ``stairs`` (of several flights a list from bottom to top), ``storeys``, the one
+        on which each of the stairs begins, "" where the file has none, and ``notes``: why something
+        that was found is not among them.
 
     Raises
     ------
     InputError
         None of these, or one that cannot be read.
     """
-    made: dict[str, Any] = {"robots": [], "stairs": [], "notes": []}
+    made: dict[str, Any] = {"robots": [], "stairs": [], "storeys": [], "notes": []}
     source = Source.of(file)
     if known(source) is None:
         kind, sheet = _written(Path(file)) or (None, None)
@@ -47,25 +48,29 @@ def sheets_of(file: str) -> dict[str, Any]:
             recognised(source)  # says what is known
         else:
             made[kind].append(sheet)
+            made["storeys"] = [""] * len(made["stairs"])
         return made
     found = found_in(file, NO_HINTS)
     made["notes"] = [str(each) for each in found.refusals]
-    for kind, sheets in (("robots", found.robots), ("stairs", found.staircases)):
-        made[kind] = list(_possible(sheets, made["notes"]))
+    made["robots"] = [sheet for _, sheet in _possible(found.robots, made["notes"])]
+    for staircase, sheet in _possible(found.staircases, made["notes"]):
+        made["stairs"].append(sheet)
+        made["storeys"].append(staircase.facts.get("storey", ""))
     return made
 
 
-def _possible(found: Any, notes: list[str]) -> Iterator[Any]:
+def _possible(found: Any, notes: list[str]) -> Iterator[tuple[Any, Any]]:
+    """What was found, each with its sheet; why there is none goes into the notes."""
     for each in found:
         try:
             if hasattr(each, "robot"):
-                yield each.robot().model_dump(mode="json")
+                yield each, each.robot().model_dump(mode="json")
                 continue
             flights = [flight.model_dump(mode="json") for flight in each.stairs()]
         except InputError as error:
             notes.append(str(error))
         else:
-            yield flights[0] if len(flights) == 1 else flights
+            yield each, flights[0] if len(flights) == 1 else flights
 
 
 def _written(path: Path) -> tuple[str, dict[str, Any]] | None:

@@ -1,14 +1,19 @@
 // A climb that is watched: numbers, chart, alarm with sound. Judged by the server; here it is shown.
 
+import { has, language, loadTexts, setLanguage, t as text, titled } from "./js/i18n.js";
+import { unpacked } from "./js/state.js";
 import { preference, prefer } from "./js/storage.js";
 
 const SILENT = 1.0; // s without a state after which the sensor counts as silent
 const SEEN = 20; // s of the chart
 const TICK = 50; // ms between two requests of a replay
+const GIVEN = "~"; // value of a list for the sheet that the question has in the place of a name
 const at = (id) => document.getElementById(id);
-const texts = (await (await fetch("api/texts")).json()).live;
+const named = (sheet) => typeof sheet === "string";
+const hash = location.hash.slice(1); // a climb that is watched, or what the question of the page hands over
+const given = (hash.startsWith("~") && unpacked(hash)) || {};
+await loadTexts();
 
-let language = "en";
 let head = null; // what the server says of the climb
 let states = [];
 let last = 0; // when the last state came [ms]
@@ -19,18 +24,34 @@ let replay = null;
 let audio = null;
 let loud = false;
 
-function t(key, values = {}) {
-  return (texts[key]?.[language] ?? key).replace(/\{(\w+)\}/g, (_, name) => values[name] ?? "");
+function t(key, values) {
+  return text(`live.${key}`, values);
 }
 
 function speak(chosen) {
-  language = chosen === "ja" ? "ja" : "en";
+  setLanguage(chosen);
   at("language").value = language;
-  document.documentElement.lang = language;
   document.title = t("title");
+  sayCarried();
+  for (const each of [...catalogue.robots, ...catalogue.stairs]) {
+    const option = [...at("robot").options, ...at("stairs").options].find((one) => one.value === each.name);
+    if (option) option.textContent = `${each.name}: ${titled(each.title)}`;
+  }
   for (const each of document.querySelectorAll("[data-text]")) each.textContent = t(each.dataset.text);
   if (replay) at("pause").textContent = t(replay.paused ? "go_on" : "pause");
   show();
+}
+
+// What the robot of the question has beyond its sheet, as long as it is the one that is chosen.
+function carried() {
+  const its = at("robot").value === (named(given.robot) ? given.robot : GIVEN);
+  return its ? { payload: given.payload, override: given.override } : {};
+}
+
+function sayCarried() {
+  const { payload = [], override = {} } = carried();
+  const mass = payload.reduce((sum, each) => sum + each.mass, 0), count = Object.keys(override).length;
+  at("given").textContent = [mass && t("given_load", { mass: mass.toFixed(1) }), count && t("given_figures", { count })].filter(Boolean).join(" ");
 }
 
 // Connection
@@ -95,7 +116,7 @@ function show() {
     at("alarm").className = mood;
     at("mark").textContent = { idle: "○", calm: "●", alarm: "▲", silent: "✕", unknown: "?" }[mood];
     at("said").textContent = t(mood);
-    at("why").textContent = `${mood}_do` in texts ? t(`${mood}_do`, { s: SILENT, why: state?.message }) : "";
+    at("why").textContent = has(`live.${mood}_do`) ? t(`${mood}_do`, { s: SILENT, why: state?.message }) : "";
   }
   at("margin").textContent = number(state?.margin_deg, 1);
   at("time").textContent = state && state.time_to_tip_s === null && state.margin_deg !== null ? `> ${head?.horizon_s ?? 2}` : number(state?.time_to_tip_s, 1);
@@ -183,6 +204,8 @@ async function begin() {
   at("error").textContent = "";
   const body = {};
   for (const each of ["robot", "stairs", "direction", "facing", "flippers"]) body[each] = at(each).value;
+  for (const each of ["robot", "stairs"]) if (body[each] === GIVEN) body[each] = given[each];
+  Object.assign(body, carried());
   const made = await post("api/live", body);
   history.replaceState(null, "", `#${made.id}`);
   over = false;
@@ -272,15 +295,21 @@ at("language").onchange = () => {
 };
 const catalogue = await ask("api/catalogue", {});
 for (const [id, kind, first] of [["robot", "robots", "absolem"], ["stairs", "stairs", "ibc"]]) {
-  for (const each of catalogue[kind].filter((each) => !each.unweighed)) at(id).append(new Option(`${each.name}: ${each.title}`, each.name));
+  for (const each of catalogue[kind].filter((each) => !each.unweighed)) at(id).append(new Option("", each.name));
   at(id).value = first;
 }
-const given = new URLSearchParams(location.search);
-for (const id of ["robot", "stairs", "direction", "facing", "flippers"]) {
-  const value = given.get(id);
-  if (value && (!at(id).options || [...at(id).options].some((each) => each.value === value))) at(id).value = value;
+for (const id of ["robot", "stairs"]) {
+  if (!given[id] || named(given[id])) continue;
+  const sheets = [given[id]].flat();
+  at(id).prepend(new Option(sheets.map((each) => each.title || each.name || "?").join(" + "), GIVEN));
 }
-speak(given.get("lang") ?? preference("language", navigator.language.slice(0, 2)));
-const named = location.hash.slice(1);
-if (named) connect(named);
+for (const id of ["robot", "stairs", "direction", "facing", "flippers"]) {
+  const value = named(given[id]) || !given[id] ? given[id] : GIVEN;
+  if (value) at(id).value = value; // a list without it shows nothing, and the server says so
+}
+at("robot").onchange = sayCarried;
+at("back").href = `./${sessionStorage.getItem("kaidan.question") ?? ""}`;
+document.documentElement.dataset.theme = preference("theme", "auto");
+speak(preference("language", navigator.language.slice(0, 2)));
+if (hash && !hash.startsWith("~")) connect(hash);
 document.body.dataset.ready = "yes";

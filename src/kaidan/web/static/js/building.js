@@ -3,7 +3,7 @@
 import { Refused, upload } from "./api.js";
 import { button, picker } from "./controls.js";
 import { h, line, replace, s } from "./dom.js";
-import { said, t } from "./i18n.js";
+import { said, t, titled } from "./i18n.js";
 import { symbol } from "./light.js";
 import { catalogue } from "./question.js";
 import { robotBoxes } from "./robot.js";
@@ -18,7 +18,7 @@ export function buildingView() {
   const input = h("input", { type: "file", id: "model", accept: ".ifc,.ifczip", onchange: () => { file = input.files[0] ?? null; } });
   const ground = picker({
     label: t("ground.surface"), empty: t("ground.none"), get: () => surface, set: (value) => { surface = value; },
-    groups: () => [["", catalogue.surfaces.map((each) => [each.name, each.title])]],
+    groups: () => [["", catalogue.surfaces.map((each) => [each.name, titled(each.title)])]],
   });
   const node = h("section", { class: "panel building" }, h("h2", {}, t("building.heading")), h("p", {}, t("building.lead")),
     h("div", { class: "picker" }, h("label", { for: "model" }, t("building.file")), input), boxes, ground.node,
@@ -59,7 +59,7 @@ export function buildingView() {
             `${flight.storey} · ${flight.steps} × `, figure(flight.rise_m, "length"), " / ", figure(flight.going_m, "length"), ", ", figure(flight.angle_deg, "degrees"))),
           found.cells.slice(row * wide, (row + 1) * wide).map((cell) => h("td", {}, verdictOf(cell), h("div", {}, said(cell.reason)),
             button(t("building.open"), () => open(flight, cell), { "aria-label": `${t("building.open")}: ${flight.name}, ${cell.robot}` })))))))),
-      plan(found),
+      plans(found),
       found.ways.length === 0 ? null : [h("h3", {}, t("building.ways", { start: found.start })), ways(found)],
       list(t("building.refusals"), found.refusals), list(t("building.notes"), found.notes),
     ];
@@ -89,29 +89,41 @@ function ways(found) {
       }))))));
 }
 
-// Flights in the plan, with their numbers: the nosings and the lane, as the answer has them.
-// How far beyond the flights the plan shows floors, and the edge around it [m].
-const BEYOND = 5, EDGE = 0.5;
+// How far beyond the flights a plan shows floors, and the edge around it [m]; its largest sides.
+const BEYOND = 5, EDGE = 0.5, WIDE = 340, TALL = 300;
 
-function plan(found) {
-  const points = found.flights.flatMap((flight) => flight.lane);
-  if (points.length === 0) return null;
-  const floors = found.floors.flatMap((floor) => floor.outlines).flat();
+// A plan for each storey that flights begin on, for those of the next one lie above them.
+function plans(found) {
+  const storeys = [...new Set(found.flights.map((each) => each.storey))];
+  if (storeys.length === 0) return null;
+  return [h("h3", {}, t("building.plan")), h("div", { class: "plans" }, storeys.map((storey) =>
+    plan(storey, found.flights.filter((each) => each.storey === storey), found.floors)))];
+}
+
+// Flights with their names, and the floors that they join: the nosings and the lane, as the answer has them.
+function plan(storey, flights, every) {
+  const joined = new Set(flights.flatMap((each) => [each.lower, each.upper]));
+  const floors = every.filter((each) => joined.has(each.key)).flatMap((each) => each.outlines);
+  const points = flights.flatMap((flight) => flight.lane);
   const [[left, right], [low, high]] = [0, 1].map((axis) => {
-    const [flights, all] = [points, [...points, ...floors]].map((each) => each.map((point) => point[axis]));
+    const [own, all] = [points, [...points, ...floors.flat()]].map((each) => each.map((point) => point[axis]));
     const most = (values) => values.reduce((one, other) => Math.max(one, other));
     const least = (values) => values.reduce((one, other) => Math.min(one, other));
-    return [Math.max(least(all), least(flights) - BEYOND) - EDGE, Math.min(most(all), most(flights) + BEYOND) + EDGE];
+    return [Math.max(least(all), least(own) - BEYOND) - EDGE, Math.min(most(all), most(own) + BEYOND) + EDGE];
   });
   const [wide, tall] = [right - left, high - low];
-  const k = 1000;
+  const k = Math.min(WIDE / wide, TALL / tall);
   const at = ([x, y]) => [(x - left) * k, (low + tall - y) * k];
-  const outlines = found.floors.flatMap((floor) => floor.outlines).map((each) => s("path", { class: "floor", d: `${line(each.map(at))}Z` }));
-  return [h("h3", {}, t("building.plan")), s("svg", { class: "floor-plan", viewBox: `0 0 ${(wide * k).toFixed(0)} ${(tall * k).toFixed(0)}`, role: "img", "aria-label": `${t("building.plan")}: ${found.flights.map((each) => each.name).join(", ")}` },
-    outlines, found.flights.map((flight) => s("g", {},
-      s("path", { class: "lane", d: `${line(flight.lane.map(at))}Z` }),
-      flight.nosings.map(([x1, y1, x2, y2]) => s("path", { class: "nosing", d: line([at([x1, y1]), at([x2, y2])]) })),
-      s("text", { x: at(flight.lane[0])[0], y: at(flight.lane[0])[1] + 420 }, flight.name))))];
+  const middle = (lane) => at([0, 1].map((axis) => lane.reduce((sum, point) => sum + point[axis], 0) / lane.length));
+  return h("figure", {}, h("figcaption", {}, storey),
+    s("svg", { class: "floor-plan", viewBox: `0 0 ${(wide * k).toFixed(0)} ${(tall * k).toFixed(0)}`, role: "img", "aria-label": `${t("building.plan")}, ${storey}: ${flights.map((each) => each.name).join(", ")}` },
+      floors.map((each) => s("path", { class: "floor", d: `${line(each.map(at))}Z` })),
+      flights.map((flight) => [s("path", { class: "lane", d: `${line(flight.lane.map(at))}Z` }),
+        flight.nosings.map(([x1, y1, x2, y2]) => s("path", { class: "nosing", d: line([at([x1, y1]), at([x2, y2])]) }))]),
+      flights.map((flight) => {
+        const [x, y] = middle(flight.lane);
+        return s("text", { x, y: y + 5 }, flight.name);
+      })));
 }
 
 function list(heading, entries) {

@@ -2,7 +2,6 @@
 
 import { line, s } from "./dom.js";
 
-export const WIDE = 640, TALL = 400;
 const LEFT = 58, RIGHT = 16, TOP = 14, BOTTOM = 50;
 
 function ticks(low, high, about = 6) {
@@ -15,25 +14,28 @@ function ticks(low, high, about = 6) {
 
 export class Chart {
   constructor({ x: [left, right], y: [low, high], xLabel, yLabel, label }) {
-    this.x = (value) => LEFT + ((value - left) / (right - left)) * (WIDE - LEFT - RIGHT);
-    this.y = (value) => TALL - BOTTOM - ((value - low) / (high - low)) * (TALL - TOP - BOTTOM);
+    const small = matchMedia("(max-width: 40rem)").matches; // a phone: as many letters need as many pixels
+    const [wide, tall] = small ? [360, 330] : [640, 400];
+    this.wide = wide;
+    this.x = (value) => LEFT + ((value - left) / (right - left)) * (wide - LEFT - RIGHT);
+    this.y = (value) => tall - BOTTOM - ((value - low) / (high - low)) * (tall - TOP - BOTTOM);
     this.limits = { left, right, low, high };
     this.inside = s("g", {});
     this.above = s("g", {});
     const axes = s("g", { class: "axes" });
-    const across = ticks(left, right), up = ticks(low, high);
+    const across = ticks(left, right, small ? 3 : 6), up = ticks(low, high);
     for (const value of across.found) {
-      axes.append(s("path", { class: "grid", d: `M${this.x(value)} ${TOP}V${TALL - BOTTOM}` }),
-        s("text", { x: this.x(value), y: TALL - BOTTOM + 18, "text-anchor": "middle" }, value.toFixed(across.digits).replace("-", "\u2212")));
+      axes.append(s("path", { class: "grid", d: `M${this.x(value)} ${TOP}V${tall - BOTTOM}` }),
+        s("text", { x: this.x(value), y: tall - BOTTOM + 18, "text-anchor": "middle" }, value.toFixed(across.digits).replace("-", "\u2212")));
     }
     for (const value of up.found) {
-      axes.append(s("path", { class: "grid", d: `M${LEFT} ${this.y(value)}H${WIDE - RIGHT}` }),
+      axes.append(s("path", { class: "grid", d: `M${LEFT} ${this.y(value)}H${wide - RIGHT}` }),
         s("text", { x: LEFT - 8, y: this.y(value) + 4, "text-anchor": "end" }, value.toFixed(up.digits).replace("-", "\u2212")));
     }
-    axes.append(s("text", { x: (LEFT + WIDE - RIGHT) / 2, y: TALL - 10, "text-anchor": "middle" }, xLabel),
-      s("text", { transform: `translate(14 ${(TOP + TALL - BOTTOM) / 2}) rotate(-90)`, "text-anchor": "middle" }, yLabel),
-      s("path", { class: "axis", d: `M${LEFT} ${TOP}V${TALL - BOTTOM}H${WIDE - RIGHT}` }));
-    this.node = s("svg", { viewBox: `0 0 ${WIDE} ${TALL}`, role: "img", class: "chart", "aria-label": label },
+    axes.append(s("text", { x: small ? wide / 2 : (LEFT + wide - RIGHT) / 2, y: tall - 10, "text-anchor": "middle" }, xLabel),
+      s("text", { transform: `translate(14 ${(TOP + tall - BOTTOM) / 2}) rotate(-90)`, "text-anchor": "middle" }, yLabel),
+      s("path", { class: "axis", d: `M${LEFT} ${TOP}V${tall - BOTTOM}H${wide - RIGHT}` }));
+    this.node = s("svg", { viewBox: `0 0 ${wide} ${tall}`, role: "img", class: "chart", "aria-label": label },
       s("defs", {}, patterns()), this.inside, axes, this.above);
   }
 
@@ -65,7 +67,7 @@ export class Chart {
   // Where this question is: a ring with a cross, and words beside it.
   here(x, y, text) {
     const [at, up] = [this.x(Math.max(this.limits.left, Math.min(this.limits.right, x))), this.y(this.clamp(y))];
-    const end = at > WIDE * 0.7;
+    const end = at > this.wide * (this.wide < 400 ? 0.55 : 0.7);
     this.above.append(s("g", { class: "here" },
       s("circle", { cx: at, cy: up, r: 9 }), s("path", { d: `M${at - 15} ${up}h30M${at} ${up - 15}v30` }),
       s("text", { x: at + (end ? -18 : 18), y: up - 8, "text-anchor": end ? "end" : "start" }, text)));

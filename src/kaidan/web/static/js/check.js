@@ -107,6 +107,7 @@ export function checkView(shell) {
 
   // Draw the open tab of the current answer, once.
   function draw() {
+    if (!TABS.includes(state.tab)) state.tab = TABS[0];
     tabs.forEach((tab, index) => {
       const open = TABS[index] === state.tab;
       tab.setAttribute("aria-selected", String(open));

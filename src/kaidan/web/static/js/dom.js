@@ -31,6 +31,17 @@ export function download(blob, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
+// Put a text on the clipboard; false: the browser does not let a page do it.
+export async function copied(text) {
+  if (navigator.clipboard) return navigator.clipboard.writeText(text).then(() => true, () => false);
+  const field = h("textarea", { readonly: true, class: "visually-hidden" }, text); // over plain HTTP there is no other way
+  document.body.append(field);
+  field.select();
+  const done = document.execCommand("copy");
+  field.remove();
+  return done;
+}
+
 let count = 0;
 export function fresh(prefix) {
   count += 1;

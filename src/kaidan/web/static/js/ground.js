@@ -2,7 +2,7 @@
 
 import { choice, picker, slider } from "./controls.js";
 import { h } from "./dom.js";
-import { t } from "./i18n.js";
+import { t, titled } from "./i18n.js";
 import { catalogue } from "./question.js";
 import { change, state } from "./state.js";
 
@@ -29,7 +29,7 @@ export function groundPanel(current) {
   const surface = picker({
     label: t("ground.surface"), empty: t("ground.none"), get: () => state.surface,
     groups: () => [["", [
-      ...catalogue.surfaces.map((each) => [each.name, each.title]),
+      ...catalogue.surfaces.map((each) => [each.name, titled(each.title)]),
       ["own", t("ground.own")]]]],
     set: (value) => change({ surface: value, numbers: value === "own" ? { mu_low: state.numbers.mu_low ?? 0.6, mu_high: state.numbers.mu_high ?? 0.9 } : { mu_low: null, mu_high: null } }),
   });

@@ -41,6 +41,11 @@ export function japanese(text, table = "sentence") {
   return null;
 }
 
+// A title of the catalogue in the language of the page; names stay as they are.
+export function titled(title) {
+  return (language === "ja" ? japanese(title, "title") : null) ?? title;
+}
+
 // A sentence of an answer in the language of the page, or in English and marked as such.
 export function said(sentence, tag = "span") {
   const text = language === "ja" ? japanese(sentence) : null;

@@ -3,13 +3,13 @@
 import { onReach } from "./api.js";
 import { buildingView } from "./building.js";
 import { checkView } from "./check.js";
-import { h, replace } from "./dom.js";
+import { copied, h, replace } from "./dom.js";
 import { language, loadTexts, setLanguage, t } from "./i18n.js";
 import { symbol } from "./light.js";
 import { loadCatalogue } from "./question.js";
 import { fillSheet } from "./sheet.js";
 import { savedView } from "./saved.js";
-import { change, followAddress, readAddress, state, subscribe } from "./state.js";
+import { change, followAddress, packed, readAddress, state, subscribe } from "./state.js";
 import { prefer, preference } from "./storage.js";
 import { lengths, setLengths } from "./units.js";
 import { workView } from "./work.js";
@@ -30,8 +30,19 @@ const shell = {
 
 function select(label, name, options, value) {
   return h("label", { class: "setting" }, h("span", {}, label),
-    h("select", { onchange: (event) => { prefer(name, event.target.value); apply(); build(); } },
+    h("select", { id: `setting-${name}`, onchange: (event) => {
+      prefer(name, event.target.value);
+      apply();
+      build();
+      document.querySelector(".settings").open = true;
+      document.getElementById(`setting-${name}`).focus();
+    } },
       options.map(([key, text]) => h("option", { value: key, selected: key === value }, text))));
+}
+
+// Escape, or going elsewhere, closes the settings.
+function shutSettings({ type, key, currentTarget: settings, relatedTarget: to }) {
+  if (type === "keydown" ? key === "Escape" : to && !settings.contains(to)) settings.open = false;
 }
 
 function apply() {
@@ -56,8 +67,8 @@ function build() {
     h("a", { class: "skip", href: "#answer", onclick: (event) => { event.preventDefault(); document.getElementById("answer")?.focus(); } }, t("app.skip")),
     h("header", {},
       h("p", { class: "brand" }, h("b", {}, "kaidan"), h("span", { lang: "ja", "aria-hidden": "true" }, " 階段")),
-      h("nav", { "aria-label": "kaidan" }, links, h("a", { href: "live.html", onclick: (event) => { event.currentTarget.href = `live.html?${watched()}`; } }, t("app.live"))), chip,
-      h("details", { class: "settings" }, h("summary", {}, t("app.settings")), h("div", {},
+      h("nav", { "aria-label": "kaidan" }, links, h("a", { href: "live.html", onclick: (event) => { event.currentTarget.href = `live.html${watched()}`; } }, t("app.live"))), chip,
+      h("details", { class: "settings", onkeydown: shutSettings, onfocusout: shutSettings }, h("summary", {}, t("app.settings")), h("div", {},
         select(t("app.language"), "language", [["en", "English"], ["ja", "日本語"]], language),
         select(t("app.units"), "lengths", [["mm", "mm"], ["in", "inch"]], lengths),
         select(t("app.theme"), "theme", ["auto", "light", "dark", "contrast"].map((each) => [each, t(`app.theme_${each}`)]), preference("theme", "auto"))))),
@@ -68,10 +79,13 @@ function build() {
   update();
 }
 
-// What the live page begins with: it takes names of the catalogue and one posture.
+// What the live page begins with, behind the "#": of the question what a monitor takes, in one posture.
 function watched() {
-  const { robot, stairs, direction, facing, flippers } = state;
-  return new URLSearchParams({ robot, stairs, direction, facing, flippers: flippers === "flat" ? flippers : "" });
+  const { body } = views.check.current;
+  sessionStorage.setItem("kaidan.question", location.hash); // where "back" leads
+  if (!body) return "";
+  const { robot, stairs, direction, facing, flippers, payload, override } = body;
+  return `#${packed({ robot, stairs, direction, facing, payload, override, flippers: flippers === "best" ? null : flippers })}`;
 }
 
 function openView(name) {
@@ -91,8 +105,7 @@ function update() {
 }
 
 async function share() {
-  await navigator.clipboard?.writeText(location.href);
-  shell.say(t("app.shared"));
+  shell.say(t(await copied(location.href) ? "app.shared" : "app.not_shared"));
 }
 
 function printed() {

@@ -2,7 +2,7 @@
 
 import { button, fileButton, picker, slider } from "./controls.js";
 import { h, replace, s } from "./dom.js";
-import { t } from "./i18n.js";
+import { t, titled } from "./i18n.js";
 import { guide } from "./measure.js";
 import { catalogue, valueOf, withFigures } from "./question.js";
 import { change, clear, packed, state, unpacked } from "./state.js";
@@ -26,7 +26,7 @@ const FIGURES = [
   ["mass", "mass", "mass", 0.5, 1500],
 ];
 
-const listed = (which) => catalogue.robots.filter(which).map((each) => [each.name, each.title]);
+const listed = (which) => catalogue.robots.filter(which).map((each) => [each.name, titled(each.title)]);
 
 // Robots of the catalogue to be ticked: their names go into the set that is given.
 export function robotBoxes(chosen) {
@@ -34,7 +34,7 @@ export function robotBoxes(chosen) {
     const box = h("input", { type: "checkbox", value: robot.name, onchange: () => (box.checked ? chosen.add(robot.name) : chosen.delete(robot.name)) });
     box.checked = chosen.has(robot.name);
     const mark = robot.unweighed ? h("small", {}, ` ${t("robot.until_weighed")}`) : null;
-    return h("label", { class: "check" }, box, h("span", {}, robot.title, mark));
+    return h("label", { class: "check" }, box, h("span", {}, titled(robot.title), mark));
   })];
 }
 

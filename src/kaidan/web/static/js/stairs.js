@@ -2,13 +2,13 @@
 
 import { button, choice, fileButton, picker, slider } from "./controls.js";
 import { h, replace, s } from "./dom.js";
-import { t } from "./i18n.js";
+import { t, titled } from "./i18n.js";
 import { landingsOf } from "./landings.js";
 import { guide } from "./measure.js";
 import { catalogue, stairsWithFigures, terrainOf, valueOf } from "./question.js";
 import { change, clear, packed, state, unpacked } from "./state.js";
 import { nameOf, save, sheetsOf } from "./storage.js";
-import { shown } from "./units.js";
+import { figure, shown } from "./units.js";
 import { readFile } from "./upload.js";
 
 const OWN = { name: "measured", rise: 0.18, going: 0.28, steps: 12 };
@@ -38,7 +38,7 @@ export function stairsPanel(current) {
         ? [[state.stairs, nameIn(unpacked(state.stairs))]] : [];
       return [
         [t("stairs.given"), given], ["", [[own, t("stairs.own")]]], [t("stairs.saved"), kept],
-        [t("stairs.catalogue"), catalogue.stairs.map((each) => [each.name, each.title])],
+        [t("stairs.catalogue"), catalogue.stairs.map((each) => [each.name, titled(each.title)])],
       ];
     },
     set: (stairs) => { clear("stairsFigures"); change({ stairs }); if (stairs === packed(OWN)) details.open = true; },
@@ -103,13 +103,33 @@ export function stairsPanel(current) {
       slope.textContent = regular ? t("stairs.slope", {
         angle: shown(Math.atan2(rise, going), "angle"), spacing: shown(Math.hypot(rise, going), "length"),
       }) : "";
-      replace(drawing, regular ? stairsDrawing(flight) : "");
+      replace(drawing, regular ? stairsDrawing(flight) : Array.isArray(flight.rises) ? unevenStairs(flight) : "");
     },
   };
 }
 
 function nameIn(sheet) {
   return Array.isArray(sheet) ? sheet.map((each) => each.name ?? "?").join(" + ") : sheet?.title || sheet?.name || "?";
+}
+
+// Steps that differ: each riser and each going, as they were measured.
+function unevenStairs({ rises, goings }) {
+  const sum = (values) => values.reduce((all, each) => all + each, 0);
+  const between = (values) => [Math.min(...values), Math.max(...values)].map((each) => shown(each, "length")).join(" – ");
+  const text = t("stairs.uneven", { steps: rises.length, rises: between(rises), goings: between(goings), angle: shown(Math.atan2(sum(rises.slice(1)), sum(goings)), "angle") });
+  const k = Math.min(280 / sum(goings), 130 / sum(rises));
+  let x = 40, z = 160, path = "M0 160 H40";
+  rises.forEach((rise, step) => {
+    z -= rise * k;
+    path += ` V${z}`;
+    x += (goings[step] ?? 0) * k;
+    path += goings[step] ? ` H${x}` : "";
+  });
+  const rows = rises.map((rise, step) => h("tr", {}, h("th", { scope: "row" }, step + 1), h("td", {}, figure(rise, "length")), h("td", {}, figure(goings[step] ?? null, "length"))));
+  return [s("svg", { viewBox: "0 0 360 180", role: "img", "aria-label": text, class: "sketch" }, s("path", { class: "ground", d: `${path} H360 V180 H0 Z` })),
+    h("p", {}, text),
+    h("details", {}, h("summary", {}, t("stairs.each")), h("table", {},
+      h("thead", {}, h("tr", {}, [t("stairs.step"), t("figure.rise"), t("figure.going")].map((each) => h("th", { scope: "col" }, each)))), h("tbody", {}, rows)))];
 }
 
 // Three steps with rise, going and slope.

@@ -10,7 +10,7 @@ const NUMBERS = [
   "u.com_from_front", "u.com_height", "u.angle",
 ];
 const TURN = /^s\.(lower|upper)_turn$/;
-const TURNS = ["none", "quarter", "half"];
+const TURNS = ["none", "quarter", "half", "unknown"];
 
 function empty() {
   return { ...TEXTS, numbers: {}, robotFigures: {}, stairsFigures: {} };

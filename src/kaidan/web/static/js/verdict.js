@@ -2,7 +2,7 @@
 
 import { button } from "./controls.js";
 import { h, replace } from "./dom.js";
-import { japanese, language, said, t } from "./i18n.js";
+import { japanese, language, said, t, titled } from "./i18n.js";
 import { symbol } from "./light.js";
 import { modeName, placeName, reason, stated } from "./sentences.js";
 import { KIND_OF_UNIT, figure, shown } from "./units.js";
@@ -60,7 +60,7 @@ export function verdictPanel(current) {
       const { robot, terrain } = answer.question;
       const on = Array.isArray(terrain) ? terrain.map((each) => each.name).join(" + ") : terrain.name;
       lit(answer.verdict, t(`verdict.${answer.verdict}`),
-        h("p", { class: "subject" }, `${robot.title || robot.name} · ${on} · ${t(`stairs.${answer.question.direction}`)}, ${t(`answer.${answer.question.facing}`)}`),
+        h("p", { class: "subject" }, `${titled(robot.title) || robot.name} · ${on} · ${t(`stairs.${answer.question.direction}`)}, ${t(`answer.${answer.question.facing}`)}`),
         h("p", { class: "quiet" }, t("state.final")));
       replace(body, reason(answer), turnsOf(answer), toDo(answer), numbers(answer), first(answer), notes(answer),
         h("div", { class: "buttons" }, button(t("app.print"), current.print, { class: "main" }), button(t("app.report_pdf"), () => current.report("pdf")),

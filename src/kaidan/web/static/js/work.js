@@ -20,7 +20,7 @@ const VARIED = {
 const OWN = ["com_height", "com_from_front"]; // figures that a sheet's override would hide
 
 export function workView(shell) {
-  let kind = "compare", varied = "com_height", format = "pdf", timer = 0, file = null;
+  let kind = "compare", varied = "com_height", format = "pdf", timer = 0, file = null, listed = "";
   const chosen = new Set(), range = { low: 0.1, high: 0.3, count: 21, trials: 5 };
   const form = h("div", {}), word = h("p", { role: "alert" }), list = h("ul", { class: "jobs" }), outcome = h("div", { "aria-live": "polite" });
   const kinds = picker({ label: t("work.kind"), empty: null, groups: () => [["", KINDS.map((each) => [each, t(`work.${each}`)])]], get: () => kind, set: (value) => { kind = value; fill(); } });
@@ -110,11 +110,24 @@ export function workView(shell) {
     try {
       const { jobs } = await get("jobs");
       running = jobs.some((job) => job.state === "queued" || job.state === "running");
-      replace(list, jobs.length === 0 ? h("li", {}, t("work.none")) : [...jobs].reverse().map(entry));
+      if (JSON.stringify(jobs) !== listed) {
+        listed = JSON.stringify(jobs);
+        keepingFocus(() => replace(list, jobs.length === 0 ? h("li", {}, t("work.none")) : [...jobs].reverse().map(entry)));
+      }
     } catch {
       shell.say(t("state.offline"));
     }
     if (running && !node.hidden) timer = setTimeout(look, EVERY);
+  }
+
+  // Draw the list anew without taking the keyboard away from the job it is at.
+  function keepingFocus(redraw) {
+    const job = list.contains(document.activeElement) ? document.activeElement.closest("[data-job]") : null;
+    const place = job ? [...job.querySelectorAll("button")].reverse().indexOf(document.activeElement) : 0;
+    redraw();
+    if (!job) return;
+    const buttons = [...list.querySelectorAll(`[data-job="${job.dataset.job}"] button`)].reverse();
+    (buttons[place] ?? list.querySelector("button"))?.focus();
   }
 
   function entry(job) {
