@@ -70,6 +70,12 @@ def test_an_address_with_a_tab_that_is_none_shows_the_traverse(desk):
     desk.wait_for_selector("#tab-side svg.traverse")
 
 
+def test_an_address_changes_no_object_but_the_sheet(desk):
+    desk.goto(f"#/check?{QUESTION}&r.__proto__.width=5&s.constructor=3")
+    desk.wait_for_selector(ANSWERED)
+    assert desk.evaluate("({}).width") is None
+
+
 @pytest.mark.slow
 def test_the_keyboard_stays_at_a_job_and_at_a_setting(desk):
     desk.goto(f"#/work?{QUESTION}")

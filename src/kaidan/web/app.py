@@ -23,7 +23,7 @@ from kaidan.text.japanese import patterns
 from kaidan.text.page import page_texts
 from kaidan.web import file_routes, job_routes, live_routes, openapi, report_routes
 from kaidan.web.asking import VERBS
-from kaidan.web.bodies import GONE, LARGEST_BODY, LARGEST_UPLOAD, json_of, while_there
+from kaidan.web.bodies import GONE, LARGEST_UPLOAD, json_of, while_there
 from kaidan.web.job_table import JobTable
 from kaidan.web.jobs import Jobs
 from kaidan.web.remembered import Remembered
@@ -151,7 +151,7 @@ def _add_verbs(app: FastAPI, hands: Remembered) -> None:
 
         app.add_api_route(
             path, answer, methods=["POST"], name=path.removeprefix("/api/").replace("/", "_"),
-            summary=summary, openapi_extra=openapi.asked(verb, schema), max_body_size=LARGEST_BODY,
+            summary=summary, openapi_extra=openapi.asked(verb, schema),
         )  # fmt: skip
 
     for verb, each in VERBS.items():

@@ -34,13 +34,18 @@ async def json_of(request: Request) -> dict[str, Any]:
     Raises
     ------
     HTTPException
-        Another type of content.
+        Another type of content, or more than `LARGEST_BODY`.
     InputError
         No JSON object.
     """
     if type_of(request) != "application/json":  # a form of elsewhere could not be told apart
         raise HTTPException(415, "send application/json")
-    return object_of(await request.body())
+    body = bytearray()
+    async for piece in request.stream():
+        body += piece
+        if len(body) > LARGEST_BODY:
+            raise HTTPException(413, "too large")
+    return object_of(bytes(body))
 
 
 def object_of(text: str | bytes) -> dict[str, Any]:
@@ -53,6 +58,7 @@ def object_of(text: str | bytes) -> dict[str, Any]:
     """
     try:
         found = json.loads(text, parse_constant=_refuse_constant)
+        json.dumps(found, ensure_ascii=False).encode()  # half a surrogate pair is no text
     except (ValueError, RecursionError) as error:
         raise InputError(f"the body is no JSON: {error}") from None
     if not isinstance(found, dict):

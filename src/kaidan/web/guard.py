@@ -3,10 +3,10 @@
 import hmac
 import ipaddress
 from collections.abc import Collection
-from http.cookies import SimpleCookie
 from urllib.parse import parse_qs, urlsplit
 
 from starlette.datastructures import Headers, MutableHeaders
+from starlette.requests import cookie_parser
 from starlette.responses import JSONResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -109,13 +109,14 @@ class Guard:
     def _without_token(self, scope: Scope, headers: Headers) -> Response | None:
         """Refusal of who does not know the token; who brings it in the address gets a cookie."""
         scheme, _, bearer = headers.get("authorization", "").partition(" ")
-        cookies = SimpleCookie(headers.get("cookie", ""))
-        cookie = cookies[TOKEN_COOKIE].value if TOKEN_COOKIE in cookies else ""
+        # another server of this name may have set cookies of any form
+        cookie = cookie_parser(headers.get("cookie", "")).get(TOKEN_COOKIE, "")
         if self._known(bearer if scheme.lower() == "bearer" else "") or self._known(cookie):
             return None
         asked = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])[0]
         if self._known(asked) and scope["type"] == "http" and scope["method"] == "GET":
-            answer = RedirectResponse(scope["path"], status_code=303)
+            # two slashes would lead to another server
+            answer = RedirectResponse("/" + scope["path"].lstrip("/\\"), status_code=303)
             answer.set_cookie(TOKEN_COOKIE, self.token, httponly=True, samesite="strict")
             return answer
         refusal = _refused(401, "token", "this server asks for its token")

@@ -16,6 +16,8 @@ from kaidan.errors import InputError
 JobState = Literal["queued", "running", "done", "failed", "cancelled"]
 MOST_WAITING = 8
 """Jobs of one session that may wait or run."""
+MOST_OF_ALL = 100
+"""Jobs of all sessions that may wait or run."""
 MOST_KEPT = 50
 """Jobs of one session that are kept; the oldest that ended goes."""
 _ENDED = ("done", "failed", "cancelled")
@@ -125,6 +127,8 @@ class JobTable:
         mine = self.of_owner(owner)
         if sum(not each.over for each in mine) >= MOST_WAITING:
             raise InputError(f"{MOST_WAITING} jobs wait or run already: cancel one, or wait")
+        if self._count("state IN ('queued', 'running')") >= MOST_OF_ALL:
+            raise InputError(f"{MOST_OF_ALL} jobs of all sessions wait or run already: try later")
         ended = [each for each in mine if each.over]
         for each in ended[: max(0, len(mine) + 1 - MOST_KEPT)]:
             self.remove(each)
@@ -162,6 +166,10 @@ class JobTable:
     def queued(self) -> list[Job]:
         """Jobs that wait, the oldest first."""
         return self._found("state = ?", "queued")
+
+    def _count(self, where: str) -> int:
+        with closing(self._base.execute(f"SELECT count(*) FROM jobs WHERE {where}")) as rows:
+            return int(rows.fetchone()[0])
 
     def _found(self, where: str, value: str) -> list[Job]:
         query = f"SELECT * FROM jobs WHERE {where} ORDER BY created"

@@ -4,7 +4,7 @@ from fastapi import FastAPI, Request
 from fastapi.responses import Response
 
 from kaidan.web import openapi
-from kaidan.web.bodies import LARGEST_BODY, json_of, sent
+from kaidan.web.bodies import json_of, sent
 from kaidan.web.long_work import DOCUMENTS, document_format
 from kaidan.web.workers import Workers
 
@@ -15,9 +15,7 @@ _OF_A_DOCUMENT = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; 
 def add(app: FastAPI, hands: Workers) -> None:
     """Add the route of reports."""
 
-    @app.post(
-        "/api/report", openapi_extra=openapi.written(tuple(DOCUMENTS)), max_body_size=LARGEST_BODY
-    )
+    @app.post("/api/report", openapi_extra=openapi.written(tuple(DOCUMENTS)))
     async def report(request: Request) -> Response:
         """As kaidan report -o FILE."""
         body = await json_of(request)

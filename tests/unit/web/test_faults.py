@@ -117,13 +117,15 @@ def test_too_many_at_once_are_sent_away_and_nothing_is_left_behind(tmp_path, wor
         (b"[" * 100_000, "input"),
         (b'{"robot": "\xff"}', "input"),
         (b'{"robot": "kenaf", "stairs": "ibc", "friction": 1' + b"0" * 5000 + b"}", "input"),
+        (b'{"verb": "assess", "body": {"robot": "\\ud800", "stairs": "ibc"}}', "input"),
         (b" " * (3 << 20), "too-large"),
     ],
-    ids=["empty", "list", "NaN", "deep", "no UTF-8", "digits", "large"],
+    ids=["empty", "list", "NaN", "deep", "no UTF-8", "digits", "surrogate", "large"],
 )
-def test_a_body_that_is_none_is_refused(client, content, kind):
+@pytest.mark.parametrize("verb", ["assess", "jobs", "live", "report"])
+def test_a_body_that_is_none_is_refused(client, verb, content, kind):
     header = {"content-type": "application/json"}
-    answer = client.post("/api/assess", content=content, headers=header)
+    answer = client.post(f"/api/{verb}", content=content, headers=header)
     assert 400 <= answer.status_code < 500
     assert answer.json()["kind"] == kind
 

@@ -67,6 +67,13 @@ def test_a_token_is_demanded_everywhere_and_kept_by_a_browser():
         assert "httponly" in cookie
         assert "samesite=strict" in cookie
         assert client.get("/").status_code == 200
+        address = str(client.base_url).rstrip("/")
+        elsewhere = httpx.get(f"{address}//evil.example/?token=secret-word")
+        assert elsewhere.headers["location"] == "/evil.example/"
+        for odd in ("a{b}=1", "a b=1", "=;=", "expires=1"):  # of another server of this name
+            kept = {"cookie": f"{odd}; kaidan_token=secret-word"}
+            assert httpx.get(address, headers=kept).status_code == 200
+            assert httpx.get(address, headers={"cookie": odd}).status_code == 401
         with httpx.Client(base_url=client.base_url) as other:
             odd = {"authorization": "Bearer ü".encode()}
             assert other.get("/", headers=odd).status_code == 401

@@ -7,6 +7,7 @@ import httpx
 import pytest
 
 import kaidan
+from kaidan.web import job_table
 from serving import served
 
 SWEEP = {"robot": "absolem", "stairs": "ibc", "flippers": "flat", "friction": [0.8, 1.0, 1.2]}
@@ -81,6 +82,13 @@ def test_nobody_sees_the_job_of_another(client):
         forged = {"X-Kaidan-Session": "somebody.0123"}
         assert stranger.get(f"/api/jobs/{job['id']}", headers=forged).status_code == 404
     assert client.get(f"/api/jobs/{job['id']}").status_code == 200
+
+
+def test_jobs_of_many_sessions_are_not_more_than_the_server_holds(client, monkeypatch):
+    monkeypatch.setattr(job_table, "MOST_OF_ALL", 0)
+    answer = client.post("/api/jobs", json={"verb": "assess", "body": {}})
+    assert answer.status_code == 422
+    assert "0 jobs of all sessions wait or run already: try later" in answer.json()["error"]
 
 
 @pytest.mark.parametrize(

@@ -18,6 +18,11 @@ export async function sheetOf(kind, name) {
   return sheets[kind].get(name);
 }
 
+// What a sheet itself has under a name; an address may name what every object has.
+function own(place, name) {
+  return place && Object.hasOwn(place, name) ? place[name] : null;
+}
+
 // Sheet with changed figures, by dotted names, in their places.
 export function withFigures(sheet, figures) {
   if (!sheet) return null;
@@ -26,14 +31,14 @@ export function withFigures(sheet, figures) {
     const path = name.split(".");
     const last = path.pop();
     let place = made;
-    for (const part of path) place = place?.[part];
-    if (place) place[last] = value;
+    for (const part of path) place = own(place, part);
+    if (place && typeof place === "object" && !(last in {})) place[last] = value;
   }
   return made;
 }
 
 export function valueOf(sheet, name) {
-  return name.split(".").reduce((place, part) => place?.[part], sheet) ?? null;
+  return name.split(".").reduce(own, sheet) ?? null;
 }
 
 // Sheet of stairs with changed figures. Where the way goes straight on there is no passage; a passage
