@@ -11,6 +11,7 @@ import pytest
 
 from amounts import few_of
 from contact_cases import random_robot, steps
+from contact_geometry import room
 from kaidan.contact import body_table, ground_table
 from kaidan.contact import columns as at
 from kaidan.contact.kernel.first_closing import first_closing
@@ -18,44 +19,6 @@ from kaidan.contact.kernel.first_closing import first_closing
 OPEN = -1e-9  # m: gaps are closed to 1e-12, coordinates of some metres are rounded
 TRIED = 300  # poses tried on each terrain
 LOOKS = np.array([0.01, 0.1, 0.25, 0.4, 0.55, 0.7, 0.8, 0.9, 0.96, 0.99, 0.999])
-
-
-def outline_distance(part, p):
-    """Distance of points from the hull of two discs, negative within."""
-    a, b = complex(part[0], part[1]), complex(part[3], part[4])
-    along = (b - a) / abs(b - a)
-    q = (p - a) * along.conjugate()
-    u, v = q.real, abs(q.imag)
-    sine = (part[2] - part[5]) / abs(b - a)
-    cosine = math.sqrt(1.0 - sine * sine)
-    w = u * cosine - v * sine
-    flat = np.where(
-        w < abs(b - a) * cosine,
-        u * sine + v * cosine,
-        np.hypot(u - abs(b - a), v) + part[2] - part[5],
-    )
-    return np.where(w > 0.0, flat, np.hypot(u, v)) - part[2]
-
-
-def room(ground, parts, c, phi):
-    """Least distance between parts and ground at each pose; `parts` with ends apart."""
-    turn = np.exp(-1j * phi)[:, None]
-    points = ground[:, 0] + 1j * ground[:, 1]
-    starts, u, length = points[:-1], ground[:-1, 2] + 1j * ground[:-1, 3], ground[:-1, 4]
-    least = np.full(len(c), np.inf)
-    for part in parts:
-        least = np.minimum(least, outline_distance(part, (points - c[:, None]) * turn).min(1))
-        for x, z, r in (part[:3], part[3:]):
-            centre = c + complex(x, z) / turn[:, 0]
-            off = (centre[:, None] - starts) * u.conj()
-            away = np.abs(off - np.clip(off.real, 0.0, length)).min(1)
-            least = np.minimum(least, away - r)
-        # no part runs through the ground, between two of its points
-        a, b = (c + complex(*part[i : i + 2]) / turn[:, 0] for i in (0, 3))
-        axis = a + (b - a) * np.linspace(0.0, 1.0, 30)[:, None]
-        above = axis.imag - np.interp(axis.real, points.real, points.imag)
-        least = np.minimum(least, above.min(0))
-    return least
 
 
 def stands(rng, ground, parts):
