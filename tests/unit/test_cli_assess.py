@@ -227,13 +227,13 @@ def test_the_answer_fits_on_a_screen_with_the_verdict_first():
         "margin": "+14.9 deg (tip_downhill) in the worst case, +16.5 deg in the best, on 40.0 deg, "
         "150 mm from nosing to nosing",
         "friction": "0.84 required, 2.00 stated",
-        "not known": "the drive's traction: measure them",
+        "not known": "the drive's traction: measure it",
     }
     code, text = run(*KENAF_40, *GRIP, "--direction", "down", "--flippers", "stowed")
     assert code == 1
     assert text.startswith("NO-GO  kenaf on 40 deg at 150 mm, down nose first\n")
     assert rows(text)["do"] == "Go down tail first: GO (+17.6 deg)"
-    assert rows(text)["not known"] == "the drive's traction: measure them"
+    assert rows(text)["not known"] == "the drive's traction: measure it"
 
 
 def test_the_answer_in_one_line():

@@ -83,7 +83,7 @@ def unknown_line(answer: "Assessment") -> str:
     drive = answer.findings.get("drive")
     if drive is not None and drive.holds is None:
         names.append("the drive's traction")
-    each = [f"{', '.join(names)}: measure them"] if names else []
+    each = [f"{', '.join(names)}: measure {'it' if len(names) == 1 else 'them'}"] if names else []
     flights = answer.question.flights
     if flights and not flights[-1].head_seen:
         each.append("whether more steps follow the last one: no landing was seen")
