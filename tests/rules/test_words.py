@@ -81,3 +81,25 @@ def said_in_retired_words(path: Path) -> list[str]:
 def test_no_retired_word(files):
     assert len(files()) >= 80
     assert {str(path): said for path in files() if (said := said_in_retired_words(path))} == {}
+
+
+def helps(path: Path) -> list[str]:
+    """What a module of the command line says of its options and commands."""
+    return [
+        ast.literal_eval(node.value)
+        for node in ast.walk(ast.parse((ROOT / path).read_text(encoding="utf-8")))
+        if isinstance(node, ast.keyword)
+        and node.arg == "help"
+        and isinstance(node.value, ast.Constant)
+    ]
+
+
+def test_the_help_of_an_option_names_what_it_is():
+    """Not "Of the draws.": a line of help is read without the name of its option."""
+    modules = [path for path in code() if "cli" in path.parts]
+    said = {
+        str(path): [text for text in helps(path) if re.match(r"(?:Of|On) ", text)]
+        for path in modules
+    }
+    assert sum(len(helps(path)) for path in modules) > 100
+    assert {path: texts for path, texts in said.items() if texts} == {}

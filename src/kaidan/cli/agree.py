@@ -16,7 +16,7 @@ Begin = Annotated[
     typer.Option(help="Where the trial on the stairs begins: flight, or landing."),
 ]
 Resolution = Annotated[
-    str, typer.Option(help="Of what trials find by bisection, for example 0.1deg.")
+    str, typer.Option(help="Resolution of the bisection by trials, for example 0.1deg.")
 ]
 
 

@@ -14,13 +14,13 @@ Trials = Annotated[
     int | None,
     typer.Option(
         min=1,
-        help="Of --model physics: so many, each with inputs drawn of their uncertainty [1].",
+        help="Number of trials of --model physics, inputs drawn from their uncertainty [1].",
     ),
 ]
 Track = Annotated[
     str | None,
     typer.Option(
-        help="Of --model physics: smooth-belt, yielding-belt or driven-grousers [the sheet's]."
+        help="Track of --model physics: smooth-belt, yielding-belt, driven-grousers [the sheet's]."
     ),
 ]
 Details = Annotated[bool, typer.Option("--details", help="Print everything that was found.")]

@@ -13,10 +13,12 @@ RobotNames = Annotated[
 ]
 FlippersThere = Annotated[
     str,
-    typer.Option(help="On the flights, as in assess; flat lays them in line where there are some."),
+    typer.Option(
+        help="Posture on the flights, as in assess; robots without flippers pass over it."
+    ),
 ]
 WayDirection = Annotated[
-    str, typer.Option("--direction", help="Of the table of flights: up or down.")
+    str, typer.Option("--direction", help="Direction in the table of flights: up or down.")
 ]
 StartStorey = Annotated[
     str | None,

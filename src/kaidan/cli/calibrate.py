@@ -29,19 +29,27 @@ RobotName = Annotated[
 StoreFolder = Annotated[
     Path | None,
     typer.Option(
-        "--store", metavar="DIR", help="Keep the trials here; what it has is not done again."
+        "--store",
+        metavar="DIR",
+        help="Folder that keeps the trials; those it has are not repeated.",
     ),
 ]
 Workers = Annotated[
     int | None, typer.Option(min=1, max=1024, help="Processes on this machine [one a processor].")
 ]
-Trials = Annotated[int, typer.Option(min=2, max=1000, help="A condition; the paper made 5.")]
-Seed = Annotated[int, typer.Option(min=0, help="Of all start offsets and grousers' phases.")]
+Trials = Annotated[
+    int, typer.Option(min=2, max=1000, help="Trials for each condition; the paper made 5.")
+]
+Seed = Annotated[
+    int, typer.Option(min=0, help="Seed of the start offsets and the grousers' phases.")
+]
 Judged = Annotated[
     int, typer.Option(min=0, max=50, help="Fits that predict blind, the likeliest first.")
 ]
 Step = Annotated[str, typer.Option(help="Between the slopes at which margins are looked for.")]
-Friction = Annotated[float, typer.Option(min=0.0, max=5.0, help="Of grousers on the nosings.")]
+Friction = Annotated[
+    float, typer.Option(min=0.0, max=5.0, help="Friction of the grousers on the nosings.")
+]
 
 
 def register(app: typer.Typer) -> None:
@@ -54,13 +62,17 @@ def register(app: typer.Typer) -> None:
 def compliance(
     robot: RobotName = "kenaf",
     stiffness: Annotated[
-        str, typer.Option(help="Of a nosing: the grid, for example 16kN/m,32kN/m.")
+        str, typer.Option(help="Nosing stiffness values to try, for example 16kN/m,32kN/m.")
     ] = "8,11,16,22,32,45,64,90,128kN/m",
     end_radius: Annotated[
-        str, typer.Option(help="Of the track's ends: a nuisance, profiled out.")
+        str,
+        typer.Option(help="Radii of the track's ends to try; the best one counts."),
     ] = "5,10,20,30,45,65mm",
     ground: Annotated[
-        str, typer.Option(help="Steps with treads or a rig of nosings: a nuisance.")
+        str,
+        typer.Option(
+            help="Ground to try: steps with treads, noses (a rig of nosings); the best counts."
+        ),
     ] = "steps,noses",
     trials: Trials = 5,
     seed: Seed = 0,
@@ -96,9 +108,9 @@ def compliance(
 def yielding(
     robot: RobotName = "kenaf",
     points: Annotated[
-        int, typer.Option(min=60, max=100_000, help="Of the design, half of them with treads.")
+        int, typer.Option(min=60, max=100_000, help="Runs of the design, half of them with treads.")
     ] = 256,
-    trials: Annotated[int, typer.Option(min=2, max=1000, help="A condition.")] = 2,
+    trials: Annotated[int, typer.Option(min=2, max=1000, help="Trials for each condition.")] = 2,
     seed: Seed = 0,
     store: StoreFolder = None,
     workers: Workers = None,
@@ -131,10 +143,10 @@ def yielding(
 def grousers(
     robot: RobotName = "kenaf",
     height: Annotated[
-        str, typer.Option(help="Of a grouser: the grid.")
+        str, typer.Option(help="Grouser heights to try.")
     ] = "5,10,12.5,15,17.5,20,22.5mm",
     stiffness: Annotated[
-        str, typer.Option(help="Of a grouser, radially: the grid.")
+        str, typer.Option(help="Radial stiffness values of a grouser to try.")
     ] = "20,60,200,600kN/m",
     friction: Friction = 0.8,
     trials: Trials = 5,
@@ -167,10 +179,10 @@ def grousers(
 @group.command("effects")
 def effects(
     robot: RobotName = "kenaf",
-    height: Annotated[str, typer.Option(help="Of a grouser: values tried.")] = "5,10,15,20mm",
-    spacing: Annotated[str, typer.Option(help="Of grousers: values tried.")] = "20,33,50,100mm",
+    height: Annotated[str, typer.Option(help="Grouser heights to try.")] = "5,10,15,20mm",
+    spacing: Annotated[str, typer.Option(help="Grouser spacings to try.")] = "20,33,50,100mm",
     stiffness: Annotated[
-        str, typer.Option(help="Of a grouser, radially: values tried.")
+        str, typer.Option(help="Radial stiffness values of a grouser to try.")
     ] = "20,50,200,1000kN/m",
     about: Annotated[
         str, typer.Option(help="Height, spacing and stiffness while another is varied.")

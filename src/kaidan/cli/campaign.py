@@ -10,7 +10,7 @@ from kaidan.cli.experiment import Scheduler, Workers
 from kaidan.cli.tables import echo
 
 group = typer.Typer(
-    name="campaign", help="Stores of trials: state, going on, export.", no_args_is_help=True
+    name="campaign", help="Show, resume or export a store of trials.", no_args_is_help=True
 )
 
 Folder = Annotated[Path, typer.Argument(metavar="STORE", help="Folder of a store.")]

@@ -12,14 +12,13 @@ RobotNames = Annotated[
 ]
 StairsNames = Annotated[
     list[str] | None,
-    typer.Option("--stairs", metavar="NAME", help="May be given again [all stairs]."),
+    typer.Option(
+        "--stairs", metavar="NAME", help="Stairs to compare; may be given again [all stairs]."
+    ),
 ]
 FlippersWhere = Annotated[
     str | None,
-    typer.Option(
-        help="As in assess; flat lays them in line with the track where there are some [best, for "
-        "each pair]."
-    ),
+    typer.Option(help="As in assess; robots without flippers pass over it [best, for each pair]."),
 ]
 Workers = Annotated[
     int | None,
@@ -50,7 +49,7 @@ def compare(
     csv: output.CsvFile = None,
     as_json: options.AsJson = False,
 ) -> None:
-    """Set many robots against many stairs: a verdict and a margin for each pair."""
+    """Compare many robots on many stairs: a verdict and a margin for each pair."""
     from kaidan import files
     from kaidan.verbs.comparison import compare as find
 

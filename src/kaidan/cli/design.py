@@ -39,7 +39,7 @@ Front = Annotated[
     int, typer.Option(min=0, max=100, help="Budgets for which the best design is sought.")
 ]
 Tries = Annotated[int, typer.Option(min=10, max=1_000_000, help="Designs a search judges at most.")]
-Seed = Annotated[int, typer.Option(min=0, help="Of the search.")]
+Seed = Annotated[int, typer.Option(min=0, help="Seed of the search.")]
 
 
 def register(app: typer.Typer) -> None:

@@ -21,7 +21,7 @@ Angles = Annotated[
         "margin of each spacing without."
     ),
 ]
-Trials = Annotated[int, typer.Option(min=1, max=1_000_000, help="A condition.")]
+Trials = Annotated[int, typer.Option(min=1, max=1_000_000, help="Trials for each condition.")]
 ProtocolFile = Annotated[
     Path | None,
     typer.Option(
@@ -34,11 +34,15 @@ ProtocolFile = Annotated[
 Descent = Annotated[
     bool, typer.Option("--descent", help="Come down too, tail first: theta_M and Eq. (24).")
 ]
-Seed = Annotated[int, typer.Option(min=0, help="Of all start offsets and grousers' phases.")]
+Seed = Annotated[
+    int, typer.Option(min=0, help="Seed of the start offsets and the grousers' phases.")
+]
 StoreFolder = Annotated[
     Path | None,
     typer.Option(
-        "--store", metavar="DIR", help="Keep the trials here; what it has is not done again."
+        "--store",
+        metavar="DIR",
+        help="Folder that keeps the trials; those it has are not repeated.",
     ),
 ]
 Workers = Annotated[
@@ -53,7 +57,9 @@ Track = Annotated[
 ]
 Friction = Annotated[
     str | None,
-    typer.Option(help="Of the track on the nosings [3, which isolates tipping; grousers 0.8]."),
+    typer.Option(
+        help="Friction of the track on the nosings [3, which isolates tipping; grousers 0.8]."
+    ),
 ]
 Scheduler = Annotated[
     str | None,

@@ -19,7 +19,7 @@ Places = Annotated[
         metavar="[STAIRS] SAMPLES",
         help="Stairs (catalogue name or TOML file) unless options give their shape; then a CSV "
         "file, or - for standard input, with columns t, inclination, inclination_rate, "
-        "acceleration and perhaps position: s, rad, rad/s, m/s^2, m; serial:DEVICE with such "
+        "acceleration and, if known, position: s, rad, rad/s, m/s^2, m; serial:DEVICE with such "
         "lines; or a recording of ROS with an Imu topic: .bag, .mcap, .db3.",
     ),
 ]
@@ -41,7 +41,7 @@ Unjudged = Annotated[
         min=1, help="Samples in a row that cannot be judged at which the alarm is raised [10]."
     ),
 ]
-Horizon = Annotated[str | None, typer.Option(help="How far ahead is predicted [2s].")]
+Horizon = Annotated[str | None, typer.Option(help="How far ahead it predicts [2s].")]
 Strict = Annotated[
     bool, typer.Option("--strict", help="End at the first sample that is not in order.")
 ]
@@ -92,7 +92,7 @@ def monitor(
 
     Inclination and its rate count nose up, acceleration (without gravity) and position up the
     stairs; position is 0 where a nosing meets the uphill tip of the flat. What is not known counts
-    as the worst case. A row that cannot be read is counted, and the next one is taken.
+    as the worst case. Rows that cannot be read are counted and left out.
 
     Exit code: 0 no alarm, 1 the alarm was raised, 2 bad input or more than half of the samples not
     judged, 3 outside the model.

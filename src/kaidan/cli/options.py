@@ -87,8 +87,8 @@ Flippers = Annotated[
     str | None,
     typer.Option(
         help="stowed, flat (in line with the track), the angles of front and rear: 20deg,-5deg, "
-        "a plan by phase: flat/land:-60deg,-20deg, or best, which finds one, also without this "
-        "option where the command judges plans."
+        "a plan by phase: flat/land:-60deg,-20deg, or best: kaidan finds the plan (commands that "
+        "judge plans do so without this option)."
     ),
 ]
 PayloadText = Annotated[

@@ -11,7 +11,7 @@ def register(app: typer.Typer) -> None:
 
 
 def outcomes(as_json: options.AsJson = False) -> None:
-    """Set what kaidan answers beside public outcomes of robots on stairs, and count the errors.
+    """Compare answers with public outcomes of robots on stairs, and count the errors.
 
     The sources and what they leave open are on the page Known outcomes of the documentation, and
     in the JSON.

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from kaidan.physics import TrackModel, TrialSpec
 
 group = typer.Typer(
-    name="physics", help="A trial in MuJoCo, and its model.", no_args_is_help=True
+    name="physics", help="Run one trial in MuJoCo, or write its model.", no_args_is_help=True
 )  # fmt: skip
 
 Track = Annotated[
@@ -25,16 +25,20 @@ Track = Annotated[
 Stiffness = Annotated[
     str | None,
     typer.Option(
-        help="Of the track at a nosing (yielding-belt), of a step (sprung-noses) or of a grouser "
-        "(driven-grousers): 30kN/m."
+        help="Stiffness of the track at a nosing (yielding-belt), of a step (sprung-noses) or of a "
+        "grouser (driven-grousers): 30kN/m."
     ),
 ]
 ShearRatio = Annotated[
     float | None,
     typer.Option(help="Stiffness along the track to that across it (yielding-belt) [1]."),
 ]
-GrouserHeight = Annotated[str | None, typer.Option(help="Above the belt, for example 10mm.")]
-GrouserSpacing = Annotated[str | None, typer.Option(help="Along the belt, for example 33mm.")]
+GrouserHeight = Annotated[
+    str | None, typer.Option(help="Height of the grousers above the belt, for example 10mm.")
+]
+GrouserSpacing = Annotated[
+    str | None, typer.Option(help="Spacing of the grousers along the belt, for example 33mm.")
+]
 Shoes = Annotated[int | None, typer.Option(help="Number of shoes of the chain [40].")]
 Begin = Annotated[
     str,
@@ -53,9 +57,11 @@ LateralOffset = Annotated[
 StartOffset = Annotated[
     float | None, typer.Option(help="Share of a spacing by which it overhangs at the start.")
 ]
-Seed = Annotated[int, typer.Option(min=0, help="Of the start offset and the grousers' phase.")]
-Timestep = Annotated[str | None, typer.Option(help="Of the simulation, for example 0.5ms.")]
-Speed = Annotated[str, typer.Option(help="Of the belt, for example 0.1m/s.")]
+Seed = Annotated[int, typer.Option(min=0, help="Seed of the start offset and the grousers' phase.")]
+Timestep = Annotated[
+    str | None, typer.Option(help="Time step of the simulation, for example 0.5ms.")
+]
+Speed = Annotated[str, typer.Option(help="Speed of the belt, for example 0.1m/s.")]
 ModelFile = Annotated[
     Path, typer.Option("--file", metavar="FILE.xml", help="File to write.", show_default=False)
 ]

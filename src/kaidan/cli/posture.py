@@ -27,7 +27,7 @@ def posture(
     facing: options.Facing = None,
     as_json: options.AsJson = False,
 ) -> None:
-    """Find with which end first, and in which posture by phase, ROBOT takes STAIRS best.
+    """Find the leading end and the posture in each phase with which ROBOT takes STAIRS best.
 
     Exit code, by the best plan: 0 go or caution, 1 no-go, 2 bad input, 3 outside the model.
     """

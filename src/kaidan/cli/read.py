@@ -28,7 +28,7 @@ Up = Annotated[str | None, typer.Option(help="Axis that points up: +z, -y, ...")
 Forward = Annotated[str | None, typer.Option(help="Axis that points to a robot's front [+x].")]
 Crop = Annotated[
     str | None,
-    typer.Option(help="Only what is within: smallest x,y,z, then largest: 0,-1,0,3,1,2."),
+    typer.Option(help="Box to read: smallest x,y,z, then largest: 0,-1,0,3,1,2."),
 ]
 RangeError = Annotated[
     str | None, typer.Option(help="Standard error of distances, as a share: 0.005.")

@@ -22,7 +22,7 @@ Names = Annotated[
 ]
 MoreRobots = Annotated[
     list[str] | None,
-    typer.Option("--robot", metavar="ROBOT", help="One robot more; may be given again."),
+    typer.Option("--robot", metavar="ROBOT", help="Another robot; may be given again."),
 ]
 OutFiles = Annotated[
     list[Path] | None,
@@ -33,7 +33,9 @@ OutFiles = Annotated[
 Codes = Annotated[
     list[str] | None,
     typer.Option(
-        "--again", metavar="CODE", help="Question of an earlier report's code. May be given again."
+        "--again",
+        metavar="CODE",
+        help="Code of an earlier report, which is answered again; may be given again.",
     ),
 ]
 Language = Annotated[Literal["en", "ja"], typer.Option(help="Language of the text.")]

@@ -12,9 +12,10 @@ if TYPE_CHECKING:
     from kaidan.question import Question
 
 Samples = Annotated[
-    int, typer.Option(help="Draws of each column, a power of two; each input takes as many again.")
+    int,
+    typer.Option(help="Number of draws, a power of two; each uncertain input takes as many again."),
 ]
-Seed = Annotated[int, typer.Option(min=0, help="Of the draws.")]
+Seed = Annotated[int, typer.Option(min=0, help="Seed of the draws.")]
 
 
 def register(app: typer.Typer) -> None:

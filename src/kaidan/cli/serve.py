@@ -8,12 +8,14 @@ import typer
 
 Host = Annotated[
     str,
-    typer.Option(help="Address to listen at; other than this machine's own it demands a token."),
+    typer.Option(help="Address to listen at; any but this machine's own demands a token."),
 ]
 Port = Annotated[int, typer.Option(min=0, max=65535, help="Port to listen at.")]
 Token = Annotated[
     str | None,
-    typer.Option(envvar="KAIDAN_TOKEN", help="What clients must know [made where one is needed]."),
+    typer.Option(
+        envvar="KAIDAN_TOKEN", help="Token that clients must send [made up where one is needed]."
+    ),
 ]
 Processes = Annotated[
     int | None, typer.Option(min=1, max=256, help="Processes that answer [one a processor].")
@@ -21,7 +23,9 @@ Processes = Annotated[
 
 StateFolder = Annotated[
     Path | None,
-    typer.Option("--state", metavar="DIR", help="Where jobs are kept [the user's state folder]."),
+    typer.Option(
+        "--state", metavar="DIR", help="Folder that keeps the jobs [the user's state folder]."
+    ),
 ]
 
 

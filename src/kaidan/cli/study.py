@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from kaidan.studies.stock.flights import Stock
 
 group = typer.Typer(
-    name="study", help="Studies: a fleet of robots on a stock of stairs.", no_args_is_help=True
+    name="study", help="Study a fleet of robots on a stock of stairs.", no_args_is_help=True
 )
 _NOT_OPTIONS = ("robot", "stairs", "points", "rise", "going", "angle", "nosing_spacing", "steps")
 
@@ -48,7 +48,7 @@ Rule = Annotated[
     typer.Option(help="Stepping rule of drawn flights, 2 rise + going: 590mm..650mm."),
 ]
 To = Annotated[str, typer.Option("--round", help="Drawn lengths are rounded to this.")]
-Seed = Annotated[int, typer.Option(min=0, help="Of the draws.")]
+Seed = Annotated[int, typer.Option(min=0, help="Seed of the draws.")]
 
 
 def register(app: typer.Typer) -> None:

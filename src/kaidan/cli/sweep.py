@@ -17,14 +17,16 @@ Screen = Annotated[
     bool,
     typer.Option(
         "--go-only",
-        help="Spare the contact model cells of which the closed form alone says that they are no "
-        "GO: which cells are a GO stays exact, the others get no margin.",
+        help="Skip the contact model where the closed form alone rules out a GO: which cells are a "
+        "GO stays exact, the others get no margin.",
     ),
 ]
 StoreFolder = Annotated[
     Path | None,
     typer.Option(
-        "--store", metavar="DIR", help="Keep what is done: the same command goes on with it."
+        "--store",
+        metavar="DIR",
+        help="Folder that keeps finished cells; the same command continues from it.",
     ),
 ]
 Scheduler = Annotated[

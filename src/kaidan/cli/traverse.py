@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 Poses = Annotated[
     int | None,
-    typer.Option("--poses", min=1, max=40, help="Number of poses in the figure [as fit]."),
+    typer.Option("--poses", min=1, max=40, help="Number of poses in the figure [as many as fit]."),
 ]
 SideFiles = Annotated[
     list[Path] | None,
