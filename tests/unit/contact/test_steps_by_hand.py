@@ -1,0 +1,325 @@
+"""Pieces of a drive by hand: what grazes, what changes, what is let down again, how it ends.
+
+Random traverses of which every pose is looked at are in `test_paths_by_geometry.py`; these are the
+branches that hardly any of them takes.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from contact_cases import stadium
+from kaidan.contact import (
+    Event,
+    Feature,
+    FeatureKind,
+    RotationOutcome,
+    Status,
+    body_table,
+    ground_table,
+)
+from kaidan.contact import columns as at
+from kaidan.contact.codes import Advance
+from kaidan.contact.kernel import advance, contact_changes, continuation, driver, recording
+from kaidan.contact.kernel.settling import lever
+
+L, C_L, C_N, R = 0.6, 0.28, 0.1, 0.08
+TRACK = stadium(L, C_L, C_N, R)
+BODY = body_table(TRACK)
+LEVEL = ground_table([(-4, 0), (4, 0)])
+REAR, FRONT = (Feature(0, 0, kind).code for kind in (FeatureKind.DISC_1, FeatureKind.DISC_2))
+ON_LEVEL = (0.3, C_N, 0.0, 1.0, 0.0, 0.0, REAR, FRONT)
+ARM = 0.3  # m by which inclination counts in arclength
+
+
+def vertex(point):
+    return Feature(point, 0, FeatureKind.VERTEX).code
+
+
+@pytest.mark.parametrize("kind", [FeatureKind.VERTEX, FeatureKind.DISC_1, FeatureKind.DISC_2])
+@pytest.mark.parametrize("phi", [0.3, -0.2])
+def test_rate_of_a_lever(kind, phi):
+    """Central difference along a direction: a vertex stays, a disc's foot runs on its segment."""
+    ground = ground_table([(-2, -0.4), (-0.5, 0.0), (0.5, 0.3), (2, 0.2)])
+    body = body_table([[-0.32, -0.02, 0.08, 0.28, 0.03, 0.05]])
+    feature = Feature(1, 0, kind).code
+    x, z, way = 0.1, 0.4, np.array([0.6, -0.3, 0.5])
+
+    def at_share(ds):
+        there = phi + ds * way[2] / ARM
+        place = x + ds * way[0], z + ds * way[1]
+        return lever(ground, body, feature, *place, math.cos(there), math.sin(there), 0.0)
+
+    numeric = (at_share(1e-6) - at_share(-1e-6)) / 2e-6
+    rate = advance.lever_rate(ground, body, feature, x, z, phi, *way)
+    assert rate == pytest.approx(numeric, abs=1e-8)  # central difference, 1e-12 / 1e-6
+
+
+def grazes(sign, v0, v1, rate0, rate1, ds, kappa=0.0, kappa1=0.0, up=0.5):
+    """A vertex that is ahead (behind) by v0 and v1 [m], from it by the rates of a step's ends."""
+    ground = ground_table([(-3, -1), (0, 0), (3, -1)])
+    x0, x1 = -sign * v0, -sign * v1
+    return advance.may_graze(
+        ground, BODY, vertex(1), vertex(1), sign, kappa, kappa1, x0, up, 0.1, -sign * rate0, 0.0,
+        0.0, x1, up, 0.2, -sign * rate1, 0.0, 0.0, ds,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_what_may_graze_within_a_step(sign):
+    """Tangents of 1 down and 1 up again meet half of a step further, half of it lower."""
+    assert grazes(sign, 0.01, 0.01, -1.0, 1.0, 0.021)
+    assert not grazes(sign, 0.01, 0.01, -1.0, 1.0, 0.019)
+    # down by 2, up by 0.5 and 1 mm lower there: at 0.4 (0.5 + 0.05) / 2.5 of 20 mm
+    meet = (0.009 - 0.01 - 0.5 * 0.02) / -2.5
+    assert grazes(sign, 0.01, 0.009, -2.0, 0.5, 0.02) == (0.01 - 2.0 * meet <= 0.0)
+    assert grazes(sign, 2.0 * meet - 1e-6, 2.0 * meet - 1e-3 - 1e-6, -2.0, 0.5, 0.02)
+    assert not grazes(sign, 2.0 * meet + 1e-6, 2.0 * meet - 1e-3 + 1e-6, -2.0, 0.5, 0.02)
+    assert not grazes(sign, 0.01, 0.01, 1.0, 1.0, 0.03), "it moves away"
+    assert not grazes(sign, 0.01, 0.01, -1.0, -1.0, 0.03), "it still comes nearer"
+    assert not grazes(sign, 0.01, 0.0301, -9.0, 9.0, 0.01), "farther than three steps"
+    assert grazes(sign, 0.01, 0.0299, -9.0, 9.0, 0.01)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_what_the_tilt_at_the_end_hides(sign):
+    """Passed under the tilt at the start, not under that at the end, 0.5 m below the centroid."""
+    rates = (1.0, -1.0)
+    assert grazes(sign, 0.02, 0.01, *rates, 0.01, kappa=-sign * 0.021)
+    assert not grazes(sign, 0.02, 0.01, *rates, 0.01, kappa=-sign * 0.019)
+    both = {"kappa": -sign * 0.03, "kappa1": -sign * 0.03}
+    assert not grazes(sign, 0.02, 0.01, *rates, 0.01, **both)
+
+
+def with_thin_end(above):
+    """A second part whose thin end, 1 mm in radius, lies so far above the floor [m]."""
+    return body_table([*TRACK, [0.28, -0.02, 0.05, 0.6, above + 0.001 - C_N, 0.001]])
+
+
+@pytest.mark.parametrize(
+    ("above", "step"),
+    [
+        (0.02, 0.008),  # 0.4 of how far it is clear
+        (0.001, 0.002),  # not less than a tenth of a step of R/4
+        (0.3, 0.012),  # its other end is 30 mm clear
+    ],
+)
+def test_a_thin_part_moves_no_farther_than_it_is_clear(above, step):
+    body = with_thin_end(above)
+    assert advance.thinnest_radius(body) == 0.001
+    place = (LEVEL, body, REAR, FRONT, 0.3, C_N, 0.0)
+    assert advance.careful(*place, 0.5, 0.001, 0) == pytest.approx(step)
+    assert advance.careful(*place, 0.5, 0.02, 0) == pytest.approx(0.25 * R)  # no part is thin
+    assert advance.careful(*place, 0.5, 0.019, 0) == pytest.approx(max(step, 0.019))
+    assert advance.careful(*place, 0.001, 0.001, 0) == 0.001
+
+
+def test_a_step_is_no_longer_than_a_share_of_what_carries():
+    """A quarter of the smallest radius of both parts that carry, whichever of their ends."""
+    for parts, least in (
+        ([[-0.32, -0.04, 0.06, 0.28, -0.02, 0.08]], 0.06),
+        ([[-0.32, -0.02, 0.08, 0.28, -0.05, 0.05]], 0.05),
+    ):
+        body = body_table(parts)
+        assert advance.careful(LEVEL, body, REAR, FRONT, 0.3, C_N, 0.0, 0.5, 0.5, 0) == (
+            pytest.approx(0.25 * least)
+        )
+        assert advance.shallow(body, REAR, -0.49 * least)
+        assert not advance.shallow(body, REAR, -0.51 * least)
+    second = Feature(0, 1, FeatureKind.DISC_1).code
+    for pair in ((REAR, second), (second, FRONT)):
+        found = advance.careful(LEVEL, with_thin_end(0.3), *pair, 0.3, C_N, 0.0, 0.5, 0.5, 0)
+        assert found == pytest.approx(0.25 * 0.001)
+
+
+def test_the_way_ahead_whatever_the_order_of_contacts():
+    c, s = 1.0, 0.0
+    for pair in ((REAR, FRONT), (FRONT, REAR)):
+        t_x, t_z, t_w, size = continuation.tangent(LEVEL, BODY, *pair, 0.3, C_N, c, s)
+        assert (t_x, t_z, t_w) == pytest.approx((1.0, 0.0, 0.0), abs=1e-12)
+        assert size == pytest.approx(L / ARM)  # the two normals up, their feet L apart
+    assert continuation.tangent(LEVEL, BODY, REAR, REAR, 0.3, C_N, c, s) == (1.0, 0.0, 0.0, 0.0)
+
+
+def test_no_pose_on_one_contact_or_far_from_both():
+    nothing = (1.0, 0.0, 0.0)
+    for pair, z in (((REAR, REAR), C_N), ((REAR, FRONT), C_N + 0.11), ((REAR, FRONT), C_N - 0.11)):
+        good, x1, z1, phi, c, s, *way = continuation.corrected(LEVEL, BODY, *pair, 0.3, z, 0.0)
+        assert (good, x1, z1, phi, c, s) == (False, 0.3, z, 0.0, 1.0, 0.0)
+        assert tuple(way) == nothing
+    good, _, z, *_ = continuation.corrected(LEVEL, BODY, REAR, FRONT, 0.3, C_N + 0.09, 0.0)
+    assert good
+    assert z == pytest.approx(C_N, abs=1e-12)
+
+
+def test_a_step_keeps_its_sense():
+    back = continuation.stepped(LEVEL, BODY, REAR, FRONT, 0.3, C_N, 0.0, -1.0, 0.0, 0.0, 0.01)
+    assert back[0]
+    assert back[1:4] == pytest.approx((0.29, C_N, 0.0), abs=1e-12)
+    assert back[6:9] == pytest.approx((-1.0, 0.0, 0.0), abs=1e-12)
+    sharp = (0.8, 0.0, 0.6)  # 37 degrees off the line of poses
+    assert not continuation.stepped(LEVEL, BODY, REAR, FRONT, 0.3, C_N, 0.0, *sharp, 0.01)[0]
+
+
+@pytest.mark.parametrize("a", [0.5, -0.5, 0.0])
+def test_effective_gravity(a):
+    """g (kappa_g, 1) down and a against the way: what is behind over what is down."""
+    g, kappa_g, psi = 9.8, 0.2, 0.4
+    expected = (kappa_g * g + a * math.cos(psi)) / (g + a * math.sin(psi))
+    way = 3.0 * math.cos(psi), 3.0 * math.sin(psi)
+    assert continuation.tilt(a, g, kappa_g, *way) == pytest.approx(expected)
+    assert continuation.tilt(a, g, kappa_g, 0.0, 0.0) == kappa_g  # it turns on the spot
+    size = math.hypot(a * math.cos(psi), g + a * math.sin(psi))
+    assert contact_changes.effective_gravity(a, g, *way) == pytest.approx(size)
+    assert contact_changes.effective_gravity(a, g, 0.0, 0.0) == pytest.approx(math.hypot(a, g))
+
+
+def test_settled_on_two_contacts_or_not():
+    good, (x, z, phi, t_x, t_z, t_w, rear, front) = contact_changes.settled(
+        LEVEL, BODY, 0.3, 0.05, 0.0
+    )
+    assert good
+    assert (x, z, phi) == pytest.approx((0.3, C_N, 0.0), abs=1e-12)
+    assert (t_x, t_z, t_w) == pytest.approx((1.0, 0.0, 0.0), abs=1e-12)
+    assert (rear, front) == (REAR, FRONT)
+    # on its tail, the centroid behind the rear foot
+    good, there = contact_changes.settled(LEVEL, BODY, 0.3, 1.53, 0.0)
+    assert not good
+    assert there[3:6] == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("t_x", [1.0, -1.0])
+def test_let_down_again_a_little_farther_on(t_x):
+    """On level ground the first nudge does, unless the pose there is another one."""
+
+    def again(**off):
+        place = {"x": 0.3, "z": C_N, "phi": 0.0} | off
+        here = (*place.values(), t_x, 0.0, 0.0, REAR, FRONT)
+        return contact_changes.settled_again(LEVEL, BODY, here, 0.0)
+
+    good, nudge, there = again()
+    assert good == (t_x > 0.0)  # there the way leads ahead, not back
+    if not good:
+        assert (nudge, there[0]) == (0.0, 0.3)
+        return
+    assert nudge == pytest.approx(1e-5)
+    assert there[:2] == pytest.approx((0.3 + 1e-5, C_N), abs=1e-12)
+    assert again(z=C_N + 4.9e-3)[0]
+    assert not again(z=C_N + 5.1e-3)[0]
+    assert not again(z=C_N - 5.1e-3)[0]
+    assert again(phi=0.019)[0]
+    assert not again(phi=0.021)[0]
+    assert not again(phi=-0.021)[0]
+
+
+@pytest.mark.parametrize(
+    ("higher", "nudge"), [(4.9e-3, 1e-5), (5.05e-3, 1e-4), (5.5e-3, 1e-3), (1.2e-2, 1e-2)]
+)
+def test_nudges_grow_tenfold(higher, nudge):
+    """Up a slope of 45 degrees it rises by each nudge: the first within 5 mm of where it was."""
+    ground = ground_table([(-4, -4), (4, 4)])
+    z = 0.3 + C_N * math.sqrt(2.0)
+
+    def again(higher):
+        here = (0.3, z + higher, math.pi / 4, 0.7, 0.7, 0.0, REAR, FRONT)
+        return contact_changes.settled_again(ground, BODY, here, 0.0)
+
+    good, found, there = again(higher)
+    assert good
+    assert found == pytest.approx(nudge)
+    assert there[:3] == pytest.approx((0.3 + nudge, z + nudge, math.pi / 4), abs=1e-11)
+    assert not again(1.6e-2)[0]
+    assert not again(0.1)[0]
+
+
+@pytest.mark.parametrize("opens", [True, False])
+def test_the_way_on_is_that_on_which_the_lost_contact_opens(opens):
+    """The rear disc on the floor, the flat on nosings in line: ahead it sinks onto the nearer one.
+
+    Lost is the nearer one: the way leads back. Lost is the farther one: it leads ahead.
+    """
+    phi = math.atan(0.3)
+    foot = complex(math.sin(phi), 1.0 - math.cos(phi)) * R  # where the flat begins, above the floor
+    points = [foot + along * complex(math.cos(phi), math.sin(phi)) for along in (0.36, 0.55)]
+    floor = [(-3.0, 0.0), (0.15, 0.0)]
+    near, far = ((each.real, each.imag) for each in points)
+    ground = ground_table([*floor, near, ((near[0] + far[0]) / 2, 0.05), far, (3.0, 0.0)])
+    centre = complex(-(L - C_L), R - C_N) * complex(math.cos(phi), math.sin(phi))
+    com = complex(0.0, R) - centre
+    held, made = (vertex(2), vertex(4)) if not opens else (vertex(4), vertex(2))
+    here = (com.real, com.imag, phi, 1.0, 0.0, 0.0, REAR, held)
+    good, lost, there = contact_changes.exchanged(ground, BODY, made, here, 0.0)
+    assert good
+    assert lost == held
+    assert there[6:] == (REAR, made)
+    assert (there[3] > 0.0) == opens
+
+
+def test_an_exchange_for_itself_has_no_line():
+    here = (0.3, C_N, 0.0, 1.0, 0.0, 0.0, REAR, FRONT)
+    good, lost, there = contact_changes.exchanged(LEVEL, BODY, REAR, here, 5.0)
+    assert (good, lost) == (False, FRONT)  # so far leans gravity that the rear foot is ahead
+    assert there == here
+
+
+@pytest.mark.parametrize(
+    ("kappa", "sense"), [(0.0, 0.0), (3.3, 1.0), (3.1, 0.0), (-2.9, -1.0), (-2.7, 0.0)]
+)
+def test_onset_of_a_rotation(kappa, sense):
+    """0.1 m up the feet lie L - C_L = 0.32 m behind and C_L = 0.28 m ahead."""
+    assert contact_changes.onset(LEVEL, BODY, ON_LEVEL, kappa) == sense
+
+
+@pytest.mark.parametrize(
+    ("outcome", "sense", "status", "event"),
+    [
+        (RotationOutcome.PAST_VERTICAL, 1.0, Status.FELL_BACKWARD, Event.FELL_BACKWARD),
+        (RotationOutcome.PAST_VERTICAL, -1.0, Status.FELL_FORWARD, Event.FELL_FORWARD),
+        (RotationOutcome.ROCKING, 1.0, Status.FELL_BACKWARD, Event.FELL_BACKWARD),
+        (RotationOutcome.ROCKING, -1.0, Status.FELL_FORWARD, Event.FELL_FORWARD),
+        (RotationOutcome.PAST_VERTICAL, 0.5, Status.FELL_BACKWARD, Event.FELL_BACKWARD),
+        (RotationOutcome.WEDGED, 1.0, Status.STUCK, Event.STUCK),
+        (RotationOutcome.ENDLESS, 1.0, Status.NOT_CONVERGED, Event.STUCK),
+    ],
+)
+def test_how_a_rotation_ends_that_nothing_arrests(outcome, sense, status, event):
+    assert driver.end_of_fall(outcome, sense) == (status, event)
+
+
+def step_on(x_end, step=0.01):
+    return driver.step_on(LEVEL, BODY, ON_LEVEL, x_end, step, R, 0.0, 9.8, 0.0, 0)
+
+
+@pytest.mark.parametrize(
+    ("x_end", "ds", "ends"),
+    [(0.304, 0.004, True), (0.31, 0.01, True), (0.3101, 0.01, False), (0.3, 0.01, False)],
+)
+def test_a_step_is_cut_where_the_robot_arrives(x_end, ds, ends):
+    what, there, _, moved, over = step_on(x_end)
+    assert what == Advance.NOTHING
+    assert (moved, there[0]) == pytest.approx((ds, 0.3 + ds), abs=1e-12)
+    assert over == ends
+
+
+def test_a_rotation_repeats_one_of_the_twelve_before():
+    rows = np.zeros((16, at.ROTATION_COLUMNS))
+    rows[:, at.START_X] = np.arange(16.0)
+    rows[:, at.ROTATION_SENSE] = 1.0
+
+    def repeats(row, last, **off):
+        table = rows.copy()
+        table[last] = table[row]
+        for name, value in off.items():
+            table[last, getattr(at, name)] += value
+        return recording.repeats(table, last + 1)
+
+    assert not recording.repeats(rows, 14)
+    assert repeats(2, 13)  # eleven rows between them
+    assert not repeats(1, 13)
+    assert repeats(0, 3)
+    assert repeats(12, 13)
+    for off in ({"START_X": 2e-8}, {"START_X": -2e-8}, {"START_PHI": 2e-8}, {"START_PHI": -2e-8},
+                {"ROTATION_SENSE": -2.0}):  # fmt: skip
+        assert not repeats(12, 13, **off)
+    assert repeats(12, 13, START_X=9e-9, START_PHI=-9e-9)
