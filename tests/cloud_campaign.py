@@ -43,7 +43,7 @@ class Case:
         return self.truth.nosings @ np.array([[c, s], [-s, c]])
 
 
-def case(number, most_noise=0.01):
+def case(number, most_noise=0.01, image=(240, 180)):
     """Scene with stairs: 4 to 20 steps, odd first and last risers, and what stands about."""
     rng = np.random.default_rng(number)
     sensor = SENSORS[number % 3]
@@ -71,7 +71,7 @@ def case(number, most_noise=0.01):
     bias = rng.normal(0, BIAS)
     seen = scenes.seen(
         scene, rng, sensor=sensor, noise=noise, bias=bias, ripple=RIPPLE,
-        tilt=np.radians(rng.uniform(0, 3)), **pose,
+        tilt=np.radians(rng.uniform(0, 3)), image=image, **pose,
     )  # fmt: skip
     return Case(truth, rng.normal(0, LEAN), noise, sensor, seen, top, bias)
 

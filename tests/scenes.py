@@ -157,6 +157,7 @@ def seen(
     look=0.0,
     from_top=None,
     reach=6.0,
+    image=(240, 180),
 ):
     """Cloud of a scene.
 
@@ -179,7 +180,7 @@ def seen(
         origin = np.array([x, y, z])
         pitch = look - (0.35 if from_top is not None else 0.12 * (z > 0.8))
         if sensor == "camera":
-            grid, rays = (180, 240), directions(240, 180, 1.2, 0.95, pitch, heading)
+            grid, rays = image[::-1], directions(*image, 1.2, 0.95, pitch, heading)
         elif sensor == "lidar":
             grid, rays = None, beams()
         else:

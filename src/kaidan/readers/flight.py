@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from kaidan.readers.kinds import Array
+from kaidan.readers.regular_flight import ALIKE, RegularFlight, uniform_columns, uniform_flight
 from kaidan.terrain.doubt import factor
 from kaidan.terrain.polyline import frozen
 from kaidan.terrain.profile import Profile
@@ -32,8 +33,6 @@ MICROMETRE = 6
 """Digits to which exact lengths are rounded [m]."""
 EXACT = 1e-4
 """Standard uncertainty below which a nosing counts as exact [m]: files round to it."""
-ALIKE = 0.01
-"""Probability of a chi squared as large as this one, from which steps count as all alike [1]."""
 LAST_SPREAD = 0.02
 """Standard deviation of the last rise about the others [m], where nobody drew it: floors are laid
 after the steps. A judgement; ISO 14122-3 lets an end riser differ by 15 %, 27 mm of 180."""
@@ -41,50 +40,6 @@ CERTAIN = 3.0
 """Standard uncertainties from which something stands out of its doubt."""
 _LEVEL = math.tan(math.radians(0.2))
 """Slope across or skew of a nosing below which it is none [1]."""
-
-
-@dataclass(frozen=True)
-class RegularFlight:
-    """The uniform flight that fits the nosings best."""
-
-    rise: float
-    """[m]"""
-    going: float
-    """[m]"""
-    rise_sigma: float
-    """Standard uncertainty from the nosings alone [m]."""
-    going_sigma: float
-    """The same of the going [m]."""
-    correlation: float
-    """Of both [1]."""
-    chi2: float
-    """Sum of squared residuals over their variances."""
-    freedom: int
-    """Degrees of freedom."""
-
-    @property
-    def alike(self) -> float:
-        """Probability of so large a chi squared, were all steps alike [1]; NaN: too few steps."""
-        return chi2_tail(self.chi2, self.freedom)
-
-    @property
-    def spacing(self) -> float:
-        """Nosing spacing [m]."""
-        return math.hypot(self.rise, self.going)
-
-    @property
-    def angle(self) -> float:
-        """Slope of the line through the nosings [rad]."""
-        return math.atan2(self.rise, self.going)
-
-    def sigmas(self) -> tuple[float, float]:
-        """Standard uncertainty of angle [rad] and spacing [m] from the nosings alone."""
-        p, r, g = self.spacing, self.rise, self.going
-        both = self.correlation * self.rise_sigma * self.going_sigma
-        var_r, var_g = self.rise_sigma**2, self.going_sigma**2
-        angle = (g * g * var_r + r * r * var_g - 2 * r * g * both) / p**4
-        spacing = (r * r * var_r + g * g * var_g + 2 * r * g * both) / p**2
-        return math.sqrt(max(angle, 0.0)), math.sqrt(max(spacing, 0.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,33 +126,13 @@ class FlightEstimate:
 
     @cached_property
     def regular(self) -> RegularFlight:
-        """Uniform flight through all nosings (generalised least squares); NaN: fewer than two.
+        """Uniform flight through all nosings; NaN: fewer than two.
 
-        Where chi squared says that steps are not alike, each nosing has the variance of those
-        about it too: weights of what was measured to a tenth of a millimetre would make one odd
-        riser turn the line. The last one is then one of them.
+        Where chi squared says that steps are not alike, the last one is one of them.
         """
-        m = len(self)
-        if m < 2:
+        if len(self) < 2:
             return RegularFlight(*(math.nan,) * 6, 0)
-        design, weights = self._uniform, self.weights
-        line, freedom = self.line().ravel(), 2 * m - 4
-
-        def fitted(weights: Array) -> tuple[Array, Array, Array]:
-            found = np.asarray(np.linalg.inv(design.T @ weights @ design))
-            fit = found @ design.T @ weights @ line
-            return found, fit, line - design @ fit
-
-        found, fit, off = fitted(weights)
-        chi2 = float(off @ weights @ off)
-        if chi2_tail(chi2, freedom) < ALIKE:
-            plain = fitted(np.eye(2 * m))[2]
-            odd = float(plain @ plain) / freedom * np.eye(2 * m)
-            found, fit, _ = fitted(np.asarray(np.linalg.inv(self._measured + odd)))
-        going, rise = float(fit[2]), float(fit[3])
-        s_going, s_rise = float(np.sqrt(found[2, 2])), float(np.sqrt(found[3, 3]))
-        corr = float(found[2, 3]) / (s_going * s_rise)
-        return RegularFlight(rise, going, s_rise, s_going, corr, chi2, freedom)
+        return uniform_flight(self.line(), self.weights, self._measured)
 
     @property
     def last_rise(self) -> tuple[float, float]:
@@ -207,20 +142,13 @@ class FlightEstimate:
         taken as regular.
         """
         m = len(self)
-        design = np.column_stack([self._uniform, np.eye(2 * m)[-1]])
+        design = np.column_stack([uniform_columns(m), np.eye(2 * m)[-1]])
         weights = np.asarray(np.linalg.inv(self._measured))
         normal = design.T @ weights @ design
         normal[4, 4] += LAST_SPREAD**-2
         found = np.linalg.inv(normal)
         fit = found @ design.T @ weights @ self.line().ravel()
         return float(fit[3] + fit[4]), math.sqrt(found[4, 4])
-
-    @property
-    def _uniform(self) -> Array:
-        """Columns of s0, z0, going and rise in s and z of all nosings, shape (2m, 4)."""
-        m = len(self)
-        number = np.arange(m, dtype=np.float64)
-        return np.asarray(np.kron(np.column_stack([np.ones(m), number]), np.eye(2)))
 
     @property
     def _measured(self) -> Array:
@@ -452,22 +380,3 @@ def independent(each: Array) -> Array:
     found = np.zeros((m, 2, m, 2))
     found[np.arange(m), :, np.arange(m), :] = each
     return found
-
-
-def chi2_tail(chi2: float, freedom: int) -> float:
-    """Probability that a chi squared of an even number of degrees of freedom is larger.
-
-    exp(-x/2) times the sum of (x/2)^j / j! for j < freedom / 2 (Abramowitz & Stegun 26.4.21).
-
-    Examples
-    --------
-    >>> round(chi2_tail(5.991, 2), 4), round(chi2_tail(9.488, 4), 4)
-    (0.05, 0.05)
-    """
-    if freedom < 2:
-        return math.nan
-    half, term, total = chi2 / 2, 1.0, 0.0
-    for j in range(freedom // 2):
-        total += term
-        term *= half / (j + 1)
-    return math.exp(-half) * total if half < 700 else 0.0

@@ -13,6 +13,9 @@ ONCE_WRONG = (
     263,  # an odd last riser of which the landing was seen
     3128,  # walls at both sides behind the last step
     6120,  # a flight in two parts
+    7058,  # a floor that lies lower than a regular riser leads up from: it passed for a face
+    30275,  # the same, higher
+    40084,  # the same, of a LiDAR
 )
 
 
@@ -39,6 +42,15 @@ def test_a_last_riser_of_which_the_end_alone_is_seen(number, odd):
     assert "go" not in [
         of_cloud for truth, of_cloud, _ in campaign.verdicts(number) if truth != "go"
     ]
+
+
+def test_what_lies_on_the_floor_is_no_floor():
+    """A box of 93 mm before the first riser, which then seemed to be 64 mm high."""
+    made = campaign.case(40206)
+    (stairs,) = interpreter.found(campaign.cloud(made.seen), Hints()).staircases
+    (flight,) = stairs.flights
+    assert len(flight) == len(made.nosings)
+    assert not flight.begins or flight.line()[0, 1] == pytest.approx(made.nosings[0, 1], abs=0.01)
 
 
 @pytest.mark.parametrize("number", range(13))

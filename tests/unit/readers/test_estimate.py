@@ -9,8 +9,9 @@ import pytest
 import kaidan
 from kaidan.errors import InputError
 from kaidan.readers.estimate import LandingEstimate, Refusal, StairsEstimate
-from kaidan.readers.flight import FlightEstimate, chi2_tail, independent
+from kaidan.readers.flight import FlightEstimate, independent
 from kaidan.readers.kinds import Provenance
+from kaidan.readers.regular_flight import chi2_tail
 from kaidan.text.japanese import japanese
 from kaidan.text.refusals import REFUSALS
 from kaidan.verbs.read_stairs import staircase_read

@@ -107,6 +107,30 @@ def test_up_and_unit_are_found_where_nobody_states_them(turn):
     assert the_flight(found).regular.spacing == pytest.approx(truth.spacing, abs=0.003)
 
 
+@pytest.mark.parametrize(("up", "axes"), [("+z", np.eye(3)), ("-y", scenes.turned(x=np.pi / 2))])
+def test_one_scan_says_which_side_is_up(up, axes):
+    """From the origin, as a sensor has it: upside down the treads would be seen through."""
+    truth = scenes.regular(8, 0.17, 0.28)
+    seen = scenes.seen(scenes.with_stairs(truth), np.random.default_rng(3), sensor="lidar")
+    seen.xyz = seen.xyz @ axes.T
+    found = interpreter.found(cloud(seen, up=None), Hints())
+    assert (found.provenance.up.value, found.provenance.up.how) == (up, "scored")
+    assert found.provenance.notes == ()
+    assert the_flight(found).regular.spacing == pytest.approx(truth.spacing, abs=0.003)
+
+
+def test_of_a_cloud_from_anywhere_a_positive_axis_is_up_and_said_to_be_taken_so():
+    truth = scenes.regular(8, 0.17, 0.28)
+    seen = scenes.seen(scenes.with_stairs(truth), np.random.default_rng(3), sensor="phone")
+    seen.xyz += np.array([1.5, -0.2, 0.9])
+    found = interpreter.found(cloud(seen, up=None), Hints())
+    assert found.provenance.up.value == "+z"
+    assert found.provenance.notes == (
+        "Nothing says from where the cloud was seen, and upside down it would be stairs too: +z "
+        "is taken for up, --up states it.",
+    )
+
+
 def test_two_flights_and_the_landing_between_them():
     truth = scenes.regular(6, 0.17, 0.28, width=1.1)
     rng = np.random.default_rng(5)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from kaidan.readers.stairfit.doubts import ALIKE_WITHIN, LOCAL, common, correlation
+from kaidan.readers.stairfit.flight_ends import last_riser
 from kaidan.readers.stairfit.staircase_line import StairLine, assigned
-from kaidan.readers.stairfit.steps import _last_riser
 
 
 def test_an_error_that_varies_smoothly_averages_out_as_draws_do():
@@ -84,7 +84,7 @@ def landing(points, alone=True):
     sigma, measured = np.full((5, 2), 1e-3), np.ones((5, 2), dtype=bool)
     measured[-1, 1] = alone
     places = np.full((5, 2, 2, 3), np.nan)
-    nosings, *_, length = _last_riser(found, sigma, measured, places, line, s, t, z, 0.003, 0.01)
+    nosings, *_, length = last_riser(found, sigma, measured, places, line, s, t, z, 0.003, 0.01)
     return len(nosings), length
 
 

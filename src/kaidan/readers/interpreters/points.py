@@ -12,11 +12,11 @@ from kaidan.readers.flight import FlightEstimate
 from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import METRES, Array, Indices, Known, Points, Provenance, upright
 from kaidan.readers.stairfit.chain import staircases
-from kaidan.readers.stairfit.corridor import NARROWEST, Lane, lanes, rotated, views
+from kaidan.readers.stairfit.corridor import NARROWEST, SURE, lanes, views
 from kaidan.readers.stairfit.doubts import LOCAL
 from kaidan.readers.stairfit.gates import refused, surface_refusal
 from kaidan.readers.stairfit.gravity import frame, refined
-from kaidan.readers.stairfit.landing_end import landing_end
+from kaidan.readers.stairfit.one_flight import estimate, measured, tilted
 from kaidan.readers.stairfit.patches import (
     SMALL,
     Patches,
@@ -27,7 +27,8 @@ from kaidan.readers.stairfit.patches import (
     scatter,
     thinned,
 )
-from kaidan.readers.stairfit.steps import Steps, steps_of
+from kaidan.readers.stairfit.same_flight import beside, continues, wider, within
+from kaidan.readers.stairfit.viewpoint import seen_from_origin
 from kaidan.text import scans as text
 
 RANGE_ERROR, RANGE_ERROR_SURVEYED = 0.005, 0.001
@@ -42,16 +43,10 @@ MOST_FLIGHTS = 8
 """Flights that are looked for in one cloud."""
 MOST_PATCHED = 60_000
 """Points from which patches are made."""
-SAME_NOSING = 0.04
-"""Distance of nosings that are one [m]."""
-CONTINUES = 0.3
-"""Distance from the place of the next nosing up to which another one is that, in steps [1]."""
 MANY_LEFT = 400
 """Points of the thinned cloud from which another flight is looked for."""
 NOISY, WIDE = 0.008, 0.18
 """Scatter from which patches are made larger, and their side then [m]."""
-LOWEST_CEILING = 1.2
-"""Height above the nosings from which something is a ceiling and no handrail [m]."""
 FEWEST_POINTS = 20
 """Points without which nothing is looked for."""
 SURVEYED = ("las", "e57")
@@ -64,10 +59,6 @@ EXTENTS = (0.5, 300.0)
 """Smallest and largest extent of a cloud with stairs [m]."""
 
 
-_Placed = tuple[Array, Array, Array]
-"""Points along a heading: s, t, z, shape (n,) each [m]."""
-
-
 @dataclass(frozen=True, eq=False)
 class _Try:
     """Flights found with one unit and one direction up."""
@@ -77,6 +68,8 @@ class _Try:
     score: float
     provenance: Provenance
     frame: Array
+    sure: bool = False
+    """Whether one of them leaves no need to look in another direction."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,12 +151,36 @@ def _with_unit(points: Points, xyz: Array, unit: Known, metres: float, hints: Hi
     some = _some(xyz)
     small = rastered(some, SMALL)
     noise = scatter(small)
-    patches = patches_of(rastered(some, WIDE) if noise > NOISY else joined(small), eye)
+    sensor = eye
+    if eye is None and points.provenance.up is None and seen_from_origin(some):
+        sensor = np.zeros(3)
+    patches = patches_of(rastered(some, WIDE) if noise > NOISY else joined(small), sensor)
     rows = thinned(some, COARSE)
     thin, of_thin = some[rows], patches.of_point[rows]
     cloud = _Cloud(replace(points.provenance, unit=unit), xyz, thin, of_thin, patches, noise, eye)
-    ups = _ups(points.provenance.up, patches, oriented=eye is not None)
-    return max((_with_up(cloud, up, known, hints) for up, known in ups), key=lambda one: one.score)
+    ups = _ups(points.provenance.up, patches, oriented=sensor is not None)
+    best = _first_up(cloud, ups, hints)
+    up = best.provenance.up
+    if sensor is not None or not best.flights or up is None or up.how != "scored":
+        return best
+    note = text.UPSIDE_DOWN.format(up=up.value)
+    return replace(best, provenance=replace(best.provenance, notes=(*cloud.provenance.notes, note)))
+
+
+def _first_up(cloud: _Cloud, ups: list[tuple[Array, Known]], hints: Hints) -> _Try:
+    """Best of the directions up, none tried after a sure one, nor the one against a good one."""
+    best, good = None, list[Array]()
+    for up, known in ups:
+        if any(float(other @ up) < -0.9 for other in good):
+            continue
+        tried = _with_up(cloud, up, known, hints)
+        if best is None or tried.score > best.score:
+            best = tried
+        if tried.sure:
+            break
+        good += [up] if tried.flights else []
+    assert best is not None
+    return best
 
 
 def _some(xyz: Array) -> Array:
@@ -193,8 +210,9 @@ def _ups(stated: Known | None, patches: Patches, *, oriented: bool) -> list[tupl
             most = int(np.argmax(np.abs(up)))
             name = ("+" if up[most] > 0 else "-") + "xyz"[most]
             ups.append((up, Known(name, "scored")))
-    ups.sort(key=lambda each: -float(each[0][2]))
-    return ups[:6] or [(np.array([0.0, 0.0, 1.0]), Known("+z", "assumed"))]
+    # upside down stairs are stairs: where nothing says which it is, files have a positive axis up
+    ups.sort(key=lambda each: (not oriented and each[1].value[0] == "-", -float(each[0][2])))
+    return ups[:8] or [(np.array([0.0, 0.0, 1.0]), Known("+z", "assumed"))]
 
 
 def _with_up(seen: _Cloud, up: Array, known: Known, hints: Hints) -> _Try:
@@ -215,203 +233,37 @@ def _with_up(seen: _Cloud, up: Array, known: Known, hints: Hints) -> _Try:
     tolerance = min(max(3 * noise, 0.012), 0.04)
     flights: list[FlightEstimate] = []
     refusals: list[Refusal] = []
-    score, left = 0.0, np.ones(len(thin), dtype=bool)
+    sure, score, left = False, 0.0, np.ones(len(thin), dtype=bool)
     for _ in range(MOST_FLIGHTS):
         flight = None
         rest = [each.of(left) for each in along]
         for lane in islice(lanes(rest, tolerance, another=bool(flights)), 2):
-            steps, aligned, placed = _steps(lane, cloud, eye, noise, error, against)
+            steps, aligned, placed = measured(lane, cloud, eye, noise, error, against)
             refusal = refused(steps, lane, noise, provenance)
             if refusal is not None:
                 refusals.append(refusal)
                 continue
             assert steps is not None
-            flight = _flight(steps, aligned, upward.sigma, error, placed)
+            flight = estimate(steps, aligned, upward.sigma, error, placed)
             break
         if flight is None:
             break
         rise, going = flight.regular.rise, flight.regular.going
         likely = 1.0 if LIKELY_RISES[0] <= rise <= LIKELY_RISES[1] else 0.3
         score += lane.score * likely * (1.0 if rise <= going else 0.5)
+        sure |= lane.explained > SURE and likely == 1.0 and rise <= going
         before = left.sum()
-        left &= ~_within(flight, thin)
-        beside = [k for k, other in enumerate(flights) if _beside(flight, other)]
-        if beside:
-            flights[beside[0]] = _wider(flights[beside[0]], flight)
-        elif flight.width >= NARROWEST and not any(_continues(flight, one) for one in flights):
+        left &= ~within(flight, thin)
+        parts = [k for k, other in enumerate(flights) if beside(flight, other)]
+        if parts:
+            flights[parts[0]] = wider(flights[parts[0]], flight)
+        elif flight.width >= NARROWEST and not any(continues(flight, one) for one in flights):
             flights.append(flight)
         if left.sum() > before - 20 or left.sum() < MANY_LEFT:
             break
     if not flights:
         score = 0.0
         refusals = surface_refusal(level, provenance) + refusals
-    tilted = upright_turn @ turn.T
-    flights = [_tilted(flight, tilted) for flight in flights]
-    return _Try(tuple(flights), tuple(refusals), score, provenance, upright_turn)
-
-
-def _tilted(flight: FlightEstimate, turn: Array) -> FlightEstimate:
-    """Flight that was measured along what was built, in the frame of gravity."""
-    foot = np.array([*flight.middle[0, :2], flight.floor])
-    ahead = turn @ [math.cos(flight.heading), math.sin(flight.heading), 0.0]
-    return replace(
-        flight,
-        left=flight.left @ turn.T,
-        right=flight.right @ turn.T,
-        heading=math.atan2(ahead[1], ahead[0]),
-        floor=float((turn @ foot)[2]),
-    )
-
-
-def _steps(
-    lane: Lane, cloud: Array, view: Array, noise: float, error: float, against: Array
-) -> tuple[Steps | None, Lane, _Placed]:
-    """Single steps of a lane in all points, after its heading was corrected by its skew.
-
-    With the lane along that heading, and all points along it.
-    """
-    line = lane.line
-    heading = lane.heading - math.atan(line.skew)
-    placed = s, t, z = rotated(cloud, heading)
-    turn = math.cos(heading - lane.heading)
-    # a point at (s, t) of the lane's frame has s' = s cos + t sin, t' = t cos - s sin
-    sine = math.sin(heading - lane.heading)
-    line = replace(line, s0=line.s0 * turn, going=line.going * turn, skew=0.0)
-    along = line.s0 + line.going * (line.first + line.last) / 2
-    shift = -along / turn * sine
-    low, high = lane.low + shift, lane.high + shift
-    low, high = low - 0.5 * abs(sine), high + 0.5 * abs(sine)
-    ends = line.at(np.array([line.first, line.last]))
-    near = (t > low) & (t < high) & (s > ends[0, 0] - 1.6) & (s < ends[1, 0] + 1.8)
-    near &= (z > ends[0, 1] - 0.9) & (z < ends[1, 1] + 2.4)
-    aligned = replace(lane, heading=heading, line=line, low=low, high=high)
-    eye = np.concatenate(rotated(view[None], heading))
-    inside = s[near], t[near], z[near]
-    ahead = np.array([math.cos(heading), math.sin(heading), 0.0])
-    level = math.sqrt(float(ahead @ against @ ahead))
-    steps = steps_of(line, *inside, noise=noise, eye=eye, range_error=error, level=level)
-    return steps, aligned, placed
-
-
-def _flight(
-    steps: Steps, lane: Lane, gravity: float, error: float, cloud: _Placed
-) -> FlightEstimate:
-    """Estimate in the levelled frame of the cloud, whose points are given along the lane."""
-    c, s = math.cos(lane.heading), math.sin(lane.heading)
-
-    def placed(t: float) -> Array:
-        along = steps.at[:, 0] + steps.line.skew * t
-        return np.column_stack([along * c - t * s, along * s + t * c, steps.at[:, 1]])
-
-    low, high = steps.width
-    before, behind = _room(steps, *cloud)
-    return FlightEstimate(
-        left=placed(high),
-        right=placed(low),
-        heading=lane.heading - math.atan(steps.line.skew),
-        covariance=steps.covariance,
-        gravity=gravity,
-        scale=error,
-        floor=steps.floor,
-        floor_sigma=steps.floor_sigma,
-        with_floor=steps.with_floor,
-        ends=steps.ends,
-        roughness=steps.roughness,
-        width=high - low,
-        headroom=_headroom(steps, *cloud),
-        run_up=steps.run_up,
-        run_out=steps.landing,
-        room_before=before,
-        room_behind=behind,
-        notes=tuple(_notes(steps)),
-    )
-
-
-def _notes(steps: Steps) -> list[str]:
-    notes = []
-    if not math.isfinite(steps.floor):
-        notes.append(text.FLOOR_UNSEEN)
-    elif steps.run_up < 1.2 * steps.line.going:
-        notes.append(text.FLOOR_SHORT.format(seen_mm=1e3 * steps.run_up))
-    if not steps.ends:
-        notes.append(text.LANDING_UNSEEN)
-    if not steps.measured.all():
-        alone = int(steps.measured.all(axis=1).sum())
-        notes.append(text.REGULAR.format(alone=alone, steps=len(steps.at)))
-    return notes
-
-
-def _headroom(steps: Steps, s: Array, t: Array, z: Array) -> float:
-    """Least height above the line of the nosings of what hangs over it."""
-    low, high = steps.width
-    first, last = steps.at[0], steps.at[-1]
-    inside = (t > low + 0.1) & (t < high - 0.1) & (s > first[0]) & (s < last[0])
-    slope = (last[1] - first[1]) / (last[0] - first[0])
-    over = z[inside] - first[1] - slope * (s[inside] - first[0])
-    over = over[over > LOWEST_CEILING]
-    return float(np.percentile(over, 1)) if len(over) > 30 else math.nan
-
-
-def _room(steps: Steps, s: Array, t: Array, z: Array) -> tuple[float, float]:
-    """How far from the first and the last nosing something stands across the way [m]; NaN: free."""
-    first, last = steps.at[0], steps.at[-1]
-    base = steps.floor if math.isfinite(steps.floor) else first[1] - steps.line.rise
-    return (
-        landing_end(first[0] - s, t, z - base, width=steps.width),
-        landing_end(s - last[0], t, z - last[1], width=steps.width),
-    )
-
-
-def _beside(one: FlightEstimate, other: FlightEstimate) -> bool:
-    """Whether two flights are parts of one, which somebody stood on, side by side."""
-    if abs(math.sin((one.heading - other.heading) / 2)) > 0.03:
-        return False
-    s, _, z = rotated(one.middle, other.heading)
-    line_s, _, line_z = rotated(other.middle, other.heading)
-    k = np.abs(s[:, None] - line_s).argmin(axis=1)
-    return bool(np.median(np.hypot(s - line_s[k], z - line_z[k])) < SAME_NOSING)
-
-
-def _continues(one: FlightEstimate, other: FlightEstimate) -> bool:
-    """Whether a flight leads on from another one without a landing, as its far end does.
-
-    It is the same flight, of which too little was seen between; the other one says that its end was
-    not seen.
-    """
-    if abs(math.sin((one.heading - other.heading) / 2)) > 0.03:
-        return False
-    lower, upper = sorted((one, other), key=lambda each: float(each.middle[0, 2]))
-    s, t, z = rotated(np.vstack([lower.middle[-1], upper.middle[0]]), other.heading)
-    step = np.array([other.regular.going, other.regular.rise])
-    off = np.array([s[1] - s[0], z[1] - z[0]]) - np.arange(1, 4)[:, None] * step
-    beside = abs(t[1] - t[0]) > max(one.width, other.width) / 2
-    return bool((np.abs(off) < CONTINUES * step).all(axis=1).any()) and not beside
-
-
-def _wider(flight: FlightEstimate, beside: FlightEstimate) -> FlightEstimate:
-    """Flight with what lies beside it, its own nosings drawn out over the width of both."""
-    left = np.array([-math.sin(flight.heading), math.cos(flight.heading)])
-    sides = np.vstack([flight.left, flight.right, beside.left, beside.right])[:, :2] @ left
-    across = (flight.left - flight.right) / flight.width
-    middle = flight.middle[:, :2] @ left
-    high, low = float(sides.max()), float(sides.min())
-    return replace(
-        flight,
-        left=flight.middle + across * (high - middle)[:, None],
-        right=flight.middle + across * (low - middle)[:, None],
-        width=high - low,
-    )
-
-
-def _within(flight: FlightEstimate, thin: Array) -> NDArray[np.bool_]:
-    """Points that belong to a flight: about its steps and between its sides."""
-    s, t, z = rotated(thin, flight.heading)
-    places = rotated(flight.middle, flight.heading)
-    sides = rotated(np.vstack([flight.left, flight.right]), flight.heading)[1]
-    along, up = places[0], places[2]
-    slope = (up[-1] - up[0]) / (along[-1] - along[0])
-    over = z - up[0] - slope * (s - along[0])
-    return np.asarray(
-        (s > along[0] - 0.25) & (s < along[-1] + 0.25) & (np.abs(over) < 0.35)
-        & (t > sides.min() - 0.1) & (t < sides.max() + 0.1)
-    )  # fmt: skip
+    leant = upright_turn @ turn.T
+    flights = [tilted(flight, leant) for flight in flights]
+    return _Try(tuple(flights), tuple(refusals), score, provenance, upright_turn, sure)

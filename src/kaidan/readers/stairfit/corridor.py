@@ -32,11 +32,15 @@ TRIED = 5
 """Repetitions of the side view that are tried with a fit."""
 ABOUT = 3.0
 """Height over or under a line up to which a point may be one of its steps, in rises [1]."""
-FEWEST_VIEWED = 50
-"""Points of a view in which steps are looked for."""
-FAINT = 50.0
-"""Points by which a line must stand out of its average shift: three steps 0.3 m wide have five
-times as many where all of them is seen."""
+FEWEST_VIEWED, FEWEST_MORE = 50, 300
+"""Points of a view on no floor in which steps are looked for, and of one in which another flight
+is: three steps of 0.3 m have so many where most of them is seen."""
+FAINT = 100.0
+"""Points by which the line of another flight must stand out of its average shift: three steps 0.3 m
+wide have 250 where all of them is seen."""
+RIVAL = 0.3
+"""Least share of the most points by which a line stands out, from which it is tried with a fit
+[1]."""
 SURE, LONG = 0.7, 8
 """Share of the points about a line that lie on it, chance subtracted [1], and nosings, from which
 it is the flight before others are tried: in a short one an odd riser may pull the line."""
@@ -164,7 +168,7 @@ def lanes(seen: list[View], tolerance: float, *, another: bool) -> Iterator[Lane
     tried: list[tuple[float, View, StairLine]] = []
     for view in seen:
         s, z = view.steps()
-        if len(s) < FEWEST_VIEWED:
+        if len(s) < (FEWEST_MORE if another else FEWEST_VIEWED):
             continue
         for echo in echoes(s, z):
             back = echo.going < 0
@@ -174,8 +178,8 @@ def lanes(seen: list[View], tolerance: float, *, another: bool) -> Iterator[Lane
     tried.sort(key=lambda each: -each[0])
     found, none_yet = [], True
     fits: list[Lane] = []
-    for _, view, line in tried[:TRIED]:
-        if any(_same(lane, view.heading, line) for lane in fits):
+    for support, view, line in tried[:TRIED]:
+        if support < RIVAL * tried[0][0] or any(_same(lane, view.heading, line) for lane in fits):
             continue
         lane = lane_of(view, line, tolerance)
         fits += [lane] if lane is not None else []

@@ -8,9 +8,10 @@ its slope, a wall at any shift upwards, shelves at shifts straight up. So the au
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kaidan.readers.kinds import Array
 
@@ -28,6 +29,10 @@ BLUR = 1.5
 """Blur of the side view before it is compared with itself, twice its variance [cells^2]."""
 _REACH = 62
 """Cells by which it is shifted at most: three times the longest spacing."""
+_ACROSS, _UP = np.arange(-20.0, 21.0), np.arange(2.0, 14.0)
+"""Shifts along s and z at which it is compared with itself [cells]."""
+_FINE = np.linspace(-1.0, 1.0, 17)
+"""Shifts about the best one between which it is sharpened [cells]."""
 
 
 @dataclass(frozen=True)
@@ -64,45 +69,48 @@ def echoes(s: Array, z: Array, most: int = 3) -> list[Echo]:
     auto = np.fft.irfft2(power * blur.astype(np.float32), shape)
     auto = np.vstack([auto[-_REACH:], auto[: _REACH + 1]])[:, : _REACH + 1].astype(np.float64)
     auto /= max(float(auto[_REACH, 0]), 1e-12)
-    i, k = np.meshgrid(np.arange(-20.0, 21.0), np.arange(2.0, 14.0), indexing="ij")
-    across, up = i * CELL, k * CELL
-    spacing, angle = np.hypot(across, up), np.arctan2(up, np.abs(across))
-    allowed = (
-        (spacing >= SPACINGS[0] - CELL / 2) & (spacing <= SPACINGS[1] + CELL / 2)
-        & (angle >= ANGLES[0] - 0.05) & (angle <= ANGLES[1] + 0.05)
-        & (np.abs(across) >= GOINGS[0] - 0.01) & (up >= RISES[0] - 0.01)
-    )  # fmt: skip
-    half, more = _at(auto, i / 2, k / 2), _at(auto, 1.5 * i, 1.5 * k)
-    contrast = np.where(allowed, _at(auto, i, k) - 0.5 * half - 0.5 * more, -1.0)
+    half, more = (_on(auto, times * _ACROSS, times * _UP) for times in (0.5, 1.5))
+    contrast = np.where(_allowed(), _on(auto, _ACROSS, _UP) - 0.5 * half - 0.5 * more, -1.0)
     found: list[Echo] = []
     for _ in range(most):
         at = np.unravel_index(int(np.argmax(contrast)), contrast.shape)
         if contrast[at] <= 0.0:
             break
-        found.append(_sharpened(auto, float(i[at]), float(k[at]), float(contrast[at])))
-        contrast[np.abs(i - i[at]) + np.abs(k - k[at]) <= 3] = -1.0
+        i, k = float(_ACROSS[at[0]]), float(_UP[at[1]])
+        found.append(_sharpened(auto, i, k, float(contrast[at])))
+        contrast[np.abs(_ACROSS - i)[:, None] + np.abs(_UP - k) <= 3] = -1.0
     return found
+
+
+@lru_cache(maxsize=1)
+def _allowed() -> NDArray[np.bool_]:
+    """Shifts that are stairs."""
+    across, up = _ACROSS[:, None] * CELL, _UP * CELL
+    spacing, angle = np.hypot(across, up), np.arctan2(up, np.abs(across))
+    return np.asarray(
+        (spacing >= SPACINGS[0] - CELL / 2) & (spacing <= SPACINGS[1] + CELL / 2)
+        & (angle >= ANGLES[0] - 0.05) & (angle <= ANGLES[1] + 0.05)
+        & (np.abs(across) >= GOINGS[0] - 0.01) & (up >= RISES[0] - 0.01)
+    )  # fmt: skip
 
 
 def _sharpened(auto: Array, i: float, k: float, contrast: float) -> Echo:
     """Shift between cells, from that of one, two and three steps at once."""
-    fine = np.linspace(-1.0, 1.0, 17)
-    across, up = np.meshgrid(i + fine, k + fine, indexing="ij")
+    across, up = i + _FINE, k + _FINE
     many = [steps for steps in (1, 2, 3) if steps * (max(abs(i), k) + 1) < _REACH - 1]
-    total = sum(_at(auto, steps * across, steps * up) for steps in many)
-    at = np.unravel_index(int(np.argmax(total)), across.shape)
-    return Echo(float(across[at]) * CELL, float(up[at]) * CELL, contrast)
+    total = sum(_on(auto, steps * across, steps * up) for steps in many)
+    at = np.unravel_index(int(np.argmax(total)), (len(across), len(up)))
+    return Echo(float(across[at[0]]) * CELL, float(up[at[1]]) * CELL, contrast)
 
 
-def _at(auto: Array, i: Any, k: Any) -> Array:
-    """Autocorrelation between cells, bilinear."""
-    i, k = i + _REACH, np.asarray(k, dtype=np.float64)
-    i0, k0 = np.floor(i).astype(int), np.floor(k).astype(int)
+def _on(auto: Array, i: Array, k: Array) -> Array:
+    """Autocorrelation on a grid of shifts between cells, bilinear, shape (len(i), len(k))."""
+    i = i + _REACH
+    i0, k0 = np.floor(i).astype(np.int64), np.floor(k).astype(np.int64)
     i1, k1 = np.minimum(i0 + 1, 2 * _REACH), np.minimum(k0 + 1, _REACH)
-    fi, fk = i - i0, k - k0
-    low = auto[i0, k0] * (1 - fi) + auto[i1, k0] * fi
-    high = auto[i0, k1] * (1 - fi) + auto[i1, k1] * fi
-    return np.asarray(low * (1 - fk) + high * fk)
+    fi, fk = (i - i0)[:, None], k - k0
+    along = auto.take(i0, axis=0) * (1 - fi) + auto.take(i1, axis=0) * fi
+    return np.asarray(along.take(k0, axis=1) * (1 - fk) + along.take(k1, axis=1) * fk)
 
 
 def _round(count: int) -> int:

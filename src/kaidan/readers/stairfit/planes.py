@@ -169,7 +169,9 @@ def _plane(patches: Patches, rows: Indices, middle: Array, normal: Array, across
         fit = np.linalg.solve(columns[on].T @ weighted + 1e-9 * np.eye(3), weighted.T @ height[on])
         off = np.abs(height - columns @ fit)
         scatter = 1.5 * float(np.median(off[on]))
-        on = off < (max(2.7 * scatter, THINNEST) if turn > 2 else LAYER)
+        before, on = on, off < (max(2.7 * scatter, THINNEST) if turn > 2 else LAYER)
+        if turn > 2 and (on == before).all():
+            break
     places = columns[on, 1:]
     if len(places) < FEWEST:
         nowhere = np.zeros((2, 2)), np.zeros(3)

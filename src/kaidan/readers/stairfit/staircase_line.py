@@ -125,6 +125,13 @@ def assigned(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) ->
     return Assigned(step, tread, riser, np.where(riser, face, v), u / g, v / r)
 
 
+def grouped(rows: Indices, number: Array | Indices, count: int) -> list[Indices]:
+    """Rows of the points of each step from 0 on, sorted once."""
+    short = number.astype(np.int16)  # short ones are sorted by counting
+    order = np.argsort(short, kind="stable")
+    return np.split(rows[order], np.cumsum(np.bincount(short, minlength=count))[:-1])
+
+
 def explained_share(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) -> float:
     """Share of the points about a line that lie on it, less what would by chance."""
     k, u, v = line.local(s, t, z)

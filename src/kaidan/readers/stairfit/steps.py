@@ -14,48 +14,38 @@ from numpy.typing import NDArray
 from kaidan.readers.flight import LAST_SPREAD, UNCHECKED
 from kaidan.readers.kinds import Array, Indices
 from kaidan.readers.stairfit.doubts import SMALLEST, across, common, place_of
+from kaidan.readers.stairfit.flight_ends import (
+    EDGE_OFF,
+    FEWEST_LANES,
+    FEWEST_POINTS,
+    ODD_UNSEEN,
+    floor_before,
+    from_the_first,
+    last_riser,
+    trimmed,
+)
 from kaidan.readers.stairfit.staircase_line import (
     Assigned,
-    Edges,
     StairLine,
     assigned,
     explained_share,
     fitted,
     fronts,
+    grouped,
     robust_plane,
     tops,
 )
 from kaidan.readers.stairfit.turning_steps import nosing_angles, turn_of
 
-FEWEST_POINTS = 12
-"""Points of a tread or a riser from which its mean is taken."""
 LANES = (0.05, 0.2)
 """Widths of the lanes in which ends are sought, the second where the first holds too few [m]."""
-FEWEST_LANES = 3
-"""Lanes in which an end must be seen."""
-STRIP = 0.1
-"""Width of the strips across a step in which it must be seen [m]."""
-SHORTEST_FLOOR = 0.08
-"""Length of the level before the first riser that must be seen [m]."""
-EDGE_OFF = 0.03
-"""Distance of the end of an element from its regular place up to which it is its end [m]."""
 OUT_OF_LEVEL = math.tan(math.radians(3.0))
 """Slope across at which a tread is none; along it, where edges blur it, twice that."""
-ODD_UNSEEN = 0.25
-"""Largest difference of the last riser from the others, as a share of them, where its face was not
-seen [1]: what lies higher is something that stands on the landing."""
-HIGHEST_LAST = 1.3
-"""Highest last riser, over the others [1]: what lies higher stands on the landing."""
-LANDING_ACROSS = 0.6
-"""Least width of a landing with a riser of its own, over that of the flight [1]: a box on it is
-narrower."""
 LAST_UNSEEN = 2 * LAST_SPREAD
 """Standard uncertainty of the last level where nothing of it was seen [m]: what last rises are like
 says more."""
-MOST_FITTED = 30_000
+MOST_FITTED = 15_000
 """Points of a lane to which the line is fitted; single steps are measured in all of them."""
-FLOOR_SEEN = 15
-"""Points from which a floor counts as seen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,8 +119,8 @@ def steps_of(
     thin = max(1, len(s) // MOST_FITTED)
     s, t, z = s[::thin], t[::thin], z[::thin]
     line = fitted(line, s, t, z, tolerances=(1.5 * tight, tight, tight))
-    whole = _trimmed(line, s, t, z, tight)
-    line = _bottom(whole, s, t, z, tight)
+    whole = trimmed(line, s, t, z, tight)
+    line = from_the_first(whole, s, t, z, tight)
     if line.last - line.first < 2:
         return None
     line = _without_odd(line, s, t, z, tight)
@@ -153,8 +143,8 @@ def steps_of(
         return None
     for axis in (0, 1):
         _fill(number, found[:, axis], sigma[:, axis], measured[:, axis])
-    floor, floor_sigma, run_up, before = _floor(line, found[0], s, t, z, tight)
-    found, sigma, measured, places, landing = _last_riser(
+    floor, floor_sigma, run_up, before = floor_before(line, found[0], s, t, z, tight)
+    found, sigma, measured, places, landing = last_riser(
         found, sigma, measured, places, line, s, t, z, noise, tight
     )
     if not measured[-1, 1]:
@@ -229,10 +219,7 @@ def _alone(
 def _by_step(line: StairLine, step: Indices, on: NDArray[np.bool_]) -> list[Indices]:
     """Rows of the points of each step of a line, sorted once."""
     rows = np.flatnonzero(on & (step >= line.first) & (step <= line.last))
-    number = (step[rows] - line.first).astype(np.int16)  # short ones are sorted by counting
-    order = np.argsort(number, kind="stable")
-    count = np.bincount(number, minlength=line.last - line.first + 1)
-    return np.split(rows[order], np.cumsum(count)[:-1])
+    return grouped(rows, step[rows] - line.first, line.last - line.first + 1)
 
 
 def _depth(line: StairLine, s: Array, t: Array, z: Array) -> float:
@@ -304,180 +291,12 @@ def _fill(number: Indices, value: Array, sigma: Array, good: NDArray[np.bool_]) 
     sigma[~good] = np.sqrt(own + UNCHECKED**2)[~good]
 
 
-def _trimmed(line: StairLine, s: Array, t: Array, z: Array, tight: float) -> StairLine:
-    """Line without the steps at its ends that few points make, or points that lie anyhow."""
-    at = assigned(line, s, t, z, tight)
-    on = at.tread | at.riser
-    k, u, v = line.local(s, t, z)
-    near = np.abs(v - line.rise * (u / line.going - 0.5)) < 0.8 * line.rise
-    lane = np.floor(t / STRIP).astype(np.int64)
-    lane -= lane.min()
-    wide = int(lane.max()) + 1
-    steps = np.arange(line.first, line.last + 1)
-    count = len(steps)
-    rows = np.flatnonzero(on & (at.step >= line.first) & (at.step <= line.last))
-    cells = (at.step[rows] - line.first) * wide + lane[rows]
-    seen = (np.bincount(cells, minlength=count * wide).reshape(count, wide) > 0).sum(axis=1) / wide
-    rows = np.flatnonzero(near & (k >= line.first) & (k <= line.last))
-    number = k[rows] - line.first
-    about = np.bincount(number, minlength=count)
-    share = np.bincount(number, weights=on[rows], minlength=count) / np.maximum(about, 1)
-    usual = float(np.median(seen))
-    good = (seen >= 0.5 * usual) & ((share >= 0.5) | (seen >= 0.9))
-    good &= share >= 0.5 * float(np.median(share))
-    if not good.any():
-        return line
-    kept = np.flatnonzero(good)
-    return replace(line, first=int(steps[kept[0]]), last=int(steps[kept[-1]]))
-
-
-def _bottom(line: StairLine, s: Array, t: Array, z: Array, tight: float) -> StairLine:
-    """Line that begins at the first nosing.
-
-    A level that goes on below its nosing, or of which neither the riser is seen nor a front end at
-    its place with something lower before it, is the floor. A level below that ends after a going,
-    with something lower before it, is a step.
-    """
-    g, r = line.going, line.rise
-    begun = line
-    front: Edges | None = None
-    while line.last - line.first >= 2:
-        s1, z1 = line.at(np.array([line.first]))[0]
-        ahead = s - line.skew * t - s1
-        level = np.abs(z - z1) < tight
-        before = (level & (ahead > -0.4 * g - 0.15) & (ahead < -0.04)).sum()
-        behind = (level & (ahead > 0.04) & (ahead < 0.9 * g)).sum()
-        face = (np.abs(ahead) < tight) & (z < z1 - 0.15 * r) & (z > z1 - 0.85 * r)
-        if face.sum() >= 5 and face.sum() > before:
-            break
-        front = fronts(begun, s, t, z, tight) if front is None else front
-        ends = (front.at - line.skew * front.t)[front.step == line.first]
-        edge = len(ends) >= FEWEST_LANES and abs(float(np.median(ends)) - s1) < EDGE_OFF
-        below = (ahead < -0.03) & (ahead > -2 * g) & (z < z1 - 0.4 * r) & (z > z1 - 2.5 * r)
-        if before <= 0.3 * behind + 4 and behind >= 4 and edge and below.sum() >= FLOOR_SEEN:
-            break
-        line = replace(line, first=line.first + 1)
-    for _ in range(3):
-        s1, z1 = line.at(np.array([line.first]))[0]
-        ahead = s - line.skew * t - s1
-        tread = (np.abs(z - z1 + r) < tight) & (ahead < -0.04)
-        ends_there = (tread & (ahead > -g - 0.04)).sum() > 0.95 * tread.sum()
-        lower = (z < z1 - 1.5 * r) & (z > z1 - 2.6 * r) & (ahead < -g + 0.04) & (ahead > -2 * g)
-        full = (tread & (ahead < -0.6 * g)).sum() >= 4
-        if not (ends_there and full and lower.sum() >= FLOOR_SEEN):
-            break
-        line = replace(line, first=line.first - 1)
-    return line
-
-
 def _without_odd(line: StairLine, s: Array, t: Array, z: Array, tight: float) -> StairLine:
     """Line fitted to its steps alone, and not to the last riser, which may be another one."""
     if line.last - line.first < 3:
         return line
     inner = replace(line, last=line.last - 1)
     return replace(fitted(inner, s, t, z, tolerances=(tight, tight)), last=line.last)
-
-
-def _densest(values: Array, width: float) -> tuple[float, float, int]:
-    """Mean of the most crowded level, its standard uncertainty, and its points."""
-    if not len(values):
-        return math.nan, math.nan, 0
-    bins = np.floor((values - values.min()) / width).astype(np.int64)
-    counts = np.bincount(bins)
-    pairs = counts + np.r_[counts[1:], 0]
-    low = values.min() + int(np.argmax(pairs)) * width
-    core = values[(values >= low) & (values < low + 2 * width)]
-    middle = float(np.median(core))
-    spread = max(1.4826 * float(np.median(np.abs(core - middle))), 1e-4)
-    core = values[np.abs(values - middle) < 3 * spread]
-    return float(core.mean()), spread / math.sqrt(len(core)), len(core)
-
-
-def _reach(ahead: Array) -> float:
-    """How far points lie one behind the other, from an edge on [m]."""
-    count = np.bincount(np.maximum(ahead / STRIP, 0.0).astype(np.int64))
-    few = np.flatnonzero(count < max(2.0, 0.02 * float(count.max())))
-    hidden = few[few > 0]  # what lies right behind the edge may be hidden by it
-    end = int(hidden[0]) if len(hidden) else len(count)
-    return min(end * STRIP, float(ahead.max()))
-
-
-def _floor(
-    line: StairLine, first: Array, s: Array, t: Array, z: Array, tight: float
-) -> tuple[float, float, float, Array]:
-    """Level of the floor, its doubt, how far it was seen, and `place_of` it; NaN where it was not.
-
-    Where it was not its place is anywhere.
-    """
-    nowhere = math.nan, 0.0, math.nan, np.zeros((2, 3))
-    ahead = s - line.skew * t - first[0]
-    r = line.rise
-    before = (ahead < -0.03) & (ahead > -1.5) & (z < first[1] - 0.25 * r) & (z > first[1] - 1.8 * r)
-    level, sigma, count = _densest(z[before], max(tight, 0.01))
-    if count < FLOOR_SEEN:
-        return nowhere
-    on = before & (np.abs(z - level) < tight)
-    reach = _reach(-ahead[on])
-    if reach < SHORTEST_FLOOR:
-        return nowhere
-    return level, sigma, reach, place_of(s, t, z, np.flatnonzero(on))
-
-
-def _narrow(t: Array, on: NDArray[np.bool_]) -> bool:
-    """Whether a level is narrower than a landing: a box, walls at both sides, stray points."""
-    _, in_strip = np.unique(np.floor(t[on] / STRIP), return_counts=True)
-    across = STRIP * int((in_strip >= FEWEST_LANES).sum())
-    return across < LANDING_ACROSS * float(np.ptp(np.percentile(t, [2, 98])))
-
-
-def _last_riser(
-    found: Array, sigma: Array, measured: NDArray[np.bool_], places: Array, line: StairLine,
-    s: Array, t: Array, z: Array, noise: float, tight: float,
-) -> tuple[Array, Array, NDArray[np.bool_], Array, float]:  # fmt: skip
-    """Nosings with that of the landing, whose riser may be another one, and the landing's length.
-
-    The length is NaN where no landing was seen.
-    """
-    last, r, g = found[-1], line.rise, line.going
-    alone = bool(measured[-1, 1])
-    within = tight if alone else max(tight, ODD_UNSEEN * r)
-    near = (np.abs(z - last[1]) < within) & (s > last[0] + 0.03)
-    height, doubt, count = _densest(z[near], max(tight, 0.01))
-    on = near & (np.abs(z - height) < tight)
-    if count >= FLOOR_SEEN and _reach(s[on] - last[0]) > g + 0.1 and (alone or not _narrow(t, on)):
-        if not alone:
-            found[-1, 1], sigma[-1, 1], measured[-1, 1] = height, doubt, True
-            places[-1, 1] = place_of(s, t, z, np.flatnonzero(on))
-        return found, sigma, measured, places, _reach(s[on] - last[0])
-    above = (s > last[0] + g + 0.03) & (s < last[0] + g + 1.2)
-    above &= (z > last[1] + 0.2 * r) & (z < last[1] + 1.7 * r)
-    height, doubt, count = _densest(z[above], max(tight, 0.01))
-    if count < FLOOR_SEEN:
-        return found, sigma, measured, places, math.nan
-    on = above & (np.abs(z - height) < tight)
-    reach = _reach(s[on] - last[0] - g)
-    narrow = _narrow(t, on)
-    high = height > last[1] + HIGHEST_LAST * r
-    if reach < 0.1 + 0.5 * g or count < 0.5 * above.sum() or narrow or high:
-        return found, sigma, measured, places, math.nan
-    face = (np.abs(s - last[0] - g) < max(2 * tight, 0.04)) & (z > last[1] + 0.1 * r)
-    face &= z < height - 0.1 * r
-    here = np.full((2, 2, 3), np.nan)
-    here[1] = place_of(s, t, z, np.flatnonzero(on))
-    if face.sum() >= FEWEST_POINTS:
-        front, doubt_s = float(np.median(s[face])), noise / math.sqrt(face.sum())
-        here[0] = place_of(s, t, z, np.flatnonzero(face))
-    elif abs(height - last[1] - r) < ODD_UNSEEN * r:
-        front, doubt_s = last[0] + g, UNCHECKED
-    else:
-        return found, sigma, measured, places, math.nan
-    return (
-        np.vstack([found, [front, height]]),
-        np.vstack([sigma, [doubt_s, doubt]]),
-        np.vstack([measured, [True, True]]),
-        np.concatenate([places, here[None]]),
-        reach,
-    )
 
 
 def _width(step: Indices, t: Array, line: StairLine) -> tuple[float, float]:

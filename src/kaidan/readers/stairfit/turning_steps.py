@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from kaidan.readers.kinds import Array, Indices
-from kaidan.readers.stairfit.staircase_line import StairLine
+from kaidan.readers.stairfit.staircase_line import StairLine, grouped
 
 STRIP = 0.08
 """Width of a strip [m]."""
@@ -51,17 +51,18 @@ def nosing_angles(
         seen.
     """
     low, high = sides[0] + 0.05, sides[1] - 0.05
-    inside = (t > low) & (t < high) & ~(z < floor + BAND[0] * line.rise)
-    s, t, z = s[inside], t[inside], z[inside]
+    above = (z - line.z0) / line.rise
+    number = np.ceil(above)
+    below, ahead = number - above, s - line.skew * t - line.s0 - number * line.going
+    face = (below > BAND[0]) & (below < BAND[1]) & (np.abs(ahead) < REACH * line.going)
+    face &= (number >= line.first) & (number <= line.last)
+    rows = np.flatnonzero(face & (t > low) & (t < high) & ~(z < floor + BAND[0] * line.rise))
     found = np.full(line.last - line.first + 1, np.nan)
-    for row, (at, level) in enumerate(line.at(np.arange(line.first, line.last + 1)).tolist()):
-        below = (level - z) / line.rise
-        rows = np.flatnonzero((below > BAND[0]) & (below < BAND[1]))
-        rows = rows[np.abs(s[rows] - line.skew * t[rows] - at) < REACH * line.going]
-        if len(rows) < FEWEST_STRIPS * FEWEST_POINTS:
+    for row, here in enumerate(grouped(rows, number[rows] - line.first, len(found))):
+        if len(here) < FEWEST_STRIPS * FEWEST_POINTS:
             continue
-        strip = ((t[rows] - low) / STRIP).astype(np.int64)
-        x, y = (_medians(strip, each[rows]) for each in (t, s))
+        strip = ((t[here] - low) / STRIP).astype(np.int64)
+        x, y = (_medians(strip, each[here]) for each in (t, s))
         if len(x) < FEWEST_STRIPS:
             continue
         i, j = np.triu_indices(len(x), 2)  # neighbours say little

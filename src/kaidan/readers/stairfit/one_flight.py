@@ -1,0 +1,131 @@
+"""One flight of a cloud, from the lane in which it was found to its estimate."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from kaidan.readers.flight import FlightEstimate
+from kaidan.readers.kinds import Array
+from kaidan.readers.stairfit.corridor import Lane, rotated
+from kaidan.readers.stairfit.landing_end import landing_end
+from kaidan.readers.stairfit.steps import Steps, steps_of
+from kaidan.text import scans as text
+
+LOWEST_CEILING = 1.2
+"""Height above the nosings from which something is a ceiling and no handrail [m]."""
+
+Placed = tuple[Array, Array, Array]
+"""Points along a heading: s, t, z, shape (n,) each [m]."""
+
+
+def measured(
+    lane: Lane, cloud: Array, view: Array, noise: float, error: float, against: Array
+) -> tuple[Steps | None, Lane, Placed]:
+    """Single steps of a lane in all points, after its heading was corrected by its skew.
+
+    With the lane along that heading, and all points along it.
+    """
+    line = lane.line
+    heading = lane.heading - math.atan(line.skew)
+    placed = s, t, z = rotated(cloud, heading)
+    turn = math.cos(heading - lane.heading)
+    # a point at (s, t) of the lane's frame has s' = s cos + t sin, t' = t cos - s sin
+    sine = math.sin(heading - lane.heading)
+    line = replace(line, s0=line.s0 * turn, going=line.going * turn, skew=0.0)
+    along = line.s0 + line.going * (line.first + line.last) / 2
+    shift = -along / turn * sine
+    low, high = lane.low + shift, lane.high + shift
+    low, high = low - 0.5 * abs(sine), high + 0.5 * abs(sine)
+    ends = line.at(np.array([line.first, line.last]))
+    near = (t > low) & (t < high) & (s > ends[0, 0] - 1.6) & (s < ends[1, 0] + 1.8)
+    near &= (z > ends[0, 1] - 0.9) & (z < ends[1, 1] + 2.4)
+    aligned = replace(lane, heading=heading, line=line, low=low, high=high)
+    eye = np.concatenate(rotated(view[None], heading))
+    inside = s[near], t[near], z[near]
+    ahead = np.array([math.cos(heading), math.sin(heading), 0.0])
+    level = math.sqrt(float(ahead @ against @ ahead))
+    steps = steps_of(line, *inside, noise=noise, eye=eye, range_error=error, level=level)
+    return steps, aligned, placed
+
+
+def estimate(
+    steps: Steps, lane: Lane, gravity: float, error: float, cloud: Placed
+) -> FlightEstimate:
+    """Estimate in the levelled frame of the cloud, whose points are given along the lane."""
+    c, s = math.cos(lane.heading), math.sin(lane.heading)
+
+    def placed(t: float) -> Array:
+        along = steps.at[:, 0] + steps.line.skew * t
+        return np.column_stack([along * c - t * s, along * s + t * c, steps.at[:, 1]])
+
+    low, high = steps.width
+    before, behind = _room(steps, *cloud)
+    return FlightEstimate(
+        left=placed(high),
+        right=placed(low),
+        heading=lane.heading - math.atan(steps.line.skew),
+        covariance=steps.covariance,
+        gravity=gravity,
+        scale=error,
+        floor=steps.floor,
+        floor_sigma=steps.floor_sigma,
+        with_floor=steps.with_floor,
+        ends=steps.ends,
+        roughness=steps.roughness,
+        width=high - low,
+        headroom=_headroom(steps, *cloud),
+        run_up=steps.run_up,
+        run_out=steps.landing,
+        room_before=before,
+        room_behind=behind,
+        notes=tuple(_notes(steps)),
+    )
+
+
+def _notes(steps: Steps) -> list[str]:
+    notes = []
+    if not math.isfinite(steps.floor):
+        notes.append(text.FLOOR_UNSEEN)
+    elif steps.run_up < 1.2 * steps.line.going:
+        notes.append(text.FLOOR_SHORT.format(seen_mm=1e3 * steps.run_up))
+    if not steps.ends:
+        notes.append(text.LANDING_UNSEEN)
+    if not steps.measured.all():
+        alone = int(steps.measured.all(axis=1).sum())
+        notes.append(text.REGULAR.format(alone=alone, steps=len(steps.at)))
+    return notes
+
+
+def _headroom(steps: Steps, s: Array, t: Array, z: Array) -> float:
+    """Least height above the line of the nosings of what hangs over it."""
+    low, high = steps.width
+    first, last = steps.at[0], steps.at[-1]
+    inside = (t > low + 0.1) & (t < high - 0.1) & (s > first[0]) & (s < last[0])
+    slope = (last[1] - first[1]) / (last[0] - first[0])
+    over = z[inside] - first[1] - slope * (s[inside] - first[0])
+    over = over[over > LOWEST_CEILING]
+    return float(np.percentile(over, 1)) if len(over) > 30 else math.nan
+
+
+def _room(steps: Steps, s: Array, t: Array, z: Array) -> tuple[float, float]:
+    """How far from the first and the last nosing something stands across the way [m]; NaN: free."""
+    first, last = steps.at[0], steps.at[-1]
+    base = steps.floor if math.isfinite(steps.floor) else first[1] - steps.line.rise
+    return (
+        landing_end(first[0] - s, t, z - base, width=steps.width),
+        landing_end(s - last[0], t, z - last[1], width=steps.width),
+    )
+
+
+def tilted(flight: FlightEstimate, turn: Array) -> FlightEstimate:
+    """Flight that was measured along what was built, in the frame of gravity."""
+    foot = np.array([*flight.middle[0, :2], flight.floor])
+    ahead = turn @ [math.cos(flight.heading), math.sin(flight.heading), 0.0]
+    return replace(
+        flight,
+        left=flight.left @ turn.T,
+        right=flight.right @ turn.T,
+        heading=math.atan2(ahead[1], ahead[0]),
+        floor=float((turn @ foot)[2]),
+    )
