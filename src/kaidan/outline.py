@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from kaidan.contact import BELLY, FLIPPER, TRACK
 from kaidan.mechanics.footprint import Footprint
 from kaidan.robot import FlipperPair, Payload, Posture, Robot, Stance
+from kaidan.robot.robot import IN_LINE
 
 Array = NDArray[np.float64]
 
@@ -89,6 +90,21 @@ class Outline:
         discs = self.parts.reshape(-1, 3)
         behind = discs[discs[:, 0] - discs[:, 2] < 0.0]
         return float((np.hypot(behind[:, 0], behind[:, 1]) + behind[:, 2]).max(initial=0.0))
+
+    @property
+    def lead(self) -> float:
+        """Largest distance ahead of the centroid of what may touch a level floor it stands on [m].
+
+        A flipper that is pushed below the flat raises its end of the robot, and then reaches
+        further ahead than in line with the floor.
+        """
+        discs = self.parts.reshape(-1, 3)
+        lowest = discs[:, 1] - discs[:, 2] + self.stance.com_height
+        ahead = self.reach[1]
+        if lowest.min() >= -IN_LINE:
+            return ahead
+        low = discs[(discs[:, 0] + discs[:, 2] > 0.0) & (discs[:, 1] < 0.0)]
+        return float((np.hypot(low[:, 0], low[:, 1]) + low[:, 2]).max(initial=ahead))
 
     def turned_round(self) -> Self:
         """Outline with nose and tail swapped, x counting towards the tail."""

@@ -171,6 +171,51 @@ def test_nosings_lost_over_the_landing_of_many_count():
     check_odd_last_steps(seed=9, count=200)
 
 
+def with_odd_first_riser(seed, count, higher):
+    """Flights whose first riser is higher than the others, or lower, and no others differ."""
+    rng = np.random.default_rng(seed)
+    while count:
+        L, R = rng.uniform(0.5, 0.9), rng.uniform(0.1, 0.14)
+        rise = rng.uniform(0.06, 0.08)
+        flight = Stairs(
+            rise=rise,
+            going=rise / math.tan(rng.uniform(0.45, 0.8)),
+            first_rise=rise + (rng.uniform(0.008, 0.02) if higher else -rng.uniform(0.0, 0.03)),
+            steps=8,
+        )
+        robot = Robot(
+            name="any",
+            com_from_front=L * rng.uniform(0.4, 0.6),
+            com_height=rng.uniform(0.2, 0.35) * L,
+            track=Track(flat_length=L, front_radius=R, rear_radius=R),
+        )
+        found = traverse_of(Question.in_one_posture(robot, flight, friction=3.0))
+        if found.arrived and math.radians(1.0) < found.downhill_margin < LARGEST:
+            count -= 1
+            yield found
+
+
+def check_odd_first_riser(seed, count, *, higher):
+    """Short of the margin it does not fall; at a higher riser some do short of the flight's."""
+    gained = 0
+    for found in with_odd_first_riser(seed, count, higher):
+        assert brute(found, found.downhill_margin - math.radians(0.1))[0] == 0.0
+        flight = found.criterion.smallest(downhill=True)
+        if flight is not None and flight.margin > found.falls_downhill.tilt + BRACKET:
+            gained += brute(found, flight.margin - math.radians(0.02))[0] != 0.0
+    return gained
+
+
+def test_a_higher_first_riser_counts():
+    assert check_odd_first_riser(seed=10, count=10, higher=True) > 0
+
+
+@pytest.mark.slow
+def test_odd_first_risers_of_many_count():
+    assert check_odd_first_riser(seed=11, count=150, higher=True) > 0
+    assert check_odd_first_riser(seed=12, count=100, higher=False) == 0
+
+
 def kinked(seed, count):
     """Robots up flights, flippers so little above the flat that they rock onto them."""
     rng = np.random.default_rng(seed)

@@ -83,6 +83,16 @@ def test_radius_of_gyration_given_and_estimated():
     assert estimated.gyration_estimated
 
 
+def test_a_flipper_pushed_down_reaches_further_ahead_than_in_line_with_the_floor():
+    """The tip lies 0.2 m ahead of the centroid and 0.34 m below it."""
+    down = Outline.of(robot(front_flippers=FLIPPERS), Posture(front=-math.pi / 2))
+    assert down.reach[1] == pytest.approx(0.26)
+    assert down.lead == pytest.approx(math.hypot(0.2, 0.34) + 0.03)
+    for posture in (Posture(), Posture(front="flat")):
+        outline = Outline.of(robot(front_flippers=FLIPPERS), posture)
+        assert outline.lead == outline.reach[1]
+
+
 def test_turned_round_twice_is_the_same():
     outline = Outline.of(robot(front_flippers=FLIPPERS))
     np.testing.assert_array_equal(outline.turned_round().turned_round().parts, outline.parts)

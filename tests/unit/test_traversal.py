@@ -103,6 +103,16 @@ def test_a_robot_longer_than_stairs_and_landings():
     assert found.arrived
 
 
+@pytest.mark.parametrize("posture", [{"front": -1.05}, {"front": -1.3, "rear": "flat"}])
+def test_on_leading_flippers_that_are_pushed_down_it_begins_before_the_first_riser(posture):
+    """They raise the nose, and so reach further ahead: it stands on the floor all the same."""
+    outline = Outline.of(Robot.named("absolem"), Posture(**posture))
+    poses = driven(Stairs(rise=0.178, going=0.279, steps=4), outline).path.poses
+    for point in (poses.rear_point[0], poses.front_point[0]):
+        assert point[1] == 0.0
+        assert point[0] < 0.0
+
+
 def test_no_stairs_at_all():
     found = traverse(Profile.of_points([(0, 0), (2, 0)]), KENAF, step=STEP)
     assert found.arrived

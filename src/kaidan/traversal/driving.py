@@ -39,7 +39,7 @@ def span(
     """Where the centroid starts and ends [m]."""
     first, last = uneven_span(driven)
     return (
-        first - body.reach[1] - CLEARANCE if start is None else start.x,
+        first - body.lead - CLEARANCE if start is None else start.x,
         last + body.trail + CLEARANCE if until is None else until,
     )
 

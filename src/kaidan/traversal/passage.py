@@ -325,14 +325,19 @@ class Traverse:
     def _may_fall_first(self) -> bool:
         """Whether it may fall before the first rock that is found.
 
-        So it may where steps differ, no flat carries or a step is longer than it: poses judge it.
+        So it may where steps differ, where the first riser is higher than the others, where no flat
+        carries or a step is longer than it, and down over the edge of a landing
+        (docs/theory/rocking.md).
         """
         nosings = self.profile.nosings
         if len(nosings) < 2:
             return False
         on = sum(last - first + 1 for first, last in flights_of(nosings, self.tread.L))
         steps = np.diff(nosings, axis=0)
-        return not self.whole or on < len(nosings) or bool(np.ptp(steps, axis=0).max() > _EVEN)
+        uneven = bool(np.ptp(steps, axis=0).max() > _EVEN)
+        first = float(nosings[0, 1] - self.profile.points[0, 1])
+        higher = self.descending or first > float(steps[:, 1].max()) + _EVEN
+        return not self.whole or on < len(nosings) or uneven or higher
 
     @property
     def centroid_margin(self) -> float:
