@@ -60,6 +60,9 @@ def test_a_robot_that_arrives_is_caution_because_no_margin_is_known(direction, f
     assert (answer.margin_deg, answer.margin_best_deg, answer.required_friction) == (None,) * 3
     assert outcomes(answer) == ["climbed"]
     assert answer.model == "physics"
+    lines = str(answer).splitlines()
+    assert "  simulated       1 trial with a smooth rigid belt at 0.3 m/s" in lines
+    assert "none of the changes" not in str(answer)  # nothing fails that they might mend
 
 
 def test_without_a_friction_nothing_better_than_friction_unknown():

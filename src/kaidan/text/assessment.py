@@ -2,7 +2,14 @@
 
 from typing import TYPE_CHECKING
 
-from kaidan.modes import FAILURE_MODES, SLIDES_DOWN, SLIDES_UP, TURNING, Verdict
+from kaidan.modes import (
+    FAILURE_MODES,
+    SLIDES_DOWN,
+    SLIDES_UP,
+    TURNING,
+    Undecided,
+    Verdict,
+)
 from kaidan.text import dynamic, limits, measuring, plan, traction, turning
 from kaidan.text.tables import decimals
 from kaidan.text.unweighed import rows, thresholds
@@ -35,8 +42,10 @@ def text(answer: "Assessment") -> str:
             lines.append(_row("or", change_line(others[0], answer)))
     elif answer.limits:
         lines.append(_row("limit", limits.text(answer.limits)))
-    elif answer.verdict in ("caution", "no-go"):
+    elif answer.verdict in ("caution", "no-go") and _tried_changes(answer):
         lines.append(_row("help", "none of the changes that were tried"))
+    if answer.physics is not None:
+        lines.append(_row("simulated", dynamic.simulated(answer.physics)))
     if answer.verdict != "outside-model":
         lines.append(_row("margin", f"{margin_line(answer)}, on {stairs_line(answer)}"))
     lines.append(_row("friction", friction_line(answer)))
@@ -49,6 +58,11 @@ def text(answer: "Assessment") -> str:
     if unknown:
         lines.append(_row("not known", unknown))
     return "\n".join(lines[:LINES])
+
+
+def _tried_changes(answer: "Assessment") -> bool:
+    """Whether changes were tried: not where nothing fails, and not many trials for each."""
+    return answer.governs != Undecided.MARGIN_UNKNOWN and answer.question.trials == 1
 
 
 def advice(answer: "Assessment") -> str:

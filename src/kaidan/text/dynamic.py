@@ -23,6 +23,15 @@ _TRACKS = {
 }
 
 
+def simulated(figures: "PhysicsFigures") -> str:
+    """What was simulated, in one line."""
+    number = len(figures.trials)
+    return (
+        f"{number} {'trial' if number == 1 else 'trials'} with {_TRACKS[figures.track]} "
+        f"at {figures.speed_m_s:g} m/s"
+    )
+
+
 def notes(trials: Sequence["TrialResult"], figures: "PhysicsFigures") -> tuple[str, ...]:
     """What was simulated and what that leaves out."""
     first = trials[0]
