@@ -57,7 +57,8 @@ def verification_figure(found: "Verification") -> Figure:
             0.6,
             f"{look.named(found.robot)}: virtual verification test in the form of Fig. 13",
             f"{_track(found)}, {1e3 * found.speed_m_s:g} mm/s, friction {found.friction:g}, "
-            f"{found.trials} trials a condition, seed {found.seed}",
+            f"{found.trials} {'trial' if found.trials == 1 else 'trials'} a condition, "
+            f"seed {found.seed}",
         )
         figure.legend(
             handles=handles,
