@@ -5,12 +5,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from kaidan import Robot, Stairs
+from kaidan import Question, Robot, Stairs
 from kaidan.mechanics.clearance import spin_circle
-from kaidan.models import clearance
-from kaidan.modes import Phase
+from kaidan.models import clearance, judge
+from kaidan.modes import LANDING_ROOM, Phase
 from kaidan.outline import Outline, footprint_of
-from kaidan.robot import Posture
+from kaidan.robot import FlipperPair, Posture, PostureChange
 from one_posture import assess
 
 BOX = Robot(
@@ -162,3 +162,42 @@ def test_of_a_plan_the_largest_of_its_postures_counts(monkeypatch):
     rearing = 1.3 * math.sin(math.radians(15)) + 0.9 * math.cos(math.radians(15))
     assert low.worst == pytest.approx(2.0 - rearing)
     assert low.best == pytest.approx(1.1)
+
+
+ARMS = {
+    "length": 0.4,
+    "root_radius": 0.1,
+    "tip_radius": 0.05,
+    "pivot_height": 0.1,
+    "stowed_angle": math.pi / 2,
+}
+FOLDING = BOX.model_copy(
+    update={"front_flippers": FlipperPair(**ARMS), "rear_flippers": FlipperPair(**ARMS)}
+)
+"""1.2 m long with its flippers stowed, 0.35 m more at either end with them level."""
+
+
+@pytest.mark.parametrize("facing", ["nose-first", "tail-first"])
+@pytest.mark.parametrize("direction", ["up", "down"])
+def test_room_on_the_landing_where_it_stows_its_flippers(facing, direction):
+    """By hand: it sets out with one pair level, 1.55 m long, and ends stowed, 1.2 m long.
+
+    Before it stows them its tip is 0.95 m and 0.1 m beyond the last nosing.
+    """
+    posture = Posture(front=0.0, rear=0.0)
+    flight = FLIGHT.model_copy(update={"upper_landing": 1.5, "lower_landing": 3.0})
+    question = Question.of(
+        FOLDING, flight, friction=2.0, flippers=posture, direction=direction, facing=facing
+    )
+    by_hand = 1.5 - (1.55 if direction == "down" else 1.2)
+    assert clearance.room_when_stowed(question) == pytest.approx(by_hand)
+
+
+def test_a_plan_needs_room_in_the_posture_in_which_it_stands_there():
+    """By hand: stowed it is 1.2 m long, level 1.9 m."""
+    level = Posture(front=0.0, rear=0.0)
+    plan = (Posture(), PostureChange(before="traverse", posture=level))
+    for ends, room in (({"lower_landing": 1.25}, 0.05), ({"upper_landing": 1.25}, -0.65)):
+        flight = FLIGHT.model_copy(update={"lower_landing": 3.0, "upper_landing": 3.0} | ends)
+        found = judge(Question.of(FOLDING, flight, friction=2.0, flippers=plan))
+        assert found.of(LANDING_ROOM).worst == pytest.approx([room])

@@ -248,3 +248,17 @@ def test_to_measure_what_fails_as_stated_too_is_no_help(model):
     assert as_stated.margin_deg > answer.margin_deg + 0.9
     assert answer.to_measure[0].what == "centroid"
     assert not any(each.change.startswith("Weigh") for each in answer.what_would_help)
+
+
+def test_where_a_landing_is_too_short_it_stows_its_flippers_there():
+    """Absolem is 965 mm long in the posture in which it lands, 684 mm with its flippers stowed."""
+    short = Stairs(rise=0.178, going=0.279, upper_landing=0.9)
+    found = kaidan.assess("absolem", short, friction=1.1)
+    assert (found.verdict, found.governs) == ("caution", "landing_room")
+    (told,) = found.what_would_help
+    assert told.verdict == "go"
+    assert told.change == "Stow the flippers on the landings, 100 mm clear of the nosings"
+    longer = short.model_copy(update={"upper_landing": 0.97})
+    assert kaidan.assess("absolem", longer, friction=1.1).verdict == "go"
+    none = kaidan.assess("absolem", short.model_copy(update={"upper_landing": 0.65}), friction=1.1)
+    assert none.what_would_help == ()

@@ -2,7 +2,10 @@
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
 
 from kaidan.allowance import Allowance
 from kaidan.assessment.answer import Change
@@ -20,6 +23,7 @@ from kaidan.modes import (
     ENERGY,
     FALLS,
     IMPACT,
+    LANDING_ROOM,
     MOMENTUM,
     ROTATION,
     SUPPLIES,
@@ -62,7 +66,7 @@ class Candidate(NamedTuple):
     """What to do, for people."""
     question: Question
     certain: bool = False
-    """Whether it only makes a doubt certain: help where that settles something."""
+    """Whether it helps only where it settles something: another verdict, or a margin that holds."""
     then: Conclusion | None = None
     """Its conclusion, where it is known."""
 
@@ -185,6 +189,8 @@ def _candidates(
     if slips:
         yield from _more_friction(question, found, search)
         yield from _grousers(question)
+    if governs == LANDING_ROOM.key:
+        yield from _stowed_on_landings(question, found)
     energy = found.of(ENERGY)
     if governs == ENERGY.key and energy is not None:
         yield from _slower(question, float(energy.worst[0]) + question.energy_threshold())
@@ -225,6 +231,34 @@ def _flippers_flat(question: Question) -> Iterator[Candidate]:
     )
     if flat not in (question.posture, Posture()):
         yield Candidate(text.FLAT, question.changed(posture=flat))
+
+
+def _stowed_on_landings(question: Question, found: Findings) -> Iterator[Candidate]:
+    """Flippers stowed on landings that are too short for the robot with them out, and then only."""
+    if not question.robot.flippers() or any(each.end == "between" for each in question.landings):
+        return
+    from kaidan.assessment.plans import off_angles
+    from kaidan.models.clearance import room_when_stowed
+
+    room = room_when_stowed(question)
+    if room <= 0:
+        return
+
+    def then(asked: Question, findings: Findings) -> Conclusion:
+        each = [
+            replace(one, worst=np.array([room]), best=np.array([room]))
+            if one.mode is LANDING_ROOM
+            else one
+            for one in findings.each
+        ]
+        return conclude(asked, replace(findings, each=tuple(each)))
+
+    at_them = then(question, found)
+    if at_them.verdict is Verdict.GO and not all(
+        then(each, judge(each)).verdict is Verdict.GO for each in off_angles(question)
+    ):
+        at_them = at_them._replace(verdict=Verdict.CAUTION)
+    yield Candidate(text.STOWED, question, certain=True, then=at_them)
 
 
 def _flippers_raised(question: Question) -> Iterator[Candidate]:

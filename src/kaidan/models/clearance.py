@@ -10,14 +10,18 @@ import numpy as np
 
 from kaidan.mechanics.clearance import headroom_needed, lane_width
 from kaidan.models.findings import Finding
-from kaidan.modes import LOW, NARROW, FailureMode
+from kaidan.modes import LOW, NARROW, FailureMode, Phase
 from kaidan.outline import Outline, footprint_of, height_of
 from kaidan.question import Question
+from kaidan.robot import Posture
 
 YAW = math.radians(3.0)
 """Yaw off the line of the flight that a driver corrects [rad]."""
 OFF_LINE = 0.03
 """Distance off the middle of the flight that a driver corrects [m]."""
+KEPT = 0.1
+"""Distance that centroid and turning centre keep from the flight below while the robot stands on a
+landing and turns, or moves its flippers [m]: beyond the nosing it would tip back down."""
 REARING = math.radians(15.0)
 """Inclination beyond that of the flight, of a robot that meets a riser [rad]."""
 
@@ -59,6 +63,34 @@ def findings_of(
         )
         each.append(_between(LOW, headroom - rearing, headroom - flat, model))
     return tuple(each)
+
+
+def room_when_stowed(question: Question) -> float:
+    """Length that both landings leave free of a robot that stows its flippers on them [m].
+
+    It comes onto a landing in its posture, stops with the centroid `KEPT` beyond the last nosing or
+    more, stows the flippers there and drives on. It sets out stowed, up to the first nosing, and
+    takes up its posture there, with its trailing flippers over the landing.
+    """
+    robot, payload = question.robot, question.payload
+    enter, land = (question.postures[phase] for phase in (Phase.ENTER, Phase.LAND))
+    ends = list(zip(question.profile.landings, question.leaves, strict=True))
+    nose = question.facing == "nose-first"
+
+    def reach(posture: Posture) -> tuple[float, float]:
+        behind, ahead = Outline.of(robot, posture, payload).reach
+        return (behind, ahead) if nose else (ahead, behind)
+
+    room = []
+    for (depth, leaf), posture, sets_out in zip(
+        ends[:: -1 if question.direction == "down" else 1], (enter, land), (True, False),
+        strict=True,
+    ):  # fmt: skip
+        (behind, ahead), stowed = reach(posture), reach(Posture(state=posture.state))
+        meanwhile = behind + stowed[1] if sets_out else ahead + KEPT
+        folded = max(sum(stowed), meanwhile)
+        room.append(depth - leaf - min(behind + ahead, folded))
+    return min(room)
 
 
 def _between(mode: FailureMode, worst: float, best: float, model: str) -> Finding:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from kaidan.mechanics.clearance import corner_margin, spin_circle
 from kaidan.mechanics.footprint import Footprint, inscribed_circle, walls_of
 from kaidan.mechanics.turning import Goal, Manoeuvre, manoeuvre, on_the_spot
-from kaidan.models.clearance import OFF_LINE
+from kaidan.models.clearance import KEPT, OFF_LINE
 from kaidan.models.findings import Finding, Findings, Later
 from kaidan.models.landing_figures import LandingTurn, LandingTurns, TurnWay
 from kaidan.modes import TURNING, Phase
@@ -27,9 +27,6 @@ from kaidan.robot import Posture, Robot
 from kaidan.terrain.landings import TURNS, Landing
 
 Array = NDArray[np.float64]
-KEPT = 0.1
-"""Distance that the turning centre keeps from the flight below while it turns [m]: the centroid may
-lie behind it, and beyond the nosing the robot would tip back down."""
 LANE = 1.5
 """Length of the flight over which the robot's tail may still hang [m]."""
 PASSAGE = 3.0

@@ -5,6 +5,7 @@ Friction, drive, balance (`kaidan.models.balance`), belly and landings are judge
 
 import math
 from collections.abc import Iterator, Sequence
+from itertools import compress
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -373,10 +374,15 @@ def _obstacles(
     if phase in (None, Phase.LAND):
         leaves, length = question.leaves, sum(found.outline.reach)
         ends = zip(found.profile.landings, leaves[:: -1 if found.descending else 1], strict=True)
+        # a part of a plan stands on the landing from which it sets out, or on which it ends
+        stands = (found.start is None, found.until is None)
         inner = (each for each in question.landings
                  if each.end == "between" and each.turn != "unknown")  # fmt: skip
-        deep = [*ends, *((min(each.lengths), 0.0) for each in inner)]
-        room = min(float(run_up_margin(depth=d, length=length, leaf=leaf)) for d, leaf in deep)
+        deep = [*compress(ends, stands), *((min(each.lengths), 0.0) for each in inner)]
+        room = min(
+            (float(run_up_margin(depth=d, length=length, leaf=leaf)) for d, leaf in deep),
+            default=math.inf,
+        )
         each.append(Finding.certain(LANDING_ROOM, room, failing=Verdict.CAUTION, model=_NAME))
     return each
 

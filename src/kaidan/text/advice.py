@@ -9,6 +9,8 @@ STRAIGHT = "Head straight along the stairs"
 STEADY = "Keep the speed constant"
 FLAT = "Lay the flippers flat, in line with the track"
 
+STOWED = "Stow the flippers on the landings, 100 mm clear of the nosings"
+
 
 def turned_round(direction: str, facing: str) -> str:
     """Go with the other end first."""

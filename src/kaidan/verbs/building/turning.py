@@ -7,7 +7,8 @@ import numpy as np
 
 from kaidan.mechanics.footprint import walls_of
 from kaidan.mechanics.turning import Goal
-from kaidan.models.landings import KEPT, LANE, Room, Turned, shown, turned
+from kaidan.models.clearance import KEPT
+from kaidan.models.landings import LANE, Room, Turned, shown, turned
 from kaidan.outline import Outline, footprint_of
 from kaidan.readers.building import SAME_FLOOR, WALL, Building, Flight, Floor
 from kaidan.readers.estimate import STRAIGHT_ON
