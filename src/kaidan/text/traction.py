@@ -8,8 +8,8 @@ if TYPE_CHECKING:
 
 
 SPINS = 0.2
-"""Speed from which driven grousers spun at a first riser in MuJoCo [m/s]: 2 of 256 GOs, and none
-slower (docs/physics.md); more at ends of 29 mm and less (docs/theory/grousers.md)."""
+"""Speed from which driven grousers spun at a first riser in MuJoCo [m/s]: 2 of 280 GOs, and none
+slower (docs/physics.md); more where an end climbs a face by friction (docs/theory/grousers.md)."""
 
 
 def usual() -> str:
