@@ -10,8 +10,9 @@ from typing import Any, Self
 from kaidan.web.job_table import Job, JobTable
 from kaidan.web.workers import Workers
 
-AT_ONCE = 1
-"""Jobs that run at the same time; each may use all processors, after the quick answers."""
+AT_ONCE = 4
+"""Jobs that run at the same time, each of another session: a long one holds up no other session.
+Each may use all processors, after the quick answers."""
 SECONDS = 12 * 3600.0
 """Longest time of a job [s]."""
 _QUIET = 15.0
@@ -94,11 +95,13 @@ class Jobs:
 
     def _begin(self) -> None:
         """Let jobs begin where there is room."""
+        busy = {each.owner for each in self._known.values() if each.id in self._running}
         waiting = [each for each in self._known.values() if each.state == "queued"]
         for job in sorted(waiting, key=lambda each: each.created):
             if len(self._running) >= AT_ONCE:
                 return
-            if job.id not in self._running:
+            if job.owner not in busy:
+                busy.add(job.owner)
                 self._running[job.id] = asyncio.create_task(self._run(job))
 
     async def _run(self, job: Job) -> None:

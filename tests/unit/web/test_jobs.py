@@ -122,6 +122,19 @@ def test_jobs_go_on_when_the_server_comes_back(tmp_path):
         assert last == kaidan.assess("kenaf", "ibc", friction=1).to_dict()
 
 
+def test_a_long_job_keeps_no_other_session_from_working(client):
+    long = begun(client, "sweep", SWEEP | {"com_height": [0.1 + k / 1e5 for k in range(3000)]})
+    until(client, long, lambda now: now["state"] == "running")
+    behind = begun(client, "assess", {"robot": "kenaf", "stairs": "ibc"})
+    with httpx.Client(base_url=client.base_url, timeout=60) as other:
+        job = begun(other, "assess", {"robot": "kenaf", "stairs": "ibc"})
+        assert ended(other, job)["state"] == "done"
+    assert client.get(f"/api/jobs/{long['id']}").json()["state"] == "running"
+    assert client.get(f"/api/jobs/{behind['id']}").json()["state"] == "queued"
+    for each in (behind, long):
+        client.delete(f"/api/jobs/{each['id']}")
+
+
 def test_a_running_job_can_be_cancelled(client):
     job = begun(client, "sweep", SWEEP | {"com_height": [0.1 + k / 1e5 for k in range(3000)]})
     until(client, job, lambda now: now["state"] == "running")
