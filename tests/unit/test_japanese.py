@@ -18,6 +18,7 @@ from kaidan.terrain.stairs import Stairs
 from kaidan.text import advice, unweighed
 from kaidan.text import document as of
 from kaidan.text.japanese import in_japanese, japanese, patterns
+from kaidan.text.monitor import summary
 from kaidan.text.refusals import REFUSALS, sentence
 from kaidan.text.report import document
 
@@ -133,6 +134,20 @@ def test_appendices_are_said(found, turns):
     assert any(each.startswith("付録:") for each in heads)
     assert not any(re.search(r"[a-z]{4}", each.partition(":")[0]) for each in heads)
     assert [each for each in turned.parts if isinstance(each, of.Lines)] == stays != []
+
+
+@pytest.mark.parametrize("lost", [0, 2, 40])
+def test_the_summary_of_a_climb_is_said(tmp_path, lost):
+    tilts = [0.5 + 0.02 * k * (lost < 30) for k in range(30)]  # without an alarm many are missed
+    rows = [(0.01 * k, f"{tilt},0,0") for k, tilt in enumerate(tilts)]
+    rows += [(0.01 * (k // 2) + 0.003 * (1 + k % 2), ",,") for k in range(lost)]
+    rows = [f"{t:.3f},{values}" for t, values in sorted(rows)]
+    file = tmp_path / "climb.csv"
+    file.write_text("\n".join(["t,inclination,inclination_rate,acceleration", *rows]))
+    found = kaidan.monitor("absolem", "ibc", str(file), flippers="flat")
+    lines = summary(found).splitlines()
+    assert len(lines) == {0: 1, 2: 2, 40: 3}[lost]
+    assert missing(lines) == {}
 
 
 @pytest.mark.parametrize("why", REFUSALS)

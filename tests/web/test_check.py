@@ -53,6 +53,17 @@ def test_an_operator_gets_from_nothing_to_a_printed_sheet(page):
     assert len(re.findall(rb"/Type\s*/Page\b", sheet)) == 1
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("language", ["en", "ja"])
+def test_a_sheet_with_a_plan_of_flippers_is_one_page(desk, language):
+    desk.add_init_script(f"localStorage.setItem('kaidan.language', '{language}')")
+    desk.goto(QUESTION.replace("flippers=flat", "flippers=best"))
+    desk.wait_for_selector("#tab-side svg.traverse .force", state="attached")
+    desk.emulate_media(media="print")
+    sheet = desk.pdf(prefer_css_page_size=True, print_background=True)
+    assert len(re.findall(rb"/Type\s*/Page\b", sheet)) == 1
+
+
 def test_numbers_on_the_page_are_those_of_the_api(desk, server):
     desk.goto(QUESTION + "&u.com_height=0.005&tab=findings")
     verdict(desk, "caution")

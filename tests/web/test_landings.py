@@ -77,7 +77,6 @@ def test_landings_in_inches_and_japanese(desk):
     desk.get_by_label("Lengths").select_option("in")
     desk.wait_for_selector(".turns li")
     assert "it sweeps 35.49 in of 47.24 in" in desk.inner_text(".turns")
-    desk.get_by_text("Settings").click()
     desk.get_by_label("Language").select_option("ja")
     desk.wait_for_selector("html[lang=ja] .turns li")
     assert "上の床、180° 旋回: その場で旋回" in desk.inner_text(".turns")

@@ -1,6 +1,6 @@
 // A climb that is watched: numbers, chart, alarm with sound. Judged by the server; here it is shown.
 
-import { has, language, loadTexts, setLanguage, t as text, titled } from "./js/i18n.js";
+import { has, japanese, language, loadTexts, setLanguage, t as text, titled } from "./js/i18n.js";
 import { unpacked } from "./js/state.js";
 import { preference, prefer } from "./js/storage.js";
 
@@ -40,6 +40,11 @@ function speak(chosen) {
   for (const each of document.querySelectorAll("[data-text]")) each.textContent = t(each.dataset.text);
   if (replay) at("pause").textContent = t(replay.paused ? "go_on" : "pause");
   show();
+}
+
+// A sentence of the server in the language of the page, where it is known in it.
+function inWords(sentence) {
+  return (language === "ja" ? japanese(sentence) : null) ?? sentence;
 }
 
 // What the robot of the question has beyond its sheet, as long as it is the one that is chosen.
@@ -83,7 +88,7 @@ function take(said) {
     at("note").textContent = `${t("linked")}: ${said.robot}, ${said.stairs}`;
   } else if (said.kind === "end") {
     over = true;
-    at("note").textContent = `${t("over")} ${said.text}`;
+    at("note").textContent = `${t("over")} ${said.text.split("\n").map(inWords).join(" ")}`;
   } else {
     states.push(said);
     if (states.length > 6000) states = states.slice(-3000);
@@ -178,7 +183,7 @@ function setLoud(on) {
 }
 
 setInterval(() => {
-  if (loud && mood === "alarm") beep(880);
+  if (loud && mood === "alarm" && !over) beep(880);
   if (loud && (mood === "silent" || mood === "unknown") && !over) beep(440);
 }, 450);
 at("sound").onclick = () => setLoud(!loud);

@@ -144,10 +144,13 @@ export function workView(shell) {
 
   async function show(job) {
     const address = `api/jobs/${job.id}/result`, file = h("a", { href: address, download: `kaidan-${job.verb}` }, t("work.file_saved"));
-    if (job.verb === "film") return replace(outcome, h("h3", {}, job.about), h("img", { src: address, alt: job.about }), h("p", {}, file));
-    if (job.verb === "report") return replace(outcome, h("h3", {}, job.about), h("p", {}, file));
-    const table = job.verb === "compare" ? compared(await get(`jobs/${job.id}/result`)) : null;
-    replace(outcome, h("h3", {}, job.about), table, h("pre", { lang: "en", tabindex: "0" }, await fetchedText(`jobs/${job.id}/text`)), h("p", {}, file));
+    const words = async () => h("pre", { lang: "en", tabindex: "0" }, await fetchedText(`jobs/${job.id}/text`));
+    const shows = {
+      film: async () => h("img", { src: address, alt: job.about }),
+      report: async () => null,
+      compare: async () => [compared(await get(`jobs/${job.id}/result`)), await words()],
+    };
+    replace(outcome, h("h3", {}, job.about), await (shows[job.verb] ?? words)(), h("p", {}, file));
     outcome.scrollIntoView();
   }
 
