@@ -22,6 +22,7 @@ from kaidan.modes import (
 )
 from kaidan.robot import Posture
 from kaidan.surface import Surface
+from kaidan.traversal.moves import Move
 from kaidan.traversal.rotations import ROCKING
 
 CAUTION, NO_GO = Verdict.CAUTION, Verdict.NO_GO
@@ -39,6 +40,7 @@ def finding(mode, worst, best=None, **more):
 def change(**given):
     usual = {"stands": True, "rocks": 0.0, "before": Phase.LAND, "energy": 0.05,
              "spare_torque": math.nan, "required_friction": 0.4,
+             "tilt": lambda side: math.inf,
              "path": SimpleNamespace(poses=[1])}  # fmt: skip
     return SimpleNamespace(**(usual | given))
 
@@ -52,6 +54,44 @@ def test_a_plan_arrives_if_its_last_part_does_and_it_stands_at_every_change():
     assert not arrives(True, True, False)
     assert not arrives(False, True)
     assert arrives(True)
+
+
+def test_a_tilt_on_the_way_of_a_change_counts_less_the_allowances():
+    """Over its downhill end, but for the edge of the landing that it goes down over next."""
+    d, M = QUESTION.allowance_d, QUESTION.allowance_M
+    tilts = {1.0: 0.3, -1.0: 0.2}
+    for asked, before, least in (
+        (QUESTION, Phase.TRAVERSE, 0.3 - d.high - M.high),
+        (QUESTION.changed(direction="down"), Phase.LAND, 0.2 - d.high),
+        (QUESTION.changed(direction="down"), Phase.TRAVERSE, None),
+    ):
+        found = _of_move(asked, change(before=before, tilt=tilts.get))
+        (tips,) = [each for each in found if each.mode is TIP_DOWNHILL] or [None]
+        assert (tips is None) == (least is None)
+        if tips is not None:
+            assert (tips.phase, tips.failing) == (before, CAUTION)
+            assert tips.worst == pytest.approx([least])
+            assert tips.best > tips.worst
+
+
+def test_the_tilt_on_the_way_is_told_where_it_is_less_than_before_and_after():
+    """By hand: the centroid 0.3 m above contacts that lie 0.1 to 0.3 m off."""
+
+    def tilt(side, *levers, postures=None):
+        off = np.array(levers)
+        points = np.column_stack([-side * off, np.zeros(len(off))])
+        path = SimpleNamespace(
+            x=np.zeros(len(off)), z=np.full(len(off), 0.3),
+            poses=SimpleNamespace(**{"rear_point" if side > 0 else "front_point": points}),
+        )  # fmt: skip
+        stands = SimpleNamespace(path=path, postures=[None] * (postures or len(off)))
+        return Move.tilt(stands, side)
+
+    for side in (1.0, -1.0):
+        assert tilt(side, 0.3, 0.1, 0.2) == pytest.approx(math.atan2(0.1, 0.3))
+        assert tilt(side, 0.1, 0.2, 0.3) == math.inf
+        assert tilt(side, 0.3, 0.2, 0.1) == math.inf
+        assert tilt(side, 0.3, 0.1, postures=3) == math.inf
 
 
 def test_of_a_mode_the_smallest_margin_of_all_parts_counts():
@@ -76,7 +116,7 @@ def test_of_a_mode_the_smallest_margin_of_all_parts_counts():
 
 def of_move(monkeypatch, **given):
     monkeypatch.setattr(module.traction, "standing_margins", lambda question, move: (0.1, 0.3))
-    question = SimpleNamespace(kinetic_height=0.01)
+    question = SimpleNamespace(direction="up", kinetic_height=0.01)
     return {one.mode: one for one in _of_move(question, change(**given))}
 
 

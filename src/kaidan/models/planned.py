@@ -24,6 +24,7 @@ from kaidan.modes import (
     FLIPPER_TORQUE,
     POSTURE_CHANGE,
     SLIDES_DOWN,
+    TIP_DOWNHILL,
     FailureMode,
     Phase,
     Verdict,
@@ -201,9 +202,31 @@ def _of_move(question: Question, each: Move) -> tuple[Finding, ...]:
         slides = certain(SLIDES_DOWN, 0.0)
         energy = certain(ENERGY, each.energy - question.kinetic_height, failing=Verdict.CAUTION)
         found += [replace(slides, worst=worst, best=best), energy]
+    found += _tips_on_the_way(question, each)
     if not math.isnan(each.spare_torque):
         found.append(certain(FLIPPER_TORQUE, each.spare_torque))
     return tuple(found)
+
+
+def _tips_on_the_way(question: Question, each: Move) -> list[Finding]:
+    """Tipping over its downhill end where that is nearer on the way than before and after."""
+    down = question.direction == "down"
+    if down and each.before is Phase.TRAVERSE:  # the edge of the landing obliges it to rotate
+        return []
+    tilt = each.tilt(-1.0 if down else 1.0)
+    if math.isinf(tilt):
+        return []
+    d, M = question.allowance_d, question.allowance_M
+    return [
+        Finding(
+            mode=TIP_DOWNHILL,
+            worst=np.array([tilt - d.high - M.high]),
+            best=np.array([tilt - d.low - M.low]),
+            failing=Verdict.CAUTION,
+            phase=each.before,
+            model=CONTACT.name,
+        )
+    ]
 
 
 def _together(figures: Sequence[Figures]) -> Iterator[Figures]:

@@ -101,6 +101,27 @@ class Move:
         assert self.path.margins is not None
         return float(self.path.margins.energy.min(initial=math.inf))
 
+    def tilt(self, side: float) -> float:
+        """Tilt of gravity at which it rotates about its outermost contact on the way [rad].
+
+        Parameters
+        ----------
+        side : {1.0, -1.0}
+            Back or front.
+
+        Returns
+        -------
+        float
+            Infinite where that is no less than before and after, which the traverse tells.
+        """
+        poses = self.path.poses
+        outermost = poses.rear_point if side > 0 else poses.front_point
+        off_x = side * (self.path.x - outermost[:, 0])
+        tilts = np.arctan2(off_x, self.path.z - outermost[:, 1])
+        if len(tilts) < len(self.postures) or tilts.min() >= min(tilts[0], tilts[-1]):
+            return math.inf
+        return float(tilts.min())
+
     @property
     def torque(self) -> float:
         """Largest of any pose and pair [N m]; NaN: the mass is not known."""
