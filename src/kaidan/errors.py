@@ -57,7 +57,7 @@ def fault(detail: Mapping[str, Any]) -> str:
     'is not one of up, down'
     """
     kind, limits = detail["type"], detail.get("ctx", {})
-    if kind == "literal_error":
+    if kind in ("literal_error", "enum"):
         words = str(limits["expected"]).replace(" or ", ", ").replace("'", "")
         return f"is not one of {words}"
     if kind in _BEYOND:

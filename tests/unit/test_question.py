@@ -620,3 +620,11 @@ def test_an_array_is_no_end_that_leads():
         InputError, match=r"^facing = array\(\[0.5, 0.6\]\) is not known; known: nose-"
     ):
         Question.of("kenaf", "ibc", facing=np.array([0.5, 0.6]))
+
+
+@pytest.mark.parametrize(("given", "shown"), [(1, "1"), ("both", '"both"'), (None, "None")])
+def test_an_acceptance_that_is_none_is_refused_to_the_letter(given, shown):
+    sheets = {"robot": Robot.named("kenaf"), "terrain": Stairs.named("ibc")}
+    with pytest.raises(InputError) as error:
+        Question.model_validate({**sheets, "accept": given})
+    assert str(error.value) == f"question: accept = {shown} is not one of no-rotation, arrested"
