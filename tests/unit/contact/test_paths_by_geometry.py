@@ -15,6 +15,7 @@ from kaidan.mechanics import STANDARD_GRAVITY as G
 
 CLOSED = 1e-9  # m: gaps are closed to 2e-13, coordinates of some metres are rounded
 STEP = 0.01  # m
+GYRATION = 0.2  # m
 ARM = 0.3  # m by which inclination counts in arclength, as docs/theory/contact.md says
 FELL = {Event.FELL_FORWARD: Status.FELL_FORWARD, Event.FELL_BACKWARD: Status.FELL_BACKWARD}
 RARE = (19, 47, 50, 116, 188)
@@ -37,7 +38,14 @@ class Case:
         self.end = min(begin + 2.5, terrain[-1, 0] - 2.0)
         self.ground = ground_table(terrain)
         self.path = driven(
-            terrain, self.parts, begin, self.end, kinds=kinds, step=STEP, acceleration=self.a
+            terrain,
+            self.parts,
+            begin,
+            self.end,
+            kinds=kinds,
+            step=STEP,
+            acceleration=self.a,
+            gyration=GYRATION,
         )
         self.poses, self.rotations = self.path.poses, self.path.rotations
         self.events = [(each.kind, each) for each in self.path.events]
@@ -163,6 +171,24 @@ def test_the_belt_runs_ahead_over_what_carries(case):
     assert np.median(np.abs(off)) < 0.02  # half a step of the roughest ground
 
 
+def test_the_path_turns_about_where_the_normals_meet(case):
+    """The centroid goes across the line from where the normals of both contacts meet."""
+    poses = case.poses
+    rear, front = (
+        points[:, 0] + 1j * points[:, 1] for points in (poses.rear_point, poses.front_point)
+    )
+    m, n = (each[:, 0] + 1j * each[:, 1] for each in (poses.rear_normal, poses.front_normal))
+    way = np.exp(1j * poses.path_direction)
+    sine = (m.conj() * n).imag
+    meet = np.abs(sine) > 1e-6
+    along = ((front - rear).conj() * n).imag / np.where(meet, sine, 1.0)
+    arm = case.c - (rear + along * m)
+    off = np.where(meet, (arm.conj() * way).real / np.abs(arm), (m.conj() * way).real)
+    counts = ~meet | (np.abs(arm) > 1e-3)
+    assert counts.sum() > len(poses) / 2
+    assert np.abs(off[counts]).max() < 1e-5  # 1e-9 m over 1e-3 m, sines of 1e-6
+
+
 def test_events_are_told_where_they_happen(case):
     poses, last = case.poses, len(case.poses) - 1
     told = np.array([each.s for _, each in case.events])
@@ -221,6 +247,20 @@ def test_rotations_lead_from_one_line_to_the_next(case):
             assert each.sense * (each.end.inclination - each.start.inclination) == pytest.approx(
                 each.angle, abs=1e-9
             )
+            # what is left after the impact turns it about the contact at the end it comes down on
+            points = poses.rear_point if each.sense > 0.0 else poses.front_point
+            square = abs(complex(*points[row + 1]) - case.c[row + 1]) ** 2 + GYRATION**2
+            assert each.kinetic == pytest.approx(0.5 * square * each.rate_after**2, abs=1e-12)
+            assert each.barrier >= 0.0
+            assert each.kinetic > each.barrier or not each.topples_with_momentum
+            vertex = Feature.of(each.pivot).kind is FeatureKind.VERTEX
+            arm = complex(*each.end[:2]) - complex(*each.pivot_point)
+            start = complex(*each.start[:2]) - complex(*each.pivot_point)
+            if case.a == 0.0 and vertex and abs(abs(arm) - abs(start)) < CLOSED:
+                drop = each.start.z - each.end.z  # about one point, from rest
+                before = 2.0 * G * max(drop, 0.0) / (abs(arm) ** 2 + GYRATION**2)
+                assert each.rate_before**2 == pytest.approx(before, abs=1e-6)
         else:
             assert row == len(poses) - 1
             assert each.topples_with_momentum
+            assert (each.kinetic, each.barrier) == (0.0, 0.0)
