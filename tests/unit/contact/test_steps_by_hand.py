@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pytest
 
-from contact_cases import stadium
+from contact_cases import stadium, steps
 from kaidan.contact import (
     Event,
     Feature,
@@ -18,6 +18,7 @@ from kaidan.contact import (
     Status,
     body_table,
     ground_table,
+    settle,
 )
 from kaidan.contact import columns as at
 from kaidan.contact.codes import Advance
@@ -140,6 +141,30 @@ def test_the_way_ahead_whatever_the_order_of_contacts():
         assert (t_x, t_z, t_w) == pytest.approx((1.0, 0.0, 0.0), abs=1e-12)
         assert size == pytest.approx(L / ARM)  # the two normals up, their feet L apart
     assert continuation.tangent(LEVEL, BODY, REAR, REAR, 0.3, C_N, c, s) == (1.0, 0.0, 0.0, 0.0)
+
+
+def test_the_way_ahead_of_a_pose_that_turns():
+    """On its rear end and a nosing under the flat: in either order of contacts the way is one."""
+    ground = ground_table([(-4, 0), (0.45, 0), (0.5, 0.2), (4, 0)])
+    found = settle([(-4, 0), (0.45, 0), (0.5, 0.2), (4, 0)], TRACK, 0.45, 0.2)
+    assert found.found
+    c, s = math.cos(found.inclination), math.sin(found.inclination)
+    place = (0.45, found.z, c, s)
+    one = continuation.tangent(ground, BODY, found.rear, found.front, *place)
+    other = continuation.tangent(ground, BODY, found.front, found.rear, *place)
+    assert one == pytest.approx(other, abs=1e-12)
+    assert one[0] > 0.0
+    assert min(abs(each) for each in one[1:3]) > 1e-3
+    moved = [continuation.gap_rate(ground, BODY, each, *place, *one[:3])
+             for each in (found.rear, found.front)]  # fmt: skip
+    assert moved == pytest.approx([0.0, 0.0], abs=1e-12)
+
+
+@pytest.mark.parametrize("behind", [L - C_L, -C_L])
+def test_no_pose_where_one_contact_is_far(behind):
+    """Nose up by 0.3 rad on one end, the other one is 0.18 m off."""
+    z = R - (-behind * math.sin(0.3) + (R - C_N) * math.cos(0.3))
+    assert not continuation.corrected(LEVEL, BODY, REAR, FRONT, 0.3, z, 0.3)[0]
 
 
 def test_no_pose_on_one_contact_or_far_from_both():
@@ -300,6 +325,48 @@ def test_a_step_is_cut_where_the_robot_arrives(x_end, ds, ends):
     assert what == Advance.NOTHING
     assert (moved, there[0]) == pytest.approx((ds, 0.3 + ds), abs=1e-12)
     assert over == ends
+
+
+def tables(poses=200, events=50, rotations=20):
+    """Tables to be filled by a drive."""
+    return tuple(
+        np.full(shape, np.nan) for shape in (
+            (poses, at.POSE_COLUMNS), (events, at.EVENT_COLUMNS), (rotations, at.ROTATION_COLUMNS)
+        )
+    )  # fmt: skip
+
+
+def over_a_step(x_start=-1.5, phi=0.0, a=0.0, ground=None, body=BODY, **sizes):
+    ground = ground_table(steps(0.15, 0.3, 1)) if ground is None else ground
+    found = driver.drive(ground, body, x_start, 1.2, phi, 0.01, a, 9.8, 0.0, 0.2, *tables(**sizes))
+    return tuple(int(each) for each in found)
+
+
+def test_full_tables_end_a_drive():
+    whole = over_a_step(poses=600)
+    assert whole[0] == Status.OK
+    assert over_a_step(poses=12) == (Status.TOO_LONG, 10, 0, 0)
+    status, poses, events, rotations = over_a_step(poses=600, events=6)
+    assert (status, events) == (Status.TOO_LONG, 2)
+    assert poses < whole[1]
+    assert over_a_step(poses=600, rotations=whole[3]) == whole
+    status, *_, rotations = over_a_step(poses=600, rotations=whole[3] - 1)
+    assert (status, rotations) == (Status.TOO_LONG, whole[3] - 1)
+
+
+def test_no_start_where_it_falls_at_once():
+    assert over_a_step(phi=1.53) == (Status.NO_START, 0, 0, 0)
+    # the rear foot 20 mm behind the centroid, 0.5 m up: a of 0.4 m/s^2 leans gravity by 20.4 mm
+    tall = body_table([[-0.02, 0.08 - 0.5, 0.08, 0.58, 0.08 - 0.5, 0.08]])
+    assert over_a_step(a=0.40, body=tall)[0] == Status.NO_START
+    assert over_a_step(a=0.38, body=tall)[1] > 0
+
+
+def test_momentum_is_written_as_it_is():
+    row = np.zeros((1, at.ROTATION_COLUMNS))
+    for topples in (True, False):
+        recording.write_momentum(row, 0, 0.3, 0.2, topples)
+        assert row[0, [at.KINETIC, at.BARRIER, at.TOPPLES]].tolist() == [0.3, 0.2, float(topples)]
 
 
 def test_a_rotation_repeats_one_of_the_twelve_before():

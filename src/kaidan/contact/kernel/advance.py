@@ -24,7 +24,7 @@ from kaidan.contact.columns import (
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.continuation import ARM, stepped, tilt
 from kaidan.contact.kernel.event_location import PENETRATED, closing_time, quantity
-from kaidan.contact.kernel.gaps import relabelled
+from kaidan.contact.kernel.gaps import beyond_segment, contact_point, relabelled
 from kaidan.contact.kernel.nearest_feature import nearest
 from kaidan.contact.kernel.settling import lever
 from kaidan.contact.tables import BodyTable, GroundTable, Held
@@ -34,6 +34,9 @@ TOGETHER = 5e-10
 #: Longest step as a share of the smallest radius of the parts that carry: with 0.9 the corrector
 #: still lands beyond the arc now and then, with 0.5 never in 20,000 descents.
 OF_RADIUS = 0.25
+#: Longest step within which an end may pass a corner unseen [m], and how far past it a foot lies.
+CORNER = 1e-4
+PAST = 1e-9
 
 
 def shallow(body: BodyTable, feature: int, distance: float) -> bool:
@@ -140,6 +143,16 @@ def careful(
     return min(ds, max(0.4 * clear, thinnest, 0.1 * ds))
 
 
+def runs_past(
+    ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
+) -> bool:
+    """Whether a disc's foot has run past the end of its segment, where the ground turns up."""
+    if feature & KIND_MASK == VERTEX:
+        return False
+    p_x, p_z = contact_point(ground, body, feature, x, z, c, s)
+    return beyond_segment(ground, feature >> POINT_BITS, p_x, p_z) > PAST
+
+
 def clear_step(
     ground: GroundTable, body: BodyTable, at: Held, ds: float, a: float, g: float, kappa_g: float,
     hint: int,
@@ -163,7 +176,11 @@ def clear_step(
         good, x1, z1, phi1, c, s, u_x, u_z, u_w, r1, f1 = stepped(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, ds
         )
-        if good:
+        past = False
+        if good and ds > CORNER:
+            past = runs_past(ground, body, r1, x1, z1, c, s)
+            past = past or runs_past(ground, body, f1, x1, z1, c, s)
+        if good and not past:
             third, distance, hint = nearest(ground, body, x1, z1, c, s, r1, f1, 0.0, hint)
             if third < 0 or ds < 1e-8 or shallow(body, third, distance):
                 kappa = tilt(a, g, kappa_g, u_x, u_z)

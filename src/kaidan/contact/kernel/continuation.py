@@ -24,6 +24,8 @@ from kaidan.contact.tables import BodyTable, GroundTable
 ARM = 0.3
 #: A gap is closed at this [m] or less: a hundred times the rounding of coordinates of metres.
 CLOSED = 2e-13
+#: Names of one contact within a step, at most: two for each point of the ground.
+MOST_NAMES = 40
 
 
 def distance(x: float, z: float, phi: float, x1: float, z1: float, phi1: float) -> float:
@@ -149,7 +151,7 @@ def stepped(
         ground, body, rear, front, x + ds * t_x, z + ds * t_z, phi + ds * t_w / ARM
     )
     if good:
-        for _ in range(8):
+        for _ in range(MOST_NAMES):
             new_rear = relabelled(ground, body, rear, x1, z1, c, s)
             new_front = relabelled(ground, body, front, x1, z1, c, s)
             if new_rear == rear and new_front == front:

@@ -6,7 +6,7 @@ import math
 
 from kaidan.contact.codes import Advance
 from kaidan.contact.kernel.continuation import stepped, tilt
-from kaidan.contact.kernel.gaps import gap, relabelled
+from kaidan.contact.kernel.gaps import gap_anywhere
 from kaidan.contact.kernel.settling import lever
 from kaidan.contact.tables import BodyTable, GroundTable
 
@@ -33,12 +33,9 @@ def quantity(
         return -lever(ground, body, rear, x, z, c, s, kappa)
     if what == Advance.OVER_FRONT:
         return lever(ground, body, front, x, z, c, s, kappa)
-    # under the name that holds here: the line of a segment means nothing beyond its end
-    what = relabelled(ground, body, what, x, z, c, s)
     if what == rear or what == front:  # noqa: SIM109
         return 0.5 * PENETRATED
-    distance, _, _, _, _ = gap(ground, body, what, x, z, c, s)
-    return distance + 0.5 * PENETRATED
+    return gap_anywhere(ground, body, what, x, z, c, s) + 0.5 * PENETRATED
 
 
 def closing_time(

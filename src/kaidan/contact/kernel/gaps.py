@@ -181,6 +181,31 @@ def gap(
     return distance, n_x, n_z, c_x - reach * n_x, c_z - reach * n_z
 
 
+def gap_anywhere(
+    ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
+) -> float:
+    """Gap of a feature wherever the robot is [m].
+
+    As :func:`gap`, but a disc whose foot lies beyond an end of its segment is measured to that end:
+    the line of a segment means nothing there.
+    """
+    kind = feature & KIND_MASK
+    distance, _, _, p_x, p_z = gap(ground, body, feature, x, z, c, s)
+    if kind == VERTEX:
+        return distance
+    beyond = beyond_segment(ground, feature >> POINT_BITS, p_x, p_z)
+    if beyond <= 0.0:
+        return distance
+    radius: float = body[(feature >> PART_BITS) & PART_MASK, DISC * (kind - DISC_1) + DISC_R]
+    return math.sqrt(beyond * beyond + (distance + radius) * (distance + radius)) - radius
+
+
+def beyond_segment(ground: GroundTable, k: int, p_x: float, p_z: float) -> float:
+    """How far a foot on a segment's line lies beyond its nearer end [m]; negative: within."""
+    foot = (p_x - ground[k, X]) * ground[k, U_X] + (p_z - ground[k, Z]) * ground[k, U_Z]
+    return float(max(-foot, foot - ground[k, LENGTH]))
+
+
 def contact_point(
     ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
 ) -> tuple[float, float]:
