@@ -78,7 +78,7 @@ SCREENS = {
     "page-phone.png": (phone, 390, 760, "en", "contrast"),
     "page-phone-ja.png": (phone, 390, 760, "ja", "light"),
     "page-margin.png": (margin, 1024, 760, "en", "dark"),
-    "page-building.png": (building, 1280, 1000, "en", "light"),
+    "page-building.png": (building, 1280, 1280, "en", "light"),
     "report.png": (report, 900, 1220, "en", "light"),
     "live.png": (live, 820, 900, "en", "light"),
 }
