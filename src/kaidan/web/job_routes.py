@@ -13,7 +13,8 @@ from kaidan.web.bodies import FORM, fields_of, file_of, json_of, object_of, type
 from kaidan.web.file_routes import keep
 from kaidan.web.job_table import Job
 from kaidan.web.jobs import Jobs
-from kaidan.web.long_work import FILES, JOBS, RESULT, TEXT
+from kaidan.web.long_work import DOCUMENTS, FILES, JOBS, RESULT, TEXT
+from kaidan.web.report_routes import OF_A_DOCUMENT
 from kaidan.web.sessions import COOKIE, HEADER, KEPT, Sessions
 
 
@@ -75,7 +76,8 @@ def add(app: FastAPI, jobs: Jobs, sessions: Sessions) -> None:
     async def result(request: Request, identity: str) -> FileResponse:
         """What a job came to: the answer, a film or a report."""
         job = done_of(request, identity)
-        return FileResponse(jobs.table.files(job) / RESULT, media_type=job.media)
+        page = {"Content-Security-Policy": OF_A_DOCUMENT} if job.media == DOCUMENTS["html"] else {}
+        return FileResponse(jobs.table.files(job) / RESULT, media_type=job.media, headers=page)
 
     @app.get("/api/jobs/{identity}/text")
     async def text(request: Request, identity: str) -> FileResponse:

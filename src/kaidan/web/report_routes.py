@@ -8,7 +8,7 @@ from kaidan.web.bodies import json_of, sent
 from kaidan.web.long_work import DOCUMENTS, document_format
 from kaidan.web.workers import Workers
 
-_OF_A_DOCUMENT = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'"
+OF_A_DOCUMENT = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'"
 """A document has its style and its pictures inside, and nothing that runs."""
 
 
@@ -26,6 +26,6 @@ def add(app: FastAPI, hands: Workers) -> None:
             return sent(reply)
         headers = {
             "Content-Disposition": f'inline; filename="kaidan-report.{form}"',
-            "Content-Security-Policy": _OF_A_DOCUMENT,
+            "Content-Security-Policy": OF_A_DOCUMENT,
         }
         return Response(reply.content, 200, headers, DOCUMENTS[form])

@@ -48,8 +48,13 @@ def test_a_job_comes_to_what_the_verb_answers(client):
 def test_a_report_is_a_job_too(client):
     body = {"robot": "kenaf", "stairs": "ibc", "friction": 1.0, "format": "html"}
     done = ended(client, begun(client, "report", body))
-    assert client.get(done["result"]).headers["content-type"] == "text/html; charset=utf-8"
-    assert client.get(done["result"]).text == client.post("/api/report", json=body).text
+    held, at_once = client.get(done["result"]), client.post("/api/report", json=body)
+    assert held.headers["content-type"] == "text/html; charset=utf-8"
+    assert held.text == at_once.text
+    policy = held.headers["content-security-policy"]  # its own style shows, nothing of it runs
+    assert policy == at_once.headers["content-security-policy"]
+    assert "style-src 'unsafe-inline'" in policy
+    assert "script-src" not in policy
     wrong = ended(client, begun(client, "report", body | {"format": "doc"}))
     assert "known: html, pdf" in wrong["error"]["error"]
 
