@@ -65,6 +65,15 @@ def test_a_better_verdict_is_help(then, now, better):
     assert _is_better(concluded(then), concluded(now)) is better
 
 
+def test_a_larger_margin_is_no_help_where_something_else_decides():
+    """Momentum, in metres, is not mended by degrees; if then something else decides, it is."""
+    now = concluded(Verdict.CAUTION, 0.1)._replace(governs="momentum")
+    then = concluded(Verdict.CAUTION, 0.2)._replace(governs="momentum")
+    assert not _is_better(then, now)
+    assert _is_better(then._replace(governs="tip_downhill"), now)
+    assert _is_better(then._replace(verdict=Verdict.GO), now)
+
+
 def test_of_one_verdict_a_margin_worth_telling_is_help():
     now = concluded(Verdict.CAUTION, 0.1)
     for gain, better in ((2 * WORTH_TELLING, True), (0.5 * WORTH_TELLING, False), (0.0, False)):

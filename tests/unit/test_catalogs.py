@@ -185,6 +185,14 @@ def test_case_and_blanks_around_a_name_do_not_matter():
     assert Robot.named(" Kenaf ") == Robot.named("kenaf")
 
 
+def test_a_sheet_in_the_folder_whose_name_lacks_its_ending(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "crawler.toml").write_text("")
+    with pytest.raises(InputError) as caught:
+        Robot.named("crawler")
+    assert str(caught.value) == "crawler: no such file. Did you mean crawler.toml?"
+
+
 def test_unknown_names_list_the_known_ones():
     with pytest.raises(UnknownNameError) as caught:
         Surface.named("concrete-dri")

@@ -353,3 +353,16 @@ def test_the_friction_that_is_advised_is_enough_with_what_the_tape_leaves_open()
         enough = float(change.change.split("friction of ")[1].split()[0])
         assert change.verdict == "go"
         assert assess(sheet, flight, friction=enough).verdict == "go"
+
+
+@pytest.mark.parametrize(
+    ("stated", "note"),
+    [
+        ({"first_rise": "165mm"}, "The last riser often differs"),
+        ({"last_rise": "182mm"}, "The first riser often differs"),
+        ({}, "First and last riser often differ"),
+    ],
+)
+def test_only_the_end_riser_that_nobody_measured_is_called_for(stated, note):
+    found = measure_stairs(total_rise="2.73m", total_going="4.2m", risers=16, **stated)
+    assert found.notes[0].startswith(note)

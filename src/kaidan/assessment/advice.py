@@ -21,6 +21,7 @@ from kaidan.models.traction_figures import USUAL
 from kaidan.modes import (
     DRIVE,
     ENERGY,
+    FAILURE_MODES,
     FALLS,
     IMPACT,
     LANDING_ROOM,
@@ -155,6 +156,9 @@ def _number(margin: float) -> float:
 def _is_better(then: Conclusion, now: Conclusion) -> bool:
     if then.verdict is not now.verdict:
         return then.verdict.rank < min(now.verdict.rank, Verdict.NO_GO.rank)
+    decides = FAILURE_MODES.get(now.governs)
+    if decides is not None and decides.unit != "rad" and then.governs == now.governs:
+        return False  # a larger margin of slope leaves what decides as it is
     return then.margin > now.margin + WORTH_TELLING
 
 

@@ -55,6 +55,14 @@ def _entry(folder: Folder, stem: str, read: Callable[..., Any]) -> Any:
     return read((_HERE / folder / f"{stem}.toml").read_text(encoding="utf-8"), origin=stem)
 
 
+def _is_there(path: Path) -> bool:
+    """Whether a file exists, of what may be no path at all."""
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False
+
+
 def load(kind: Kind, name: str, read: Callable[..., T]) -> T:
     """Sheet of a catalogue entry, or of a user's TOML file.
 
@@ -92,13 +100,11 @@ def load(kind: Kind, name: str, read: Callable[..., T]) -> T:
             "margin can be computed; measure the robot: kaidan measure robot --help"
         )
     path = Path(name)
-    try:
-        exists = stem != "" and path.exists()
-    except (OSError, ValueError):
-        exists = False
-    if not exists:
+    if stem == "" or not _is_there(path):
         if path.suffix.lower() == ".toml" or not {"/", os.sep}.isdisjoint(name):
             raise InputError(f"{short(name)}: no such file")
+        if stem and _is_there(Path(f"{name}.toml")):
+            raise InputError(f"{short(name)}: no such file. Did you mean {short(name)}.toml?")
         elsewhere = [f", but a {_SINGULAR[each]} is" for each in _SINGULAR if stem in names(each)]
         known = [each for folder in folders for each in names(folder)]
         raise UnknownNameError(_SINGULAR[kind], name, known, "".join(elsewhere))

@@ -266,7 +266,10 @@ def _notes(odd: Sequence[str], r_from: Spread, g_from: Spread) -> tuple[str, ...
     from kaidan.text import stairs_measurement as text
 
     notes = []
-    if len(odd) < 2:
+    missing = [end for end in ("first", "last") if f"{end}_rise" not in odd]
+    if len(missing) == 1:
+        notes.append(text.ONE_OF_BOTH.format(end=missing[0]))
+    elif missing:
         notes.append(text.FIRST_AND_LAST)
     if "assumed" in (r_from, g_from):
         notes.append(text.UNCHECKED)
