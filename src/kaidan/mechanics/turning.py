@@ -29,6 +29,8 @@ BEYOND = np.radians(60.0)
 ABOUT_FACE = np.radians(150.0)
 """Turn from which it may be made either way round [rad]."""
 MOST_STEPS = 800
+_THINNED = 4
+"""Of the places to turn on the spot, which lie 5 mm apart, every how many-th is tried."""
 _DRIVES = np.array([1, -1, 0, 0])
 _SPINS = np.array([0, 0, 1, -1])
 
@@ -198,8 +200,8 @@ def on_the_spot(
     """Drive on, turn on the spot, drive across, turn again, drive on; None: the circle has no room.
 
     Where a robot has room for the circle that it sweeps, on the line by which it arrives, on that
-    by which it goes on, and between. The shortest drive across is taken. Parameters and what is
-    returned are those of `manoeuvre`.
+    by which it goes on, and between. The shortest free drive across is taken. Parameters and
+    what is returned are those of `manoeuvre`.
 
     Examples
     --------
@@ -228,24 +230,31 @@ def on_the_spot(
         before = float((here + meets * ahead - there) @ -onward)
         along, back = np.append(along, max(meets, 0.0)), np.append(back, max(before, back[0]))
     first, last = here + along[:, None] * ahead, there - back[:, None] * onward
-    first, last = (
-        each[inside(each, landing) & (to_walls(each, walls) >= radius)] for each in (first, last)
-    )
+    room = [inside(each, landing) & (to_walls(each, walls) >= radius) for each in (first, last)]
+    first, last, back = first[room[0]], last[room[1]], back[room[1]]
     if not (len(first) and len(last)):
         return None
     apart = np.linalg.norm(first[:, None] - last, axis=2)
-    i, j = np.unravel_index(int(np.argmin(apart)), apart.shape)
-    across = last[j] - first[i]
-    between = first[i] + np.linspace(0.0, 1.0, 2 + int(apart[i, j] / STRIDE))[:, None] * across
-    if not (inside(between, landing) & (to_walls(between, walls) >= radius)).all():
+    # from each place on the first line to the nearest one on the other, the shortest way first
+    nearest = apart.argmin(axis=1)
+    ways = apart[np.arange(len(first)), nearest].round(4)
+    for i in np.argsort(ways, kind="stable")[::_THINNED]:
+        j = nearest[i]
+        across = last[j] - first[i]
+        between = first[i] + np.linspace(0.0, 1.0, 2 + int(apart[i, j] / STRIDE))[:, None] * across
+        if (inside(between, landing) & (to_walls(between, walls) >= radius)).all():
+            break
+    else:
         return None
+    # landings end some millimetres before the riser
+    short = 0.0 if goal.level else footprint.front + STRIDE
     heading = start[2]
     if apart[i, j] > 1e-6:
         heading = float(np.arctan2(across[1], across[0]))
     legs = [
         _leg(here, first[i], start[2]),
         _leg(first[i], last[j], heading),
-        _leg(last[j], there - (0.0 if goal.level else footprint.front) * onward, goal.heading),
+        _leg(last[j], there - min(back[j], short) * onward, goal.heading),
     ]
     poses = np.vstack(legs)
     if blocked(footprint, poses, walls).any():

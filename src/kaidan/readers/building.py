@@ -145,7 +145,13 @@ class Building:
         return {key for key, floor in self.floors.items() if not floor.storey}
 
     def named(self, element: str) -> tuple[Flight, ...]:
-        """Flights of an element: a GlobalId or a name, of a flight or of a whole staircase."""
+        """Flights of an element: a GlobalId or a name, of a flight or of a whole staircase.
+
+        Several of them are joined by colons: flights that no element of the file holds together.
+        """
+        parts = [self.named(each) for each in element.split(":")] if ":" in element else []
+        if parts and all(parts):
+            return tuple(each for each in self.flights if any(each in part for part in parts))
         wanted = element.strip().lower()
         exact = [each for each in self.flights if element in (each.identity, *each.parents)]
         return tuple(exact) or tuple(

@@ -13,7 +13,7 @@ from kaidan.mechanics.clearance import (
     spin_circle,
 )
 from kaidan.mechanics.footprint import Footprint, blocked, inscribed_circle, inside, walls_of
-from kaidan.mechanics.turning import Goal, manoeuvre
+from kaidan.mechanics.turning import Goal, manoeuvre, on_the_spot
 
 
 def corners(front, rear, w, x=0.0, y=0.0, psi=0.0, fill=1):
@@ -145,6 +145,25 @@ def test_a_robot_moves_aside_by_angles_that_take_it_less_than_a_cell_aside_in_a_
     assert found is not None
     _, y, _ = found.poses.T
     assert y.max() > 1.5
+
+
+def test_it_turns_on_the_spot_farther_on_where_the_shortest_drive_across_is_not_free():
+    """By hand: a landing of 1.63 m whose middle part is only 1.3 m deep, and which ends 7 mm before
+    the riser, as precast ones do. A circle of 0.9 m passes the corner 0.77 m beyond the edge."""
+    landing = np.array([(0, 0), (1.63, 0), (1.63, 2.4), (0.23, 2.4), (0.23, 1.3), (0.33, 1.3),
+                        (0.33, 1.08), (0, 1.08)])  # fmt: skip
+    room = np.vstack([walls_of(landing)[:-1], [(-1.5, 0, 0, 0), (-1.5, 1.08, 0, 1.08)]])
+    found = on_the_spot(
+        STOWED,
+        start=(0.11, 0.54, 0.0),
+        goal=Goal(0.223, 1.86, math.pi, 1.08),
+        landing=landing,
+        walls=room,
+    )
+    assert found is not None
+    assert (found.moves, found.reversals) == (5, 0)
+    assert not blocked(STOWED, found.poses, room).any()
+    assert found.poses[np.abs(found.poses[:, 1] - 1.2) < 0.2, 0] == pytest.approx(0.79, abs=0.03)
 
 
 def test_the_largest_circle_of_a_rectangle_and_of_a_triangle():

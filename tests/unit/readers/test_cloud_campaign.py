@@ -53,7 +53,9 @@ def test_what_lies_on_the_floor_is_no_floor():
     assert not flight.begins or flight.line()[0, 1] == pytest.approx(made.nosings[0, 1], abs=0.01)
 
 
-@pytest.mark.parametrize("number", range(13))
+@pytest.mark.parametrize(
+    "number", [*range(13), 20_030, 20_143]
+)  # ends of ramps passed for three steps
 def test_a_lookalike_is_no_staircase(number):
     cloud, _ = campaign.lookalike(number)
     assert interpreter.found(cloud, Hints()).staircases == ()

@@ -264,7 +264,7 @@ def test_a_disagreement_is_said_with_both_numbers(stated):
 
 
 def test_one_element_is_asked_for_by_its_name_or_global_id(tmp_path, monkeypatch):
-    parsed_here(monkeypatch)  # five times the same model
+    parsed_here(monkeypatch)  # seven times the same model
     path = drawn(House()).write(tmp_path / "house.ifc")
     (staircase,) = found_in(path, Hints(element="half-turn")).staircases
     assert [each.level for each in staircase.landings] == pytest.approx([0, 1.5, 3.0])
@@ -273,6 +273,11 @@ def test_one_element_is_asked_for_by_its_name_or_global_id(tmp_path, monkeypatch
     identity = staircase.facts["elements"][0]
     (one,) = found_in(path, Hints(element=identity)).staircases
     assert len(one.flights) == 1
+    # what the staircase is called means all of its flights
+    whole = staircase.provenance.element
+    for name in (whole, ":".join(staircase.facts["elements"])):
+        (again,) = found_in(path, Hints(element=name)).staircases
+        assert again.facts["elements"] == staircase.facts["elements"]
     assert found_in(path, Hints(element="spiral")).staircases == ()
     with pytest.raises(InputError, match=r"'attic' is not in it; flights: "):
         found_in(path, Hints(element="attic"))

@@ -15,6 +15,9 @@ from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import Array, Bodies
 from kaidan.text.building import disagreement
 
+GLOBAL_ID = 22
+"""Characters of one."""
+
 
 def found(contents: Bodies, hints: Hints) -> Found:
     """Staircases of a building model, or of the element that is named.
@@ -23,7 +26,7 @@ def found(contents: Bodies, hints: Hints) -> Found:
     ----------
     contents : Bodies
     hints : Hints
-        `element`: GlobalId or name of a flight or of a whole staircase.
+        `element`: GlobalId or name of a flight or a staircase, or several joined by colons.
 
     Returns
     -------
@@ -38,9 +41,8 @@ def found(contents: Bodies, hints: Hints) -> Found:
     groups, refusals = building.staircases, building.refusals
     if hints.element:
         flights = building.named(hints.element)
-        meant = {
-            each.identity for each in contents.bodies if hints.element in (each.identity, each.name)
-        }
+        wanted = {hints.element, *hints.element.split(":")}
+        meant = {each.identity for each in contents.bodies if wanted & {each.identity, each.name}}
         meant |= {each.identity for each in contents.bodies if each.parent in meant}
         refusals = tuple(r for r in refusals if r.provenance.element in meant)
         groups = tuple(
@@ -87,7 +89,7 @@ def _staircase(building: Building, flights: Sequence[Flight]) -> StairsEstimate:
     return StairsEstimate(
         flights=tuple(each.estimate for each in flights),
         landings=tuple(landings),
-        provenance=replace(building.provenance, element=flights[0].identity),
+        provenance=replace(building.provenance, element=_element(building, flights)),
         name=name,
         facts=MappingProxyType(
             {
@@ -100,6 +102,17 @@ def _staircase(building: Building, flights: Sequence[Flight]) -> StairsEstimate:
         ),
         notes=tuple(notes),
     )
+
+
+def _element(building: Building, flights: Sequence[Flight]) -> str:
+    """GlobalId that means these flights and no other, else theirs joined by colons."""
+    shared = set.intersection(*({each.identity, *each.parents} for each in flights))
+    whole = [
+        each
+        for each in shared
+        if len(each) == GLOBAL_ID and len(building.named(each)) == len(flights)
+    ]
+    return min(whole, default=":".join(each.identity for each in flights))
 
 
 def _shared_name(flights: Sequence[Flight]) -> str:
