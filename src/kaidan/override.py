@@ -3,9 +3,11 @@
 from collections.abc import Mapping
 from typing import Any
 
+from pydantic.fields import FieldInfo
+
 from kaidan.errors import InputError
 from kaidan.robot import Robot
-from kaidan.sheet import Sheet, bounds, table_of
+from kaidan.sheet import Sheet, bounds, table_of, words_of
 from kaidan.units import kind_of_unit
 
 OVERRIDES = {
@@ -39,29 +41,40 @@ def unit_of_figure(name: str, sheet: type[Sheet] = Robot) -> str:
     InputError
         No such figure; the text lists those beside it.
     """
-    *path, last = name.split(".")
-    place: type[Sheet] | None = sheet
-    for part in path:
-        field = None if place is None else place.model_fields.get(part)
-        place = None if field is None else table_of(field)
-    unit = None if place is None else bounds(place.model_fields.get(last))[0]
+    fields = _beside(name, sheet)
+    unit = bounds(fields.get(_last(name)))[0]
     if unit is None:
-        known = [] if place is None else [f for f in place.model_fields if _is_figure(place, f)]
+        known = [each for each, field in fields.items() if bounds(field)[0] is not None]
         hint = f"; known there: {', '.join(known)}" if known else ""
         raise InputError(f"{name!r} is no figure of a robot's sheet{hint}")
     return unit
 
 
-def _is_figure(sheet: type[Sheet], field: str) -> bool:
-    return bounds(sheet.model_fields[field])[0] is not None
+def words_of_figure(name: str) -> tuple[str, ...]:
+    """Words that a robot's sheet takes under a dotted name such as track.belt; else none."""
+    field = _beside(name, Robot).get(_last(name))
+    return () if field is None else words_of(field.annotation)
 
 
-def paths_of(own: Mapping[str, float]) -> dict[str, float]:
+def _last(name: str) -> str:
+    return name.rpartition(".")[2]
+
+
+def _beside(name: str, sheet: type[Sheet]) -> dict[str, FieldInfo]:
+    """Fields of the part of a sheet in which a dotted name is; none: there is no such part."""
+    place: type[Sheet] | None = sheet
+    for part in name.split(".")[:-1]:
+        field = None if place is None else place.model_fields.get(part)
+        place = None if field is None else table_of(field)
+    return {} if place is None else place.model_fields
+
+
+def paths_of(own: Mapping[str, float | str]) -> dict[str, float | str]:
     """Figures by their places in a sheet: track.flat_length for flat_length."""
     return {f"track.{name}" if name in _IN_TRACK else name: each for name, each in own.items()}
 
 
-def overridden(robot: Robot, own: Mapping[str, float]) -> Robot:
+def overridden(robot: Robot, own: Mapping[str, float | str]) -> Robot:
     """Robot with the user's own figures in place of the sheet's.
 
     Raises
@@ -85,7 +98,7 @@ def overridden(robot: Robot, own: Mapping[str, float]) -> Robot:
     return Robot.model_validate(sheet)
 
 
-def _narrowed(stated: dict[str, Any], own: Mapping[str, float]) -> dict[str, Any] | None:
+def _narrowed(stated: dict[str, Any], own: Mapping[str, float | str]) -> dict[str, Any] | None:
     """Range of a centroid of which some is stated; None where all of it is."""
     known = {"from_front": "com_from_front", "height": "com_height"}
     if all(name in own for name in known.values()):

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from functools import cache
 from types import NoneType
-from typing import Any, ClassVar, Self, get_args
+from typing import Any, ClassVar, Literal, Self, get_args, get_origin
 
 from pydantic import (
     BaseModel,
@@ -241,6 +241,14 @@ def table_of_each(field: FieldInfo) -> type[Sheet] | None:
     if len(kinds) == 2 and isinstance(kinds[1], type) and issubclass(kinds[1], Sheet):
         return kinds[1]
     return None
+
+
+def words_of(annotation: Any) -> tuple[str, ...]:
+    """Words that a field takes, if it takes nothing else, or nothing at all."""
+    for kind in (annotation, *get_args(annotation)):
+        if get_origin(kind) is Literal:
+            return get_args(kind)
+    return ()
 
 
 def _is_unicode(value: str | dict[str, Any]) -> bool:

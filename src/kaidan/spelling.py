@@ -11,7 +11,7 @@ import numpy as np
 from kaidan import catalog
 from kaidan.allowance import Allowance
 from kaidan.errors import InputError, short, shown
-from kaidan.override import OVERRIDES, kind_of_figure, overridden, paths_of
+from kaidan.override import OVERRIDES, kind_of_figure, overridden, paths_of, words_of_figure
 from kaidan.robot import Payload, Posture, PostureChange, Robot
 from kaidan.surface import Surface
 from kaidan.terrain.profile import Profile
@@ -94,7 +94,9 @@ def flights_of(name: str) -> tuple[Stairs, ...] | None:
     return staircase_sheets(name)
 
 
-def _of_file(name: str, kind: type[_Sheet], own: Mapping[str, float] = _NONE) -> _Sheet | None:
+def _of_file(
+    name: str, kind: type[_Sheet], own: Mapping[str, float | str] = _NONE
+) -> _Sheet | None:
     """Sheet made of a file that holds a robot or stairs; None: the name is of no such file."""
     if kind is Robot and _may_be_a_file(name, "robots", "unweighed"):
         from kaidan.readers.hints import Hints
@@ -147,20 +149,26 @@ def terrain_of(given: Any) -> Terrain:
     return flights[0] if len(flights) == 1 else flights
 
 
-def own_figures(given: Any) -> dict[str, float]:
-    """Figures of a robot's sheet by their short or dotted names, see `figures`.
+def own_figures(given: Any) -> dict[str, float | str]:
+    """Figures and words of a robot's sheet by their short or dotted names, see `figures`.
 
     Examples
     --------
-    >>> own_figures("com_height=200mm,front_flippers.length=0.3m")
-    {'com_height': 0.2, 'front_flippers.length': 0.3}
+    >>> own_figures("com_height=200mm,front_flippers.length=0.3m,track.belt=grousers")
+    {'com_height': 0.2, 'front_flippers.length': 0.3, 'track.belt': 'grousers'}
     """
-    dotted = {
-        key: kind_of_figure(key)
-        for key, _ in _named_values(given, "override", OVERRIDES)
-        if isinstance(key, str) and "." in key
-    }
-    return figures(given, OVERRIDES | dotted, "override")
+    numbers: list[tuple[str, Any]] = []
+    own: dict[str, float | str] = {}
+    for key, value in _named_values(given, "override", OVERRIDES):
+        words = words_of_figure(key) if isinstance(key, str) else ()
+        if not words:
+            numbers.append((key, value))
+        elif key in own:
+            raise InputError(f"override {key} is given twice")
+        else:
+            own[key] = word_of(f"override {key}", value, words)
+    dotted = {key: kind_of_figure(key) for key, _ in numbers if isinstance(key, str) and "." in key}
+    return own | _figures(numbers, OVERRIDES | dotted, "override")
 
 
 def figures(given: Any, kinds: Mapping[str, str], name: str) -> dict[str, float]:
@@ -185,8 +193,14 @@ def figures(given: Any, kinds: Mapping[str, str], name: str) -> dict[str, float]
     InputError
         An unknown name, one given twice, or a value that is none.
     """
+    return _figures(_named_values(given, name, kinds), kinds, name)
+
+
+def _figures(
+    pairs: Iterable[tuple[str, Any]], kinds: Mapping[str, str], name: str
+) -> dict[str, float]:
     values: dict[str, float] = {}
-    for key, value in _named_values(given, name, kinds):
+    for key, value in pairs:
         if key not in kinds:
             raise InputError(
                 f"{name} {shown(key)} is not known; write NAME=VALUE with a name of "

@@ -368,14 +368,20 @@ def helps(monkeypatch):
                 raise InputError("no such posture")
             return question.name
 
-        def off_its_angles(question, then, search):
-            loose.append(question.name)
-            return off
+        def planned(question, then, search, *, anew):
+            assert anew is ("!" in question.name and com_range is None)
+            if then.verdict is Verdict.GO and question.tolerance:
+                loose.append(question.name)
+                return off, False
+            return then, anew
 
         asked_known = known
         each = [
             Candidate(
-                name.rstrip("?"), SimpleNamespace(name=name, tolerance=tolerance), "?" in name
+                name.rstrip("?!"),
+                SimpleNamespace(name=name, tolerance=tolerance),
+                "?" in name,
+                "!" in name,
             )
             for name in candidates
         ]
@@ -385,7 +391,7 @@ def helps(monkeypatch):
         monkeypatch.setattr(advice, "_nosings", lambda *given: [])
         monkeypatch.setattr(advice, "judge", judge)
         monkeypatch.setattr(advice, "conclude", lambda question, found: candidates[found])
-        monkeypatch.setattr(advice, "_off_its_angles", off_its_angles)
+        monkeypatch.setattr(advice, "_planned", planned)
         changes = advice.what_would_help(question, "found", now)
         return [one.change for one in changes], set(known), loose
 
@@ -411,16 +417,19 @@ def test_changes_that_help_the_best_first(helps):
     # what only makes a doubt certain has to settle something
     assert helps({"better": better, "measured?": better})[0] == ["better"]
     assert helps({"better": better, "measured?": go})[0] == ["measured", "better"]
+    # where it changes what holds the robot, of another plan
+    assert helps({"grip!": go, "better": better})[0] == ["grip, with another plan", "better"]
     # a GO counts as what it is off its angles, if these are in doubt
     found = helps(each, off=same._replace(margin=0.9), tolerance=0.05)
     assert found == (["go", "go more", "better"], {"found"}, ["go", "go more"])
 
 
-def test_a_plan_off_its_angles(monkeypatch):
+def test_a_plan_off_its_angles_and_another_one(monkeypatch):
     then = concluded(Verdict.GO, 0.2)
-    search = SimpleNamespace(drives="drives")
+    best = concluded(Verdict.GO, 0.1)
+    caution = then._replace(verdict=Verdict.CAUTION)
 
-    def of(search, *, holds=False, sturdy=True, com_range=None):
+    def of(ends=2, *, now=then, holds=False, sturdy=True, own=best, com_range=None, anew=False):
         asked = []
 
         def found_of(question, *, drives):
@@ -431,17 +440,23 @@ def test_a_plan_off_its_angles(monkeypatch):
             assert drives == (None if search is None else "drives")
             return holds
 
+        search = ends and SimpleNamespace(drives="drives", ends=("nose-first", "tail-first")[:ends])
         question = SimpleNamespace(
-            robot=SimpleNamespace(com_range=com_range), changed=lambda best_of: best_of
+            robot=SimpleNamespace(com_range=com_range),
+            changed=lambda best_of: best_of,
+            tolerance=0.05,
         )
         monkeypatch.setattr(plan_search, "found_of", found_of)
         monkeypatch.setattr(plan_search, "holds_off_its_angles", holds_off)
-        monkeypatch.setattr(advice, "conclude", lambda question, found: (question, found))
-        return advice._off_its_angles(question, then, search), asked
+        monkeypatch.setattr(advice, "conclude", lambda question, found: own)
+        return advice._planned(question, now, search, anew=anew), asked
 
-    caution = then._replace(verdict=Verdict.CAUTION)
-    assert of(None, holds=True) == of(search, holds=True) == (then, [])
-    assert of(None) == (caution, [])
-    assert of(search, com_range="range") == (caution, [])
-    assert of(search) == (("own", "its"), [(("flippers", "facing"), "drives")])
-    assert of(search, sturdy=False)[0] == caution
+    assert of(None, holds=True) == of(holds=True) == ((then, False), [])
+    assert of(None) == of(com_range="range") == ((caution, False), [])
+    assert of() == ((best, True), [(("flippers", "facing"), "drives")])
+    assert of(1) == ((best, True), [(("flippers",), "drives")])
+    assert of(sturdy=False)[0] == (caution, False)
+    assert of(own=concluded(Verdict.CAUTION, 0.1))[0] == (caution, False)
+    # no GO at its angles: only where another plan may be the best
+    assert of(now=caution) == ((caution, False), [])
+    assert of(now=caution, anew=True)[0] == (best, True)

@@ -51,9 +51,8 @@ def changed(robot, text, question):
         return robot.model_copy(update={"com_from_front": robot.com_from_front + shift}), {}
     if measured:
         return robot, dict.fromkeys(measured[1].split(" and "), 0.0)
-    if text == "Belts with grousers of 10 mm every 40 mm":
-        belts = {"belt": "grousers", "grouser_height": 0.010, "grouser_spacing": 0.040}
-        return robot.model_copy(update={"track": robot.track.model_copy(update=belts)}), {}
+    if text == "If its belts have grousers, state it (track.belt=grousers)":
+        return robot, {"override": "track.belt=grousers"}
     if text.endswith("tail first"):
         return robot, {"facing": "tail-first"}
     if text.endswith("nose first"):

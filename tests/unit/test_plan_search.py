@@ -331,8 +331,9 @@ def test_one_posture_throughout_is_the_better_of_stowed_and_flat():
     assert (trial.best_of, trial.flippers) == ((), "stowed")
 
 
-def on_grousers(sheet):
-    belts = {"belt": "grousers", "grouser_height": 0.010, "grouser_spacing": 0.040}
+def on_grousers(sheet, **figures):
+    figures = figures or {"grouser_height": 0.010, "grouser_spacing": 0.040}
+    belts = {"belt": "grousers"} | figures
     return sheet.model_copy(update={"track": sheet.track.model_copy(update=belts)})
 
 
@@ -341,14 +342,30 @@ def test_advice_about_a_plan_that_was_found_holds_off_its_angles(monkeypatch):
     each_once(monkeypatch)
     answer = kaidan.assess("absolem", "ibc", surface="concrete-dry")
     _, help_ = answer.what_would_help
-    assert (help_.change, help_.verdict) == ("Belts with grousers of 10 mm every 40 mm", "go")
-    robot = on_grousers(answer.question.robot)
+    stated = "If its belts have grousers, state it (track.belt=grousers), with another plan"
+    assert (help_.change, help_.verdict) == (stated, "go")
+    robot = on_grousers(answer.question.robot, grouser_height=None)  # as its sheet would say it
     planned = answer.question.changed(robot=robot)
     assert kaidan.assess(planned, flipper_tolerance=0.0).verdict == "go"
     assert kaidan.assess(planned).verdict == "caution"
     assert not holds_off_its_angles(planned)
     own = kaidan.assess(robot, "ibc", surface="concrete-dry")
     assert (own.verdict, own.margin_deg) == (help_.verdict, help_.margin_deg)
+
+
+@pytest.mark.slow
+def test_advice_of_what_holds_the_robot_seeks_another_plan(monkeypatch):
+    """MARV's plan on smooth belts is no GO with grousers either, its best plan with them is."""
+    each_once(monkeypatch)
+    answer = kaidan.assess("marv", "ibc", surface="concrete-dry")
+    help_, *_ = answer.what_would_help
+    assert help_.change.endswith(", with another plan")
+    robot = on_grousers(answer.question.robot, grouser_height=None)
+    assert kaidan.assess(answer.question.changed(robot=robot)).verdict == "caution"
+    own = kaidan.assess(robot, "ibc", surface="concrete-dry")
+    assert (
+        (own.verdict, own.margin_deg) == (help_.verdict, help_.margin_deg) == ("go", own.margin_deg)
+    )
 
 
 @pytest.mark.parametrize(

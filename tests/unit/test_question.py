@@ -206,6 +206,7 @@ def test_a_verb_takes_a_question_or_what_makes_one():
     assert Question.ask(whole, flippers="flat").posture == Posture(front="flat", rear="flat")
     assert Question.ask(whole, theta_d="2deg").allowance_d.high == math.radians(2)
     assert Question.ask(whole, override="com_height=190mm").robot.com_height == 0.19
+    assert Question.ask(whole, override="track.belt=grousers").robot.track.has_grousers
     assert Question.ask(whole, surface="concrete-wet", uncertainty="friction=0.1").spread[-1] == 0.1
     with pytest.raises(InputError, match="give either a surface or a friction, not both"):
         Question.ask(whole, surface="concrete-wet", friction=0.5)
@@ -537,6 +538,14 @@ REFUSED = {
     "override twice": (
         {"override": "mass=1kg,mass=2kg"},
         "override mass is given twice",
+    ),
+    "override word": (
+        {"override": "track.belt=rubber"},
+        "override track.belt = 'rubber' is not known; known: smooth, grousers",
+    ),
+    "override word twice": (
+        {"override": "track.belt=smooth,track.belt=grousers"},
+        "override track.belt is given twice",
     ),
     "uncertainty of no friction": (
         {"uncertainty": "friction=0.1"},

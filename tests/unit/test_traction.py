@@ -1,5 +1,7 @@
 """Friction and grousers in answers: sheets, figures, texts."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -113,6 +115,20 @@ def test_the_required_friction_is_where_it_begins_to_slip():
     for more, holds in ((0.005, True), (-0.005, False)):
         then = asked(answer.required_friction + more, **GROUSERS, **HARD)
         assert then.findings["slides_down"].holds is holds
+
+
+@pytest.mark.parametrize("height", [0.003, 0.005])
+def test_the_friction_required_where_none_is_stated_is_just_enough(height):
+    """At a face low rigid grousers round an end need more of it than a smooth belt does."""
+    kenaf = Robot.named("kenaf")
+    stairs = Stairs.inclined(angle=math.radians(40), nosing_spacing=0.150)
+    figures = {"grouser_height": height, "grouser_spacing": 0.05, "grouser_tip_width": 0.01}
+    belts = kenaf.model_copy(update={"track": kenaf.track.model_copy(update=figures)})
+    required = assess(belts, stairs).traction.required_friction
+    assert required > assess(kenaf, stairs).traction.required_friction + 0.02
+    for more, holds in ((-1e-3, False), (1e-3, True)):
+        margin = assess(belts, stairs, friction=required + more).findings["slides_down"].margin
+        assert (margin > 0) is holds
 
 
 def test_a_weak_grouser_counts_for_nothing():

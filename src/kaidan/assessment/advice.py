@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -68,6 +68,8 @@ class Candidate(NamedTuple):
     question: Question
     certain: bool = False
     """Whether it helps only where it settles something: another verdict, or a margin that holds."""
+    holds: bool = False
+    """Whether it changes what holds the robot, so that another plan may be the best."""
     then: Conclusion | None = None
     """Its conclusion, where it is known."""
 
@@ -103,24 +105,24 @@ def what_would_help(
     better = []
     known = found if question.robot.com_range is None else None
 
-    def judged(changed: Question) -> Conclusion:
+    def judged(changed: Question, holds: bool = False) -> tuple[Conclusion, bool]:
         then = conclude(changed, judge(changed, known=known))
-        if then.verdict is Verdict.GO and changed.tolerance:
-            return _off_its_angles(changed, then, search)
-        return then
+        return _planned(changed, then, search, anew=holds and known is not None)
 
     candidates = (
         *_candidates(question, found, conclusion, search),
-        *_nosings(question, conclusion, judged),
+        *_nosings(question, conclusion, lambda changed: judged(changed)[0]),
         *_known_better(question, measure),
     )
-    for change, changed, certain, then in candidates:
+    for change, changed, certain, holds, then in candidates:
+        anew = False
         try:
-            then = judged(changed) if then is None else then
+            if then is None:
+                then, anew = judged(changed, holds)
         except InputError:  # a posture or a place of the centroid that the robot cannot have
             continue
         if _is_better(then, conclusion) and (not certain or _settles(then, conclusion)):
-            better.append((then, change))
+            better.append((then, text.with_another_plan(change) if anew else change))
     better.sort(key=lambda each: _rank(each[0]))
     return tuple(
         Change(
@@ -132,21 +134,44 @@ def what_would_help(
     )
 
 
-def _off_its_angles(question: Question, then: Conclusion, search: "Found | None") -> Conclusion:
-    """Conclusion of a plan, with the verdict that it has off its angles.
+def _planned(
+    question: Question, then: Conclusion, search: "Found | None", *, anew: bool
+) -> tuple[Conclusion, bool]:
+    """Conclusion of a plan with the verdict that it has off its angles, or that of another plan.
 
-    Where it is worse and plans are searched for, that of the plan that the change would have.
+    Parameters
+    ----------
+    question : Question
+        With a change and the plan at hand.
+    then : Conclusion
+        At the plan's angles.
+    search : Found, optional
+        What found the plan; without it no other one is sought.
+    anew : bool
+        Whether another plan is sought where this one is no GO at its angles, not only where it is
+        none off them.
+
+    Returns
+    -------
+    conclusion, another
+        And whether it is another plan's.
     """
+    is_go = then.verdict is Verdict.GO
+    if (is_go and not question.tolerance) or not (is_go or (anew and search is not None)):
+        return then, False
     from kaidan.assessment.plan_search import found_of, holds_off_its_angles
 
     drives = None if search is None else search.drives
-    if holds_off_its_angles(question, drives):
-        return then
+    if is_go and holds_off_its_angles(question, drives):
+        return then, False
+    if is_go:
+        then = then._replace(verdict=Verdict.CAUTION)
     if search is not None and question.robot.com_range is None:
-        own = found_of(question.changed(best_of=("flippers", "facing")), drives=drives)
-        if own.sturdy:
-            return conclude(own.question, own.findings)
-    return then._replace(verdict=Verdict.CAUTION)
+        ends = ("flippers", "facing") if len(search.ends) > 1 else ("flippers",)
+        own = found_of(question.changed(best_of=ends), drives=drives)
+        if own.sturdy and _is_better(best := conclude(own.question, own.findings), then):
+            return best, True
+    return then, False
 
 
 def _number(margin: float) -> float:
@@ -294,7 +319,8 @@ def _more_friction(
         return
     surface = Surface.of_friction(enough)
     known = question.surface is not None
-    yield Candidate(text.friction(enough, known=known), question.changed(surface=surface))
+    change = text.friction(enough, known=known)
+    yield Candidate(change, question.changed(surface=surface), holds=True)
 
 
 def _enough_at_the_risk(question: Question, found: Findings, nominal: float) -> float:
@@ -309,19 +335,17 @@ def _enough_at_the_risk(question: Question, found: Findings, nominal: float) -> 
 
 
 def _grousers(question: Question) -> Iterator[Candidate]:
-    """Belts with grousers, where they have none."""
+    """Belts with grousers, where they have none; where nobody says, of unknown figures."""
     track = question.robot.track
     if track.has_grousers:
         return
-    belts = track.model_copy(
-        update={
-            "belt": "grousers",
-            "grouser_height": USUAL.grouser_height,
-            "grouser_spacing": USUAL.grouser_spacing,
-        }
-    )
-    robot = question.robot.model_copy(update={"track": belts})
-    yield Candidate(text.grousers(), question.changed(robot=robot))
+    known = track.belt is not None
+    update: dict[str, Any] = {"belt": "grousers"}
+    if known:
+        update |= {name: getattr(USUAL, name) for name in ("grouser_height", "grouser_spacing")}
+    robot = question.robot.model_copy(update={"track": track.model_copy(update=update)})
+    change = text.grousers() if known else text.state_grousers()
+    yield Candidate(change, question.changed(robot=robot), holds=True)
 
 
 def _nosings(

@@ -4,7 +4,7 @@ import json
 import math
 from collections.abc import Iterator
 from textwrap import wrap
-from typing import Any, Literal, get_args, get_origin
+from typing import Any, get_origin
 
 from pydantic.fields import FieldInfo
 
@@ -17,6 +17,7 @@ from kaidan.sheet import (
     table_of_each,
     table_of_list,
     toml_value,
+    words_of,
 )
 
 _HEAD = """\
@@ -125,14 +126,6 @@ def _comment(field: FieldInfo) -> list[str]:
     elif words := words_of(field.annotation):
         text += f"; {' or '.join(json.dumps(word) for word in words)}"
     return [f"# {line}" for line in wrap(text, 96, break_on_hyphens=False)]
-
-
-def words_of(annotation: Any) -> tuple[str, ...]:
-    """Words that a field takes, if it takes nothing else, or nothing at all."""
-    for kind in (annotation, *get_args(annotation)):
-        if get_origin(kind) is Literal:
-            return get_args(kind)
-    return ()
 
 
 def _blank(field: FieldInfo) -> str:

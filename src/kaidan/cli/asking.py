@@ -7,8 +7,7 @@ from typing import Any
 
 import typer
 
-from kaidan.catalog.template import words_of
-from kaidan.sheet import Sheet, bounds, table_of
+from kaidan.sheet import Sheet, bounds, table_of, words_of
 from kaidan.text import guide
 from kaidan.text.tables import human
 

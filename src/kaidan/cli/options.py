@@ -118,7 +118,7 @@ Override = Annotated[
     typer.Option(
         "--override",
         help="Own figure for the robot: com_from_front=200mm, com_height=, flat_length=, "
-        "gauge=, mass=20kg, or any of its sheet: track.front_radius=90mm.",
+        "gauge=, mass=20kg, or any of its sheet: track.front_radius=90mm, track.belt=grousers.",
     ),
 ]
 UncertaintyText = Annotated[

@@ -36,6 +36,10 @@ and Engineers, table 5.2 (0.8 and 1.0)."""
 WORTH_TELLING = 0.02
 """Friction by which the usual grousers need less than smooth belts, from which on it is said
 [1]."""
+MOST_LOOKS = 20
+"""Times that an angle of friction which is enough is improved."""
+_LITTLE = 1e-6
+"""What it may still lack [rad]."""
 _OF_BELTS = [name for name in Track.model_fields if name == "belt" or name.startswith("grouser_")]
 
 
@@ -164,14 +168,9 @@ def supply(
     surface, grip = question.surface, found.grip
     frictions = (0.0,) * 3 if surface is None else surface.of_parts(best=best)
     phi = math.atan(frictions[0]), math.atan(frictions[1]), math.atan(frictions[2])
-    if _bears(question, track, found):
-        cases = grousers_of(question, track, best=best)
-        by_friction = _by_friction(grip, phi, cases)
-        pairs = zip(cases, by_friction, strict=True)
-        held = np.minimum.reduce([grip.with_grousers(phi, one, own) for one, own in pairs])
-        alone = np.minimum.reduce(by_friction)
-    else:
-        alone = held = grip.by_friction(phi)
+    bears = _bears(question, track, found)
+    cases = grousers_of(question, track, best=best) if bears else ()
+    held, alone = _held(grip, phi, cases)
     rows = lasting(found.path) & ~found.comes_off
     if phase is not None:
         rows &= found.phase_of_pose == phase.value
@@ -188,15 +187,50 @@ def supply(
             here = slipping & (found.phase_of_pose == each.value)
             if here.any():
                 heights[each] = float(kinetic[here].max())
-    missing = phi[0] - float(chosen[at])
+    margin = float(chosen[at])
+    missing = phi[0] - margin
+    if surface is None:
+        missing, at = _enough(grip, missing, cases, rows, at)
     return Supply(
-        margin=float(chosen[at]),
+        margin=margin,
         required=math.tan(missing) if missing < math.pi / 2 else math.inf,
         phase=Phase(str(found.phase_of_pose[at])),
         step=step_at(found.profile, float(found.path.poses.front_point[at, 0]), found.descending),
         slip=slip,
         heights=heights,
     )
+
+
+def _held(
+    grip: Grip, phi: tuple[float, float, float], cases: tuple[Grousers, ...]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """What each pose has to spare with its grousers, in the worst case, and without [rad]."""
+    if not cases:
+        alone = grip.by_friction(phi)
+        return alone, alone
+    by_friction = _by_friction(grip, phi, cases)
+    pairs = zip(cases, by_friction, strict=True)
+    held = [grip.with_grousers(phi, one, own) for one, own in pairs]
+    return np.minimum.reduce(held), np.minimum.reduce(by_friction)
+
+
+def _enough(
+    grip: Grip, angle: float, cases: tuple[Grousers, ...], rows: NDArray[np.bool_], at: int
+) -> tuple[float, int]:
+    """Angle of friction that is just enough [rad], and at which pose.
+
+    The first angle is what cones lack that all grow alike. At a riser's face the cone of rigid
+    grousers grows less, so what is still lacking is added until nothing is.
+    """
+    for _ in range(MOST_LOOKS):
+        if not 0.0 < angle < math.pi / 2 or not any(each.rigid for each in cases):
+            break
+        chosen = np.where(rows, _held(grip, (angle,) * 3, cases)[0], np.inf)
+        at = int(np.argmin(chosen))
+        angle -= float(chosen[at])
+        if abs(chosen[at]) < _LITTLE:
+            break
+    return angle, at
 
 
 def _by_friction(

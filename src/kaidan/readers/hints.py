@@ -38,7 +38,7 @@ class Hints(Sheet):
     joints: dict[str, float] = Field(
         default={}, description="angles of a robot's joints [rad], or ways [m], by their names"
     )
-    figures: dict[str, float] = Field(
+    figures: dict[str, float | str] = Field(
         default={},
         description="figures of a robot's sheet that replace those of the file, such as "
         "track.flat_length, in SI",

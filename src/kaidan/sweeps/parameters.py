@@ -241,7 +241,7 @@ def value_now(values: Mapping[str, Any], name: str) -> float | None:
         return None
     own = own_figures(values.get("override", ()))
     if name in own:
-        return own[name]
+        return float(own[name])
     place: Any = sheet_of(values["robot"], Robot)
     path = name.split(".")
     if path[0] == _PAYLOAD:

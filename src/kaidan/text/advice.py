@@ -34,6 +34,16 @@ def grousers() -> str:
     return f"Belts with {usual()}"
 
 
+def state_grousers() -> str:
+    """State that the belts have grousers, in the robot's sheet or instead of it."""
+    return "If its belts have grousers, state it (track.belt=grousers)"
+
+
+def with_another_plan(change: str) -> str:
+    """A change after which another plan is the best."""
+    return f"{change}, with another plan"
+
+
 def nosings(radius: int) -> str:
     """Have round nosings of at most some radius [mm]."""
     return f"Make sure that the nosings' radius is {radius} mm or less"

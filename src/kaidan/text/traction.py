@@ -21,7 +21,7 @@ def required(found: "TractionFigures", smooth: str) -> str:
     """Friction that is required, of smooth belts as said, and what grousers make of it."""
     if found.belt == "grousers" and found.required_friction is not None:
         without = found.smooth_required_friction
-        if without is not None and without - found.required_friction < 0.005:
+        if without is not None and abs(without - found.required_friction) < 0.005:
             return f"{smooth}, with its grousers or without"
         alone = "no friction is enough" if without is None else f"{without:.2f}"
         return f"{smooth} with its grousers, {alone} without"

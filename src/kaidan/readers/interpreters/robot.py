@@ -220,7 +220,7 @@ def _refused(
     whole: MassProperties,
     gear: Gear,
     side: SideView | None,
-    stated: Mapping[str, float],
+    stated: Mapping[str, float | str],
 ) -> tuple[str, dict[str, float | str]]:
     """Why there is no sheet, and what was found; nothing where there is one."""
     numbers: dict[str, float | str] = {
