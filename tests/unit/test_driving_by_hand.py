@@ -39,7 +39,7 @@ def robot(*others, kinds=(), main=TRACK, tips_below=False):
         stance=SimpleNamespace(
             flat_length=L, com_height=C_N, com_from_front=C_L, tips_below=tips_below
         ),
-        gyration=0.15, reach=(0.4, 0.3), trail=0.35,
+        gyration=0.15, reach=(0.4, 0.3), lead=0.3, trail=0.35,
     )  # fmt: skip
 
 

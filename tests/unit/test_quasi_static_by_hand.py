@@ -187,9 +187,12 @@ def test_extremes_over_phases():
 # obstacles
 
 
-def obstacles(*, belly=None, touches=(), phase=None, status=Status.OK, descending=False):
+def obstacles(
+    *, belly=None, touches=(), phase=None, status=Status.OK, descending=False, part=(None, None)
+):
+    start, until = part
     found = SimpleNamespace(
-        status=status, end=(Phase.TRAVERSE, 4), descending=descending,
+        status=status, end=(Phase.TRAVERSE, 4), descending=descending, start=start, until=until,
         outline=SimpleNamespace(reach=(0.4, 0.6)), profile=SimpleNamespace(landings=(2.0, 3.0)),
     )  # fmt: skip
     phases = tuple(SimpleNamespace(phase=each, belly_touches=each in touches) for each in Phase)
@@ -202,6 +205,10 @@ def test_room_on_the_landings_is_the_least_of_both():
     room = obstacles()[LANDING_ROOM]
     assert (room.worst.tolist(), room.failing) == ([pytest.approx(0.3)], Verdict.CAUTION)
     assert obstacles(descending=True)[LANDING_ROOM].worst == pytest.approx(0.1)
+    # a part of a plan that sets out from the flight, or ends there, stands on the other landing
+    assert obstacles(part=("there", None))[LANDING_ROOM].worst == pytest.approx(1.1)
+    assert obstacles(part=(None, 0.7))[LANDING_ROOM].worst == pytest.approx(0.3)
+    assert obstacles(part=("there", 0.7))[LANDING_ROOM].worst == math.inf
     assert obstacles(phase=Phase.ENTER) == {}
     assert list(obstacles(phase=Phase.LAND)) == [LANDING_ROOM]
 
