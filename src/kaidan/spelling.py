@@ -168,7 +168,7 @@ def own_figures(given: Any) -> dict[str, float | str]:
         else:
             own[key] = word_of(f"override {key}", value, words)
     dotted = {key: kind_of_figure(key) for key, _ in numbers if isinstance(key, str) and "." in key}
-    return own | _figures(numbers, OVERRIDES | dotted, "override")
+    return _figures(numbers, OVERRIDES | dotted, "override") | own
 
 
 def figures(given: Any, kinds: Mapping[str, str], name: str) -> dict[str, float]:
