@@ -193,7 +193,10 @@ def figures(**given):
 
 def test_parts_of_a_plan_as_one():
     """The most friction of any; of what is not known as much as can be."""
-    one = figures(slip_mm=40.0, slip_heights_mm={"enter": 1.0, "land": 5.0}, step=2)
+    one = figures(
+        slip_mm=40.0, slip_heights_mm={"enter": 1.0, "land": 5.0}, step=2,
+        usual_required_friction=0.25,
+    )  # fmt: skip
     two = figures(
         required_friction=0.7, smooth_required_friction=0.4, usual_required_friction=0.3, step=3,
         slip_mm=60.0, slip_heights_mm={"enter": 2.0, "land": -1.0, "traverse": 0.5},
@@ -212,3 +215,5 @@ def test_parts_of_a_plan_as_one():
         together((one, nothing, two)).smooth_required_friction == nothing.smooth_required_friction
     )
     assert together((three, three)).slip_mm is None
+    # with grousers no friction is enough in one part
+    assert together((one, figures(), three)).usual_required_friction is None

@@ -345,7 +345,9 @@ def _grousers(question: Question) -> Iterator[Candidate]:
         update |= {name: getattr(USUAL, name) for name in ("grouser_height", "grouser_spacing")}
     robot = question.robot.model_copy(update={"track": track.model_copy(update=update)})
     change = text.grousers() if known else text.state_grousers()
-    yield Candidate(change, question.changed(robot=robot), holds=True)
+    # with no friction stated no plan is a GO
+    holds = question.surface is not None
+    yield Candidate(change, question.changed(robot=robot), holds=holds)
 
 
 def _nosings(

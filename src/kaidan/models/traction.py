@@ -33,9 +33,6 @@ YIELD = (0.0, 0.5)
 SLIDING = 0.8
 """Sliding over static friction [1]: rubber on concrete, Serway & Beichner, Physics for Scientists
 and Engineers, table 5.2 (0.8 and 1.0)."""
-WORTH_TELLING = 0.02
-"""Friction by which the usual grousers need less than smooth belts, from which on it is said
-[1]."""
 MOST_LOOKS = 20
 """Times that an angle of friction which is enough is improved."""
 _LITTLE = 1e-6
@@ -343,7 +340,6 @@ def figures_of(
     usual = math.inf
     if not track.has_grousers and question.surface is None:
         usual = supply(question, found, USUAL, phase=phase).required
-        usual = usual if usual < smooth - WORTH_TELLING else math.inf
     return TractionFigures(
         belt=track.belt or ("grousers" if track.has_grousers else "not stated"),
         required_friction=smooth if worst is None else worst.required,
@@ -388,7 +384,7 @@ def together(parts: Sequence[TractionFigures]) -> TractionFigures:
     return worst.model_copy(
         update={
             "smooth_required_friction": smooth.smooth_required_friction,
-            "usual_required_friction": max((each for each in usual if each), default=None),
+            "usual_required_friction": None if None in usual else max(map(_number, usual)),
             "slip_mm": max((each.slip_mm for each in parts if each.slip_mm), default=None),
             "slip_heights_mm": heights,
         }

@@ -18,8 +18,8 @@ class TractionFigures(Part):
     smooth_required_friction: float | None
     """The same of smooth belts [1]."""
     usual_required_friction: float | None
-    """The same with grousers of 10 mm, 40 mm apart [1]; null where friction is stated, where the
-    belts have grousers, or where they do not help."""
+    """The same with grousers of 10 mm, 40 mm apart [1]; null where friction is stated or the belts
+    have grousers, and where no friction is enough with them."""
     phase: str | None
     """Part of the traverse where the first is required."""
     step: int | None

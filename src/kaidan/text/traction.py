@@ -7,6 +7,9 @@ if TYPE_CHECKING:
     from kaidan.question import Question
 
 
+WORTH_TELLING = 0.02
+"""Friction by which the usual grousers need less than smooth belts, from which on it is said
+[1]."""
 SPINS = 0.2
 """Speed from which driven grousers spun at a first riser in MuJoCo [m/s]: 2 of 280 GOs, and none
 slower (docs/physics.md); more where an end climbs a face by friction (docs/theory/grousers.md)."""
@@ -25,8 +28,9 @@ def required(found: "TractionFigures", smooth: str) -> str:
             return f"{smooth}, with its grousers or without"
         alone = "no friction is enough" if without is None else f"{without:.2f}"
         return f"{smooth} with its grousers, {alone} without"
-    if found.usual_required_friction is not None:
-        return f"{smooth} ({found.usual_required_friction:.2f} with {usual()})"
+    held, alone = found.usual_required_friction, found.smooth_required_friction
+    if held is not None and (alone is None or held < alone - WORTH_TELLING):
+        return f"{smooth} ({held:.2f} with {usual()})"
     return smooth
 
 
