@@ -28,8 +28,8 @@ def required(found: "TractionFigures", smooth: str) -> str:
             return f"{smooth}, with its grousers or without"
         alone = "no friction is enough" if without is None else f"{without:.2f}"
         return f"{smooth} with its grousers, {alone} without"
-    held, alone = found.usual_required_friction, found.smooth_required_friction
-    if held is not None and (alone is None or held < alone - WORTH_TELLING):
+    held, own = found.usual_required_friction, found.smooth_required_friction
+    if held is not None and (own is None or held < own - WORTH_TELLING):
         return f"{smooth} ({held:.2f} with {usual()})"
     return smooth
 
