@@ -7,18 +7,13 @@ import numpy as np
 import pytest
 
 from kaidan import Payload, Question, Robot, Stairs
-from kaidan.assessment import advice, plan_search
+from kaidan.assessment import advice, plan_search, traction_advice
 from kaidan.assessment.advice import (
-    LARGEST_FRICTION,
     WORTH_TELLING,
-    Candidate,
     _centroid_moved,
-    _enough_at_the_risk,
     _is_better,
     _known_better,
     _measured,
-    _more_friction,
-    _nosings,
     _rank,
     _settles,
     _slower,
@@ -26,6 +21,13 @@ from kaidan.assessment.advice import (
     _weighed,
 )
 from kaidan.assessment.measuring import Measurement
+from kaidan.assessment.traction_advice import (
+    LARGEST_FRICTION,
+    Candidate,
+    enough_at_the_risk,
+    more_friction,
+    nosings,
+)
 from kaidan.assessment.verdict import Conclusion, conclude
 from kaidan.errors import InputError
 from kaidan.models.findings import Finding, Findings
@@ -112,7 +114,7 @@ def test_a_slower_speed_has_less_kinetic_energy_than_is_left(energy, speed):
 )
 def test_more_friction_is_a_hundredth_more_than_required(required, enough):
     needs = Findings(model="by hand", required_friction=required)
-    found = [each.question.friction for each in _more_friction(KENAF, needs)]
+    found = [each.question.friction for each in more_friction(KENAF, needs)]
     assert found == ([] if enough is None else [pytest.approx((enough, enough))])
 
 
@@ -166,9 +168,9 @@ def test_a_centroid_that_is_moved_moves_that_of_robot_and_payload(load, share):
 @pytest.fixture
 def tried(monkeypatch):
     """Names of what is tried."""
-    for name in ("flippers_flat", "flippers_raised", "more_friction", "grousers", "measured",
-                 "centroid_moved"):  # fmt: skip
-        monkeypatch.setattr(advice, f"_{name}", lambda *given, name=name: [name])
+    for name in ("_flippers_flat", "_flippers_raised", "more_friction", "grousers", "_measured",
+                 "_centroid_moved"):  # fmt: skip
+        monkeypatch.setattr(advice, name, lambda *given, name=name: [name.lstrip("_")])
     monkeypatch.setattr(advice, "_slower", lambda question, energy: [("slower", energy)])
 
     def of(governs, question=KENAF, *, searched=False, phase=None, best=-0.1, energy=None):
@@ -253,9 +255,9 @@ def test_friction_enough_for_all_but_the_accepted_share(margins, enough, monkeyp
         ]
         return Findings(model="", each=(*slides, finding(TIP_DOWNHILL, -0.4)))
 
-    monkeypatch.setattr(advice, "judge", judge)
+    monkeypatch.setattr(traction_advice, "judge", judge)
     found = Findings(model="")
-    assert _enough_at_the_risk(KENAF, found, 0.5) == pytest.approx(enough)
+    assert enough_at_the_risk(KENAF, found, 0.5) == pytest.approx(enough)
     assert asked == [((0.5, 0.5), found)]
 
 
@@ -285,7 +287,7 @@ def test_the_largest_radius_of_the_nosings_by_hand(low, high, up_to, told):
         assert smallest <= largest
         return concluded(Verdict.GO if 1e3 * largest < up_to + 0.5 else Verdict.CAUTION)
 
-    each = list(_nosings(asked, slips, judged))
+    each = list(nosings(asked, slips, judged))
     radii = [round(1e3 * one.question.terrain.nosing_radius_high) for one in each]
     assert radii == [told] * (told is not None)
     assert [one.change for one in each] == [text.nosings(each) for each in radii]
@@ -295,13 +297,13 @@ def test_the_largest_radius_of_the_nosings_by_hand(low, high, up_to, told):
         (asked.changed(robot=KENAF.robot), slips), (asked, slips._replace(governs="tip_downhill")),
         (asked, slips._replace(margin_best=-0.1)),
     ):  # fmt: skip
-        assert list(_nosings(question, now, judged)) == []
+        assert list(nosings(question, now, judged)) == []
 
 
 def test_friction_that_is_stated_and_that_is_not():
     needs = Findings(model="", required_friction=0.5)
     told = [
-        next(iter(_more_friction(question, needs))).change
+        next(iter(more_friction(question, needs))).change
         for question in (KENAF, Question.in_one_posture("kenaf", KENAF.terrain))
     ]
     assert told == [text.friction(0.51, known=True), text.friction(0.51, known=False)]
@@ -388,7 +390,7 @@ def helps(monkeypatch):
         question = SimpleNamespace(trials=trials, robot=SimpleNamespace(com_range=com_range))
         monkeypatch.setattr(advice, "_candidates", lambda *given: each[:-1])
         monkeypatch.setattr(advice, "_known_better", lambda *given: each[-1:])
-        monkeypatch.setattr(advice, "_nosings", lambda *given: [])
+        monkeypatch.setattr(advice, "nosings", lambda *given: [])
         monkeypatch.setattr(advice, "judge", judge)
         monkeypatch.setattr(advice, "conclude", lambda question, found: candidates[found])
         monkeypatch.setattr(advice, "_planned", planned)

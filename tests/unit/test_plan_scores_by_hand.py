@@ -6,18 +6,11 @@ from types import SimpleNamespace
 import pytest
 
 from kaidan import Question, Robot, Stairs
-from kaidan.assessment import plan_scores, plan_search
+from kaidan.assessment import plan_judged, plan_scores, plan_search
 from kaidan.assessment.plan_hopes import Hope, Search
+from kaidan.assessment.plan_judged import Judged, judged_of, shortened
 from kaidan.assessment.plan_scores import ENOUGH, ROUNDING, UNKNOWN, Score, Scores
-from kaidan.assessment.plan_search import (
-    Judged,
-    _Candidate,
-    _candidates,
-    _Off,
-    _sturdiest,
-    judged_of,
-    shortened,
-)
+from kaidan.assessment.plan_search import _Candidate, _candidates, _Off, _sturdiest
 from kaidan.models.findings import Findings
 from kaidan.models.planned import STAND_OFF
 from kaidan.models.quasi_static import Basis
@@ -358,7 +351,7 @@ def test_which_plans_are_judged_and_in_which_order():
 
 def test_what_a_plan_comes_to(monkeypatch):
     """The largest rotation of all its parts; it arrives if all of them do."""
-    monkeypatch.setattr(plan_search, "conclude", lambda question, found: "conclusion")
+    monkeypatch.setattr(plan_judged, "conclude", lambda question, found: "conclusion")
 
     def part(arrived, *angles):
         chains = [SimpleNamespace(angle=math.radians(each)) for each in angles]

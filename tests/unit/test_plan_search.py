@@ -11,13 +11,13 @@ from answered import each_once
 from kaidan.assessment.answer import Assessment
 from kaidan.assessment.plan_drives import Drives
 from kaidan.assessment.plan_hopes import Search
+from kaidan.assessment.plan_judged import shortened
 from kaidan.assessment.plan_scores import Score
 from kaidan.assessment.plan_search import (
     LIMITS,
     found_of,
     holds_off_its_angles,
     off_angles,
-    shortened,
 )
 from kaidan.assessment.plan_sturdy import Sturdier
 from kaidan.assessment.verdict import conclude

@@ -11,9 +11,9 @@ from kaidan.assessment import plan_search, plan_sturdy
 from kaidan.assessment.plan import PlanShown, PlanStep
 from kaidan.assessment.plan import plan_of as plan_of_answer
 from kaidan.assessment.plan_hopes import Hope, Search, _along, _order
+from kaidan.assessment.plan_judged import Judged
 from kaidan.assessment.plan_scores import ENOUGH, Score
 from kaidan.assessment.plan_search import (
-    Judged,
     _best_off,
     _better,
     _Candidate,

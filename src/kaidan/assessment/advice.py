@@ -1,15 +1,16 @@
 """What would help: the same question with something changed, judged by the same model again."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from kaidan.allowance import Allowance
 from kaidan.assessment.answer import Change
 from kaidan.assessment.measuring import Measurement
+from kaidan.assessment.traction_advice import SLIPS, Candidate, grousers, more_friction, nosings
 from kaidan.assessment.uncertain_inputs import SAMPLED, STEPS, without
 from kaidan.assessment.verdict import Conclusion, conclude
 from kaidan.errors import InputError
@@ -17,9 +18,7 @@ from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.models import judge
 from kaidan.models.centroid import shift_of_centroid
 from kaidan.models.findings import Findings
-from kaidan.models.traction_figures import USUAL
 from kaidan.modes import (
-    DRIVE,
     ENERGY,
     FAILURE_MODES,
     FALLS,
@@ -27,7 +26,6 @@ from kaidan.modes import (
     LANDING_ROOM,
     MOMENTUM,
     ROTATION,
-    SUPPLIES,
     TIP_DOWNHILL,
     TIPS,
     UNWEIGHED,
@@ -38,9 +36,6 @@ from kaidan.modes import (
 )
 from kaidan.question import Question
 from kaidan.robot import Posture
-from kaidan.sheet import bounds
-from kaidan.surface import Surface
-from kaidan.terrain.stairs import Stairs
 from kaidan.text import advice as text
 from kaidan.text import measuring
 from kaidan.text import unweighed as weighing
@@ -52,26 +47,9 @@ RAISED = math.radians(45.0)
 """Angle of leading flippers that reach for a first riser: half-way between flat and upright."""
 SLOWEST = 0.01
 """Slowest speed that an operator is advised [m/s]."""
-LARGEST_FRICTION = bounds(Surface.model_fields["friction_low"])[2]
-"""Beyond it no surface is known."""
 WORTH_TELLING = math.radians(0.05)
 """Gain of margin that counts as help [rad]."""
 _ROTATES = {mode.key for mode in (*TIPS, *FALLS, ROTATION, MOMENTUM, IMPACT)}
-_SLIPS = {mode.key for mode in SUPPLIES if mode is not DRIVE} | {Undecided.FRICTION_UNKNOWN.value}
-
-
-class Candidate(NamedTuple):
-    """Something to try."""
-
-    change: str
-    """What to do, for people."""
-    question: Question
-    certain: bool = False
-    """Whether it helps only where it settles something: another verdict, or a margin that holds."""
-    holds: bool = False
-    """Whether it changes what holds the robot, so that another plan may be the best."""
-    then: Conclusion | None = None
-    """Its conclusion, where it is known."""
 
 
 def what_would_help(
@@ -111,7 +89,7 @@ def what_would_help(
 
     candidates = (
         *_candidates(question, found, conclusion, search),
-        *_nosings(question, conclusion, lambda changed: judged(changed)[0]),
+        *nosings(question, conclusion, lambda changed: judged(changed)[0]),
         *_known_better(question, measure),
     )
     for change, changed, certain, holds, then in candidates:
@@ -200,7 +178,7 @@ def _candidates(
     if governs == UNWEIGHED.key:
         yield _weighed(found)
         return
-    slips = governs in _SLIPS
+    slips = governs in SLIPS
     if question.yaw:
         yield Candidate(text.STRAIGHT, question.changed(yaw=0.0))
     if governs != Undecided.FRICTION_UNKNOWN:
@@ -216,8 +194,8 @@ def _candidates(
             )
             yield from _flippers_raised(question)
     if slips:
-        yield from _more_friction(question, found, search)
-        yield from _grousers(question)
+        yield from more_friction(question, found, search)
+        yield from grousers(question)
     if governs == LANDING_ROOM.key:
         yield from _stowed_on_landings(question, found)
     energy = found.of(ENERGY)
@@ -298,90 +276,6 @@ def _flippers_raised(question: Question) -> Iterator[Candidate]:
         return
     posture = Posture(**dict(question.posture) | {end: RAISED})
     yield Candidate(text.raised(end, RAISED), question.changed(posture=posture))
-
-
-def _more_friction(
-    question: Question, found: Findings, search: "Found | None" = None
-) -> Iterator[Candidate]:
-    """Friction that is enough, off the angles of the flippers too."""
-    required = found.required_friction
-    if not math.isfinite(required):
-        return
-    if question.tolerance:
-        from kaidan.assessment.plan_search import friction_off_its_angles
-
-        drives = None if search is None else search.drives
-        required = max(required, friction_off_its_angles(question, drives))
-    enough = math.ceil(100 * required + 1) / 100
-    if question.uncertain and enough <= LARGEST_FRICTION:
-        enough = _enough_at_the_risk(question, found, enough)
-    if enough > LARGEST_FRICTION:
-        return
-    surface = Surface.of_friction(enough)
-    known = question.surface is not None
-    change = text.friction(enough, known=known)
-    yield Candidate(change, question.changed(surface=surface), holds=True)
-
-
-def _enough_at_the_risk(question: Question, found: Findings, nominal: float) -> float:
-    """Friction that is enough for all but the accepted share of what is uncertain [1]."""
-    known = found if question.robot.com_range is None else None
-    then = judge(question.changed(surface=Surface.of_friction(nominal)), known=known)
-    slides = [one.margin(question.risk) for one in then.each if one.mode.key in _SLIPS]
-    lacks = -min((each for each in slides if math.isfinite(each)), default=0.0)
-    if lacks <= 0 or math.atan(nominal) + lacks >= math.pi / 2:
-        return nominal
-    return math.ceil(100 * math.tan(math.atan(nominal) + lacks) + 1) / 100
-
-
-def _grousers(question: Question) -> Iterator[Candidate]:
-    """Belts with grousers, where they have none; where nobody says, of unknown figures."""
-    track = question.robot.track
-    if track.has_grousers:
-        return
-    known = track.belt is not None
-    update: dict[str, Any] = {"belt": "grousers"}
-    if known:
-        update |= {name: getattr(USUAL, name) for name in ("grouser_height", "grouser_spacing")}
-    robot = question.robot.model_copy(update={"track": track.model_copy(update=update)})
-    change = text.grousers() if known else text.state_grousers()
-    # with no friction stated no plan is a GO
-    holds = question.surface is not None
-    yield Candidate(change, question.changed(robot=robot), holds=holds)
-
-
-def _nosings(
-    question: Question, conclusion: Conclusion, judged: Callable[[Question], Conclusion]
-) -> Iterator[Candidate]:
-    """Largest radius of the nosings, in whole mm, up to which grousers make it a GO."""
-    flight = question.terrain
-    if not isinstance(flight, Stairs) or not question.robot.track.has_grousers:
-        return
-    if conclusion.governs not in _SLIPS or not conclusion.margin_best > 0:
-        return
-    stairs: Stairs = flight
-
-    def up_to(mm: int) -> Candidate:
-        radii = {"nosing_radius_low": min(stairs.nosing_radii[0], 1e-3 * mm)}
-        radii["nosing_radius_high"] = 1e-3 * mm
-        changed = question.changed(terrain=stairs.model_copy(update=radii))
-        return Candidate(text.nosings(mm), changed, then=judged(changed))
-
-    def is_go(one: Candidate) -> bool:
-        return one.then is not None and one.then.verdict is Verdict.GO
-
-    smallest, largest = (1e3 * each for each in stairs.nosing_radii)
-    holds, fails = math.ceil(smallest - 1e-9), math.ceil(largest - 1e-9)
-    if holds >= fails or not is_go(best := up_to(holds)):
-        return
-    while fails - holds > 1:
-        middle = (holds + fails) // 2
-        tried = up_to(middle)
-        if is_go(tried):
-            holds, best = middle, tried
-        else:
-            fails = middle
-    yield best
 
 
 def _slower(question: Question, energy: float) -> Iterator[Candidate]:

@@ -13,19 +13,14 @@ from typing import NamedTuple
 from kaidan.assessment.plan_drives import Drives
 from kaidan.assessment.plan_hopes import LIMITS as LIMITS
 from kaidan.assessment.plan_hopes import Hope, Merit, Search
-from kaidan.assessment.plan_scores import ENOUGH
+from kaidan.assessment.plan_judged import Judged, Standing, judged_of, shortened
 from kaidan.assessment.plan_sturdy import Sturdier
-from kaidan.assessment.plans import Plan, cost_of, cost_of_drop, words
+from kaidan.assessment.plans import Plan, words
 from kaidan.assessment.plans import off_angles as off_angles
-from kaidan.assessment.verdict import Conclusion, conclude
 from kaidan.models import judge
 from kaidan.models.findings import Findings
-from kaidan.models.quasi_static import Basis
-from kaidan.modes import CONTACT, FALLS, Facing, Phase, Verdict
-from kaidan.outline import Outline
+from kaidan.modes import CONTACT, Facing, Phase, Verdict
 from kaidan.question import Question
-from kaidan.terrain.stairs import Stairs
-from kaidan.traversal import Traverse
 
 FINALISTS = 3
 """Plans that are driven in one go and judged at most: the best one at its angles too."""
@@ -33,41 +28,6 @@ SLACK = 0.5
 """Margin by which a plan may be better than its scores [deg]."""
 NEARLY = 0.1
 """Difference of two scores from which on both plans are judged [deg]."""
-
-
-Standing = tuple[int, bool, int, float]
-"""Order of plans that were judged; larger is better."""
-
-
-class Judged(NamedTuple):
-    """A plan driven in one go, at its angles or off them."""
-
-    question: Question
-    findings: Findings
-    conclusion: Conclusion
-    drop: float
-    """Largest rotation [deg]."""
-    arrives: bool
-    """Whether it gets to the end, whatever the verdict."""
-    whole: bool = False
-    """Whether its findings are those of the whole terrain, pose by pose."""
-
-    @property
-    def merit(self) -> Standing:
-        """Verdict, whether it arrives, what fails, margin less what drop and changes cost."""
-        margin = math.degrees(self.conclusion.margin)
-        falls = self.conclusion.governs in {mode.key for mode in FALLS}
-        if math.isnan(margin) or (falls and self.conclusion.verdict is Verdict.NO_GO):
-            margin = -90.0  # a fall from less far is no help
-        margin = min(margin, ENOUGH)
-        cost = cost_of_drop(self.drop)
-        cost += cost_of(self.question.robot, list(self.question.postures.values()))
-        return (
-            -self.conclusion.verdict.rank,
-            self.arrives,
-            -len(self.conclusion.doubts),
-            round(margin - cost, 6),
-        )
 
 
 class Found(NamedTuple):
@@ -373,36 +333,3 @@ def _fixed(question: Question, facings: tuple[Facing, ...], drives: Drives) -> F
     coarse = question.model == CONTACT.name
     found = judge(best.question) if coarse else best.findings
     return Found(best.question, found, True, question, drives, len(each), facings)
-
-
-def judged_of(question: Question, found: Findings) -> Judged:
-    """What findings of a plan come to, beside those of others."""
-    traverses: list[Traverse] = []
-    if isinstance(found.basis, Basis):
-        driven = found.basis.traverse
-        traverses = [driven] if isinstance(driven, Traverse) else [p.traverse for p in driven.parts]
-    drop = max((_drop(each) for each in traverses), default=0.0)
-    arrives = all(each.arrived for each in traverses)
-    return Judged(question, found, conclude(question, found), drop, arrives)
-
-
-def _drop(found: Traverse) -> float:
-    """Largest rotation of a traverse [deg]."""
-    return max((math.degrees(abs(each.angle)) for each in found.chains), default=0.0)
-
-
-def shortened(question: Question) -> Question:
-    """Same question on a flight just long enough for what repeats; others stay as they are.
-
-    A uniform flight repeats itself once the robot has left the lower landing: as many nosings as
-    the robot spans, and three more, hold every pose of the whole flight.
-    """
-    stairs = question.terrain
-    if not isinstance(stairs, Stairs) or stairs.rise is None:
-        return question
-    reach = sum(Outline.of(question.robot).reach)
-    reach += sum(pair.length for pair in question.robot.flippers().values())
-    enough = max(5, math.ceil(reach / stairs.nosing_spacing) + 3)
-    if stairs.steps <= enough:
-        return question
-    return question.changed(terrain=stairs.model_copy(update={"steps": enough}))

@@ -7,7 +7,8 @@ from kaidan.answer import Answer, Part
 from kaidan.assessment import with_plan
 from kaidan.assessment.answer import VerdictName
 from kaidan.assessment.plan import PlanShown, plan_of
-from kaidan.assessment.plan_search import LIMITS, Found, Judged, judged_of
+from kaidan.assessment.plan_judged import Judged, judged_of
+from kaidan.assessment.plan_search import LIMITS, Found
 from kaidan.errors import InputError
 from kaidan.models import judge
 from kaidan.models.contact_figures import ContactFigures, PhaseFigures

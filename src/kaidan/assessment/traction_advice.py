@@ -1,0 +1,122 @@
+"""What would help where friction decides: more of it, grousers, sharper nosings."""
+
+import math
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from kaidan.assessment.verdict import Conclusion
+from kaidan.models import judge
+from kaidan.models.findings import Findings
+from kaidan.models.traction_figures import USUAL
+from kaidan.modes import DRIVE, SUPPLIES, Undecided, Verdict
+from kaidan.question import Question
+from kaidan.sheet import bounds
+from kaidan.surface import Surface
+from kaidan.terrain.stairs import Stairs
+from kaidan.text import advice as text
+
+if TYPE_CHECKING:
+    from kaidan.assessment.plan_search import Found
+
+LARGEST_FRICTION = bounds(Surface.model_fields["friction_low"])[2]
+"""Beyond it no surface is known."""
+SLIPS = {mode.key for mode in SUPPLIES if mode is not DRIVE} | {Undecided.FRICTION_UNKNOWN.value}
+"""What governs where friction decides."""
+
+
+class Candidate(NamedTuple):
+    """Something to try."""
+
+    change: str
+    """What to do, for people."""
+    question: Question
+    certain: bool = False
+    """Whether it helps only where it settles something: another verdict, or a margin that holds."""
+    holds: bool = False
+    """Whether it changes what holds the robot, so that another plan may be the best."""
+    then: Conclusion | None = None
+    """Its conclusion, where it is known."""
+
+
+def more_friction(
+    question: Question, found: Findings, search: "Found | None" = None
+) -> Iterator[Candidate]:
+    """Friction that is enough, off the angles of the flippers too."""
+    required = found.required_friction
+    if not math.isfinite(required):
+        return
+    if question.tolerance:
+        from kaidan.assessment.plan_search import friction_off_its_angles
+
+        drives = None if search is None else search.drives
+        required = max(required, friction_off_its_angles(question, drives))
+    enough = math.ceil(100 * required + 1) / 100
+    if question.uncertain and enough <= LARGEST_FRICTION:
+        enough = enough_at_the_risk(question, found, enough)
+    if enough > LARGEST_FRICTION:
+        return
+    surface = Surface.of_friction(enough)
+    known = question.surface is not None
+    change = text.friction(enough, known=known)
+    yield Candidate(change, question.changed(surface=surface), holds=True)
+
+
+def enough_at_the_risk(question: Question, found: Findings, nominal: float) -> float:
+    """Friction that is enough for all but the accepted share of what is uncertain [1]."""
+    known = found if question.robot.com_range is None else None
+    then = judge(question.changed(surface=Surface.of_friction(nominal)), known=known)
+    slides = [one.margin(question.risk) for one in then.each if one.mode.key in SLIPS]
+    lacks = -min((each for each in slides if math.isfinite(each)), default=0.0)
+    if lacks <= 0 or math.atan(nominal) + lacks >= math.pi / 2:
+        return nominal
+    return math.ceil(100 * math.tan(math.atan(nominal) + lacks) + 1) / 100
+
+
+def grousers(question: Question) -> Iterator[Candidate]:
+    """Belts with grousers, where they have none; where nobody says, of unknown figures."""
+    track = question.robot.track
+    if track.has_grousers:
+        return
+    known = track.belt is not None
+    update: dict[str, Any] = {"belt": "grousers"}
+    if known:
+        update |= {name: getattr(USUAL, name) for name in ("grouser_height", "grouser_spacing")}
+    robot = question.robot.model_copy(update={"track": track.model_copy(update=update)})
+    change = text.grousers() if known else text.state_grousers()
+    # with no friction stated no plan is a GO
+    holds = question.surface is not None
+    yield Candidate(change, question.changed(robot=robot), holds=holds)
+
+
+def nosings(
+    question: Question, conclusion: Conclusion, judged: Callable[[Question], Conclusion]
+) -> Iterator[Candidate]:
+    """Largest radius of the nosings, in whole mm, up to which grousers make it a GO."""
+    flight = question.terrain
+    if not isinstance(flight, Stairs) or not question.robot.track.has_grousers:
+        return
+    if conclusion.governs not in SLIPS or not conclusion.margin_best > 0:
+        return
+    stairs: Stairs = flight
+
+    def up_to(mm: int) -> Candidate:
+        radii = {"nosing_radius_low": min(stairs.nosing_radii[0], 1e-3 * mm)}
+        radii["nosing_radius_high"] = 1e-3 * mm
+        changed = question.changed(terrain=stairs.model_copy(update=radii))
+        return Candidate(text.nosings(mm), changed, then=judged(changed))
+
+    def is_go(one: Candidate) -> bool:
+        return one.then is not None and one.then.verdict is Verdict.GO
+
+    smallest, largest = (1e3 * each for each in stairs.nosing_radii)
+    holds, fails = math.ceil(smallest - 1e-9), math.ceil(largest - 1e-9)
+    if holds >= fails or not is_go(best := up_to(holds)):
+        return
+    while fails - holds > 1:
+        middle = (holds + fails) // 2
+        tried = up_to(middle)
+        if is_go(tried):
+            holds, best = middle, tried
+        else:
+            fails = middle
+    yield best
