@@ -20,7 +20,7 @@ ONCE_WRONG = (
 
 
 def test_known_stairs_are_found():
-    """Issue: no failure at up to 10 mm of noise; what lacks is said to be unseen."""
+    """No failure at up to 10 mm of noise; what lacks is said to be unseen."""
     tally = campaign.Tally()
     for number in (*range(9), *ONCE_WRONG):
         campaign.judge(number, tally)
@@ -79,7 +79,7 @@ def test_doubts_are_neither_too_small_nor_too_large():
 
 @pytest.mark.slow
 def test_verdicts_of_clouds_agree_with_the_truth():
-    """Issue: P(GO) of a cloud agrees with the truth's verdict at the stated risk."""
+    """P(GO) of a cloud agrees with the truth's verdict at the stated risk."""
     each = [row for number in range(40) for row in campaign.verdicts(number)]
     assert len(each) > 50
     assert not [row for row in each if row[:2] == ("no-go", "go")]

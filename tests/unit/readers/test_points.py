@@ -40,7 +40,7 @@ def the_flight(found):
     ],
 )
 def test_known_stairs_are_found_by_every_sensor(sensor, pose):
-    """Issue: spacing within 3 mm, angle within gravity's doubt + 0.3 deg, 5 mm of noise."""
+    """Spacing within 3 mm, angle within gravity's doubt + 0.3 deg, 5 mm of noise."""
     truth = scenes.regular(7, 0.17, 0.28)
     scene = scenes.walls(scenes.with_stairs(truth), truth)
     rng = np.random.default_rng(3)
