@@ -40,10 +40,20 @@ def robot_sheet(name: str, hints: Hints = NO_HINTS) -> Robot | None:
 def staircase_sheets(name: str, hints: Hints = NO_HINTS) -> tuple[Stairs, ...] | None:
     """Data sheets of the flights of the one staircase in a file, from bottom to top.
 
-    See `robot_sheet`.
+    What the reader must know of them stands in their notes. See `robot_sheet`.
     """
     found = _found(name, hints)
-    return None if found is None else the_staircase(found, name).stairs()
+    if found is None:
+        return None
+    stairs = the_staircase(found, name)
+    whole = " ".join((*found.provenance.notes, *stairs.notes))
+    said = [" ".join(note for note in each.notes if note not in whole) for each in stairs.flights]
+    return tuple(
+        sheet.model_copy(update={"notes": " ".join(filter(None, (first, notes, sheet.notes)))})
+        for sheet, notes, first in zip(
+            stairs.stairs(), said, (whole, *[""] * (len(said) - 1)), strict=True
+        )
+    )
 
 
 def the_robot(found: Found, name: str) -> RobotEstimate:

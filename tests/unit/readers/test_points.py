@@ -7,11 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import kaidan
 import scenes
 from kaidan.readers import found_in
 from kaidan.readers.hints import Hints
 from kaidan.readers.interpreters import points as interpreter
 from kaidan.readers.kinds import Known, Points, Provenance
+from kaidan.spelling import flights_of
 
 KINECT = os.environ.get("KAIDAN_KINECT_CLOUD", "")
 
@@ -129,6 +131,22 @@ def test_of_a_cloud_from_anywhere_a_positive_axis_is_up_and_said_to_be_taken_so(
         "Nothing says from where the cloud was seen, and upside down it would be stairs too: +z "
         "is taken for up, --up states it.",
     )
+
+
+def test_what_the_reader_of_a_cloud_must_know_stands_in_the_answer(tmp_path):
+    seen = scenes.seen(
+        scenes.with_stairs(scenes.regular(8, 0.17, 0.28)), np.random.default_rng(3), sensor="phone"
+    )
+    file = tmp_path / "seen.npy"
+    np.save(file, seen.xyz + np.array([1.5, -0.2, 0.9]))
+    (flight,) = flights_of(str(file))
+    found = found_in(str(file), Hints())
+    (stairs,) = found.staircases
+    known = (*found.provenance.notes, *stairs.notes, *stairs.flights[0].notes)
+    assert "+z is taken for up" in flight.notes
+    assert all(note in flight.notes for note in known)
+    answer = kaidan.assess("absolem", str(file), flippers="flat", friction=1.0)
+    assert flight.notes in answer.notes
 
 
 def test_two_flights_and_the_landing_between_them():
