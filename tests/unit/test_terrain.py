@@ -10,6 +10,7 @@ from kaidan.models.quasi_static import traverse_of
 from kaidan.question import Question
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
+from kaidan.text.assessment import stairs_line
 from kaidan.traversal import Phase
 from one_posture import assess
 
@@ -83,6 +84,17 @@ def test_flights_in_one_text():
     assert one == assess("absolem", ["ibc", "ada"], **ASKED)
     with pytest.raises(KaidanError, match="no staircase is called 'nowhere'"):
         assess("absolem", "ibc+nowhere")
+
+
+@pytest.mark.parametrize("flights", [[LOW, HIGH], [HIGH, LOW]], ids=["above", "below"])
+def test_slope_and_spacing_of_several_flights_are_those_of_the_steepest(flights):
+    """Not the mean over the landing, which is as gentle as the landing is long."""
+    answer = assess("absolem", flights, **ASKED)
+    steepest = max(flights, key=lambda each: each.rise / each.going)
+    slope = math.atan2(steepest.rise, steepest.going)
+    assert answer.angle_deg == pytest.approx(math.degrees(slope), abs=1e-9)
+    assert answer.nosing_spacing_m == pytest.approx(math.hypot(steepest.rise, steepest.going))
+    assert stairs_line(answer).startswith(f"{math.degrees(slope):.1f} deg, ")
 
 
 def test_a_single_flight_in_a_list_is_that_flight():

@@ -138,9 +138,10 @@ class Assessment(Answer):
     allowances: dict[str, AllowanceShown]
     """theta_d and theta_M."""
     angle_deg: float | None
-    """Slope of the line through the nosings [deg]; null for a terrain that is no flight."""
+    """Slope of the line through the nosings [deg], of several flights that of the steepest; null
+    for a terrain that is no flight."""
     nosing_spacing_m: float | None
-    """Mean distance from nosing to nosing [m]; null likewise."""
+    """Mean distance from nosing to nosing of the same flight [m]; null likewise."""
     flat_length_m: float
     """L, flippers in line included [m]."""
     com_from_front_m: float
@@ -232,7 +233,7 @@ def fill_in(
     centroid: CentroidShown | None = None,
 ) -> Assessment:
     """Answer of a question from what a model found and what it comes to."""
-    stance, flight, risk = question.stance, question.flight, question.risk
+    stance, flight, risk = question.stance, question.steepest_flight, question.risk
     angle = None if flight is None else flight.angle
     return Assessment(
         question=question,

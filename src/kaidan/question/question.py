@@ -299,6 +299,11 @@ class Question(QuestionFields):
         return tuple(each for each in flights if isinstance(each, Stairs))
 
     @property
+    def steepest_flight(self) -> Stairs | None:
+        """Steepest of its flights, landings left out; of a profile: `flight`."""
+        return max(self.flights, key=lambda each: each.angle, default=self.flight)
+
+    @property
     def room(self) -> tuple[float | None, float | None] | None:
         """Least clear width and headroom of its flights [m]; None: neither is stated."""
         widths = [each.width for each in self.flights if each.width is not None]

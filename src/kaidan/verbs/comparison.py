@@ -216,7 +216,7 @@ def _no_centroid(name: str) -> NoCentroid:
 def _cell(question: Question) -> Cell:
     question, findings, _ = with_plan(question)
     conclusion = conclude(question, findings)
-    flight = question.flight
+    flight = question.steepest_flight
     assert flight is not None
     return Cell(
         robot=question.robot.name,
