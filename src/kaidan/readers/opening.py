@@ -123,6 +123,8 @@ class Source:
                 yield
         except (KaidanError, ModuleNotFoundError, KeyboardInterrupt, SystemExit, GeneratorExit):
             raise
+        except MemoryError:
+            raise self.refuse("it states a size beyond the memory", where) from None
         except BaseException as error:
             lines = str(error).split("\n")
             text = short(lines[0]) or type(error).__name__

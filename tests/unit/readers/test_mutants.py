@@ -7,7 +7,7 @@ import pytest
 
 import reader_files as made
 from kaidan.errors import InputError
-from kaidan.readers import contents_of
+from kaidan.readers import contents_of, found_in
 from kaidan.readers.hints import Hints
 from kaidan.readers.opening import Source
 from kaidan.readers.recognition import recognised
@@ -94,3 +94,19 @@ def test_a_damaged_file_is_one_clear_line(tmp_path, name):
         path.unlink()
     assert [text for text in said if "\n" in text or len(text) > 700] == []
     assert list(folder.iterdir()) == []  # nothing was written beside them
+
+
+@pytest.mark.parametrize("name", ["bag", "mcap"])
+def test_a_damaged_recording_says_what_is_wrong_with_it(tmp_path, name):
+    """Not that closing it failed as well, once it could not be opened."""
+    pytest.importorskip("rosbags")
+    if name == "bag":
+        content, at, size = made.ros1_bag(CLOUD, tmp_path / "whole.bag"), 13, b"\xff" * 4
+        said = "cannot be read: .*header"
+    else:  # the size of the first record
+        content, at, size = made.ros2_bag(CLOUD, tmp_path / "mcap"), 9, b"\xff" * 7 + b"\x3f"
+        said = "it states a size beyond the memory"
+    path = tmp_path / "damaged"
+    path.write_bytes(content[:at] + size + content[at + len(size) :])
+    with pytest.raises(InputError, match=f"(?i){said}"):
+        found_in(path)

@@ -58,8 +58,8 @@ def read(source: Source, hints: Hints) -> Points | Heights:
     source.refuse_larger(LARGEST_STREAM)
     with source.foreign():
         reader, store = opened(source)
+        reader.open()  # one that fails is closed again, and says why
         try:
-            reader.open()
             topics = {each.topic: each for each in reader.connections
                       if each.msgtype in (GRID, CLOUD)}  # fmt: skip
             topic = _topic(source, topics, [each.topic for each in reader.connections], hints)
@@ -73,8 +73,7 @@ def read(source: Source, hints: Hints) -> Points | Heights:
                 raise source.refuse("no message was recorded", topic)
             message = deserialised(store, raw, connection)
         finally:
-            if getattr(reader, "is_open", True):
-                reader.close()
+            reader.close()
         made = _heights if connection.msgtype == GRID else _points
         return made(source, message, topic, hints)
 

@@ -106,8 +106,8 @@ def samples_of_recording(
     source.refuse_larger(LARGEST_STREAM)
     with source.foreign():
         reader, store = bags.opened(source)
+        reader.open()  # one that fails is closed again, and says why
         try:
-            reader.open()
             known = {each.topic: each for each in reader.connections if each.msgtype == IMU}
             chosen = known[_topic(source, topic, sorted(known))]
             return [
@@ -115,8 +115,7 @@ def samples_of_recording(
                 for row, (_, _, raw) in enumerate(reader.messages(connections=[chosen]), start=1)
             ]
         finally:
-            if getattr(reader, "is_open", True):
-                reader.close()
+            reader.close()
 
 
 def _sample(message: Any, row: int, nose_up: bool) -> Sample:
