@@ -53,8 +53,16 @@ def contradictions(answer: Assessment) -> list[str]:
         found += ["governs a no-go and holds"] if alone else []
     # no number of a terrain that does not exist, none of another model
     if question.flight is None:
-        numbers = (answer.angle_deg, answer.nosing_spacing_m, closed, answer.support_polygon)
-        found += ["a number of steps that do not exist"] if numbers != (None,) * 4 else []
+        each = (closed, answer.support_polygon)
+        found += ["a number of steps that do not exist"] if each != (None, None) else []
+    steepest, steps = question.steepest_flight, (answer.angle_deg, answer.nosing_spacing_m)
+    real = (None, None)
+    if steepest is not None:
+        real = math.degrees(steepest.angle), steepest.nosing_spacing
+    if steps != real or (
+        steepest is not None and steepest not in (question.flight, *question.flights)
+    ):
+        found.append("a slope of steps that do not exist")
     figures = {
         "contact": contact,
         "closed-form": closed,
