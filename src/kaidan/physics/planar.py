@@ -7,8 +7,10 @@ stairs chatters (docs/physics.md); so the body on rubber is advanced here, witho
 import importlib.util
 import math
 import sys
+from collections.abc import Callable
 from functools import cache
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +32,12 @@ FINEST = 2.5e-4
 """Inner step for a time step of 1 ms [s], and never more than `RESOLVED` of the stiffest motion."""
 RESOLVED = 0.1
 """Inner step times the fastest angular frequency [1]."""
+SIGNATURES = {
+    "depth_below": "Tuple((f8, f8, f8))(f8[::1], f8, f8, f8)",
+    "advance": "i8(f8[::1], f8[:, ::1], f8[:, ::1], f8[::1], f8[:, ::1], f8[:, ::1], f8[:, ::1], "
+    "f8[:, ::1], f8[::1], i8, i8, i8, f8, f8, f8, f8[::1], f8[:, ::1])",
+}
+"""What is compiled, the first one for the second, in the types of numba."""
 
 
 @cache
@@ -43,8 +51,6 @@ def kernel() -> ModuleType:
     """
     if importlib.util.find_spec("numba") is None:
         raise MissingExtraError("a yielding track", "physics")
-    from numba import njit
-
     alias = f"{rubber.__name__}_compiled"
     spec = importlib.util.spec_from_file_location(alias, rubber.__file__)
     assert spec is not None
@@ -52,13 +58,19 @@ def kernel() -> ModuleType:
     module = importlib.util.module_from_spec(spec)
     sys.modules[alias] = module
     spec.loader.exec_module(module)
-    for name in ("depth_below", "advance"):
-        try:
-            fast = njit(cache=True, error_model="numpy")(getattr(module, name))
-        except RuntimeError:  # no folder that may be written to
-            fast = njit(error_model="numpy")(getattr(module, name))
-        setattr(module, name, fast)
+    for name, signature in SIGNATURES.items():
+        setattr(module, name, compiled(getattr(module, name), signature))
     return module
+
+
+def compiled(function: Callable[..., Any], signature: str) -> Callable[..., Any]:
+    """A function compiled for these types; in memory alone where its file on disk is of no use."""
+    from numba import njit
+
+    try:
+        return njit(signature, cache=True, error_model="numpy")(function)
+    except Exception:  # no folder, no room, a damaged file; what is wrong with it comes again
+        return njit(signature, error_model="numpy")(function)
 
 
 class RubberBody(MovingBody):
