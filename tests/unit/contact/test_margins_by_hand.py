@@ -14,11 +14,14 @@ from itertools import combinations
 import numpy as np
 import pytest
 
+from kaidan import Question, Robot, Stairs
 from kaidan.contact import body_table, ground_table
 from kaidan.contact import columns as at
 from kaidan.contact.codes import BELLY, TRACK
 from kaidan.contact.kernel.forces import two_contact_forces
 from kaidan.contact.kernel.margins import lasting, margins_at, margins_without, pose_margins
+from kaidan.models.quasi_static import traverse_of
+from kaidan.robot import Track
 
 GRAVITY = 9.7
 EXACT = 1e-12
@@ -76,6 +79,12 @@ def expected(pose, acceleration):
     for one, other in combinations(pose.found if len(pose.found) > 2 else (), 2):
         pair = sorted((one, other), key=lambda each: dot(each[1], e))
         best = min(best, least(pose, *pair, w), key=lambda each: each[0])
+    if min(back, front) < 0.0:  # it turns about the outer contact, which bears all of the load
+        normal = (f if front < back else r)[2]
+        load, traction = dot(w, normal), dot(w, -1j * normal)
+        needed = abs(traction) / load if load > 0.0 else math.inf
+        loads = [load, traction, 0.0, 0.0]
+        best = (needed, *(loads[2:] + loads[:2] if front < back else loads))
     return {
         at.FRICTION: best[0], at.REAR_N: best[1], at.REAR_T: best[2], at.FRONT_N: best[3],
         at.FRONT_T: best[4], at.TRACTION: GRAVITY * math.sin(pose.psi) + acceleration,
@@ -301,3 +310,24 @@ def test_of_edges_on_one_level_one_alone_is_not_there():
     margins_without(ground, body, poses, edges[[1]], 0.0, GRAVITY, 1e-9, margins, found)
     assert margins[0, at.CONTACTS] == 3
     assert margins[0, [at.BACK, at.FRONT]].tolist() == pytest.approx([0.2, 0.2], abs=EXACT)
+
+
+def test_braking_down_over_nosings_that_differ_takes_the_friction_of_the_plane():
+    """(g sin + a) / (g cos): the last pose before it rocks asks for no more than those before.
+
+    The line of gravity there has passed the contact ahead by 0.1 mm, and no pair of contacts
+    holds that but with a friction of 750.
+    """
+    robot = Robot(
+        name="rocks", com_from_front=0.377, com_height=0.094,
+        track=Track(flat_length=0.611, front_radius=0.118, rear_radius=0.123),
+    )  # fmt: skip
+    flight = Stairs(rises=(0.163, 0.162, 0.161, 0.161, 0.163), goings=(0.266, 0.265, 0.266, 0.265))
+    asked = Question.in_one_posture(robot, flight, direction="down", acceleration=0.76)
+    found = traverse_of(asked)
+    (flown,) = (each for each in found.phases if each.phase == "traverse")
+    theta = math.atan2(0.647, 1.062)
+    plane = (9.80665 * math.sin(theta) + 0.76) / (9.80665 * math.cos(theta))
+    assert plane == pytest.approx(0.70, abs=0.005)
+    # a chord that differs by 1 mm in 310 mm, and the arc of the trailing end
+    assert plane - 0.01 < flown.required_friction < plane + 0.03

@@ -80,6 +80,9 @@ from kaidan.contact.tables import (
 STAYS = 1e-6
 #: Poses closer than this [m] stand at one place, where several contacts are exchanged.
 ONE_PLACE = 1e-8
+#: Beyond a contact by more than this [m] the line of gravity has passed it: events are located to
+#: about 1e-9 m.
+PASSED = 1e-8
 
 
 def pivot_rise(p_x: float, p_z: float, x: float, z: float, kappa: float) -> float:
@@ -216,6 +219,29 @@ def least_forces(
     return mu, n1, t1, n2, t2
 
 
+def forces_over_one(
+    poses: PoseTable, row: int, found: ContactTable, many: int, p_x: float, p_z: float,
+    ahead: bool, w_x: float, w_z: float,
+) -> tuple[float, float, float, float, float]:  # fmt: skip
+    """Friction and forces, as of `least_forces`, of a pose that already turns about a contact.
+
+    Under an acceleration the last pose before a rotation may be that far on: gravity leans along
+    the path of belts that give way here, and along that of rigid ones where the rotation begins.
+    """
+    n_x = poses[row, FRONT_N_X] if ahead else poses[row, REAR_N_X]
+    n_z = poses[row, FRONT_N_Z] if ahead else poses[row, REAR_N_Z]
+    for k in range(many if many > 2 else 0):
+        if found[k, CONTACT_X] == p_x and found[k, CONTACT_Z] == p_z:
+            n_x = found[k, CONTACT_N_X]
+            n_z = found[k, CONTACT_N_Z]
+    normal = w_x * n_x + w_z * n_z
+    tangential = w_x * n_z - w_z * n_x
+    mu = abs(tangential) / normal if normal > 0.0 else math.inf
+    if ahead:
+        return mu, 0.0, 0.0, normal, tangential
+    return mu, normal, tangential, 0.0, 0.0
+
+
 def margins_at(
     poses: PoseTable,
     row: int,
@@ -235,16 +261,22 @@ def margins_at(
         kappa = a * math.cos(psi) / (g + a * math.sin(psi))
         gravity = math.sqrt(g * g + a * a + 2.0 * g * a * math.sin(psi))
     down = math.sqrt(1.0 + kappa * kappa)
-    mu, n1, t1, n2, t2 = least_forces(
-        poses, row, found, many, kappa, gravity * kappa / down, gravity / down
-    )
+    w_x = gravity * kappa / down
+    w_z = gravity / down
+    back, front, r_x, r_z, f_x, f_z = outer_contacts(poses, row, found, many, kappa, down)
+    if min(back, front) < -PASSED:
+        ahead = front < back
+        p_x = f_x if ahead else r_x
+        p_z = f_z if ahead else r_z
+        mu, n1, t1, n2, t2 = forces_over_one(poses, row, found, many, p_x, p_z, ahead, w_x, w_z)
+    else:
+        mu, n1, t1, n2, t2 = least_forces(poses, row, found, many, kappa, w_x, w_z)
     margins[row, FRICTION] = mu
     margins[row, REAR_N] = n1
     margins[row, REAR_T] = t1
     margins[row, FRONT_N] = n2
     margins[row, FRONT_T] = t2
     margins[row, TRACTION] = g * math.sin(psi) + a
-    back, front, r_x, r_z, f_x, f_z = outer_contacts(poses, row, found, many, kappa, down)
     margins[row, BACK] = back
     margins[row, FRONT] = front
     rise_back = pivot_rise(r_x, r_z, x, z, kappa)
