@@ -114,6 +114,15 @@ def test_the_margin_ranks_stairs(robot):
     assert margins[-1] < margins[0] - 5
 
 
+def test_of_a_robot_that_falls_before_a_step_no_friction_of_zero_is_shown():
+    lines = shown("ozbot-atr", "osha-ship", "--friction", "0.5", "--direction", "down")
+    assert "It falls over its downhill end (enter, step 12)." in lines[1]
+    (line,) = (each for each in lines if each.lstrip().startswith("friction"))
+    assert line.split(None, 1)[1] == (
+        "none required as far as it gets (enter, step 12), 0.50 stated"
+    )
+
+
 def test_no_line_names_a_step_that_nobody_knows():
     # what a belly lies on has a phase and no step
     answer = kaidan.assess("marv", "ibc", friction=0.8)

@@ -25,6 +25,8 @@ LINES = 8
 """Most lines of the answer on one screen."""
 NO_SLOPE = -90.0
 """Margin of what no slope of the stairs would mend [deg]."""
+NO_FRICTION = 0.005
+"""Friction that two digits show as none [1]: of a robot that falls before it comes to a step."""
 
 
 def text(answer: "Assessment") -> str:
@@ -234,9 +236,14 @@ def friction_line(answer: "Assessment") -> str:
     """Friction that is required, and what is stated."""
     needed = answer.required_friction
     required = "not known" if needed is None else f"{needed:.2f} required"
-    if answer.traction is not None and needed is not None:
-        required = traction.required(answer.traction, required)
-    required += "" if needed is None else _hardest(answer)
+    if needed is not None and needed < NO_FRICTION:
+        ends = answer.verdict == Verdict.NO_GO
+        required = "none required"
+        required += f" as far as it gets{place(answer.phase, answer.step)}" if ends else ""
+    elif needed is not None:
+        if answer.traction is not None:
+            required = traction.required(answer.traction, required)
+        required += _hardest(answer)
     if answer.friction is None:
         return f"{required}, none stated"
     low, high = answer.friction
