@@ -237,7 +237,7 @@ def friction_line(answer: "Assessment") -> str:
     needed = answer.required_friction
     required = "not known" if needed is None else f"{needed:.2f} required"
     if needed is not None and needed < NO_FRICTION:
-        ends = answer.verdict == Verdict.NO_GO
+        ends = answer.verdict == "no-go"
         required = "none required"
         required += f" as far as it gets{place(answer.phase, answer.step)}" if ends else ""
     elif needed is not None:
