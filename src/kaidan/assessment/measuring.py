@@ -14,7 +14,7 @@ import numpy as np
 
 from kaidan.answer import Part
 from kaidan.assessment.uncertain_inputs import GROUPS, SAMPLED, STEPS, Doubt, doubts_of
-from kaidan.models.findings import Array, Finding, Findings
+from kaidan.models.findings import ROUNDING, Array, Finding, Findings
 from kaidan.models.samples import sample_count, unit_draws
 from kaidan.modes import FALLS, SLIDES_DOWN, SLIDES_UP, TIP_DOWNHILL, TIP_UPHILL
 from kaidan.question import Question
@@ -68,7 +68,7 @@ def to_measure(question: Question, found: Findings) -> tuple[Measurement, ...]:
     if margin is None:
         return ()
     variance = float(np.var(margin))
-    if not variance > 0:
+    if not variance > ROUNDING**2:
         return ()
     shares = {name: first_order(drawn, margin) for name, drawn in draws.items()}
     if any(each.name == STEPS for each in doubts):  # drawn one by one: what the others leave

@@ -12,7 +12,7 @@ from kaidan.assessment.plan_scores import ENOUGH, outline_key, terrain_key
 from kaidan.assessment.verdict import conclude
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.models import judge, planned
-from kaidan.models.findings import Findings
+from kaidan.models.findings import ROUNDING, Findings
 from kaidan.models.quasi_static import (
     Basis,
     drive_margin,
@@ -95,7 +95,7 @@ def _passed(
     phase = phases_of(path, driven, down, body.stance.flat_length)
     samples = samples_of(path, phase, along)
     required = float(samples.friction[samples.lasts].max())
-    slides = math.atan(required) >= math.atan(question.friction[1])
+    slides = math.atan(question.friction[1]) - math.atan(required) < ROUNDING
     stalls = drive_margin(question, np.nanmax(samples.traction) / STANDARD_GRAVITY) <= 0.0
     if slides or stalls:
         return Passed(path, False)

@@ -12,6 +12,7 @@ from kaidan import contact
 from kaidan.assessment.plans import GENTLE, cost_of_drop, off
 from kaidan.errors import InputError
 from kaidan.models import planned
+from kaidan.models.findings import ROUNDING as NO_MARGIN
 from kaidan.models.quasi_static import profile_of
 from kaidan.modes import Facing, Phase
 from kaidan.outline import Outline
@@ -239,10 +240,11 @@ class Scores:
             return FAILED
         low, high = self._friction
         downhill, uphill = self._allowances
-        slides = math.atan(low) - math.atan(rated.required_friction)
+        required = math.atan(rated.required_friction)
+        slides, slides_at_best = math.atan(low) - required, math.atan(high) - required
         tips = rated.downhill - downhill, rated.uphill - uphill
         failing = (
-            slides <= 0,
+            slides < NO_MARGIN,
             min(tips) <= 0,
             rated.rocking > ROCKING,
             rated.impact_speed >= self.question.robot.tolerated_impact,
@@ -250,7 +252,7 @@ class Scores:
             rated.belly_touches,
         )
         return Score(
-            passes=math.isinf(high) or rated.required_friction < high,
+            passes=math.isinf(high) or slides_at_best >= NO_MARGIN,
             failing=-sum(failing),
             margin=min(math.degrees(min(slides, *tips)), ENOUGH),
             drop=-math.degrees(rated.rotation),

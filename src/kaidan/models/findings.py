@@ -95,6 +95,15 @@ class Findings:
         return next((each for each in self.each if each.mode is mode), None)
 
 
+ROUNDING = 1e-9
+"""Margin of slope that is rounding [rad]: the same friction as is required is not enough."""
+
+
+def without_rounding(margin: Array) -> Array:
+    """Margins of slope, those that are rounding as zero [rad]."""
+    return np.where(np.abs(margin) < ROUNDING, 0.0, margin)
+
+
 _ALIKE = 1e-3
 """Share of a required friction to which it is found [1]."""
 

@@ -20,7 +20,7 @@ from kaidan.models import support_polygon, traction
 from kaidan.models.balance import balance
 from kaidan.models.contact_figures import figures_of
 from kaidan.models.drive_limits import traction_limit
-from kaidan.models.findings import Array, Finding, Findings, Later, hardest
+from kaidan.models.findings import Array, Finding, Findings, Later, hardest, without_rounding
 from kaidan.models.spread import Spread, spread
 from kaidan.models.support_polygon import along_heading
 from kaidan.models.traction import Supplies
@@ -305,7 +305,7 @@ def _sliding(over: Spread, phase: Phase | None, mu: float, required: float) -> A
     margin = (
         np.arctan(np.maximum(mu + over.friction, 0.0)) - math.atan(required) - over.steeper(phase)
     )
-    return np.asarray(margin)
+    return without_rounding(margin)
 
 
 def _supply(

@@ -13,6 +13,33 @@ from kaidan.contact.tables import BodyTable, GroundTable
 #: A gap below minus this [m] is a penetration.  An end's arc leaves a nosing like e^2/(2 R), so an
 #: event is seen sqrt(2 R 2e-12) = 0.5 um late for R = 60 mm; still ten times the corrector's rest.
 PENETRATED = 2e-12
+#: Looks in a row that move the same end of the way, after which it is halved.
+SAME_END = 3
+
+
+def next_look(lo: float, hi: float, near: float, far: float, moved: int) -> float:
+    """Where to look next for the zero between two ends: on the line through their values.
+
+    Parameters
+    ----------
+    lo, hi
+        The ends.
+    near, far
+        Values there, one above zero and one not; of an end that stays, with its weight.
+    moved
+        How often in a row the near end moved, or with its sign turned the far one.
+    """
+    look = lo + (hi - lo) * near / (near - far)
+    if abs(moved) >= SAME_END or not (lo < look and look < hi):
+        return 0.5 * (lo + hi)
+    return look
+
+
+def moved_again(moved: int, near: bool) -> int:
+    """How often in a row an end has moved, once it has moved again."""
+    if near:
+        return max(moved, 0) + 1
+    return min(moved, 0) - 1
 
 
 def quantity(
@@ -57,7 +84,9 @@ def closing_time(
     g: float,
     kappa_g: float,
 ) -> tuple[int, float]:
-    """Arclength at which one quantity changes sign within a step (regula falsi, bisection).
+    """Arclength at which one quantity changes sign within a step.
+
+    By regula falsi in the Illinois way: an end that stays twice in a row counts half.
 
     ``what`` is a feature (its gap), `Advance.OVER_REAR` or `Advance.OVER_FRONT` (a lever).
     ``f0`` > 0 >= ``f1`` are the values at the ends.
@@ -70,15 +99,17 @@ def closing_time(
     """
     lo = 0.0
     hi = ds
-    weight0 = f0
-    weight1 = f1
-    for turn in range(90):
-        if hi - lo < 1e-10:
+    near = f0
+    far = f1
+    at_hi = f1
+    moved = 0
+    for _ in range(90):
+        if hi - lo < 1e-10 or at_hi > -0.5 * PENETRATED:
             break
-        # aimed a hair beyond the zero, so that a straight course ends with the first look
-        mid = lo + (hi - lo) * (weight0 + 0.2 * PENETRATED) / (weight0 - weight1)
-        if turn % 4 == 3 or not (lo < mid < hi):
+        if f0 < PENETRATED:  # what rests there already goes in like e^2/(2 R): no line tells where
             mid = 0.5 * (lo + hi)
+        else:  # aimed a hair beyond the zero, so that a straight course ends with the first look
+            mid = next_look(lo, hi, near + 0.2 * PENETRATED, far + 0.2 * PENETRATED, moved)
         good, x1, z1, phi1, _, _, u_x, u_z, _, new_rear, new_front = stepped(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, mid
         )
@@ -97,14 +128,14 @@ def closing_time(
             phi1,
             tilt(a, g, kappa_g, u_x, u_z),
         )
+        moved = moved_again(moved, value > 0.0)
         if value > 0.0:
             lo = mid
-            weight0 = value
-            weight1 *= 0.5
+            near = value
+            far *= 0.5 if moved > 1 else 1.0
         else:
             hi = mid
-            weight1 = value
-            weight0 *= 0.5
-            if value > -0.5 * PENETRATED:
-                break
+            far = value
+            at_hi = value
+            near *= 0.5 if moved < -1 else 1.0
     return 1, hi

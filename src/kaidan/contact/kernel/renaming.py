@@ -42,12 +42,15 @@ from kaidan.contact.columns import (
 )
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.continuation import ARM, distance, stepped, tangent
+from kaidan.contact.kernel.event_location import moved_again, next_look
 from kaidan.contact.kernel.gaps import FAR, flat_room, gap, on_flat
 from kaidan.contact.kernel.recording import record_pose
 from kaidan.contact.tables import BodyTable, FloatRow, GroundTable, Held, IntArray, PoseTable
 
 #: How well the place is known [m]: a normal on an arc of 5 mm turns by 2e-7 rad in it.
 PLACE = 1e-9
+#: Room that counts at least where there is some, or none.
+LEAST = 1e-12
 
 
 def name_room(
@@ -81,6 +84,17 @@ def name_room(
     return float(room)
 
 
+def least_room(
+    ground: GroundTable, body: BodyTable, rear: int, front: int, rear_on: bool, front_on: bool,
+    x: float, z: float, c: float, s: float,
+) -> float:  # fmt: skip
+    """The smaller `name_room` of both contacts."""
+    return min(
+        name_room(ground, body, rear, rear_on, x, z, c, s),
+        name_room(ground, body, front, front_on, x, z, c, s),
+    )
+
+
 def renaming(
     ground: GroundTable,
     body: BodyTable,
@@ -93,42 +107,50 @@ def renaming(
     t_z: float,
     t_w: float,
     ds: float,
+    rear_on: bool,
+    front_on: bool,
+    near: float,
+    far: float,
 ) -> float:
-    """Arclength within a step at which a contact takes another name [m]: `PLACE` beyond it."""
-    rear_on = on_flat(ground, body, rear, x, z, math.cos(phi), math.sin(phi))
-    front_on = on_flat(ground, body, front, x, z, math.cos(phi), math.sin(phi))
+    """Arclength within a step at which a contact takes another name [m]: `PLACE` beyond it.
+
+    Looked for as in :func:`kaidan.contact.kernel.event_location.closing_time`; ``near`` and ``far``
+    are `least_room` at its begin and at its end, by the names at its begin.
+    """
     lo = 0.0
     hi = ds
-    weight0 = ds
-    weight1 = -ds
-    for turn in range(60):
+    near = max(near, LEAST)
+    far = min(far, -LEAST)
+    moved = 0
+    for _ in range(60):
         if hi - lo < PLACE:
             break
-        mid = lo + (hi - lo) * weight0 / (weight0 - weight1)
-        if turn % 4 == 3 or not (lo < mid < hi):
-            mid = 0.5 * (lo + hi)
+        mid = next_look(lo, hi, near, far, moved)
+        # aimed a hair off the place, so that the other end comes near it too
+        beside = mid + 0.4 * PLACE if moved >= 0 else mid - 0.4 * PLACE
+        if lo < beside and beside < hi:
+            mid = beside
         good, x1, z1, _, c, s, _, _, _, new_rear, new_front = stepped(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, mid
         )
         if not good:
             break
-        room = min(
-            name_room(ground, body, rear, rear_on, x1, z1, c, s),
-            name_room(ground, body, front, front_on, x1, z1, c, s),
-        )
-        if (
+        room = least_room(ground, body, rear, front, rear_on, front_on, x1, z1, c, s)
+        before = (
             new_rear == rear
             and new_front == front
             and on_flat(ground, body, rear, x1, z1, c, s) == rear_on
             and on_flat(ground, body, front, x1, z1, c, s) == front_on
-        ):
+        )
+        moved = moved_again(moved, before)
+        if before:
             lo = mid
-            weight0 = max(min(room, ds), 1e-12)
-            weight1 *= 0.5
+            near = max(room, LEAST)
+            far *= 0.5 if moved > 1 else 1.0
         else:
             hi = mid
-            weight1 = min(max(room, -ds), -1e-12)
-            weight0 *= 0.5
+            far = min(room, -LEAST)
+            near *= 0.5 if moved < -1 else 1.0
     return hi
 
 
@@ -165,16 +187,20 @@ def record_renamings(
             break
         c = math.cos(phi)
         s = math.sin(phi)
+        rear_on = on_flat(ground, body, rear, x, z, c, s)
+        front_on = on_flat(ground, body, front, x, z, c, s)
         if (
             rear == new_rear
             and front == new_front
-            and on_flat(ground, body, rear, x, z, c, s)
-            == on_flat(ground, body, rear, x1, z1, c1, s1)
-            and on_flat(ground, body, front, x, z, c, s)
-            == on_flat(ground, body, front, x1, z1, c1, s1)
+            and rear_on == on_flat(ground, body, rear, x1, z1, c1, s1)
+            and front_on == on_flat(ground, body, front, x1, z1, c1, s1)
         ):
             break
-        cut = renaming(ground, body, rear, front, x, z, phi, t_x, t_z, t_w, left)
+        cut = renaming(
+            ground, body, rear, front, x, z, phi, t_x, t_z, t_w, left, rear_on, front_on,
+            least_room(ground, body, rear, front, rear_on, front_on, x, z, c, s),
+            least_room(ground, body, rear, front, rear_on, front_on, x1, z1, c1, s1),
+        )  # fmt: skip
         if cut > left - 2.0 * PLACE:  # the pose at the end of the step is it
             break
         good, x2, z2, phi2, _, _, u_x, u_z, u_w, rear2, front2 = stepped(
