@@ -50,7 +50,7 @@ def more_friction(
 
         drives = None if search is None else search.drives
         required = max(required, friction_off_its_angles(question, drives))
-    enough = math.ceil(100 * required + 1) / 100
+    enough = _in_hundredths(required)
     if question.uncertain and enough <= LARGEST_FRICTION:
         enough = enough_at_the_risk(question, found, enough)
     if enough > LARGEST_FRICTION:
@@ -69,7 +69,12 @@ def enough_at_the_risk(question: Question, found: Findings, nominal: float) -> f
     lacks = -min((each for each in slides if math.isfinite(each)), default=0.0)
     if lacks <= 0 or math.atan(nominal) + lacks >= math.pi / 2:
         return nominal
-    return math.ceil(100 * math.tan(math.atan(nominal) + lacks) + 1) / 100
+    return _in_hundredths(math.tan(math.atan(nominal) + lacks))
+
+
+def _in_hundredths(required: float) -> float:
+    """Friction in whole hundredths, one at least beyond what is required [1]."""
+    return math.ceil(round(100 * required, 6) + 1) / 100
 
 
 def grousers(question: Question) -> Iterator[Candidate]:
