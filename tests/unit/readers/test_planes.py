@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from kaidan.readers.stairfit.corridor import floors
 from kaidan.readers.stairfit.gravity import refined
 from kaidan.readers.stairfit.patches import Patches
 from kaidan.readers.stairfit.planes import leans
+from kaidan.readers.stairfit.views import floors
 
 UP = np.array([0.0, 0.0, 1.0])
 

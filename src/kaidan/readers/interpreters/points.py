@@ -12,7 +12,7 @@ from kaidan.readers.flight import FlightEstimate
 from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import METRES, Array, Indices, Known, Points, Provenance, upright
 from kaidan.readers.stairfit.chain import staircases
-from kaidan.readers.stairfit.corridor import NARROWEST, SURE, lanes, views
+from kaidan.readers.stairfit.corridor import NARROWEST, SURE, lanes
 from kaidan.readers.stairfit.doubts import LOCAL
 from kaidan.readers.stairfit.gates import refused, surface_refusal
 from kaidan.readers.stairfit.gravity import frame, refined
@@ -27,8 +27,10 @@ from kaidan.readers.stairfit.patches import (
     scatter,
     thinned,
 )
+from kaidan.readers.stairfit.quantiles import median
 from kaidan.readers.stairfit.same_flight import beside, continues, wider, within
 from kaidan.readers.stairfit.viewpoint import seen_from_origin
+from kaidan.readers.stairfit.views import Views
 from kaidan.text import scans as text
 
 RANGE_ERROR, RANGE_ERROR_SURVEYED = 0.005, 0.001
@@ -43,6 +45,8 @@ MOST_FLIGHTS = 8
 """Flights that are looked for in one cloud."""
 MOST_PATCHED = 60_000
 """Points from which patches are made."""
+MOST_THINNED = 30_000
+"""Points of which those that find the stairs are taken."""
 MANY_LEFT = 400
 """Points of the thinned cloud from which another flight is looked for."""
 NOISY, WIDE = 0.008, 0.18
@@ -136,9 +140,12 @@ def _units(points: Points, xyz: Array) -> list[Known]:
 
 def _with_unit(points: Points, xyz: Array, unit: Known, metres: float, hints: Hints) -> _Try:
     # stray points far away would make rasters of any size
-    middle = np.median(_some(xyz)[::10], axis=0)
-    near = [np.abs(each - at) < EXTENTS[1] for each, at in zip(xyz.T, middle, strict=True)]
-    xyz = _those(xyz, near[0] & near[1] & near[2])
+    some = _some(xyz)
+    middle = [median(each) for each in some[::10].T]
+    if any(np.ptp(each) > EXTENTS[1] for each in xyz.T):
+        near = [np.abs(each - at) < EXTENTS[1] for each, at in zip(xyz.T, middle, strict=True)]
+        xyz = _those(xyz, near[0] & near[1] & near[2])
+        some = _some(xyz)
     if len(xyz) < FEWEST_POINTS:
         known = points.provenance.up or Known("+z", "assumed")
         nowhere = replace(points.provenance, unit=unit, up=known)
@@ -148,14 +155,14 @@ def _with_unit(points: Points, xyz: Array, unit: Known, metres: float, hints: Hi
         points.grid is not None or hints.viewpoint is not None or points.viewpoint.any()
     ):
         eye = points.viewpoint * metres
-    some = _some(xyz)
     small = rastered(some, SMALL)
     noise = scatter(small)
     sensor = eye
     if eye is None and points.provenance.up is None and seen_from_origin(some):
         sensor = np.zeros(3)
     patches = patches_of(rastered(some, WIDE) if noise > NOISY else joined(small), sensor)
-    rows = thinned(some, COARSE)
+    every = max(1, round(len(some) / MOST_THINNED))
+    rows = every * thinned(some[::every], COARSE)
     thin, of_thin = some[rows], patches.of_point[rows]
     cloud = _Cloud(replace(points.provenance, unit=unit), xyz, thin, of_thin, patches, noise, eye)
     ups = _ups(points.provenance.up, patches, oriented=sensor is not None)
@@ -227,18 +234,17 @@ def _with_up(seen: _Cloud, up: Array, known: Known, hints: Hints) -> _Try:
     turn, upright_turn = frame(upward.built, side), frame(upward.up, side)
     against = turn @ upward.against @ turn.T
     level = replace(patches, middle=patches.middle @ turn.T, normal=patches.normal @ turn.T)
-    thin, cloud = seen.thin @ turn.T, (turn @ seen.xyz.T).T
-    along = views(thin, level, seen.of_thin)
-    eye = np.zeros(3) if seen.eye is None else turn @ seen.eye
+    thin = seen.thin @ turn.T
+    along = Views(thin, level, seen.of_thin)
+    eye = np.zeros(3) if seen.eye is None else seen.eye
     tolerance = min(max(3 * noise, 0.012), 0.04)
     flights: list[FlightEstimate] = []
     refusals: list[Refusal] = []
     sure, score, left = False, 0.0, np.ones(len(thin), dtype=bool)
     for _ in range(MOST_FLIGHTS):
         flight = None
-        rest = [each.of(left) for each in along]
-        for lane in islice(lanes(rest, tolerance, another=bool(flights)), 2):
-            steps, aligned, placed = measured(lane, cloud, eye, noise, error, against)
+        for lane in islice(lanes(along, left, tolerance, another=bool(flights)), 2):
+            steps, aligned, placed = measured(lane, seen.xyz, turn, eye, noise, error, against)
             refusal = refused(steps, lane, noise, provenance)
             if refusal is not None:
                 refusals.append(refusal)

@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.readers.kinds import Array, Indices
-from kaidan.readers.stairfit.echo import echoes
-from kaidan.readers.stairfit.patches import Patches, directions, in_cubes
+from kaidan.readers.kinds import Array
+from kaidan.readers.stairfit.echo import DIM, Echo, echoes
 from kaidan.readers.stairfit.staircase_line import (
     StairLine,
     assigned,
@@ -17,13 +16,10 @@ from kaidan.readers.stairfit.staircase_line import (
     fitted,
     phase,
 )
+from kaidan.readers.stairfit.views import View, Views
 
 LANE = 0.1
 """Width of a lane along the heading [m]."""
-PLAN, STOREY, TALL = 0.07, 0.12, 5
-"""Side of a square of the plan, height of a level in it [m], and levels that no riser fills."""
-FLOOR = 0.03
-"""Thickness of the levels in which floors are looked for [m]."""
 NARROWEST = 0.3
 """Width that a flight has at least [m]."""
 FEWEST = 3
@@ -48,8 +44,6 @@ SAME = 0.2
 """Distance of nosings up to which two lines are one, in steps [1]."""
 ASKEW = math.radians(1.0)
 """Angle by which nosings lie off a heading that is then sought again [rad]."""
-SWEEP = 10
-"""Angle between headings where no plumb patch says which to try [deg]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,135 +61,105 @@ class Lane:
     """Share of the points about the line that lie on it, chance subtracted [1]."""
 
 
-def rotated(xyz: Array, heading: float) -> tuple[Array, Array, Array]:
-    """Coordinates along a heading, to the left of it, and up [m]."""
-    c, s = math.cos(heading), math.sin(heading)
-    return xyz[:, 0] * c + xyz[:, 1] * s, xyz[:, 1] * c - xyz[:, 0] * s, xyz[:, 2]
+def lanes(
+    seen: Views, left: NDArray[np.bool_], tolerance: float, *, another: bool
+) -> Iterator[Lane]:
+    """Flights that a cloud may hold: a sure one as soon as it is met, then the best.
 
-
-def headings(patches: Patches) -> list[float]:
-    """Axes along which stairs may climb, each within half a circle [rad]."""
-    plumb = np.abs(patches.normal[:, 2]) < 0.17
-    if plumb.sum() < 8:
-        return [math.radians(each) for each in range(0, 180, SWEEP)]
-    flat = replace(
-        patches,
-        normal=_levelled(patches.normal[plumb]),
-        weight=patches.weight[plumb],
-        middle=patches.middle[plumb],
-    )
-    axes: list[float] = []
-    for each in directions(flat):
-        here = math.atan2(each[1], each[0])
-        for angle in (here, here + math.pi / 2):
-            if all(abs(math.sin(angle - other)) > math.sin(math.radians(6)) for other in axes):
-                axes.append(angle)
-    return axes[:6]
-
-
-def _levelled(normals: Array) -> Array:
-    flat = normals * np.array([1.0, 1.0, 0.0])
-    return np.asarray(flat / np.maximum(np.linalg.norm(flat, axis=1), 1e-12)[:, None])
-
-
-@dataclass(frozen=True, eq=False)
-class View:
-    """A thinned cloud along one heading, without what stands up: side walls, people, posts."""
-
-    heading: float
-    """[rad]"""
-    rows: Indices
-    """Of the cloud, shape (m,)."""
-    s: Array
-    t: Array
-    z: Array
-    """Of them, shape (m,) [m]."""
-
-    def of(self, which: NDArray[np.bool_]) -> "View":
-        """The same of some rows of the cloud."""
-        kept = np.flatnonzero(which[self.rows])
-        s, t, z = (each[kept] for each in (self.s, self.t, self.z))
-        return View(self.heading, self.rows[kept], s, t, z)
-
-    def turned(self, by: float) -> "View":
-        """The same along another heading."""
-        c, sine = math.cos(by), math.sin(by)
-        s, t = self.s * c + self.t * sine, self.t * c - self.s * sine
-        return View(self.heading + by, self.rows, s, t, self.z)
-
-    def steps(self) -> tuple[Array, Array]:
-        """(s, z) of what lies on no floor."""
-        if not len(self.s):
-            return self.s, self.z
-        kept = np.flatnonzero(~floors(self.s, self.z))
-        return self.s[kept], self.z[kept]
-
-
-def views(xyz: Array, patches: Patches, of_point: Indices) -> list[View]:
-    """Views of a cloud along all headings that stairs may have.
+    Most stairs climb along the first axis that plumb patches look along, or across it: the other
+    headings are looked at where the clearest line of these two is no sure flight.
 
     Parameters
     ----------
-    xyz : array, shape (n, 3)
-        Thinned cloud, z up [m].
-    patches : Patches
-        Of the cloud, z up.
-    of_point : array, shape (n,)
-        Patch of each point, -1 without one.
-    """
-    normal = np.vstack([patches.normal, np.zeros(3)])[of_point]
-    low = ~tall(xyz)
-    found = []
-    for axis in headings(patches):
-        across = np.abs(normal[:, 1] * math.cos(axis) - normal[:, 0] * math.sin(axis))
-        # side walls say nothing and cover everything
-        rows = np.flatnonzero((across < 0.85) & low)
-        found.append(View(axis, rows, *rotated(xyz[rows], axis)))
-    return found
-
-
-def lanes(seen: list[View], tolerance: float, *, another: bool) -> Iterator[Lane]:
-    """Flights that the views of a cloud may hold: a sure one as soon as it is met, then the best.
-
-    Parameters
-    ----------
-    seen : list of View
+    seen : Views
+        Of the cloud.
+    left : array, shape (n,)
+        Which of its points belong to no flight yet.
     tolerance : float
         Distance within which a point lies on a step [m].
     another : bool
         Whether one was found already, so that faint lines are not worth a fit.
     """
-    tried: list[tuple[float, View, StairLine]] = []
-    for view in seen:
-        s, z = view.steps()
-        if len(s) < (FEWEST_MORE if another else FEWEST_VIEWED):
-            continue
-        for echo in echoes(s, z):
-            back = echo.going < 0
-            line, support = phase(-s if back else s, z, abs(echo.going), echo.rise)
-            if support > FAINT or not another:
-                tried.append((support, view.turned(math.pi) if back else view, line))
-    tried.sort(key=lambda each: -each[0])
-    found, none_yet = [], True
+    if another and seen.steps(left) < FEWEST_MORE:
+        return
+    count = len(seen.headings)
+    tried: list[_Tried] = []
+    yielded: Lane | None = None
+    for some in (range(min(2, count)), range(2, count)):
+        tried += _lines([seen.along(k).of(left) for k in some], another=another)
+        tried.sort(key=lambda each: -each.support)
+        if tried and _is_sure(tried[0].fit(tolerance)) and yielded is None:
+            yielded = tried[0].lane
+            assert yielded is not None
+            yield yielded
+    found: list[Lane] = []
     fits: list[Lane] = []
-    for support, view, line in tried[:TRIED]:
-        if support < RIVAL * tried[0][0] or any(_same(lane, view.heading, line) for lane in fits):
+    for each in tried[:TRIED]:
+        known = any(_same(lane, each.view.heading, each.line) for lane in fits)
+        if each.support < RIVAL * tried[0].support or (known and not each.done):
             continue
-        lane = lane_of(view, line, tolerance)
-        fits += [lane] if lane is not None else []
-        if lane is not None and abs(lane.line.skew) > ASKEW:
-            askew = math.atan(lane.line.skew)
-            square = view.turned(-askew)
-            line, _ = phase(*square.steps(), lane.line.going * math.cos(askew), lane.line.rise)
-            lane = lane_of(square, line, tolerance)
-        if lane is None:
+        lane = each.fit(tolerance)
+        fits += [each.first] if each.first is not None else []
+        if lane is None or lane is yielded:
             continue
-        if none_yet and lane.explained > SURE and lane.line.last - lane.line.first + 1 >= LONG:
-            none_yet = False
+        if yielded is None and _is_sure(lane):
+            yielded = lane
             yield lane
         else:
             found.append(lane)
     yield from sorted(found, key=lambda lane: -lane.score)
+
+
+@dataclass(eq=False)
+class _Tried:
+    """A repetition with the line that most points lie on, and what a fit makes of it."""
+
+    support: float
+    """Points of the line above those of its average shift."""
+    view: View
+    line: StairLine
+    first: Lane | None = None
+    """Lane that was fitted along the heading of the view."""
+    lane: Lane | None = None
+    """The same along the heading of its nosings."""
+    done: bool = False
+
+    def fit(self, tolerance: float) -> Lane | None:
+        """Lane about the line, fitted once; None: there is none."""
+        if not self.done:
+            self.done = True
+            self.first = self.lane = lane_of(self.view, self.line, tolerance)
+            if self.first is not None and abs(self.first.line.skew) > ASKEW:
+                askew, line = math.atan(self.first.line.skew), self.first.line
+                square = self.view.turned(-askew)
+                line, _ = phase(*square.steps(), line.going * math.cos(askew), line.rise)
+                self.lane = lane_of(square, line, tolerance)
+        return self.lane
+
+
+def _lines(some: list[View], *, another: bool) -> list[_Tried]:
+    """Lines of the repetitions of some views, but for those that are dim beside the clearest."""
+    repeated: list[tuple[Echo, View, Array, Array]] = []
+    for view in some:
+        s, z = view.steps()
+        if len(s) >= (FEWEST_MORE if another else FEWEST_VIEWED):
+            repeated += [(echo, view, s, z) for echo in echoes(s, z)]
+    clearest = max((echo.contrast for echo, *_ in repeated), default=0.0)
+    found: list[_Tried] = []
+    for echo, view, s, z in repeated:
+        if echo.contrast < DIM * clearest:
+            continue
+        back = echo.going < 0
+        line, support = phase(-s if back else s, z, abs(echo.going), echo.rise)
+        if support > FAINT or not another:
+            found.append(_Tried(support, view.turned(math.pi) if back else view, line))
+    return found
+
+
+def _is_sure(lane: Lane | None) -> bool:
+    if lane is None:
+        return False
+    return lane.explained > SURE and lane.line.last - lane.line.first + 1 >= LONG
 
 
 def _same(lane: Lane, heading: float, line: StairLine) -> bool:
@@ -205,39 +169,6 @@ def _same(lane: Lane, heading: float, line: StairLine) -> bool:
     at = lane.line.at(np.arange(lane.line.first, lane.line.last + 1))
     steps = (at - [line.s0, line.z0]) / [line.going, line.rise]
     return bool((np.abs(steps - np.round(steps[:, :1])) < SAME).all())
-
-
-def tall(xyz: Array) -> NDArray[np.bool_]:
-    """Points of what stands up farther than a riser: walls, people, posts.
-
-    Seen in the plan they are in a small square that holds points in many levels. A handrail above
-    a tread, or a ceiling, fills few of them.
-    """
-    place = np.floor(xyz.T * np.array([[1 / PLAN], [1 / PLAN], [1 / STOREY]]))
-    order, begins, counts = in_cubes(place)
-    squares = place[:2, order[begins]]
-    each = np.flatnonzero(np.r_[True, (squares[:, 1:] != squares[:, :-1]).any(axis=0)])
-    levels = np.diff(np.r_[each, len(begins)])
-    found = np.empty(len(xyz), dtype=np.bool_)
-    found[order] = np.repeat(np.repeat(levels >= TALL, levels), counts)
-    return found
-
-
-def floors(s: Array, z: Array) -> NDArray[np.bool_]:
-    """Points in thin levels that hold many more than those about them, and are long."""
-    level = ((z - z.min()) / FLOOR).astype(np.int64)
-    column = ((s - s.min()) / LANE).astype(np.int64)
-    wide = int(column.max()) + 1
-    view = np.bincount(level * wide + column, minlength=(int(level.max()) + 1) * wide)
-    view = view.reshape(-1, wide)
-    count = view.sum(axis=1)
-    usual = np.median(np.lib.stride_tricks.sliding_window_view(np.pad(count, 8), 17), axis=1)
-    floor = np.zeros(len(count), dtype=bool)
-    for each in np.flatnonzero(count > 2.0 * usual + 10):
-        along = view[each]
-        floor[each] = (along > 0.3 * np.percentile(along[along > 0], 90)).sum() * LANE > 1.0
-    floor |= np.r_[floor[1:], False] | np.r_[False, floor[:-1]]
-    return np.asarray(floor[level])
 
 
 def lane_of(view: View, line: StairLine, tolerance: float) -> Lane | None:

@@ -7,8 +7,8 @@ import numpy as np
 
 from kaidan.readers.flight import FlightEstimate, independent
 from kaidan.readers.kinds import Array, Indices
-from kaidan.readers.stairfit.corridor import rotated
 from kaidan.readers.stairfit.slices import STEP, driven_line, slice_of
+from kaidan.readers.stairfit.views import rotated
 from kaidan.terrain.polyline import convex_corners
 from kaidan.text import scans as text
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.readers.kinds import Array
+from kaidan.readers.stairfit.quantiles import median, quantile
 
 CELL = 0.025
 """Side of a cell of the side view [m]."""
@@ -27,6 +28,9 @@ RISES, GOINGS = (0.07, 0.32), (0.09, 0.48)
 """Lowest and highest rise, shortest and longest going [m]."""
 BLUR = 1.5
 """Blur of the side view before it is compared with itself, twice its variance [cells^2]."""
+DIM = 0.4
+"""Least share of the clearest repetition's contrast from which one is looked at [1]: of 150 flights
+that were cast the right one had 0.57 and more, of 147 of them 0.7."""
 _REACH = 62
 """Cells by which it is shifted at most: three times the longest spacing."""
 _ACROSS, _UP = np.arange(-20.0, 21.0), np.arange(2.0, 14.0)
@@ -49,8 +53,8 @@ class Echo:
 
 def echoes(s: Array, z: Array, most: int = 3) -> list[Echo]:
     """Best shifts of a side view, those with the largest contrast first."""
-    bottom = float(np.percentile(z, 1))
-    inside = (np.abs(s - np.median(s)) < LARGEST[0] / 2) & (np.abs(z - bottom) < LARGEST[1])
+    bottom = quantile(z, 0.01)
+    inside = (np.abs(s - median(s)) < LARGEST[0] / 2) & (np.abs(z - bottom) < LARGEST[1])
     s, z = s[inside], z[inside]
     if len(s) < 50:
         return []
@@ -74,7 +78,7 @@ def echoes(s: Array, z: Array, most: int = 3) -> list[Echo]:
     found: list[Echo] = []
     for _ in range(most):
         at = np.unravel_index(int(np.argmax(contrast)), contrast.shape)
-        if contrast[at] <= 0.0:
+        if contrast[at] <= (DIM * found[0].contrast if found else 0.0):
             break
         i, k = float(_ACROSS[at[0]]), float(_UP[at[1]])
         found.append(_sharpened(auto, i, k, float(contrast[at])))

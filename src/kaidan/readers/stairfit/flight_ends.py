@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from kaidan.readers.flight import UNCHECKED
 from kaidan.readers.kinds import Array
 from kaidan.readers.stairfit.doubts import place_of
+from kaidan.readers.stairfit.quantiles import median, quantile
 from kaidan.readers.stairfit.staircase_line import Edges, StairLine, assigned, fronts
 
 FEWEST_POINTS = 12
@@ -54,9 +55,9 @@ def trimmed(line: StairLine, s: Array, t: Array, z: Array, tight: float) -> Stai
     number = k[rows] - line.first
     about = np.bincount(number, minlength=count)
     share = np.bincount(number, weights=on[rows], minlength=count) / np.maximum(about, 1)
-    usual = float(np.median(seen))
+    usual = median(seen)
     good = (seen >= 0.5 * usual) & ((share >= 0.5) | (seen >= 0.9))
-    good &= share >= 0.5 * float(np.median(share))
+    good &= share >= 0.5 * median(share)
     if not good.any():
         return line
     kept = np.flatnonzero(good)
@@ -80,12 +81,12 @@ def from_the_first(line: StairLine, s: Array, t: Array, z: Array, tight: float) 
         before = (level & (ahead > -0.4 * g - 0.15) & (ahead < -0.04)).sum()
         behind = (level & (ahead > 0.04) & (ahead < 0.9 * g)).sum()
         face = (np.abs(ahead) < tight) & (z < z1 - 0.15 * r) & (z > z1 - 0.85 * r)
-        tall = face.sum() >= 5 and np.ptp(np.percentile(z[face], [10, 90])) > FACE_SEEN * r
+        tall = face.sum() >= 5 and _span(z[face], 0.1) > FACE_SEEN * r
         if tall and face.sum() > before:
             break
         front = fronts(begun, s, t, z, tight) if front is None else front
         ends = (front.at - line.skew * front.t)[front.step == line.first]
-        edge = len(ends) >= FEWEST_LANES and abs(float(np.median(ends)) - s1) < EDGE_OFF
+        edge = len(ends) >= FEWEST_LANES and abs(median(ends) - s1) < EDGE_OFF
         below = (ahead < -0.03) & (ahead > -2 * g) & (z < z1 - 0.4 * r) & (z > z1 - 2.5 * r)
         if before <= 0.3 * behind + 4 and behind >= 4 and edge and below.sum() >= FLOOR_SEEN:
             break
@@ -163,7 +164,7 @@ def last_riser(
     here = np.full((2, 2, 3), np.nan)
     here[1] = place_of(s, t, z, np.flatnonzero(on))
     if face.sum() >= FEWEST_POINTS:
-        front, doubt_s = float(np.median(s[face])), noise / math.sqrt(face.sum())
+        front, doubt_s = median(s[face]), noise / math.sqrt(face.sum())
         here[0] = place_of(s, t, z, np.flatnonzero(face))
     elif abs(height - last[1] - r) < ODD_UNSEEN * r:
         front, doubt_s = last[0] + g, UNCHECKED
@@ -187,8 +188,8 @@ def _densest(values: Array, width: float) -> tuple[float, float, int]:
     pairs = counts + np.r_[counts[1:], 0]
     low = values.min() + int(np.argmax(pairs)) * width
     core = values[(values >= low) & (values < low + 2 * width)]
-    middle = float(np.median(core))
-    spread = max(1.4826 * float(np.median(np.abs(core - middle))), 1e-4)
+    middle = median(core)
+    spread = max(1.4826 * median(np.abs(core - middle)), 1e-4)
     core = values[np.abs(values - middle) < 3 * spread]
     return float(core.mean()), spread / math.sqrt(len(core)), len(core)
 
@@ -202,8 +203,13 @@ def _reach(ahead: Array) -> float:
     return min(end * STRIP, float(ahead.max()))
 
 
+def _span(values: Array, share: float) -> float:
+    """Length over which values lie, a share of them left out at either end."""
+    return quantile(values, 1 - share) - quantile(values, share)
+
+
 def _narrow(t: Array, on: NDArray[np.bool_]) -> bool:
     """Whether a level is narrower than a landing: a box, walls at both sides, stray points."""
     _, in_strip = np.unique(np.floor(t[on] / STRIP), return_counts=True)
     across = STRIP * int((in_strip >= FEWEST_LANES).sum())
-    return across < LANDING_ACROSS * float(np.ptp(np.percentile(t, [2, 98])))
+    return across < LANDING_ACROSS * _span(t, 0.02)

@@ -8,6 +8,7 @@ import numpy as np
 from kaidan.readers.kinds import Array
 from kaidan.readers.stairfit.patches import Patches
 from kaidan.readers.stairfit.planes import leans
+from kaidan.readers.stairfit.quantiles import median
 
 OUT_OF_TRUE = math.radians(0.3)
 """Standard deviation of what was built level or plumb [rad]: 16 mm over 3 m."""
@@ -78,7 +79,7 @@ def refined(
         tilt = np.where(level, np.sqrt(np.maximum(1 - along**2, 0.0)), along)
         off = tilt[level | plumb]
         # patches over the edge of a step lean all the same way: only the core counts
-        near = min(max(3.0 * float(np.median(off)), NARROWEST), 0.7 * near)
+        near = min(max(3.0 * median(off), NARROWEST), 0.7 * near)
     scatter_of = float(np.sqrt(np.mean(off**2)) / math.sqrt(max(len(off) / 8.0, 1.0)))
     up, against = _by_planes(patches, up, math.hypot(scatter_of, EDGES), eye, local)
     across = np.eye(3) - np.outer(up, up)

@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from kaidan.readers.kinds import Array
+from kaidan.readers.stairfit.quantiles import quantile
 
 NEAREST, FARTHEST = 0.25, 4.0
 """Distances from the nosing between which something across the way is sought [m]."""
@@ -44,9 +45,12 @@ def landing_end(ahead: Array, t: Array, over: Array, *, width: tuple[float, floa
     strips = ((y - low) / STRIP).astype(np.int64)
     wide = max(1, round((high - low) / STRIP))
     # a wall may lie on the border of two slices
-    for each in np.unique(slices).tolist():
+    count = int(slices.max()) + 2, int(strips.max()) + 1
+    seen = np.bincount(slices * count[1] + strips, minlength=count[0] * count[1]) > 0
+    seen = seen.reshape(count)
+    across = (seen[:-1] | seen[1:]).sum(axis=1) * seen[:-1].any(axis=1)
+    for each in np.flatnonzero(across >= ACROSS * wide).tolist():
         here = (slices == each) | (slices == each + 1)
-        seen = np.unique(strips[here]).size / wide
-        if seen >= ACROSS and np.ptp(z[here]) >= TALL:
-            return float(np.percentile(x[here], 10))
+        if np.ptp(z[here]) >= TALL:
+            return quantile(x[here], 0.1)
     return math.nan

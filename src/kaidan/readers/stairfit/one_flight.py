@@ -7,9 +7,11 @@ import numpy as np
 
 from kaidan.readers.flight import FlightEstimate
 from kaidan.readers.kinds import Array
-from kaidan.readers.stairfit.corridor import Lane, rotated
+from kaidan.readers.stairfit.corridor import Lane
 from kaidan.readers.stairfit.landing_end import landing_end
+from kaidan.readers.stairfit.quantiles import quantile
 from kaidan.readers.stairfit.steps import Steps, steps_of
+from kaidan.readers.stairfit.views import rotated
 from kaidan.text import scans as text
 
 LOWEST_CEILING = 1.2
@@ -20,32 +22,35 @@ Placed = tuple[Array, Array, Array]
 
 
 def measured(
-    lane: Lane, cloud: Array, view: Array, noise: float, error: float, against: Array
+    lane: Lane, cloud: Array, turn: Array, view: Array, noise: float, error: float, against: Array
 ) -> tuple[Steps | None, Lane, Placed]:
     """Single steps of a lane in all points, after its heading was corrected by its skew.
 
-    With the lane along that heading, and all points along it.
+    `turn` lifts the cloud. With the lane along that heading, and all points between its sides along
+    it.
     """
     line = lane.line
     heading = lane.heading - math.atan(line.skew)
-    placed = s, t, z = rotated(cloud, heading)
-    turn = math.cos(heading - lane.heading)
+    off = heading - lane.heading
     # a point at (s, t) of the lane's frame has s' = s cos + t sin, t' = t cos - s sin
-    sine = math.sin(heading - lane.heading)
-    line = replace(line, s0=line.s0 * turn, going=line.going * turn, skew=0.0)
+    cosine, sine = math.cos(off), math.sin(off)
+    line = replace(line, s0=line.s0 * cosine, going=line.going * cosine, skew=0.0)
     along = line.s0 + line.going * (line.first + line.last) / 2
-    shift = -along / turn * sine
+    shift = -along / cosine * sine
     low, high = lane.low + shift, lane.high + shift
     low, high = low - 0.5 * abs(sine), high + 0.5 * abs(sine)
     ends = line.at(np.array([line.first, line.last]))
-    near = (t > low) & (t < high) & (s > ends[0, 0] - 1.6) & (s < ends[1, 0] + 1.8)
+    axes = np.array(rotated(np.eye(3), heading)) @ turn
+    t = axes[1] @ cloud.T
+    beside = np.flatnonzero((t > low) & (t < high))
+    placed = s, t, z = tuple(axes @ cloud.T.take(beside, axis=1))
+    near = (s > ends[0, 0] - 1.6) & (s < ends[1, 0] + 1.8)
     near &= (z > ends[0, 1] - 0.9) & (z < ends[1, 1] + 2.4)
     aligned = replace(lane, heading=heading, line=line, low=low, high=high)
-    eye = np.concatenate(rotated(view[None], heading))
     inside = s[near], t[near], z[near]
     ahead = np.array([math.cos(heading), math.sin(heading), 0.0])
     level = math.sqrt(float(ahead @ against @ ahead))
-    steps = steps_of(line, *inside, noise=noise, eye=eye, range_error=error, level=level)
+    steps = steps_of(line, *inside, noise=noise, eye=axes @ view, range_error=error, level=level)
     return steps, aligned, placed
 
 
@@ -105,7 +110,7 @@ def _headroom(steps: Steps, s: Array, t: Array, z: Array) -> float:
     slope = (last[1] - first[1]) / (last[0] - first[0])
     over = z[inside] - first[1] - slope * (s[inside] - first[0])
     over = over[over > LOWEST_CEILING]
-    return float(np.percentile(over, 1)) if len(over) > 30 else math.nan
+    return quantile(over, 0.01) if len(over) > 30 else math.nan
 
 
 def _room(steps: Steps, s: Array, t: Array, z: Array) -> tuple[float, float]:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.readers.kinds import Array, Indices
+from kaidan.readers.stairfit.quantiles import quantile
 
 SMALL = 0.05
 """Side of a cube in which the scatter is measured [m]. Patches are made in cubes of twice the side,
@@ -132,16 +133,17 @@ def scatter(raster: Raster) -> float:
     side. Small ones, because larger ones bend over the edges of steps; where few hold points
     enough, those of twice the side.
     """
-    for each in (raster, joined(raster)):
+    each = raster
+    cube, _, covariance = _spread(each, 8)
+    if len(cube) < 40:
+        each = joined(raster)
         cube, _, covariance = _spread(each, 8)
-        if len(cube) >= 40:
-            break
-    else:
+    if len(cube) < 40:
         return 0.0
     thin, middling, _ = principal(covariance)
     thick = np.maximum(thin, 0.0) * each.count[cube] / (each.count[cube] - 3.0)
     flat = middling > (0.15 * each.side) ** 2  # a line of points has no thickness
-    return float(np.sqrt(np.percentile(thick[flat], 70))) if flat.any() else 0.0
+    return float(np.sqrt(quantile(thick[flat], 0.7))) if flat.any() else 0.0
 
 
 def _spread(raster: Raster, fewest: int) -> tuple[Indices, Array, Array]:

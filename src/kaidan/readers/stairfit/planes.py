@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from kaidan.readers.kinds import Array, Indices
 from kaidan.readers.stairfit.doubts import ALIKE_WITHIN
 from kaidan.readers.stairfit.patches import Patches, directions
+from kaidan.readers.stairfit.quantiles import median
 
 LAYER, THINNEST = 0.06, 0.008
 """Thickness of the layer in which a plane is sought, and the distance up to which a patch is always
@@ -79,7 +80,7 @@ def leans(
     left = np.flatnonzero(np.abs(along_up) > math.cos(near))
     least = SHARE * float(patches.weight[left].sum())
     for _ in range(MOST):
-        if len(left) < FEWEST:
+        if len(left) < FEWEST or patches.weight[left].sum() <= least:
             break
         plane = _plane(patches, left, middle, up, across)
         left = left[~plane.taken]
@@ -92,7 +93,7 @@ def leans(
     left = np.flatnonzero(np.abs(along_up) < math.sin(near))
     least = SHARE * float(patches.weight[left].sum())
     for _ in range(MOST):
-        if len(left) < FEWEST:
+        if len(left) < FEWEST or patches.weight[left].sum() <= least:
             break
         here = Patches(
             patches.middle[left], patches.normal[left] - np.outer(along_up[left], up),
@@ -168,7 +169,7 @@ def _plane(patches: Patches, rows: Indices, middle: Array, normal: Array, across
         weighted = columns[on] * weight[on, None]
         fit = np.linalg.solve(columns[on].T @ weighted + 1e-9 * np.eye(3), weighted.T @ height[on])
         off = np.abs(height - columns @ fit)
-        scatter = 1.5 * float(np.median(off[on]))
+        scatter = 1.5 * median(off[on])
         before, on = on, off < (max(2.7 * scatter, THINNEST) if turn > 2 else LAYER)
         if turn > 2 and (on == before).all():
             break

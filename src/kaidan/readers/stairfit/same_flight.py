@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from kaidan.readers.flight import FlightEstimate
 from kaidan.readers.kinds import Array
-from kaidan.readers.stairfit.corridor import rotated
+from kaidan.readers.stairfit.views import rotated
 
 SAME_NOSING = 0.04
 """Distance of nosings that are one [m]."""

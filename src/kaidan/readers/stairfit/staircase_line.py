@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.readers.kinds import Array, Indices
+from kaidan.readers.stairfit.quantiles import quantile
 
 _BINS = 12
 """Parts of a going in which the phase is sought."""
@@ -48,8 +49,8 @@ class StairLine:
     def local(self, s: Array, t: Array, z: Array) -> tuple[Indices, Array, Array]:
         """Step of each point, and its place ahead of the nosing and above the tread [m]."""
         ahead = s - self.skew * t - self.s0
-        k = np.floor(ahead / self.going).astype(np.int64)
-        return k, ahead - k * self.going, z - self.z0 - k * self.rise
+        k = np.floor(ahead / self.going)
+        return k.astype(np.int64), ahead - k * self.going, z - self.z0 - k * self.rise
 
 
 def phase(s: Array, z: Array, going: float, rise: float) -> tuple[StairLine, float]:
@@ -61,7 +62,7 @@ def phase(s: Array, z: Array, going: float, rise: float) -> tuple[StairLine, flo
     row = ((v - low) / _LEVEL).astype(np.int64)
     rows = int(row.max()) + 3
     view = np.bincount(column * rows + row, minlength=_BINS * rows).reshape(_BINS, rows)
-    view = np.minimum(view, max(8.0, float(np.percentile(view[view > 0], 99)))).astype(np.float64)
+    view = np.minimum(view, max(8.0, quantile(view[view > 0], 0.99))).astype(np.float64)
     down = round(rise / _LEVEL)
     wide = view + 0.5 * (np.roll(view, 1, axis=1) + np.roll(view, -1, axis=1))
     lowered = np.roll(wide, down, axis=1)
@@ -94,10 +95,11 @@ class Assigned:
     riser: NDArray[np.bool_]
     off: Array
     """Distance above the tread or behind the riser [m]; of others the smaller one."""
-    along: Array
-    """Place ahead of the nosing, in goings [1]."""
-    above: Array
-    """Place above the tread, in rises [1]."""
+    ahead: Array
+    """Place ahead of the nosing [m]."""
+    over: Array
+    """Place above the tread [m]."""
+    line: StairLine
 
     @cached_property
     def inner(self) -> NDArray[np.bool_]:
@@ -106,9 +108,10 @@ class Assigned:
         Near one a point of a riser may pass for one of a tread of the wrong level, and a point of a
         tread for one of a riser at the wrong place.
         """
-        above = np.where(self.above < 0.0, self.above + 1.0, self.above)
+        above, along = self.over / self.line.rise, self.ahead / self.line.going
+        above = np.where(above < 0.0, above + 1.0, above)
         riser = (above > INNER_RISER[0]) & (above < INNER_RISER[1])
-        tread = (self.along > INNER_TREAD[0]) & (self.along < INNER_TREAD[1])
+        tread = (along > INNER_TREAD[0]) & (along < INNER_TREAD[1])
         return np.asarray(np.where(self.riser, riser, tread))
 
 
@@ -119,10 +122,10 @@ def assigned(line: StairLine, s: Array, t: Array, z: Array, tolerance: float) ->
     over = v > 0
     # a point above the tread may lie on the riser ahead, one below it on its own riser
     face = np.where(over, u - g, u)
-    riser = (np.abs(face) < tolerance) & (np.abs(face) < np.abs(v)) & (v > -r) & (v < r)
-    tread = ~riser & (np.abs(v) < tolerance)
-    step = np.where(riser & over, k + 1, k)
-    return Assigned(step, tread, riser, np.where(riser, face, v), u / g, v / r)
+    far, high = np.abs(face), np.abs(v)
+    riser = (far < tolerance) & (far < high) & (high < r)
+    tread = ~riser & (high < tolerance)
+    return Assigned(k + (riser & over), tread, riser, np.where(riser, face, v), u, v, line)
 
 
 def grouped(rows: Indices, number: Array | Indices, count: int) -> list[Indices]:
@@ -195,21 +198,23 @@ def _ends(k: Indices, t: Array, value: Array, reach: float, wide: float) -> Edge
     if len(k) < FEWEST_OF_LANE:
         return Edges(k[:0], t[:0], t[:0], t[:0])
     lane = np.floor(t / wide).astype(np.int64)
-    key = (k - k.min()) * (np.ptp(lane) + 1) + lane - lane.min()
-    order = np.lexsort((value, key))
-    k, t, value, key = k[order], t[order], value[order], key[order]
-    begins = np.flatnonzero(np.r_[True, key[1:] != key[:-1]])
-    ends = np.r_[begins[1:], len(key)] - 1
-    top = value[ends]
+    lanes = int(np.ptp(lane)) + 1
+    key = (k - k.min()) * lanes + lane - lane.min()
+    top = np.full(int(key.max()) + 1, -np.inf)
+    np.maximum.at(top, key, value)
+    low = top - reach
+    near = np.flatnonzero(value >= low[key])
+    value, of = value[near], key[near]
+    order = np.argsort(of + 0.5 * (value - low[of]) / reach)  # by lane, and in it by the value
+    value, of = value[order], of[order]
     step = np.r_[np.inf, np.diff(value)]
-    step[begins] = np.inf
-    low = np.repeat(top, ends - begins + 1) - reach
-    step = np.where(value >= low, np.minimum(step, value - low), 0.0)
-    gap = np.add.reduceat(step**2, begins) / np.maximum(np.add.reduceat(step, begins), 1e-9)
-    many = np.add.reduceat((value >= low).astype(np.float64), begins)
-    middle = np.add.reduceat(t, begins) / (ends - begins + 1)
-    good = many >= FEWEST_OF_LANE
-    return Edges(k[ends][good], middle[good], (top + 0.5 * gap)[good], gap[good])
+    step[np.r_[True, of[1:] != of[:-1]]] = np.inf
+    step = np.minimum(step, value - low[of])
+    square, one = (np.bincount(of, each, len(top)) for each in (step**2, step))
+    good = np.flatnonzero(np.bincount(of, minlength=len(top)) >= FEWEST_OF_LANE)
+    gap = square[good] / np.maximum(one[good], 1e-9)
+    middle = np.bincount(key, t)[good] / np.bincount(key)[good]
+    return Edges(good // lanes + k.min(), middle, top[good] + 0.5 * gap, gap)
 
 
 def fitted(

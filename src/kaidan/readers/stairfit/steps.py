@@ -24,6 +24,7 @@ from kaidan.readers.stairfit.flight_ends import (
     last_riser,
     trimmed,
 )
+from kaidan.readers.stairfit.quantiles import median, quantile
 from kaidan.readers.stairfit.staircase_line import (
     Assigned,
     StairLine,
@@ -44,7 +45,7 @@ OUT_OF_LEVEL = math.tan(math.radians(3.0))
 LAST_UNSEEN = 2 * LAST_SPREAD
 """Standard uncertainty of the last level where nothing of it was seen [m]: what last rises are like
 says more."""
-MOST_FITTED = 15_000
+MOST_FITTED = 8_000
 """Points of a lane to which the line is fitted; single steps are measured in all of them."""
 
 
@@ -169,7 +170,7 @@ def steps_of(
         measured=measured, floor=floor, floor_sigma=math.sqrt(covariance[-1, -1]),
         with_floor=covariance[:-1, -1].reshape(m, 2),
         ends=math.isfinite(landing), landing=landing, run_up=run_up,
-        roughness=rms, residual=float(np.median(np.abs(off))),
+        roughness=rms, residual=median(np.abs(off)),
         explained=explained_share(line, s, t, z, tight), depth=_depth(line, s, t, z),
         level=_level_share(line, at, s, t, z),
         width=width, angles=angles,
@@ -252,8 +253,8 @@ def _mean(values: Array, others: int) -> tuple[float, float]:
     """Mean of the points of an element, and its standard uncertainty; NaN: too few."""
     if len(values) < FEWEST_POINTS or len(values) <= 0.04 * others:
         return math.nan, math.nan
-    middle = float(np.median(values))
-    spread = max(1.4826 * float(np.median(np.abs(values - middle))), 1e-4)
+    middle = median(values)
+    spread = max(1.4826 * median(np.abs(values - middle)), 1e-4)
     core = values[np.abs(values - middle) < 3 * spread]
     return float(core.mean()), spread / math.sqrt(len(core))
 
@@ -263,7 +264,7 @@ def _farthest(rise: float, gap: Array) -> float:
 
     That may be another one, and rows of points end up to half their distance beyond or before it.
     """
-    half = 0.5 * float(np.median(gap)) if len(gap) else 0.0
+    half = 0.5 * median(gap) if len(gap) else 0.0
     return max(EDGE_OFF, ODD_UNSEEN * rise) + half
 
 
@@ -272,11 +273,11 @@ def _end(ends: Array, gap: Array, noise: float, regular: float, far: float) -> t
 
     NaN: too few of them, or they end as far from the regular place as something else does.
     """
-    if len(ends) < FEWEST_LANES or abs(float(np.median(ends)) - regular) >= far:
+    if len(ends) < FEWEST_LANES or abs(median(ends) - regular) >= far:
         return math.nan, math.nan
-    end = float(np.median(ends))
-    spread = 1.4826 * float(np.median(np.abs(ends - end)))
-    doubt = math.hypot(0.3 * float(np.median(gap)), 0.5 * noise)
+    end = median(ends)
+    spread = 1.4826 * median(np.abs(ends - end))
+    doubt = math.hypot(0.3 * median(gap), 0.5 * noise)
     return end, math.hypot(1.25 * spread / math.sqrt(len(ends)), doubt)
 
 
@@ -305,9 +306,8 @@ def _width(step: Indices, t: Array, line: StairLine) -> tuple[float, float]:
     for k in range(line.first, line.last + 1):
         here = t[step == k]
         if len(here) >= 10:
-            ends = np.percentile(here, [0.5, 99.5]).tolist()
-            low.append(ends[0])
-            high.append(ends[1])
+            low.append(quantile(here, 0.005))
+            high.append(quantile(here, 0.995))
     if not low:
         return float(t.min()), float(t.max())
-    return float(np.median(low)), float(np.median(high))
+    return median(np.array(low)), median(np.array(high))

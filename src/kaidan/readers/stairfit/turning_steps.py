@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from kaidan.readers.kinds import Array, Indices
+from kaidan.readers.stairfit.quantiles import median
 from kaidan.readers.stairfit.staircase_line import StairLine, grouped
 
 STRIP = 0.08
@@ -66,9 +67,9 @@ def nosing_angles(
         if len(x) < FEWEST_STRIPS:
             continue
         i, j = np.triu_indices(len(x), 2)  # neighbours say little
-        slope = np.median((y[j] - y[i]) / (x[j] - x[i]))
+        slope = median((y[j] - y[i]) / (x[j] - x[i]))
         off = y - slope * x
-        if np.median(np.abs(off - np.median(off))) < STRAIGHT:
+        if median(np.abs(off - median(off))) < STRAIGHT:
             found[row] = np.arctan(slope)
     return found
 
@@ -100,11 +101,11 @@ def turn_of(angles: Array) -> tuple[str, float]:
         return "", 0.0
     seen = angles[number]
     i, j = np.triu_indices(len(number), 1)
-    slope = float(np.median((seen[j] - seen[i]) / (number[j] - number[i])))
+    slope = median((seen[j] - seen[i]) / (number[j] - number[i]))
     turn = slope * (len(angles) - 1)
     if abs(turn) > CURVED:
         return "curved", abs(turn)
-    off = np.abs(seen - np.median(seen))
+    off = np.abs(seen - median(seen))
     if off.max() > WINDING:
         return "winders", float(off.max())
     return "", 0.0
