@@ -45,8 +45,6 @@ MOST_FLIGHTS = 8
 """Flights that are looked for in one cloud."""
 MOST_PATCHED = 60_000
 """Points from which patches are made."""
-MOST_THINNED = 30_000
-"""Points of which those that find the stairs are taken."""
 MANY_LEFT = 400
 """Points of the thinned cloud from which another flight is looked for."""
 NOISY, WIDE = 0.008, 0.18
@@ -161,8 +159,7 @@ def _with_unit(points: Points, xyz: Array, unit: Known, metres: float, hints: Hi
     if eye is None and points.provenance.up is None and seen_from_origin(some):
         sensor = np.zeros(3)
     patches = patches_of(rastered(some, WIDE) if noise > NOISY else joined(small), sensor)
-    every = max(1, round(len(some) / MOST_THINNED))
-    rows = every * thinned(some[::every], COARSE)
+    rows = thinned(some, COARSE)
     thin, of_thin = some[rows], patches.of_point[rows]
     cloud = _Cloud(replace(points.provenance, unit=unit), xyz, thin, of_thin, patches, noise, eye)
     ups = _ups(points.provenance.up, patches, oriented=sensor is not None)
