@@ -1,4 +1,4 @@
-"""Side views of a cloud along the headings that stairs may have, each made when it is asked for."""
+"""Side views of a cloud along the headings that stairs may have, each made when it is looked at."""
 
 import math
 from dataclasses import dataclass, replace
