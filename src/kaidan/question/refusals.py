@@ -23,7 +23,7 @@ def refuse_impossible(question: "Question") -> None:
         raise InputError(
             f"model = {shown(question.model)} is not known; known: {', '.join(MODELS)}"
         )
-    for each in question.postures.values():  # refuses what the robot cannot have
+    for each in dict.fromkeys(question.postures.values()):  # refuses what the robot cannot have
         question.robot.stance(each, question.payload)
     _ = question.landings  # refuses sheets that contradict each other
     _ = question.profile  # refuses one that falls to a robot that goes up

@@ -204,22 +204,19 @@ class Profile:
         """Whether both are the same terrain under the same name."""
         if not isinstance(other, Profile):
             return NotImplemented
-        one, two = self.covariance, other.covariance
-        return (
-            (self.name, self.overhangs, self.open_risers)
-            == (other.name, other.overhangs, other.open_risers)
-            and np.array_equal(self.points, other.points)
-            and np.array_equal(self.nosings, other.nosings)
-            and (one is two or np.array_equal(self._covariance, other._covariance))
-        )
+        return self._alike == other._alike
 
     def __hash__(self) -> int:
-        """Of the points."""
-        return hash((self.name, self.points.tobytes()))
+        """Of what makes it equal to another."""
+        return hash(self._alike)
 
-    @property
-    def _covariance(self) -> Array:
-        return np.empty((0, 0)) if self.covariance is None else self.covariance
+    @cached_property
+    def _alike(self) -> tuple[Any, ...]:
+        """What is the same of equal profiles, which are compared again and again."""
+        doubt = np.empty((0, 0)) if self.covariance is None else self.covariance
+        tables = (each + 0.0 for each in (self.points, self.nosings, doubt))  # no zero with a minus
+        of_tables = tuple((each.shape, each.tobytes()) for each in tables)
+        return self.name, self.overhangs, self.open_risers, of_tables
 
     def as_stairs(self, name: str) -> Stairs | None:
         """Steps as a measured flight; None where the profile has no such steps.
