@@ -64,6 +64,7 @@ ELSEWHERE = {
     "python benchmarks/startup.py": "by hand",
     "python benchmarks/assess.py": "by hand",
     "python benchmarks/clouds.py": "by hand",
+    "python benchmarks/large_scan.py": "by hand",
     "python benchmarks/pairs.py": "by hand",
     "python benchmarks/stream.py": "by hand",
     "python benchmarks/physics.py": "by hand",
