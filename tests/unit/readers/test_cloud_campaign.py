@@ -16,6 +16,7 @@ ONCE_WRONG = (
     7058,  # a floor that lies lower than a regular riser leads up from: it passed for a face
     30275,  # the same, higher
     40084,  # the same, of a LiDAR
+    300168,  # four steps from their landing: the end of the floor that they hide bent their line
 )
 
 
@@ -27,6 +28,14 @@ def test_known_stairs_are_found():
     assert tally.failures == []
     assert tally.refusals == []
     assert max(abs(each) for each in tally.errors["spacing"]) < 0.006  # 0.5 % of bias is 1.7 mm
+
+
+def test_a_refusal_for_too_few_steps_names_fewer_than_are_needed():
+    """Four steps are on the line and two of them measured: it said 4 where 3 are needed."""
+    found = interpreter.found(campaign.cloud(campaign.case(300090).seen), Hints())
+    (refusal,) = found.refusals
+    assert refusal.why == "too-few"
+    assert refusal.numbers["steps"] < refusal.numbers["needed"]
 
 
 @pytest.mark.parametrize(("number", "odd"), [(1014, 0.02), (1065, -0.03)])

@@ -10,7 +10,7 @@ from kaidan.readers.flight import UNCHECKED
 from kaidan.readers.kinds import Array
 from kaidan.readers.stairfit.doubts import place_of
 from kaidan.readers.stairfit.quantiles import median, quantile
-from kaidan.readers.stairfit.staircase_line import Edges, StairLine, assigned, fronts
+from kaidan.readers.stairfit.staircase_line import Edges, StairLine, assigned, fitted, fronts
 
 FEWEST_POINTS = 12
 """Points of a tread or a riser from which its mean is taken."""
@@ -68,12 +68,14 @@ def from_the_first(line: StairLine, s: Array, t: Array, z: Array, tight: float) 
     """Line that begins at the first nosing.
 
     A level that goes on below its nosing, or of which neither the riser is seen nor a front end at
-    its place with something lower before it, is the floor. A level below that ends after a going,
-    with something lower before it, is a step.
+    its place with something lower before it, is the floor. The end of a floor that the first step
+    hides is no front: before another level is dropped, the line is fitted without it. A level below
+    that ends after a going, with something lower before it, is a step.
     """
     g, r = line.going, line.rise
     begun = line
     front: Edges | None = None
+    again = False
     while line.last - line.first >= 2:
         s1, z1 = line.at(np.array([line.first]))[0]
         ahead = s - line.skew * t - s1
@@ -90,6 +92,10 @@ def from_the_first(line: StairLine, s: Array, t: Array, z: Array, tight: float) 
         below = (ahead < -0.03) & (ahead > -2 * g) & (z < z1 - 0.4 * r) & (z > z1 - 2.5 * r)
         if before <= 0.3 * behind + 4 and behind >= 4 and edge and below.sum() >= FLOOR_SEEN:
             break
+        if line.first > begun.first and not again:
+            again, front = True, None
+            begun = line = fitted(line, s, t, z, tolerances=(1.5 * tight, tight))
+            continue
         line = replace(line, first=line.first + 1)
     for _ in range(3):
         s1, z1 = line.at(np.array([line.first]))[0]

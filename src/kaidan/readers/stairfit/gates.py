@@ -49,7 +49,8 @@ def refused(
     angle = math.atan2(line.rise, line.going)
     spacing = math.hypot(line.rise, line.going)
     if steps is None or len(steps.at) < FEWEST_NOSINGS:
-        seen = line.last - line.first if steps is None else len(steps.at)
+        most = FEWEST_NOSINGS - 1  # of those that the line has, fewer than these could be measured
+        seen = min(line.last - line.first, most) if steps is None else len(steps.at)
         return Refusal("too-few", {"steps": seen, "needed": FEWEST_NOSINGS}, provenance)
     if angle > ANGLES[1]:
         return Refusal("ladder", {"angle_deg": math.degrees(angle)}, provenance)
