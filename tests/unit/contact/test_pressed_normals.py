@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from kaidan.contact import body_table, ground_table
@@ -84,3 +85,46 @@ def test_what_stands_on_a_tread_has_its_normal():
     disc = POINT * 0 + PART * 0 + 2
     found = pressed_normal(ground, body_table([TRACK]), disc, 0.0, 0.05, 1.0, 0.0, 0.0, 1.0)
     assert found == (0.0, 1.0)
+
+
+TAPERED = [-0.3, 0.02, 0.08, 0.2, -0.11, 0.05]
+BACKWARD = [0.25, -0.02, 0.06, -0.3, 0.05, 0.07]  # the second disc lies behind the first
+ELSEWHERE = [
+    [-0.3, 0.02, 0.03, 0.2, 0.3, 0.03], [0.2, -0.11, 0.02, -0.3, 0.3, 0.02],
+    [-0.3, 0.4, 0.08, 0.25, 0.4, 0.06], [0.2, 0.5, 0.05, -0.3, 0.5, 0.07],
+    [-0.6, 0.02, 0.08, 0.6, -0.11, 0.05], [0.9, -0.02, 0.06, -0.9, 0.05, 0.07],
+]  # fmt: skip
+"""Each disc has a twin here of another radius, one at another height and one at another place."""
+
+
+@pytest.mark.parametrize("phi", [0.0, 0.5, -0.4])
+@pytest.mark.parametrize("end", [0, 1])
+@pytest.mark.parametrize("part", [TAPERED, BACKWARD])
+def test_under_any_end_of_any_part_in_any_pose(part, end, phi):
+    """As above, the flat's normal and its length worked out in complex numbers."""
+    a, b = complex(*part[:2]), complex(*part[3:5])
+    e = (b - a) / abs(b - a)
+    sine = (part[2] - part[5]) / abs(b - a)
+    ahead = 1.0 if b.real > a.real else -1.0
+    n = sine * e - 1j * ahead * e * math.sqrt(1.0 - sine**2)  # of the flat, downward
+    sense = ahead if end else -ahead  # in which the normal turns round this end
+    radius, centre = (part[5], b) if end else (part[2], a)
+    length = abs(b - a) * math.sqrt(1.0 - sine**2)
+    first = min(math.sqrt(2.0 * radius * YIELD * length) / radius, 0.25)
+    at, turn = complex(1.3, 0.7), np.exp(1j * phi)
+    for share, of_arc in ((0.6, 0.0), (1.5, 0.75), (2.8, 2.7), (3.5, 3.5)):
+        outward = n * np.exp(1j * sense * share * first)
+        p = at + (centre + radius * outward) * turn
+        ground = ground_table(
+            [(p.real - 2, p.imag - 9), (p.real, p.imag), (p.real + 2, p.imag - 9)]
+        )
+        (k,) = np.flatnonzero(np.abs(ground[:, 0] - p.real) < 1e-9)
+        rigid = -outward * turn
+        up = (-n * turn).imag
+        pressed = rigid if rigid.imag >= up else -n * np.exp(1j * sense * of_arc * first) * turn
+        for parts, row in (([part], 0), ([*ELSEWHERE, part], 6), ([part, *ELSEWHERE], 0)):
+            found = pressed_normal(
+                ground, body_table(parts), POINT * k + PART * row, at.real, at.imag,
+                math.cos(phi), math.sin(phi), rigid.real, rigid.imag,
+            )  # fmt: skip
+            assert found == pytest.approx((pressed.real, pressed.imag), abs=1e-9)

@@ -1,0 +1,325 @@
+"""What carries a pose, what passes under a flat and what comes down at once, by rigid geometry."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+from contact_cases import stadium
+from kaidan.contact import PartKind, body_table, ground_table
+from kaidan.contact import columns as at
+from kaidan.contact.kernel.impact import impact_speed
+from kaidan.contact.kernel.passings import is_reported, nosings_passed
+from kaidan.contact.kernel.supports import describe, find_supports, is_same, stand_alike
+from kaidan.contact.kernel.toppling import AT_ONCE
+from kaidan.contact.tables import margin_tables
+
+ROUNDING = 1e-12
+TOUCH = 1e-7
+STEEP = math.radians(60.0)
+
+
+def table(width, *rows):
+    made = np.zeros((len(rows), width))
+    for k, row in enumerate(rows):
+        for column, value in row.items():
+            made[k, column] = value
+    return made
+
+
+def flat(part):
+    """Ends of the lower common tangent of two discs and its unit normal, as complex numbers."""
+    a, b = complex(*part[:2]), complex(*part[3:5])
+    e = (b - a) / abs(b - a)
+    sine = (part[2] - part[5]) / abs(b - a)
+    down = -1j * e if b.real >= a.real else 1j * e
+    n = sine * e + math.sqrt(1.0 - sine**2) * down
+    return a + part[2] * n, b + part[5] * n, n
+
+
+def spikes(*places):
+    """Ground of such points, and the number of each in the table."""
+    points = sorted(places, key=lambda p: p.real)
+    between = [complex(0.5 * (p + q).real, min(p.imag, q.imag) - 1.0)
+               for p, q in itertools.pairwise(points)]  # fmt: skip
+    ends = [points[0] - 2 - 2j, points[-1] + 2 - 2j]
+    every = sorted([*points, *between, *ends], key=lambda p: p.real)
+    ground = ground_table([(p.real, p.imag) for p in every])
+    return ground, [int(np.argmin(np.abs(ground[:, 0] - p.real))) for p in places]
+
+
+# --- supports -----------------------------------------------------------------------------------
+
+TAPERED = [-0.3, 0.02, 0.08, 0.2, -0.01, 0.05]
+BACKWARD = [0.25, -0.02, 0.03, -0.3, 0.05, 0.07]  # the second disc lies behind the first
+RAISED = [-0.3, 0.5, 0.05, 0.2, 0.5, 0.05]
+X, Z, PHI = 1.3, 0.7, 0.2
+
+
+def at_pose(place):
+    return complex(X, Z) + place * np.exp(1j * PHI)
+
+
+def carried(part, *shares):
+    """Ground of spikes along a part's flat, and a pose carried by the first two of them."""
+    one, other, n = flat(part)
+    ground, points = spikes(*(at_pose(one + share * (other - one)) for share in shares))
+    return ground, points, -n * np.exp(1j * PHI)
+
+
+def find(ground, points, parts, *, part, slots=5, treads=None, kinds=None, postures=(None,)):
+    bodies = np.vstack([body_table(own or parts, kinds) for own in postures])
+    rear, front = (at.POINT * k + at.PART * part + at.VERTEX for k in points[:2])
+    pose = {
+        at.POSE_X: X, at.POSE_Z: Z, at.POSE_PHI: PHI, at.POSE_REAR: rear, at.POSE_FRONT: front,
+        at.REAR_X: 1.1, at.REAR_Z: 0.4, at.FRONT_X: 1.7, at.FRONT_Z: 0.6,
+        at.REAR_N_X: -0.6, at.REAR_N_Z: 0.8, at.FRONT_N_X: 0.28, at.FRONT_N_Z: 0.96,
+    }  # fmt: skip
+    poses = table(at.POSE_COLUMNS, *[pose] * len(postures))
+    supports = np.full((slots * len(poses), at.SUPPORT_COLUMNS), 7.0)
+    treads = 0.01 * np.arange(len(ground)) if treads is None else treads
+    most = find_supports(ground, bodies, len(parts), len(postures) > 1, poses, treads, True, STEEP,
+                         TOUCH, 0.6, supports, slots)  # fmt: skip
+    return most, supports.reshape(len(poses), slots, -1)
+
+
+@pytest.mark.parametrize("part", [TAPERED, BACKWARD])
+def test_a_pose_stands_on_what_carries_it_and_on_nosings_between(part):
+    ground, points, normal = carried(part, 0.2, 0.9, 0.5, 0.7)
+    most, (found,) = find(ground, points, [RAISED, part], part=1)
+    assert most == 4
+    assert found[:, at.SUPPORT_IS_ONE].tolist() == [1.0, 1.0, 1.0, 1.0, 0.0]
+    between = sorted(points[2:])
+    assert found[:, at.SUPPORT_POINT].tolist() == [*points[:2], *between, at.NOWHERE]
+    assert found[:4, at.SUPPORT_PLACE].tolist() == [at.NOSING] * 4
+    assert found[:4, at.SUPPORT_CURVATURE].tolist() == [0.0] * 4
+    assert found[:4, at.SUPPORT_TREAD] == pytest.approx(0.01 * found[:4, at.SUPPORT_POINT])
+    assert np.isnan(found[:4, at.SUPPORT_LIFT]).all()
+    places = [(1.1 - X, 0.4 - Z), (1.7 - X, 0.6 - Z), *(ground[k, :2] - (X, Z) for k in between)]
+    np.testing.assert_allclose(found[:4, [at.SUPPORT_X, at.SUPPORT_Z]], places, atol=ROUNDING)
+    tilts = [math.atan2(-0.6, 0.8), math.atan2(0.28, 0.96), *[np.pi / 2 - np.angle(normal)] * 2]
+    np.testing.assert_allclose(found[:4, at.SUPPORT_NORMAL], tilts, atol=ROUNDING)
+
+
+def test_supports_beyond_the_room_are_counted_and_left_out():
+    ground, points, _ = carried(TAPERED, 0.2, 0.9, 0.5, 0.7)
+    for slots in (2, 3):
+        most, (found,) = find(ground, points, [TAPERED], part=0, slots=slots)
+        assert most == 4
+        inner = sorted(points[2:])
+        assert found[:, at.SUPPORT_POINT].tolist() == [*points[:2], *inner][:slots]
+
+
+def test_a_nosing_without_a_tread_is_nowhere():
+    ground, points, _ = carried(TAPERED, 0.2, 0.9, 0.5)
+    treads = 0.01 * np.arange(len(ground))
+    treads[points[1:]] = math.nan
+    _, (found,) = find(ground, points, [TAPERED], part=0, treads=treads)
+    assert found[:3, at.SUPPORT_POINT].tolist() == [points[0], at.NOWHERE, at.NOWHERE]
+
+
+def test_a_belly_carries_no_grouser_and_each_pose_has_its_own_posture():
+    ground, points, _ = carried(TAPERED, 0.2, 0.9, 0.5)
+    most, _ = find(ground, points, [TAPERED], part=0, kinds=[PartKind.BELLY])
+    assert most == 2
+    two = [[RAISED, RAISED], [RAISED, TAPERED]]
+    most, found = find(ground, points, two[0], part=1, postures=two)
+    assert most == 3
+    assert found[:, 2, at.SUPPORT_IS_ONE].tolist() == [0.0, 1.0]
+
+
+@pytest.mark.parametrize("beyond", [0.02, -0.02])
+@pytest.mark.parametrize("part", [TAPERED, BACKWARD])
+def test_a_nosing_under_an_arc_has_the_curvature_of_its_disc(part, beyond):
+    one, other, _ = flat(part)
+    along = (other - one) / abs(other - one)
+    place = other + beyond * along if beyond > 0 else one + beyond * along
+    ground, (k,) = spikes(at_pose(place))
+    poses = table(at.POSE_COLUMNS, {at.POSE_X: X, at.POSE_Z: Z, at.POSE_PHI: PHI})
+    found = np.zeros((1, at.SUPPORT_COLUMNS))
+    describe(ground, body_table([RAISED, part]), 0, poses, 0, at.POINT * k + at.PART, True, STEEP,
+             found, 0)  # fmt: skip
+    radius = part[5] if beyond > 0 else part[2]
+    assert found[0, at.SUPPORT_CURVATURE] == pytest.approx(1.0 / radius, abs=ROUNDING)
+    assert found[0, at.SUPPORT_PLACE] == at.NOSING
+    assert found[0, at.SUPPORT_POINT] == k
+
+
+ZIGZAG = ground_table([(-3, 0.0), (0, 0.0), (0.1, 0.4), (1.0, 0.5), (1.1, 0.1), (4, 0.1)])
+"""A floor, a face of 76 degrees, a slope, a face that falls, a floor; each is one segment."""
+
+
+@pytest.mark.parametrize("climbs", [True, False])
+@pytest.mark.parametrize("disc", [1, 2])
+@pytest.mark.parametrize("x", [-1.0, 0.05, 0.5, 1.05])
+def test_an_end_stands_on_a_tread_or_a_face_below_its_edge(x, disc, climbs):
+    k = int(np.flatnonzero(ZIGZAG[:, 0] <= x)[-1])
+    parts = [RAISED, TAPERED]
+    poses = table(at.POSE_COLUMNS, {}, {at.POSE_X: X, at.POSE_Z: Z, at.POSE_PHI: PHI})
+    found = np.full((2, at.SUPPORT_COLUMNS), -9.0)
+    feature = at.POINT * k + disc  # of the first part of a posture that begins in the second row
+    describe(ZIGZAG, body_table(parts), 1, poses, 1, feature, climbs, STEEP, found, 1)
+    assert found[0].tolist() == [-9.0] * at.SUPPORT_COLUMNS
+    own = TAPERED[3 * disc - 3 : 3 * disc]
+    assert found[1, at.SUPPORT_CURVATURE] == pytest.approx(1.0 / own[2], abs=ROUNDING)
+    face = x in (0.05, 1.05)
+    assert found[1, at.SUPPORT_PLACE] == (at.FACE if face else at.TREAD)
+    if climbs and x == 0.05:
+        axle = at_pose(complex(*own[:2])).imag
+        assert found[1, at.SUPPORT_POINT] == k + 1
+        assert found[1, at.SUPPORT_LIFT] == pytest.approx(0.4 - axle, abs=ROUNDING)
+    else:
+        assert found[1, at.SUPPORT_POINT] == -9.0  # as it was
+        assert math.isnan(found[1, at.SUPPORT_LIFT])
+
+
+def test_what_is_the_same_to_a_tenth_of_a_micrometre():
+    nan, huge = math.nan, 1e10
+    assert is_same(nan, nan)
+    assert not is_same(nan, 0.0)
+    assert not is_same(0.0, nan)
+    assert is_same(0.1, 0.1 + 1e-9)
+    assert not is_same(0.1, 0.1 + 2e-7)
+    assert is_same(huge, huge)
+    assert not is_same(huge, huge + 1.0)
+    assert not is_same(math.inf, 0.1)
+    assert is_same(-math.inf, -math.inf)
+
+
+@pytest.mark.parametrize("column", range(at.SUPPORT_COLUMNS))
+@pytest.mark.parametrize("slot", [0, 2])
+def test_poses_stand_alike_if_all_but_the_point_is_alike(column, slot):
+    """Three slots of which the second is empty, so what stands there counts for nothing."""
+    supports = np.vstack([np.arange(at.SUPPORT_COLUMNS, dtype=float) + 2.0] * 6)
+    supports[:, at.SUPPORT_IS_ONE] = [1.0, 0.0, 1.0] * 2
+    loads = np.ones((2, at.LOAD_COLUMNS))
+    supports[4, at.SUPPORT_X] = 9.0
+    assert stand_alike(supports, 3, loads, 0, 1)
+    supports[3 + slot, column] += 0.5 if column != at.SUPPORT_IS_ONE else -1.0
+    assert stand_alike(supports, 3, loads, 0, 1) == (column == at.SUPPORT_POINT)
+    supports[:] = supports[0]
+    supports[3 + slot, at.SUPPORT_POINT] = at.NOWHERE
+    assert not stand_alike(supports, 3, loads, 0, 1)
+
+
+@pytest.mark.parametrize("column", range(at.LOAD_COLUMNS))
+def test_poses_under_other_loads_do_not_stand_alike(column):
+    loads = np.ones((2, at.LOAD_COLUMNS))
+    loads[1, column] += 0.5
+    assert not stand_alike(np.ones((2, at.SUPPORT_COLUMNS)), 1, loads, 0, 1)
+
+
+# --- nosings that pass --------------------------------------------------------------------------
+
+FLAT = [-0.25, 0.1, 0.1, 0.25, 0.1, 0.1]  # the centroid on the flat's line
+
+
+def passed(places, events=(), *, parts=(FLAT,), kinds=None, rows=20):
+    ground, points = spikes(*(complex(x, 0.0) for x in places))
+    poses = table(at.POSE_COLUMNS, {at.POSE_S: 5.0}, {at.POSE_S: 7.0, at.POSE_X: 1.0})
+    made = np.full((20, at.PASSED_COLUMNS), -9.0)
+    told = table(at.EVENT_COLUMNS, *events)
+    count = nosings_passed(ground, body_table(list(parts), kinds), poses, told, np.array([0]),
+                           TOUCH, 0.35, made[:rows])  # fmt: skip
+    return points, count, made
+
+
+def test_nosings_reached_and_left_in_a_drive_of_a_metre():
+    """Along the flat they lie 0.25 m ahead of where they lie from the centroid."""
+    points, count, made = passed([-0.2, 0.2, 0.5, 0.9, 1.2])
+    assert count == 4  # that at half a metre lies under neither pose
+    share = [0.05, 0.45, 0.65, 0.95]
+    np.testing.assert_allclose(made[:4, at.PASSED_SHARE], share, atol=ROUNDING)
+    np.testing.assert_allclose(made[:4, at.PASSED_S], [5.1, 5.9, 6.3, 6.9], atol=ROUNDING)
+    assert made[:4, at.PASSED_REACHED].tolist() == [0.0, 0.0, 1.0, 1.0]
+    assert made[:4, at.PASSED_POINT].tolist() == [points[k] for k in (0, 1, 3, 4)]
+    assert (made[4:] == -9.0).all()
+
+
+def test_passings_beyond_the_room_are_counted_and_left_out():
+    _, count, made = passed([-0.2, 0.2, 0.9, 1.2], rows=3)
+    assert count == 4
+    assert (made[3:] == -9.0).all()
+
+
+def test_a_belly_and_a_part_elsewhere_do_not_keep_the_next_part_from_passing():
+    high = [-0.25, 0.4, 0.1, 0.25, 0.4, 0.1]
+    kinds = [PartKind.BELLY, PartKind.TRACK, PartKind.TRACK]
+    _, count, made = passed([0.9], parts=(FLAT, high, FLAT), kinds=kinds)
+    assert count == 1
+    assert made[0, at.PASSED_PART] == 2
+
+
+@pytest.mark.parametrize("column", [at.EVENT_FEATURE, at.EVENT_OTHER])
+@pytest.mark.parametrize("s", [4.0, 5.0, 6.0, 7.0, 8.0])
+def test_an_event_of_the_nosing_between_the_poses_tells_of_it(s, column):
+    points, _, _ = passed([0.2, 0.9])
+    both = {at.EVENT_FEATURE: -1, at.EVENT_OTHER: -1, at.EVENT_S: s}
+    before = both | {at.EVENT_S: 3.0}
+    told = [before, before, both | {column: at.POINT * points[1] + at.PART * 3}]
+    _, count, _ = passed([0.2, 0.9], told)
+    assert count == (1 if 5.0 <= s <= 7.0 else 2)
+
+
+@pytest.mark.parametrize("column", [at.EVENT_FEATURE, at.EVENT_OTHER])
+def test_an_event_of_something_else_tells_nothing(column):
+    for feature in (at.POINT * 3 + 1, at.POINT * 3 + 2, at.POINT * 2, at.POINT * 4, 0, -1):
+        events = table(at.EVENT_COLUMNS, {at.EVENT_FEATURE: -1, at.EVENT_OTHER: -1} | {
+            column: feature})  # fmt: skip
+        assert not is_reported(events, 0, 1.0, 3)
+    events[0, column] = at.POINT * 3
+    assert is_reported(events, 0, 1.0, 3)
+    events[0, column] = 0  # the first point under the first part
+    assert is_reported(events, 0, 1.0, 0)
+
+
+# --- what comes down at once --------------------------------------------------------------------
+
+L, R, C_N, RATE = 0.5, 0.08, 0.15, 1.25
+
+
+def speed(slope, *more, parts=None, lift=0.0):
+    """Speed at which a track of 0.5 m comes down flat on a slope, about its rear end."""
+    turn = np.exp(1j * slope)
+    ends = [3.0 * turn * k for k in (-1, 1)]
+    ground = ground_table([(p.real, p.imag) for p in ends])
+    centre = 1j * (C_N + lift) * turn
+    end = {at.END_X: centre.real, at.END_Z: centre.imag, at.END_PHI: slope}
+    rows = table(at.ROTATION_COLUMNS, {}, end | {at.RATE_BEFORE: RATE})
+    parts = parts or [stadium(L, 0.3, C_N, R)[0], *more]
+    return impact_speed(ground, body_table(parts), rows, 1, margin_tables(2)[1])
+
+
+def tip(reach, gap, radius=0.05):
+    """A part beyond the front tip, or the rear one, whose far end is so far off the ground."""
+    start = 0.3 if reach > 0 else -0.2
+    return [start, R - C_N, R, start + reach, radius - C_N + gap, radius]
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.35, -0.2])
+def test_the_flat_comes_down_with_its_whole_length(slope):
+    assert speed(slope) == pytest.approx(RATE * L, abs=1e-9)
+    assert speed(slope, lift=1e-5) == 0.0  # nothing touches
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.35, -0.2])
+@pytest.mark.parametrize("reach", [0.3, -0.25])
+@pytest.mark.parametrize(("turns", "share"), [(0.5, 1.0), (1.25, 0.75), (1.75, 0.25), (2.1, 0.0)])
+def test_what_would_touch_within_a_turn_counts_by_its_share(slope, reach, turns, share):
+    """By the turn about the end of the track that is farther from it: gap over distance."""
+    arm = L + abs(reach)
+    flipper = tip(reach, turns * AT_ONCE * arm)
+    expected = RATE * (L + share * abs(reach))
+    assert speed(slope, flipper) == pytest.approx(expected, abs=1e-9)
+    parts = [flipper, stadium(L, 0.3, C_N, R)[0]]
+    assert speed(slope, parts=parts) == pytest.approx(expected, abs=1e-9)
+
+
+def test_of_two_that_all_but_touch_the_smaller_share_counts():
+    front = tip(0.3, 1.25 * AT_ONCE * (L + 0.3))  # counts by three quarters
+    rear = tip(-0.25, 1.5 * AT_ONCE * (L + 0.25))  # by a half
+    # both by a half: more than the front one by three quarters
+    assert speed(0.1, front, rear) == pytest.approx(RATE * (L + 0.5 * 0.55), abs=1e-9)
+    rear = tip(-0.25, 1.75 * AT_ONCE * (L + 0.25))  # by a quarter: less
+    assert speed(0.1, front, rear) == pytest.approx(RATE * (L + 0.75 * 0.3), abs=1e-9)
