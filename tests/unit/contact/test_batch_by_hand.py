@@ -5,8 +5,10 @@ import math
 import numpy as np
 import pytest
 
+from contact_cases import stadium
+from kaidan.contact import Job, PartKind, Status, body_table, ground_table, traverse_many
 from kaidan.contact import columns as at
-from kaidan.contact.kernel.batch import extremes, worst_margins
+from kaidan.contact.kernel.batch import extremes, settle_many, worst_margins
 
 
 def table(columns, width, *rows):
@@ -39,3 +41,48 @@ def test_worst_of_some_margins():
     assert worst_margins(margins, 3) == (0.7, 0.1, 0.03, 1.0)
     assert worst_margins(margins, 1) == (0.3, 0.2, 0.05, 0.0)
     assert worst_margins(margins, 0) == (0.0, math.inf, math.inf, 0.0)
+
+
+L, C_N, R = 0.5, 0.15, 0.1
+FLOORS = [[(-9.0, 0.0), (9.0, 18.0 * slope)] for slope in (0.0, 0.2, -0.3)]
+BELLY = [-0.1, -0.1, 0.05, 0.1, -0.1, 0.05]  # on the floor as well
+NARROW = [-2.0, 0.5, 0.01, -1.9, 0.5, 0.01]  # its centroid lies ahead of all that could carry it
+
+
+def test_jobs_on_planes_of_some_slopes():
+    """By hand: on a plane a robot keeps the plane's inclination and its levers, and arrives."""
+    robots = [[NARROW], stadium(L, 0.3, C_N, R), [*stadium(L, 0.2, C_N, R), BELLY]]
+    kinds = [[0], [0], [0, PartKind.BELLY]]
+    jobs = [
+        Job(0, 0, 0.0, 0.1), Job(1, 1, 0.5, 0.8, math.atan(0.2), reference=0.05),
+        Job(2, 2, -0.5, -0.4, math.atan(-0.3), reference=-0.4), Job(0, 2, 1.0, 1.2),
+    ]  # fmt: skip
+    found = traverse_many(FLOORS, robots, jobs, kinds=kinds, with_margins=True).table
+    none, *others = found
+    assert none[at.SUMMARY_STATUS] == Status.NO_START
+    assert np.isnan(none[at.SUMMARY_HIGHEST :]).all()
+    for row, job, slope, ahead in zip(
+        others, jobs[1:], (0.2, -0.3, 0.0), (0.3, 0.2, 0.2), strict=True
+    ):
+        angle = math.atan(slope)
+        assert row[at.SUMMARY_STATUS] == Status.OK
+        assert row[at.SUMMARY_HIGHEST] == pytest.approx(angle, abs=1e-9)
+        assert row[at.SUMMARY_LOWEST] == pytest.approx(angle, abs=1e-9)
+        assert row[at.SUMMARY_EXTRA] == pytest.approx(angle - job.reference, abs=1e-9)
+        assert row[at.SUMMARY_REACHED] == pytest.approx(job.x_end, abs=1e-9)
+        assert row[[at.SUMMARY_ANGLE, at.SUMMARY_TOPPLES, at.SUMMARY_ROTATIONS]].tolist() == [0] * 3
+        assert row[at.SUMMARY_FRICTION] == pytest.approx(abs(slope), abs=1e-9)
+        assert row[at.SUMMARY_BELLY] == (ahead == 0.2)
+
+
+def test_poses_settled_on_a_floor():
+    ground, body = ground_table(FLOORS[0]), body_table(stadium(L, 0.3, C_N, R))
+    settled = np.full((3, at.SETTLED_COLUMNS), -9.0)
+    settle_many(ground, body, np.array([0.0, 0.5, -1.0]), np.array([0.3, -0.2, 0.0]), 0.0, settled)
+    assert settled[:, at.SETTLED_FOUND].tolist() == [1.0] * 3
+    np.testing.assert_allclose(settled[:, at.SETTLED_Z], C_N, atol=1e-9)
+    np.testing.assert_allclose(settled[:, at.SETTLED_PHI], 0.0, atol=1e-9)
+    assert (settled[:, at.SETTLED_FRONT] - settled[:, at.SETTLED_REAR]).tolist() == [1.0] * 3
+    # no tilt of gravity is borne that leads beyond both ends
+    settle_many(ground, body, np.array([0.0]), np.array([0.0]), 9.0, settled)
+    assert settled[:, at.SETTLED_FOUND].tolist() == [0.0, 1.0, 1.0]

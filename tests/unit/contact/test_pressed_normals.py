@@ -97,9 +97,13 @@ ELSEWHERE = [
 """Each disc has a twin here of another radius, one at another height and one at another place."""
 
 
-@pytest.mark.parametrize("phi", [0.0, 0.5, -0.4])
+SHORT = [0.05, 0.3, 0.1, 0.12, 0.22, 0.06]
+FAR_OFF = [-0.9, -0.8, 0.03, -0.88, -0.83, 0.05]  # far from the centroid, the discs all but one
+
+
+@pytest.mark.parametrize("phi", [0.0, 0.5, -0.4, 1.1, -1.2])
 @pytest.mark.parametrize("end", [0, 1])
-@pytest.mark.parametrize("part", [TAPERED, BACKWARD])
+@pytest.mark.parametrize("part", [TAPERED, BACKWARD, SHORT, FAR_OFF])
 def test_under_any_end_of_any_part_in_any_pose(part, end, phi):
     """As above, the flat's normal and its length worked out in complex numbers."""
     a, b = complex(*part[:2]), complex(*part[3:5])

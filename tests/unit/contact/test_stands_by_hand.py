@@ -257,9 +257,10 @@ def test_an_event_of_the_nosing_between_the_poses_tells_of_it(s, column):
     points, _, _ = passed([0.2, 0.9])
     both = {at.EVENT_FEATURE: -1, at.EVENT_OTHER: -1, at.EVENT_S: s}
     before = both | {at.EVENT_S: 3.0}
-    told = [before, before, both | {column: at.POINT * points[1] + at.PART * 3}]
-    _, count, _ = passed([0.2, 0.9], told)
-    assert count == (1 if 5.0 <= s <= 7.0 else 2)
+    tells = both | {column: at.POINT * points[1] + at.PART * 3}
+    for told in ([before, tells], [before, before, tells]):
+        _, count, _ = passed([0.2, 0.9], told)
+        assert count == (1 if 5.0 <= s <= 7.0 else 2)
 
 
 @pytest.mark.parametrize("column", [at.EVENT_FEATURE, at.EVENT_OTHER])
@@ -279,16 +280,19 @@ def test_an_event_of_something_else_tells_nothing(column):
 L, R, C_N, RATE = 0.5, 0.08, 0.15, 1.25
 
 
-def speed(slope, *more, parts=None, lift=0.0):
+def speed(slope, *more, parts=None, lift=0.0, turned=0.0):
     """Speed at which a track of 0.5 m comes down flat on a slope, about its rear end."""
     turn = np.exp(1j * slope)
     ends = [3.0 * turn * k for k in (-1, 1)]
     ground = ground_table([(p.real, p.imag) for p in ends])
-    centre = 1j * (C_N + lift) * turn
-    end = {at.END_X: centre.real, at.END_Z: centre.imag, at.END_PHI: slope}
-    rows = table(at.ROTATION_COLUMNS, {}, end | {at.RATE_BEFORE: RATE})
     parts = parts or [stadium(L, 0.3, C_N, R)[0], *more]
-    return impact_speed(ground, body_table(parts), rows, 1, margin_tables(2)[1])
+    rear = complex(*parts[0][:2])  # about which it is turned
+    centre = (1j * (parts[0][2] + lift) - rear * np.exp(1j * turned)) * turn
+    end = {at.END_X: centre.real, at.END_Z: centre.imag, at.END_PHI: slope + turned}
+    rows = table(at.ROTATION_COLUMNS, {}, end | {at.RATE_BEFORE: RATE})
+    scratch = margin_tables(2)[1]
+    scratch[:] = math.nan
+    return impact_speed(ground, body_table(parts), rows, 1, scratch)
 
 
 def tip(reach, gap, radius=0.05):
@@ -312,7 +316,8 @@ def test_what_would_touch_within_a_turn_counts_by_its_share(slope, reach, turns,
     flipper = tip(reach, turns * AT_ONCE * arm)
     expected = RATE * (L + share * abs(reach))
     assert speed(slope, flipper) == pytest.approx(expected, abs=1e-9)
-    parts = [flipper, stadium(L, 0.3, C_N, R)[0]]
+    tail = [-0.2, R - C_N, R, -0.2, R - C_N + 0.3, R]
+    parts = [tail, flipper, stadium(L, 0.3, C_N, R)[0]]
     assert speed(slope, parts=parts) == pytest.approx(expected, abs=1e-9)
 
 
@@ -323,3 +328,19 @@ def test_of_two_that_all_but_touch_the_smaller_share_counts():
     assert speed(0.1, front, rear) == pytest.approx(RATE * (L + 0.5 * 0.55), abs=1e-9)
     rear = tip(-0.25, 1.75 * AT_ONCE * (L + 0.25))  # by a quarter: less
     assert speed(0.1, front, rear) == pytest.approx(RATE * (L + 0.75 * 0.3), abs=1e-9)
+
+
+def test_two_that_count_in_full_count_once():
+    front, rear = tip(0.3, 0.5 * AT_ONCE * (L + 0.3)), tip(-0.25, 0.5 * AT_ONCE * (L + 0.25))
+    assert speed(0.0, front, rear) == pytest.approx(RATE * (L + 0.55), abs=1e-9)
+
+
+@pytest.mark.parametrize("height", [0.02, 0.4])
+def test_one_end_touches_and_the_other_counts_as_far_as_the_turn_tells(height):
+    """The centroid halfway: no other point of the robot is farther from the end that touches."""
+    part = [-0.4, -height, 0.05, 0.4, -height, 0.05]
+    whole = 0.8 * RATE
+    for turned, share in ((0.5, 1.0), (1.25, 0.75), (1.9, 0.1), (2.1, 0.0)):
+        # the foot lies 0.8 cos(turned) ahead: two parts in a million less
+        found = speed(0.2, parts=[part], turned=turned * AT_ONCE)
+        assert found == pytest.approx(whole * share, abs=1e-5)

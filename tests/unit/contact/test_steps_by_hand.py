@@ -4,6 +4,7 @@ Random traverses of which every pose is looked at are in `test_paths_by_geometry
 branches that hardly any of them takes.
 """
 
+import itertools
 import math
 
 import numpy as np
@@ -390,3 +391,87 @@ def test_a_rotation_repeats_one_of_the_twelve_before():
                 {"ROTATION_SENSE": -2.0}):  # fmt: skip
         assert not repeats(12, 13, **off)
     assert repeats(12, 13, START_X=9e-9, START_PHI=-9e-9)
+
+
+# --- on a slope, in any place -------------------------------------------------------------------
+
+INCLINED = 0.4
+SLOPE = ground_table([(s * math.cos(INCLINED), s * math.sin(INCLINED)) for s in (-4.0, 4.0)])
+ON_ITS_LINE = [[0.2, R - C_N, R, 0.6, R - C_N, R], [-0.3, R - C_N, R, -0.7, R - C_N, R]]
+"""Parts whose far ends lie ahead of the track and behind it, on the line of its flat."""
+
+
+def on_slope(along, up=0.0):
+    c, s = math.cos(INCLINED), math.sin(INCLINED)
+    return along * c - (C_N + up) * s, along * s + (C_N + up) * c
+
+
+def test_settled_on_a_slope():
+    x, z = on_slope(0.7)
+    good, there = contact_changes.settled(SLOPE, BODY, x, INCLINED - 0.05, 0.1)
+    assert good
+    way = (math.cos(INCLINED), math.sin(INCLINED), 0.0)
+    assert there[:6] == pytest.approx((x, z, INCLINED, *way), abs=1e-9)
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+@pytest.mark.parametrize("ahead", [True, False])
+def test_of_contacts_in_one_line_the_way_goes_on_as_before(ahead, sense):
+    """The lost contact neither opens nor sinks in: the pose slides along the slope as it did."""
+    body = body_table([TRACK[0], *ON_ITS_LINE])
+    k = int(np.flatnonzero(SLOPE[:, 0] < 0.0)[-1])
+    track = [at.POINT * k + disc for disc in (at.DISC_1, at.DISC_2)]
+    made = at.POINT * k + at.PART * (1 if ahead else 2) + at.DISC_2
+    way = (sense * math.cos(INCLINED), sense * math.sin(INCLINED), 0.0)
+    x, z = on_slope(0.7)
+    pair = (track[0], made) if ahead else (made, track[1])
+
+    def exchanged(x, z, phi):
+        here = (x, z, phi, *way, *track)
+        # hand: gravity square to the slope meets it under the centroid, between all feet
+        return contact_changes.exchanged(SLOPE, body, made, here, math.tan(INCLINED))
+
+    good, lost, there = exchanged(*on_slope(0.7, 1e-9), INCLINED)
+    assert (good, lost) == (True, track[1 if ahead else 0])
+    assert there == pytest.approx((x, z, INCLINED, *way, *pair), abs=1e-11)
+    # nothing is moved farther than rounding tells
+    for off in ((0.0, 1e-5, 0.0), (0.0, 0.0, 1e-5)):
+        moved = (x + off[0], z + off[1], INCLINED + off[2])
+        good, _, there = exchanged(*moved)
+        assert good
+        assert there[:3] == moved
+
+
+def test_the_way_of_a_pose_follows_the_normals_of_the_belt():
+    """About the point in which they meet; in the sense of the rigid outline's way."""
+    parts = [-0.3, 0.0, 0.1, 0.3, 0.0, 0.1]
+    # a nosing under the flat, and one some way round an end, whose normal is the flat's, pressed
+    for end, angle in itertools.product((1.0, -1.0), (0.1, 0.6)):
+        off = 0.1 * np.array([end * math.sin(angle), -math.cos(angle)])
+        places = [(0.05, -0.1), (end * 0.3 + off[0], off[1])]
+        points = sorted([*places, *((p[0] + 0.1, -2.0) for p in places), (-3, -3), (3, -3)])
+        ground = ground_table(points)
+        one, other = (at.POINT * int(np.argmin(np.abs(ground[:, 0] - p[0]))) for p in places)
+        rear, front = (one, other) if end > 0 else (other, one)
+        for t_x, t_z in ((1.0, 0.2), (-1.0, 0.2), (0.05, 1.0), (0.0, 0.0)):
+            poses = np.zeros((1, at.POSE_COLUMNS))
+            held = (0.0, 0.0, 0.0, t_x, t_z, 0.0, rear, front)
+            recording.record_pose(ground, body_table([parts]), poses, 0, 2.5, held, 3)
+            normals = poses[0, [at.REAR_N_X, at.REAR_N_Z, at.FRONT_N_X, at.FRONT_N_Z]]
+            n = normals[2:] if end > 0 else normals[:2]
+            rigid = np.array([-end * math.sin(angle), math.cos(angle)])
+            pressed = abs(n - rigid).max() > 1e-9
+            if not pressed:
+                assert angle == 0.6  # the arc is beyond what yields
+                expected = math.atan2(t_z, t_x)
+            else:
+                # where the normals meet: that of the nosing under the flat runs up at 0.05
+                reach = (0.05 - places[1][0]) / n[0] if abs(n[0]) > 1e-12 else math.inf
+                if math.isinf(reach):
+                    u = np.array([1.0, 0.0])  # both normals upright: level
+                else:
+                    meet = np.array([0.05, places[1][1] + reach * n[1]])
+                    u = np.array([meet[1], -meet[0]]) / np.hypot(*meet)
+                ahead = math.copysign(1.0, u @ (t_x, t_z))
+                expected = math.atan2(ahead * u[1], ahead * u[0])
+            assert math.cos(poses[0, at.POSE_PSI] - expected) == pytest.approx(1.0, abs=1e-9)

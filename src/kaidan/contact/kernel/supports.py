@@ -67,7 +67,7 @@ from kaidan.contact.columns import (
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.nearest_feature import first_index
 from kaidan.contact.kernel.passings import along_flat
-from kaidan.contact.kernel.way_order import EXACT, WHOLE
+from kaidan.contact.kernel.way_order import WHOLE
 from kaidan.contact.tables import (
     BodyTable,
     FloatRow,
@@ -248,13 +248,9 @@ def flat_tilt(bodies: BodyTable, part: int) -> float:
 
 def is_same(one: float, other: float) -> bool:
     """Whether two numbers are one to the digits that count, or both are not known."""
-    if math.isnan(one) or math.isnan(other):
-        return math.isnan(one) and math.isnan(other)
-    a = one * ALIKE
-    b = other * ALIKE
-    if abs(a) < EXACT and abs(b) < EXACT:
-        return a + WHOLE - WHOLE == b + WHOLE - WHOLE
-    return a == b
+    if math.isnan(one) and math.isnan(other):
+        return True
+    return one * ALIKE + WHOLE - WHOLE == other * ALIKE + WHOLE - WHOLE
 
 
 def stand_alike(supports: SupportTable, slots: int, loads: LoadTable, one: int, other: int) -> bool:

@@ -1,0 +1,302 @@
+"""Where a tip of a grouser stands and which supports it helps, by the formulas and by geometry."""
+
+import math
+
+import numpy as np
+import pytest
+
+from kaidan.contact import columns as at
+from kaidan.contact.kernel.cones import cone_margin
+from kaidan.contact.kernel.grip import (
+    MANY,
+    belt_margins,
+    carry,
+    friction_at,
+    margin_of_several,
+    margin_standing,
+    standing_margins,
+    tip_at,
+)
+from kaidan.mechanics import grousers, grousers_at_edges
+
+ROUNDING = 1e-12
+G = 9.8
+SLOPE = 0.5
+
+
+def support(where, **other):
+    row = np.zeros(at.SUPPORT_COLUMNS)
+    row[at.SUPPORT_IS_ONE] = 1.0
+    row[at.SUPPORT_X], row[at.SUPPORT_Z] = where.real, where.imag
+    row[at.SUPPORT_PLACE], row[at.SUPPORT_POINT] = at.NOSING, 3
+    row[at.SUPPORT_NORMAL], row[at.SUPPORT_LIFT] = -SLOPE, math.nan
+    for name, value in other.items():
+        row[getattr(at, f"SUPPORT_{name.upper()}")] = value
+    return row
+
+
+def loads(x=0.0, z=G, coulomb=SLOPE, count=1):
+    table = np.zeros((count, at.LOAD_COLUMNS))
+    table[:, [at.LOAD_X, at.LOAD_Z, at.LOAD_COULOMB]] = x, z, coulomb
+    return table
+
+
+@pytest.mark.parametrize("x", [0.0, 3.0, -4.0])
+def test_two_supports_carry_on_either_side_of_the_line_of_the_load(x):
+    """The line runs through the centroid along the load; a third of three on its line counts."""
+    along, across = complex(x, G), complex(G, -x)
+    places = [(-0.5, 0.02), (1.0, -0.03), (2.0, 0.01), (-1.5, -0.01)]
+    rows = np.array([support(0.003 * c * across + u * along) for c, u in places])
+    rows = np.vstack([rows, np.zeros(at.SUPPORT_COLUMNS)])
+    load = loads(x)
+    pairs = {(i, j): carry(rows, 0, i, j, load, 0) for j in range(5) for i in range(j)}
+    apart = {(0, 1), (0, 2), (1, 3), (2, 3)}
+    assert {pair for pair, does in pairs.items() if does} == apart
+    ahead = np.array([support(0.01 * k * across) for k in (1.0, 2.0, 3.0)])
+    assert carry(ahead, 0, 0, 1, load, 0)  # the outer two, wherever they are
+    assert not carry(ahead, 0, 1, 2, load, 0)
+
+
+def test_a_support_in_the_line_of_the_load_carries_with_any_other():
+    rows = np.array([support(c) for c in (0.1 + 0j, 0.2 + 0j, -0.3j)])
+    assert carry(rows, 0, 0, 2, loads(), 0)
+    assert carry(rows, 0, 1, 2, loads(), 0)
+
+
+def test_each_place_has_its_friction():
+    rows = np.array([support(0j, place=p, curvature=12.0) for p in (at.NOSING, at.TREAD, at.FACE)])
+    found = [
+        friction_at(rows, k, 0.7, 0.6, 0.5, height) for k in range(3) for height in (0.0, 0.01)
+    ]
+    assert found[:5] == [0.7, 0.7, 0.6, 0.6, 0.5]
+    left = grousers.face_friction(mu=math.tan(0.5), h=0.01, curvature=12.0)
+    assert found[5] == pytest.approx(math.atan(left), abs=ROUNDING)
+
+
+# --- where a tip stands -------------------------------------------------------------------------
+
+H, S, W, RN = 0.012, 0.045, 0.004, 0.01
+
+
+def both_ways(row, *how):
+    """A tip going up, and that it is the mirror image going down."""
+    up = tip_at(row[None], 0, *how, 1.0)
+    mirrored = row.copy()
+    mirrored[[at.SUPPORT_X, at.SUPPORT_NORMAL, at.SUPPORT_TREAD]] *= -1.0
+    down = tip_at(mirrored[None], 0, *how, -1.0)
+    assert down == pytest.approx((up[0], -up[1], *up[2:]), abs=ROUNDING)
+    return up
+
+
+@pytest.mark.parametrize("rigid", [True, False])
+@pytest.mark.parametrize("curvature", [0.0, 8.0])
+@pytest.mark.parametrize("lean", [0.35, 0.6, 1.1])
+@pytest.mark.parametrize(
+    ("s", "w", "r"), [(S, W, RN), (0.024, 0.012, 0.018), (S, W, 0.002), (0.06, W, 0.05)]
+)
+def test_a_tip_stands_behind_its_nosing(lean, curvature, rigid, s, w, r):
+    row = support(0.2j, normal=0.1 - lean, tread=0.1, curvature=curvature)
+    stands, tilt, run, gamma, ahead = both_ways(row, H, s, w, r, rigid)
+    one = {"theta": lean, "r": r}
+    h = H
+    if rigid and curvature == 0.0:
+        h = float(grousers.height_behind(h=H, s=s, **one))
+    length = float(grousers.standing_run(h=h, s=s, w=w, **one))
+    # how far up the round, and what is missed of it where a tip comes late
+    climb = math.sin(lean - float(grousers.tip_tilt(h=h, curvature=curvature, **one)))
+    reached = max(climb + (min(length, 0.0) / r if rigid else 0.0), 0.0)
+    beta = lean - math.asin(reached)
+    assert stands == (beta < lean)
+    if not stands:
+        return
+    assert tilt == pytest.approx(0.1 - beta, abs=ROUNDING)
+    assert run == pytest.approx(length, abs=ROUNDING)
+    off = float(grousers.roll_off_length(h=h, **one))
+    assert gamma == pytest.approx(float(grousers.roll_off_sine(run=length, off=off, r=r)))
+    assert ahead == pytest.approx(max(length, 0.0) + r * climb, abs=ROUNDING)
+
+
+@pytest.mark.parametrize("change", [
+    {"is_one": 0.0}, {"point": at.NOWHERE}, {"tread": -0.4}, {"tread": -0.5}, {"tread": math.nan},
+])  # fmt: skip
+def test_no_tip_stands(change):
+    row = support(0.2j, normal=-0.4, **{"tread": 0.2} | change)
+    assert tip_at(row[None], 0, H, S, W, RN, False, 1.0) == (False, 0.0, 0.0, 0.0, 0.0)
+    whole = support(0.2j, normal=-0.4, tread=0.2)
+    assert both_ways(whole, H, S, W, RN, False)[0]
+    assert not both_ways(whole, 0.0, S, W, RN, False)[0]
+    upright = support(0.2j, normal=-1.6, tread=0.2)  # leans by more than a quarter of a turn
+    assert tip_at(upright[None], 0, H, S, W, RN, False, 1.0) == (False, 0.0, 0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("lift", [-0.06, -0.02, 0.0, 0.03])
+@pytest.mark.parametrize("radius", [0.05, 0.12])
+def test_a_tip_stands_over_the_edge_of_a_face(radius, lift):
+    """The robot stands on its grousers: its axle is higher by one than the rigid outline's."""
+    row = support(0.2j, normal=-1.4, tread=0.1, curvature=1.0 / radius, lift=lift + H)
+    found = both_ways(row, H, S, W, RN, True)
+    if lift > grousers_at_edges.reach_over_edge(R=radius, h=H, s=S):
+        assert found == (False, 0.0, 0.0, 0.0, 0.0)
+        return
+    overlap = grousers_at_edges.tip_overlap(R=radius, h=H, s=S, lift=lift)
+    over = float(grousers_at_edges.edge_tilt(overlap=overlap, r=RN))
+    assert found == pytest.approx((True, 0.1 - over, 0.0, 0.0, 0.0), abs=ROUNDING)
+
+
+# --- what two supports hold with a tip ----------------------------------------------------------
+
+NOSINGS, TREADS, FACES = 0.7, 0.6, 0.4
+ONE, OTHER = 0.25 - 0.05j, -0.2 - 0.3j
+TIP = (True, -0.15, 0.006, 0.08, 0.011)
+
+
+def held(one, other, tip, *, rigid, place=at.NOSING, point=3, side=1.0):
+    rows = np.array([support(one), support(other, place=place, point=point)])
+    if side < 0:
+        rows[:, [at.SUPPORT_X, at.SUPPORT_NORMAL]] *= -1.0
+        tip = (tip[0], -tip[1], *tip[2:])
+    return margin_standing(rows, 0, 1, loads(), 0, tip, NOSINGS, TREADS, FACES, H, rigid, side)
+
+
+def cones(one, tilt, phi_one, other, axis, phi):
+    return cone_margin(one.real, one.imag, tilt, phi_one, other.real, other.imag, axis, phi, 0.0, G)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize(("one", "other"), [(ONE, OTHER), (OTHER, ONE)])
+@pytest.mark.parametrize("place", [at.NOSING, at.TREAD, at.FACE])
+def test_a_soft_tip_tilts_the_cone_of_its_support(one, other, place, side):
+    phi = {at.NOSING: NOSINGS, at.TREAD: TREADS, at.FACE: FACES}[place]
+    expected = cones(one, TIP[1], TREADS, other, -SLOPE, phi)
+    found = held(one, other, TIP, rigid=False, place=place, side=side)
+    assert found == pytest.approx(expected, abs=1e-9)
+    assert held(one, other, (False, *TIP[1:]), rigid=False, side=side) == -math.inf
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize(("one", "other"), [(ONE, OTHER), (OTHER, ONE)])
+@pytest.mark.parametrize(
+    ("place", "point"), [(at.NOSING, 3), (at.NOSING, at.NOWHERE), (at.FACE, 3)]
+)
+@pytest.mark.parametrize("gamma", [0.0, 0.03, 0.3, 1.2])
+def test_a_rigid_tip_stands_ahead_and_the_other_support_rolls(
+    one, other, place, point, gamma, side
+):
+    """The worse of two times: the other nosing's tip rolls off, or the own one has yet to rise."""
+    tip = (*TIP[:3], gamma, TIP[4])
+    belt = np.exp(1j * SLOPE)  # uphill, along the belt
+    stands = one + (TIP[4] * belt if one == ONE else 0.0)
+    phi = FACES if place == at.FACE else NOSINGS
+    found = held(one, other, tip, rigid=True, place=place, point=point, side=side)
+    if place != at.NOSING or point == at.NOWHERE:  # nothing there to roll off
+        expected = cones(stands, TIP[1], TREADS, other, -SLOPE, phi)
+        assert found == pytest.approx(expected, abs=1e-9)
+        return
+    axis = -SLOPE - H / abs(one - other)  # the belt rests on a tip there, and is turned by it
+    rolled = axis - math.asin(min(gamma, 1.0))
+    first = cones(stands, TIP[1], TREADS, other, rolled, phi)
+    later = -SLOPE + math.asin(max(math.sin(TIP[1] + SLOPE) - gamma, 0.0))
+    # the tip has so much less to lean: that of its support at least
+    then = cones(stands, later, TREADS, other, axis, phi)
+    expected = min(first, then) if gamma > 0.0 else first
+    assert found == pytest.approx(expected, abs=1e-9)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("lean", [-0.2, 0.2, 0.45, 0.8])
+@pytest.mark.parametrize("several", [3, 5])
+def test_on_several_supports_a_soft_tip_bears_its_part(several, lean, side):
+    """Its tilt counts between that of the belt and that of the tread."""
+    row = support(0j, normal=-side * SLOPE)
+    tip = (True, side * (lean - SLOPE), 0.0, 0.0, 0.0)
+    how = (row[None], 0, several, SLOPE)
+    beta = SLOPE - min(max(lean, 0.0), SLOPE)
+    needed = grousers.standing_friction(theta=SLOPE, beta=beta, share=1.0 / several)
+    found = margin_of_several(*how, tip, NOSINGS, S, False, side)
+    assert found == pytest.approx(NOSINGS - math.atan(needed), abs=ROUNDING)
+    assert margin_of_several(*how, (False, *tip[1:]), NOSINGS, S, False, side) == -math.inf
+
+
+@pytest.mark.parametrize(("several", "part"), [(3, 1.0), (4, MANY)])
+@pytest.mark.parametrize("run", [-0.01, 0.006, 0.02])
+def test_on_several_supports_rigid_tips_hold_in_the_mean(several, part, run):
+    found = margin_of_several(
+        support(0j)[None], 0, several, SLOPE, (True, -0.1, run, 0.0, 0.0), NOSINGS, S, True, 1.0
+    )
+    needed = grousers.phases_friction(theta=SLOPE, q=part * max(run, 0.0) / S)
+    assert found == pytest.approx(NOSINGS - math.atan(needed), abs=ROUNDING)
+
+
+def test_of_poses_on_one_friction_each_has_its_margin():
+    """Of five poses the second repeats the first one, and the fourth has an end at a face."""
+    rows = np.array([support(ONE), support(OTHER)] * 5)
+    rows[7] = support(OTHER, place=at.FACE, curvature=10.0)
+    rows[9] = 0.0
+    rows[9, at.SUPPORT_PLACE] = at.FACE  # no support, whatever is written there
+    load = loads(count=5)
+    load[:, at.LOAD_COULOMB] = 0.5, 9.0, 0.3, 0.2, 0.1
+    found = np.empty(5)
+    belt_margins(rows, 2, load, np.array([0, 0, 2, 3, 4]), 0.7, 0.7, 0.7, 0.01, found)
+    left = math.atan(grousers.face_friction(mu=math.tan(0.7), h=0.01, curvature=10.0))
+    at_face = min(0.5, cones(ONE, -SLOPE, 0.7, OTHER, -SLOPE, left))
+    assert found == pytest.approx([0.2, 0.2, 0.4, at_face, 0.6], abs=1e-9)
+
+
+def test_no_margin_where_no_support_has_a_pair():
+    rows = np.array([support(ONE, tread=0.1), np.zeros(at.SUPPORT_COLUMNS)])
+    found = np.zeros(2)
+    standing_margins(rows, 2, loads(), np.array([0]), 0.7, 0.7, 0.7, H, S, W, RN, False, 1.0, found)
+    assert found.tolist() == [-math.inf, -math.inf]
+
+
+def test_of_three_supports_the_better_pair_holds_the_belts():
+    """The third lies on the side of the first one, on a tread that leans less."""
+    third = 0.3 + 0.1j
+    one = [support(ONE), support(OTHER), support(third, normal=-0.2, place=at.TREAD)]
+    rows, load, found = np.array(one * 2), loads(count=2), np.empty(2)
+    load[1, at.LOAD_COULOMB] = 0.4  # unlike the first
+    belt_margins(rows, 3, load, np.array([0, 1]), 0.6, 0.7, 0.5, 0.0, found)
+    outer = cones(ONE, -SLOPE, 0.6, OTHER, -SLOPE, 0.6)
+    better = cones(OTHER, -SLOPE, 0.6, third, -0.2, 0.7)
+    assert better > outer
+    assert found == pytest.approx([better, better], abs=1e-9)
+
+
+@pytest.mark.parametrize("rigid", [True, False])
+def test_of_all_pairs_that_carry_the_least_counts(rigid):
+    """With a support among them, or else with the better of the two; poses one after the other."""
+    rng = np.random.default_rng(4)
+    slots, phi = 5, 0.9
+    rows = np.zeros((3 * slots, at.SUPPORT_COLUMNS))
+    for pose, first in enumerate(range(0, 3 * slots, slots)):
+        # the third one on the side of the first, so that these two do not carry
+        for slot, along in enumerate((0.3, -0.2, 0.2, -0.1)):
+            u = along + rng.uniform(-0.05, 0.05)
+            place = u * np.exp(1j * SLOPE) - 0.1j * np.exp(1j * SLOPE)
+            rows[first + slot] = support(place, tread=0.05 * slot - 0.02 * pose)
+            rows[first + slot, at.SUPPORT_NORMAL] += rng.uniform(-0.1, 0.1)
+    load, how = loads(coulomb=-9.0, count=3), (H, S, W, RN, rigid)  # all share: no bound
+    found = np.empty(len(rows))
+    standing_margins(rows, slots, load, np.arange(3), phi, phi, phi, *how, 1.0, found)
+    for first in range(0, 3 * slots, slots):
+        tips = [tip_at(rows, first + slot, *how, 1.0) for slot in range(4)]
+        pairs = [(i, j) for j in range(4) for i in range(j) if carry(rows, first, i, j, load, 0)]
+        assert (0, 2) not in pairs
+        assert (1, 2) in pairs
+        with_tip = {
+            (one, other): margin_standing(
+                rows, first + one, first + other, load, 0, tips[one], phi, phi, phi, H, rigid, 1.0
+            )
+            for pair in pairs for one, other in (pair, pair[::-1])
+        }  # fmt: skip
+        for slot in range(4):
+            expected = min(
+                with_tip[slot, i + j - slot] if slot in (i, j)
+                else max(with_tip[i, j], with_tip[j, i])
+                for i, j in pairs
+            )  # fmt: skip
+            all_of_them = margin_of_several(
+                rows, first + slot, 4, -9.0, tips[slot], phi, S, rigid, 1.0
+            )
+            assert found[first + slot] == min(expected, all_of_them)
+        assert found[first + 4] == -math.inf
