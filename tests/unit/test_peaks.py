@@ -9,7 +9,7 @@ import pytest
 
 from kaidan import contact
 from kaidan.contact import PIECES
-from kaidan.contact.kernel.peaks import promised, slope
+from kaidan.contact.kernel.peaks import LEAST, is_open, promised, slope, told
 from kaidan.traversal.peaks import AT_ONCE, ROUNDS, peaks_between
 
 NAN = math.nan
@@ -80,6 +80,52 @@ def test_nothing_is_looked_at_where_nothing_is_promised():
         assert len(search(figure, range(8))[1]) == 0
     # a kink at a pose is no more than the pose
     assert len(search(lambda s: -np.abs(s - 3.0), range(8))[1]) == 0
+
+
+def test_slope_between_two_poses_at_one_place():
+    assert math.isnan(slope(1.0, 1.0, 2.0, 2.0))
+    assert slope(1.0, 1.0, 2.0, 3.0) == math.inf
+    assert slope(1.0, 1.0, 2.0, 1.0) == -math.inf
+    assert slope(1.0, 1.0, 2.0, -1.0) == -math.inf
+
+
+def test_slope_is_not_known_where_either_pose_tells_nothing():
+    assert math.isnan(slope(0.0, 1.0, NAN, 2.0))
+    assert math.isnan(slope(0.0, 1.0, 2.0, NAN))
+
+
+@pytest.mark.parametrize(("given", "expected"), [
+    # begin, end, slopes before, on and after a way of 0.5 m
+    ((-2.0, -4.0, NAN, -4.0, NAN), -1.9),  # a twentieth above the higher end
+    ((1.0, 2.0, NAN, 2.0, -3.0), 3.5),  # back along the line after it
+    ((1.0, 2.0, 4.0, 2.0, NAN), 3.0),  # on along the line before it
+    ((1.0, 2.0, NAN, 2.0, 5.0), 2.0),  # on its own line: no more than its end
+    ((2.0, 1.0, -5.0, -2.0, NAN), 2.0),
+    ((1.0, 1.0, 3.0, 0.0, -1.0), 1.375),  # the lines meet after an eighth of a metre
+    ((1.0, 1.0, 3.0, 0.0, -3.0), 1.75),  # halfway
+    ((1.0, 2.0, 2.0, 2.0, 2.0), 2.0),  # a line
+    ((1.0, 1.0, -1.0, 0.0, 1.0), 1.0),  # a hollow
+])  # fmt: skip
+def test_what_lines_through_the_outer_poses_promise(given, expected):
+    assert promised(0.5, *given) == pytest.approx(expected, abs=1e-12)
+
+
+def test_a_way_is_open_that_promises_more_than_the_tolerance():
+    for largest in (4.0, -4.0):
+        most = largest + LEAST + 0.1 * 4.0
+        assert is_open(most + 1e-9, largest, 0.1)
+        assert not is_open(most - 1e-9, largest, 0.1)
+
+
+def test_told_where_a_line_leads_on_between_known_figures():
+    line = np.array([1, 0, 1, 1, 1, 1, 1])
+    values = np.array([1.0, 2.0, 3.0, math.inf, -math.inf, 4.0, 5.0])
+    assert [told(line, values, row) for row in range(-1, 7)] == [
+        False, True, False, False, False, False, True, False,
+    ]  # fmt: skip
+    for hidden in (math.inf, -math.inf, NAN):
+        assert not told(line, np.array([hidden, 2.0]), 0)
+        assert not told(line, np.array([2.0, hidden]), 0)
 
 
 def arch(s):

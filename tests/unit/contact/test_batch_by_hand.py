@@ -46,23 +46,26 @@ def test_worst_of_some_margins():
 L, C_N, R = 0.5, 0.15, 0.1
 FLOORS = [[(-9.0, 0.0), (9.0, 18.0 * slope)] for slope in (0.0, 0.2, -0.3)]
 BELLY = [-0.1, -0.1, 0.05, 0.1, -0.1, 0.05]  # on the floor as well
+LOW = [-0.1, -0.2, 0.05, 0.1, -0.2, 0.05]  # of another robot, lower than all
 NARROW = [-2.0, 0.5, 0.01, -1.9, 0.5, 0.01]  # its centroid lies ahead of all that could carry it
 
 
 def test_jobs_on_planes_of_some_slopes():
     """By hand: on a plane a robot keeps the plane's inclination and its levers, and arrives."""
-    robots = [[NARROW], stadium(L, 0.3, C_N, R), [*stadium(L, 0.2, C_N, R), BELLY]]
-    kinds = [[0], [0], [0, PartKind.BELLY]]
+    robots = [[LOW], stadium(L, 0.3, C_N, R), [*stadium(L, 0.2, C_N, R), BELLY], [NARROW]]
+    kinds = [[PartKind.BELLY], [0], [0, PartKind.BELLY], [0]]
     jobs = [
-        Job(0, 0, 0.0, 0.1), Job(1, 1, 0.5, 0.8, math.atan(0.2), reference=0.05),
+        Job(0, 3, 0.0, 0.1), Job(1, 1, 0.5, 0.8, math.atan(0.2), reference=0.05),
         Job(2, 2, -0.5, -0.4, math.atan(-0.3), reference=-0.4), Job(0, 2, 1.0, 1.2),
+        Job(0, 0, 0.0, 0.1),
     ]  # fmt: skip
     found = traverse_many(FLOORS, robots, jobs, kinds=kinds, with_margins=True).table
-    none, *others = found
+    none, *others, low = found
+    assert (low[at.SUMMARY_STATUS], low[at.SUMMARY_BELLY]) == (Status.OK, 1.0)
     assert none[at.SUMMARY_STATUS] == Status.NO_START
     assert np.isnan(none[at.SUMMARY_HIGHEST :]).all()
     for row, job, slope, ahead in zip(
-        others, jobs[1:], (0.2, -0.3, 0.0), (0.3, 0.2, 0.2), strict=True
+        others, jobs[1:4], (0.2, -0.3, 0.0), (0.3, 0.2, 0.2), strict=True
     ):
         angle = math.atan(slope)
         assert row[at.SUMMARY_STATUS] == Status.OK

@@ -287,7 +287,7 @@ def speed(slope, *more, parts=None, lift=0.0, turned=0.0):
     ground = ground_table([(p.real, p.imag) for p in ends])
     parts = parts or [stadium(L, 0.3, C_N, R)[0], *more]
     rear = complex(*parts[0][:2])  # about which it is turned
-    centre = (1j * (parts[0][2] + lift) - rear * np.exp(1j * turned)) * turn
+    centre = (0.7 + 1j * (parts[0][2] + lift) - rear * np.exp(1j * turned)) * turn
     end = {at.END_X: centre.real, at.END_Z: centre.imag, at.END_PHI: slope + turned}
     rows = table(at.ROTATION_COLUMNS, {}, end | {at.RATE_BEFORE: RATE})
     scratch = margin_tables(2)[1]
@@ -328,6 +328,11 @@ def test_of_two_that_all_but_touch_the_smaller_share_counts():
     assert speed(0.1, front, rear) == pytest.approx(RATE * (L + 0.5 * 0.55), abs=1e-9)
     rear = tip(-0.25, 1.75 * AT_ONCE * (L + 0.25))  # by a quarter: less
     assert speed(0.1, front, rear) == pytest.approx(RATE * (L + 0.75 * 0.3), abs=1e-9)
+
+
+def test_what_counts_for_nothing_does_not_hide_what_follows():
+    none, full = tip(0.3, 2.1 * AT_ONCE * (L + 0.3)), tip(-0.25, 0.5 * AT_ONCE * (L + 0.25))
+    assert speed(0.0, none, full) == pytest.approx(RATE * (L + 0.25), abs=1e-9)
 
 
 def test_two_that_count_in_full_count_once():

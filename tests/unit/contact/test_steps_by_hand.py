@@ -475,3 +475,25 @@ def test_the_way_of_a_pose_follows_the_normals_of_the_belt():
                 ahead = math.copysign(1.0, u @ (t_x, t_z))
                 expected = math.atan2(ahead * u[1], ahead * u[0])
             assert math.cos(poses[0, at.POSE_PSI] - expected) == pytest.approx(1.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("x", [-0.1, 0.1, 0.3, 0.45])
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_a_small_step_leads_along_the_way_forth_and_back(x, sense):
+    """On stairs the way is that on which the next pose lies, its sense that of the step."""
+    ground, ds = ground_table(steps(0.17, 0.28, 4)), 1e-5
+    good, (x, z, phi, *way, rear, front) = contact_changes.settled(ground, BODY, x, 0.4, 0.0)
+    assert good
+    t = sense * np.array(way)
+    good, x1, z1, phi1, _, _, *u, _, _ = continuation.stepped(
+        ground, BODY, rear, front, x, z, phi, *t, ds
+    )
+    assert good
+    moved = np.array([x1 - x, z1 - z, ARM * (phi1 - phi)]) / ds
+    assert moved == pytest.approx(t, abs=1e-3)  # ds over the smallest radius
+    assert u == pytest.approx(t, abs=1e-3)
+
+
+def test_effective_gravity_does_not_hang_on_the_size_of_the_way():
+    assert contact_changes.effective_gravity(3.0, 4.0, 0.0, 1e-6) == pytest.approx(7.0)
+    assert contact_changes.effective_gravity(3.0, 4.0, 0.0, -1e-6) == pytest.approx(1.0)
