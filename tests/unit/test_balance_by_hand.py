@@ -43,10 +43,12 @@ def given(mode, worst, best=None, **more):
     return Finding(mode=mode, worst=np.array(worst), best=np.array(best), model="", **more)
 
 
-def chain(phase=Phase.ENTER, step=1, **figures):
+def chain(phase=Phase.ENTER, step=1, *, spare=0.03, after=0.04, **figures):
+    """Its rises to spare are of so much and less by the tilts of gravity, in metres."""
     usual = {
-        "angle": 0.1, "rocking": 0.0, "impact_speed": 0.2, "spare": 0.03,
-        "spare_after_impact": 0.04, "arrested": True,
+        "angle": 0.1, "rocking": 0.0, "impact_speed": 0.2, "arrested": True,
+        "spare": lambda tilts: spare - tilts[0] - 0.1 * tilts[1],
+        "spare_after_impact": lambda tilts: after - tilts[0] - 0.1 * tilts[1],
     }  # fmt: skip
     return SimpleNamespace(phase=phase, step=step, **(usual | figures))
 
@@ -163,18 +165,23 @@ def test_which_falls_are_of_a_phase(falls):
 def test_how_hard_rotations_end_and_what_momentum_is_left():
     """Of those alike the first; what the rubber takes up has no momentum."""
     chains = [
-        chain(step=4, impact_speed=0.6, spare=0.04, spare_after_impact=0.05),
-        chain(step=1, impact_speed=0.3, spare=0.0300005, spare_after_impact=0.06),
-        chain(step=2, impact_speed=0.7, spare=0.0300000, spare_after_impact=0.05),
-        chain(step=3, impact_speed=0.7, angle=TAKEN_UP, spare=-1.0, spare_after_impact=-1.0),
+        chain(step=4, impact_speed=0.6, spare=0.04, after=0.05),
+        chain(step=1, impact_speed=0.3, spare=0.0300005, after=0.06),
+        chain(step=2, impact_speed=0.7, spare=0.0300000, after=0.05),
+        chain(step=3, impact_speed=0.7, angle=TAKEN_UP, spare=-1.0, after=-1.0),
     ]
     hit, momentum = _hits(ASKED, found(), chains)
     assert (hit.mode, hit.worst, hit.step) == (IMPACT, pytest.approx(-0.2), 2)
     assert (momentum.mode, momentum.failing, momentum.phase) == (
         MOMENTUM, Verdict.CAUTION, Phase.ENTER,
     )  # fmt: skip
-    assert (momentum.worst.tolist(), momentum.best.tolist()) == ([0.0300005], [0.05])
+    # downhill theta_d and theta_M, uphill theta_d; a sudden stop takes 0.01
+    assert momentum.worst.tolist() == pytest.approx([0.0300005 - 0.07 - 0.002 - 0.01])
+    assert momentum.best.tolist() == pytest.approx([0.05 - 0.04 - 0.001])
     assert momentum.step == 1
+    momentum = _hits(ASKED, found(descending=True), chains)[1]  # its leading end is downhill
+    assert momentum.worst.tolist() == pytest.approx([0.0300005 - 0.02 - 0.007 - 0.01])
+    assert momentum.best.tolist() == pytest.approx([0.05 - 0.01 - 0.004])
     assert [each.mode for each in _hits(ASKED, found(), chains[3:])] == [IMPACT]
 
 

@@ -87,10 +87,10 @@ def test_over_the_top_edge_by_hand():
     # theory, contact: r_A = (0, C_N) and r_B = (-p, C_N) from the contacts to the centroid
     k2, ab = KENAF.gyration**2, C_N**2
     left = (k2 + ab) ** 2 / ((k2 + C_N**2) * (k2 + C_N**2 + p**2))
-    assert rotation.spare_after_impact - rotation.spare == pytest.approx(
-        drop * (1 - left), abs=ROUNDING
-    )
-    assert rotation.spare == pytest.approx(found.path.rotations[0].barrier / G - drop, abs=ROUNDING)
+    assert rotation.left == pytest.approx(drop * left, abs=ROUNDING)
+    assert rotation.moved == pytest.approx(C_N * math.sin(theta), abs=ROUNDING)
+    record = found.path.rotations[0]
+    assert (rotation.rise, rotation.ahead) == (record.barrier / G, record.barrier_across)
 
 
 def test_a_nosing_a_hair_below_the_flat_counts_as_far_as_a_turn_brings_it_there():
@@ -197,7 +197,8 @@ def test_a_chain_is_told_as_a_whole():
     assert math.degrees(chain.reached) < -79
     assert chain.angle == pytest.approx(first.angle + second.angle, abs=ROUNDING)
     assert chain.drop == pytest.approx(first.drop + second.drop, abs=ROUNDING)
-    assert chain.spare == pytest.approx(min(first.spare, second.spare - first.drop), abs=ROUNDING)
+    rises = first.rise - first.drop, second.rise - first.drop - second.drop
+    assert chain.spare((0.0, 0.0)) == pytest.approx(min(rises), abs=ROUNDING)
     assert chain.arrested_by == second.arrested_by
     largest = max(each.angle for each in found.chains if each.phase is Phase.ENTER)
     assert found.phases[0].largest_rotation == pytest.approx(largest, abs=ROUNDING)
@@ -213,13 +214,15 @@ def rotation(**given):
         "angle": 0.8,
         "leading_end_down": True,
         "drop": 0.02,
+        "moved": 0.05,
         "impact_speed": 0.7,
         "avoidable": 0.01,
         "theta_s": math.nan,
         "pivot": 64,
         "arrested_by": 130,
-        "spare": 0.1,
-        "spare_after_impact": 0.11,
+        "rise": 0.12,
+        "ahead": 0.06,
+        "left": 0.01,
     }
     return Rotation(**(figures | given))
 
@@ -229,9 +232,10 @@ def test_figures_of_a_chain():
     one = rotation()
     two = rotation(
         phase=Phase.TRAVERSE, step=3, path=1.001, start=-1.0, reached=-0.4, angle=0.6, drop=0.03,
-        impact_speed=0.9, avoidable=0.02, spare=0.2, spare_after_impact=0.3, arrested_by=194,
+        impact_speed=0.9, avoidable=0.02, rise=0.23, left=0.02, arrested_by=194,
+        leading_end_down=False,
     )  # fmt: skip
-    three = rotation(start=-0.4, reached=-0.9, angle=0.5, drop=0.01, spare=0.15, avoidable=0.03)
+    three = rotation(start=-0.4, reached=-0.9, angle=0.5, drop=0.01, rise=0.16, avoidable=0.03)
     chain = Chain((one, two, three))
     assert (chain.phase, chain.step, chain.path, chain.start) == (Phase.ENTER, 2, 1.0, -0.2)
     assert chain.reached == -1.0
@@ -241,8 +245,24 @@ def test_figures_of_a_chain():
     assert chain.drop == pytest.approx(0.06)
     assert chain.impact_speed == 0.9
     assert chain.avoidable == pytest.approx(0.06)
-    assert chain.spare == pytest.approx(min(0.1, 0.2 - 0.02, 0.15 - 0.05))
-    assert chain.spare_after_impact == 0.11
+    assert chain.spare((0.0, 0.0)) == pytest.approx(min(0.12 - 0.02, 0.23 - 0.05, 0.16 - 0.06))
+    assert chain.spare_after_impact((0.0, 0.0)) == pytest.approx(0.12 - 0.01)
+    rear, front = 0.6, 0.1  # tilts of gravity; the second comes back, over the trailing end
+    assert chain.spare((rear, front)) == pytest.approx(
+        min(
+            math.cos(front) * 0.10 - math.sin(front) * (0.05 + 0.06),
+            math.cos(rear) * 0.18 - math.sin(rear) * (-0.05 + 0.05 + 0.06),
+            math.cos(front) * 0.10 - math.sin(front) * (0.05 - 0.05 + 0.05 + 0.06),
+        )
+    )
+    assert Chain((one,)).spare_after_impact((rear, front)) == pytest.approx(
+        math.cos(front) * 0.12 - math.sin(front) * 0.06
+        - 0.01 / 0.02 * (math.cos(front) * 0.02 + math.sin(front) * 0.05)
+    )  # fmt: skip
+    assert Chain((two,)).spare_after_impact((rear, front)) == pytest.approx(
+        math.cos(rear) * 0.23 - math.sin(rear) * 0.06
+        - 0.02 / 0.03 * (math.cos(rear) * 0.03 + math.sin(rear) * 0.05)
+    )  # fmt: skip
     assert chain.arrested
     assert chain.arrested_by == 130
     fallen = Chain((one, rotation(arrested_by=None, impact_speed=math.nan)))
@@ -362,7 +382,8 @@ def test_a_rotation_on_a_slope_by_hand(sense, begin, end, slope, monkeypatch):
     the pose after it, in front where the leading end comes down.
     """
     record = SimpleNamespace(
-        s=1.5, sense=sense, arrested=True, angle=0.4, pivot=7, barrier=3.0, kinetic=1.0,
+        s=1.5, sense=sense, arrested=True, angle=0.4, pivot=7, barrier=3.0,
+        barrier_across=0.2, kinetic=1.0,
         pivot_point=(0.0, 0.0), start=Placement(0.0, 0.5, 0.2), end=Placement(0.1, 0.3, -0.2),
     )  # fmt: skip
     poses = SimpleNamespace(
@@ -380,8 +401,10 @@ def test_a_rotation_on_a_slope_by_hand(sense, begin, end, slope, monkeypatch):
     gravity = math.hypot(ahead, up)
     drop = (up * 0.2 - ahead * 0.1) / gravity
     assert found.drop == pytest.approx(drop, abs=1e-12)
-    assert found.spare == pytest.approx(3.0 / gravity - drop)
-    assert found.spare_after_impact == pytest.approx(2.0 / gravity)
+    towards = -sense  # x towards the end that comes down
+    assert found.moved == pytest.approx(towards * (up * 0.1 + ahead * 0.2) / gravity)
+    assert (found.rise, found.left) == pytest.approx((3.0 / gravity, 1.0 / gravity))
+    assert found.ahead == pytest.approx(towards * 0.2)
     assert (found.phase, found.step, found.path) == (Phase.TRAVERSE, 2, 1.5)
     assert found.theta_s == pytest.approx(slope, nan_ok=True)  # nosings at 0, 0.3 and 0.6 m
     assert found.leading_end_down is (sense < 0)

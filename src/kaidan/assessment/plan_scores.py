@@ -74,6 +74,7 @@ def rated_on(
     terrain: Hashable,
     down: bool,
     acceleration: float,
+    tilts: tuple[float, float],
 ) -> dict[Hashable, Rated | None]:
     """Ratings that are remembered of one terrain, by outline, start and end."""
     return {}
@@ -149,6 +150,7 @@ class Scores:
             [part for *_, part in drives],
             descending=self._down,
             acceleration=self.question.acceleration,
+            tilts=self._allowances,
             step=COARSE,
         )
         if len(self._rated) > MANY:
@@ -230,9 +232,15 @@ class Scores:
         return d + M, d
 
     @cached_property
+    def _threshold(self) -> float:
+        return self.question.energy_threshold()
+
+    @cached_property
     def _rated(self) -> dict[Hashable, Rated | None]:
         """What this process rated on the same terrain before: friction plays no part in it."""
-        return rated_on(terrain_key(self.profile), self._down, self.question.acceleration)
+        return rated_on(
+            terrain_key(self.profile), self._down, self.question.acceleration, self._allowances
+        )
 
     def _score(self, rated: Rated | None) -> Score:
         """Score of a phase, which is driven to its end or not."""
@@ -248,7 +256,7 @@ class Scores:
             min(tips) <= 0,
             rated.rocking > ROCKING,
             rated.impact_speed >= self.question.robot.tolerated_impact,
-            rated.spare <= 0,
+            rated.spare <= self._threshold,
             rated.belly_touches,
         )
         return Score(

@@ -54,7 +54,10 @@ class Ratings(_Table):
 
     @property
     def spare(self) -> FloatArray:
-        """Least rise still to climb before rotations topple, less all drops so far [m]."""
+        """Least rise still to climb before rotations topple, less all drops so far [m].
+
+        Under gravity that is tilted as stated.
+        """
         return self._column(at.RATED_SPARE)
 
 
@@ -70,6 +73,7 @@ def rate_many(
     zones: ArrayLike,
     edges: ArrayLike,
     rough: float,
+    tilts: tuple[float, float] = (0.0, 0.0),
 ) -> Ratings:
     """Rate many traverses over one terrain.
 
@@ -90,6 +94,8 @@ def rate_many(
         which the robot lands [m].
     edges, rough
         Edges that may hold an end (k, 2), and how far ahead they have to be [m].
+    tilts
+        Of gravity, towards the trailing and the leading end that comes down [rad].
 
     Returns
     -------
@@ -113,7 +119,7 @@ def rate_many(
         np.array(flats, dtype=np.float64),
         np.cumsum([len(each) for each in on]), np.concatenate(on),
         np.array(jobs, dtype=np.float64).reshape(-1, at.JOB_COLUMNS),
-        step, STANDARD_GRAVITY, TOUCH, rough,
+        step, STANDARD_GRAVITY, TOUCH, rough, *tilts,
         np.array(zones, dtype=np.float64).reshape(-1, at.ZONE_COLUMNS),
         np.array(edges, dtype=np.float64).reshape(-1, at.POINT_COLUMNS),
         *path_scratch(size), *margin_tables(size), ratings,

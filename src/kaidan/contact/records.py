@@ -264,6 +264,8 @@ class RotationRecord(NamedTuple):
     """Energy of each kilogram after the last impact [J/kg]."""
     barrier: float
     """Energy of each kilogram that going on to topple would need there [J/kg]."""
+    barrier_across: float
+    """How far the centroid has moved across effective gravity then, along x [m]."""
     topples_with_momentum: bool
     """Whether it has that energy, or was not arrested at all."""
     outcome: RotationOutcome
@@ -317,6 +319,7 @@ class Rotations(_Table, Sequence[RotationRecord]):
                 rate_after=row[at.RATE_AFTER],
                 kinetic=row[at.KINETIC],
                 barrier=row[at.BARRIER],
+                barrier_across=row[at.BARRIER_ACROSS],
                 topples_with_momentum=row[at.TOPPLES] > 0.0,
                 outcome=RotationOutcome(int(row[at.OUTCOME])),
                 pivot_point=(row[at.PIVOT_X], row[at.PIVOT_Z]),

@@ -212,20 +212,26 @@ def _over_its_downhill_end(found: Traverse) -> bool:
 def _hits(question: Question, found: Traverse, chains: list[Chain]) -> list[Finding]:
     """Rotations that are arrested: how hard they end, and whether momentum topples.
 
-    Those that the rubber takes up have none; the energy margin judges their poses.
+    Those that the rubber takes up have none; the energy margin judges their poses. Gravity is
+    tilted by the allowances, and a sudden stop adds to the drop.
     """
     tolerated = question.robot.tolerated_impact
     each = [_of_smallest(IMPACT, [tolerated - one.impact_speed for one in chains], chains, found)]
     chains = [each for each in chains if each.angle > TAKEN_UP]
     if chains:
-        least = min(one.spare for one in chains)
-        worst = next(one for one in chains if one.spare < least + _PLACE)
-        topples = min(chains, key=lambda one: one.spare_after_impact)
+        d, M = question.allowance_d, question.allowance_M
+        high, low = (d.high + M.high, d.high), (d.low + M.low, d.low)
+        if found.descending:  # the leading end is the downhill one
+            high, low = high[::-1], low[::-1]
+        spares = [one.spare(high) for one in chains]
+        worst = next(
+            one for one, spare in zip(chains, spares, strict=True) if spare < min(spares) + _PLACE
+        )
         each.append(
             Finding(
                 mode=MOMENTUM,
-                worst=np.array([worst.spare]),
-                best=np.array([topples.spare_after_impact]),
+                worst=np.array([worst.spare(high) - question.energy_threshold()]),
+                best=np.array([min(one.spare_after_impact(low) for one in chains)]),
                 failing=Verdict.CAUTION,
                 phase=worst.phase,
                 step=worst.step,

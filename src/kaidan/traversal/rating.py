@@ -39,7 +39,8 @@ class Rated(NamedTuple):
     impact_speed: float
     """Largest [m/s]."""
     spare: float
-    """Least rise still to climb before rotations topple [m]; infinite: nothing rotates."""
+    """Least rise still to climb before rotations topple, gravity tilted [m]; infinite: nothing
+    rotates."""
     downhill: float
     """Least margin of the criterion of no rotation [rad]; infinite: no flat carries all along."""
     uphill: float
@@ -52,6 +53,7 @@ def rate(
     *,
     descending: bool = False,
     acceleration: float = 0.0,
+    tilts: tuple[float, float] = (0.0, 0.0),
     step: float = contact.STEP,
 ) -> list[Rated | None]:
     """Rate robots, or one in many postures, on their way over parts of a profile.
@@ -66,6 +68,8 @@ def rate(
         From the upper landing to the lower one.
     acceleration : float
         Acceleration UP the stairs [m/s^2].
+    tilts : tuple of float
+        Of gravity, towards the downhill and the uphill end that comes down [rad].
     step : float
         Arclength between poses [m].
 
@@ -89,14 +93,20 @@ def rate(
     found: dict[int, Rated | None] = {}
     for zones, which in together.items():
         found |= zip(
-            which, _rated(driven, [parts[k] for k in which], zones, along, step), strict=True
-        )
+            which,
+            _rated(
+                driven, [parts[k] for k in which], zones, along,
+                tilts[::-1] if descending else tilts, step,
+            ),
+            strict=True,
+        )  # fmt: skip
     return [found[k] for k in range(len(parts))]
 
 
 def _rated(
-    driven: Profile, parts: Sequence[Part], zones: Zones, along: float, step: float
-) -> list[Rated | None]:
+    driven: Profile, parts: Sequence[Part], zones: Zones, along: float,
+    tilts: tuple[float, float], step: float,
+) -> list[Rated | None]:  # fmt: skip
     """The same of robots that land in the same zones."""
     spans = [span(driven, each.outline, each.start, each.until) for each in parts]
     longest = max(range(len(parts)), key=lambda k: spans[k][1] - spans[k][0])
@@ -118,6 +128,7 @@ def _rated(
         zones=zones,
         edges=driven.edges,
         rough=ROUGHNESS,
+        tilts=tilts,
     )
     arrives = (ratings.status == Status.OK).tolist()
     figures = zip(

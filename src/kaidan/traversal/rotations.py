@@ -15,7 +15,6 @@ Of what is avoidable counts as rocking on a flight no more than the inclinations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -61,6 +60,8 @@ class Rotation:
     """Whether the leading end comes down; else the trailing one."""
     drop: float
     """Fall of the centroid along effective gravity [m]."""
+    moved: float
+    """Its way across effective gravity, towards the end that comes down [m]."""
     impact_speed: float
     """Speed at which the end hits the contact that arrests it [m/s]; NaN: nothing does."""
     avoidable: float
@@ -72,16 +73,23 @@ class Rotation:
     """Contact that it begins about, read by `kaidan.contact.Feature.of`."""
     arrested_by: int | None
     """Contact that arrests it; None: it falls, or is wedged."""
-    spare: float
-    """Rise still to climb before it topples, less the whole drop [m]: positive if it would hold
-    even though the impact took nothing of the momentum."""
-    spare_after_impact: float
-    """The same less what a plastic impact leaves of the momentum [m]."""
+    rise: float
+    """Rise of the centroid still to climb before it topples [m]."""
+    ahead: float
+    """Its way across effective gravity meanwhile, as for `moved` [m]."""
+    left: float
+    """Height that a plastic impact leaves of the drop, as energy [m]."""
 
     @property
     def rocking(self) -> float:
         """What of it counts as rocking [rad]."""
         return Chain((self,)).rocking
+
+    def spare_after_impact(self, tilt: float) -> float:
+        """Rise still to climb less what a plastic impact leaves of the drop [m], gravity tilted."""
+        share = self.left / self.drop if self.drop > 0.0 else 0.0
+        left = share * (math.cos(tilt) * self.drop + math.sin(tilt) * self.moved)
+        return math.cos(tilt) * self.rise - math.sin(tilt) * self.ahead - max(left, 0.0)
 
     @property
     def arrested(self) -> bool:
@@ -192,21 +200,31 @@ class Chain:
         """Contact that arrests the last one."""
         return self.rotations[-1].arrested_by
 
-    @cached_property
-    def spare(self) -> float:
-        """Least rise still to climb, less all drops so far [m]."""
-        drops = np.cumsum([each.drop for each in self.rotations])
-        return float(
-            min(
-                each.spare + each.drop - fall
-                for each, fall in zip(self.rotations, drops, strict=True)
-            )
-        )
+    def spare(self, tilts: tuple[float, float]) -> float:
+        """Least rise still to climb before it topples, less all drops so far [m].
 
-    @property
-    def spare_after_impact(self) -> float:
-        """Least of all [m]."""
-        return min(each.spare_after_impact for each in self.rotations)
+        Positive if it would hold even though no impact took anything of the momentum. A tilt of
+        gravity adds the way across it to what falls and takes it from what rises.
+
+        Parameters
+        ----------
+        tilts : tuple of float
+            Of gravity, towards the trailing and the leading end that comes down [rad].
+        """
+        fallen = moved = 0.0  # the way towards the leading end
+        each = []
+        for one in self.rotations:
+            ahead = 1.0 if one.leading_end_down else -1.0
+            tilt = tilts[one.leading_end_down]
+            fallen += one.drop
+            moved += ahead * one.moved
+            way = ahead * moved + one.ahead
+            each.append(math.cos(tilt) * (one.rise - fallen) - math.sin(tilt) * way)
+        return min(each)
+
+    def spare_after_impact(self, tilts: tuple[float, float]) -> float:
+        """Least rise still to climb less what a plastic impact leaves of the drop before [m]."""
+        return min(one.spare_after_impact(tilts[one.leading_end_down]) for one in self.rotations)
 
 
 def rotations_of(
@@ -248,6 +266,8 @@ def rotations_of(
         start, end = record.start, record.end
         drop = (up * (start.z - end.z) + ahead * (start.x - end.x)) / gravity
         down = record.sense < 0
+        towards = 1.0 if down else -1.0
+        moved = towards * (up * (end.x - start.x) - ahead * (end.z - start.z)) / gravity
         arrested_by, theta_s = None, math.nan
         if record.arrested:
             arrested_by = int((path.poses.front if down else path.poses.rear)[row + 1])
@@ -262,13 +282,15 @@ def rotations_of(
                 angle=record.angle,
                 leading_end_down=down,
                 drop=drop,
+                moved=moved,
                 impact_speed=speed,
                 avoidable=_beyond_the_edge(record, profile, flat_length) if down else record.angle,
                 theta_s=theta_s,
                 pivot=record.pivot,
                 arrested_by=arrested_by,
-                spare=record.barrier / gravity - drop,
-                spare_after_impact=(record.barrier - record.kinetic) / gravity,
+                rise=record.barrier / gravity,
+                ahead=towards * record.barrier_across,
+                left=record.kinetic / gravity,
             )
         )
     return tuple(found)

@@ -155,7 +155,7 @@ def test_rise_along_the_flow(seed):
         for sense, pivot in ((1.0, int(run.poses.rear[row])), (-1.0, int(run.poses.front[row]))):
             place = run.poses.placement(row)
             start = (run.ground.table, run.body.table, pivot, *place, sense, 0.0)
-            bounded, rise, _ = barrier(*start, 0.0, 0)
+            bounded, rise, _, _ = barrier(*start, 0.0, 0)
             fine_bounded, fine = fine_rise(*start)
             if bounded and fine_bounded:
                 # m: each change of contact sinks in by up to one turn's path, 0.5 mrad x 0.5 m

@@ -119,14 +119,14 @@ def test_rocking_is_from_the_slope_of_the_flight(turn, before, after, slope, roc
     assert rating.rocking(turn, before, after, slope) == pytest.approx(rocks)
 
 
-def rated(rows, poses=None, *, count=None, a=0.0, edges=(), flights=()):
+def rated(rows, poses=None, *, count=None, a=0.0, tilts=(0.0, 0.0), edges=(), flights=()):
     """Angle, rocking, speed of impact, rise to spare; the rows beside it are left alone."""
     poses = poses_of({}, {}) if poses is None else poses
     found = margin_tables(len(poses))[1]
     ratings = np.full((3, at.RATING_COLUMNS), math.nan)
     rating.rate_rotations(
         LEVEL, BODY, poses, len(poses) - 1, table(at.ROTATION_COLUMNS, rows),
-        len(rows) if count is None else count, a, G, L, 0.01,
+        len(rows) if count is None else count, a, G, L, 0.01, *tilts,
         np.array(edges, dtype=float).reshape(-1, 2),
         table(at.FLIGHT_COLUMNS, flights), found, ratings, 1,
     )  # fmt: skip
@@ -141,8 +141,8 @@ def test_nothing_turns():
 
 def turn(angle, begin, end, sense=1.0, **more):
     """A rotation from one place (x, z, inclination) to another."""
-    names = {"barrier": at.BARRIER, "s": at.ROTATION_S, "rate": at.RATE_BEFORE,
-             "outcome": at.OUTCOME, "pivot_x": at.PIVOT_X, "pivot_z": at.PIVOT_Z}  # fmt: skip
+    names = {"barrier": at.BARRIER, "across": at.BARRIER_ACROSS, "s": at.ROTATION_S,
+             "rate": at.RATE_BEFORE, "outcome": at.OUTCOME, "pivot_x": at.PIVOT_X, "pivot_z": at.PIVOT_Z}  # fmt: skip
     row = {at.ROTATION_ANGLE: angle, at.ROTATION_SENSE: sense}
     row |= dict(zip((at.START_X, at.START_Z, at.START_PHI), begin, strict=True))
     row |= dict(zip((at.END_X, at.END_Z, at.END_PHI), end, strict=True))
@@ -187,6 +187,35 @@ def test_rise_to_spare_is_along_gravity_and_acceleration():
     assert rated([first, second], poses, a=a)[3] == pytest.approx(min(spares))
     first[at.BARRIER] = 9.0
     assert rated([first, second], poses, a=a)[3] == pytest.approx(spares[1])
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+@pytest.mark.parametrize("a", [0.0, 3.0])
+def test_tilted_gravity_takes_from_the_rise_what_lies_on_the_way(sense, a):
+    """By turning gravity itself: of the drops, and up to where it would topple."""
+    tilt = 0.04
+    tilts = (tilt, 0.5) if sense > 0 else (0.5, tilt)
+    ahead = -sense  # x towards the end that comes down
+    first = turn(0.2, (0.0, 1.0, 0.3), (ahead * 0.1, 0.98, 0.1), sense,
+                 barrier=0.5, across=ahead * 0.05)  # fmt: skip
+    second = turn(0.15, (ahead * 0.101, 0.98, 0.1), (ahead * 0.15, 0.97, 0.2), sense,
+                  barrier=0.4, across=ahead * 0.02)  # fmt: skip
+    load = complex(a, G)
+    up = load / abs(load)
+    tilted = up * np.exp(1j * ahead * tilt)
+
+    def of(vector, along):
+        return (vector * np.conj(along)).real
+
+    spares, moved = [], 0j
+    for row, step in (
+        (first, complex(ahead * 0.1, -0.02)),
+        (second, complex(ahead * 0.049, -0.01)),
+    ):
+        moved += step
+        rise = row[at.BARRIER] / abs(load) * up + row[at.BARRIER_ACROSS] * (up / 1j)
+        spares.append(of(moved + rise, tilted))
+    assert rated([first, second], a=a, tilts=tilts)[3] == pytest.approx(min(spares))
 
 
 def test_of_what_comes_down_only_what_is_beyond_the_next_edge_may_be_avoided():

@@ -76,11 +76,15 @@ class Case:
 
     def barrier(self, pivot, kappa=0.0, tolerance=0.0, c=C, phi=0.0):
         """Rise as the nose goes up, and whether it is bounded."""
-        kappa *= self.sign
-        pose = self.pose(c, phi)
-        return barrier(
-            self.ground, self.body, pivot, *pose, self.sign, kappa, tolerance, 0
-        )[:2]  # fmt: skip
+        return self.barrier_and_way(pivot, kappa, tolerance, c, phi)[:2]
+
+    def barrier_and_way(self, pivot, kappa=0.0, tolerance=0.0, c=C, phi=0.0):
+        """The same, and the way across effective gravity, towards the nose."""
+        bounded, rise, across, _ = barrier(
+            self.ground, self.body, pivot, *self.pose(c, phi), self.sign, self.sign * kappa,
+            tolerance, 0,
+        )  # fmt: skip
+        return bounded, rise, self.sign * across
 
     def tilt(self, pivot, tolerance, kappa=0.0, without=-1, c=C, phi=0.0):
         return carrying_tilt(
@@ -109,8 +113,11 @@ def test_rise_over_an_edge(kappa, phi, mirrored):
     case = Case(plates(A), mirrored)
     c = A + (C - A) * cmath.exp(1j * phi)
     rise = abs(c - A) - height(c - A, kappa)
+    up = complex(kappa, 1.0) / abs(complex(kappa, 1.0))
+    way = ((c - A) / up).imag
     for tolerance in (0.0, 0.1):
         assert case.barrier(case.edge(A), kappa, tolerance, c, phi) == (True, near(rise))
+    assert case.barrier_and_way(case.edge(A), kappa, 0.0, c, phi)[2] == near(way)
 
 
 @MIRRORED

@@ -366,8 +366,9 @@ def test_no_start_where_it_falls_at_once():
 def test_momentum_is_written_as_it_is():
     row = np.zeros((1, at.ROTATION_COLUMNS))
     for topples in (True, False):
-        recording.write_momentum(row, 0, 0.3, 0.2, topples)
-        assert row[0, [at.KINETIC, at.BARRIER, at.TOPPLES]].tolist() == [0.3, 0.2, float(topples)]
+        recording.write_momentum(row, 0, 0.3, 0.2, 0.1, topples)
+        columns = [at.KINETIC, at.BARRIER, at.BARRIER_ACROSS, at.TOPPLES]
+        assert row[0, columns].tolist() == [0.3, 0.2, 0.1, float(topples)]
 
 
 def test_a_rotation_repeats_one_of_the_twelve_before():

@@ -162,9 +162,11 @@ def rotate(
         p_x, p_z = contact_point(ground, body, last, x1, z1, c1, s1)
         arm = (x1 - p_x) * (x1 - p_x) + (z1 - p_z) * (z1 - p_z) + gyration * gyration
         kinetic = 0.5 * arm * after * after
-        bounded, rise, hint = barrier(ground, body, last, x1, z1, phi1, sense, kappa, ROCKING, hint)
+        bounded, rise, across, hint = barrier(
+            ground, body, last, x1, z1, phi1, sense, kappa, ROCKING, hint
+        )
         needed = gravity * rise
-        write_momentum(rotations, count, kinetic, needed, kinetic > needed and bounded)
+        write_momentum(rotations, count, kinetic, needed, across, kinetic > needed and bounded)
     else:
-        write_momentum(rotations, count, 0.0, 0.0, True)
+        write_momentum(rotations, count, 0.0, 0.0, 0.0, True)
     return outcome, rear, front, x1, z1, phi1, angle, count + 1, hint

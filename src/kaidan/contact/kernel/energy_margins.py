@@ -79,10 +79,10 @@ def work_out_energy(
         side = -1.0
         pivot = ahead
         bound = rise_back
-    bounded, rise, hint = barrier(ground, body, pivot, x, z, phi, side, kappa, ROCKING, hint)
+    bounded, rise, _, hint = barrier(ground, body, pivot, x, z, phi, side, kappa, ROCKING, hint)
     if rise > bound:
         pivot = ahead if side > 0.0 else rear
-        other_bounded, other_rise, hint = barrier(
+        other_bounded, other_rise, _, hint = barrier(
             ground, body, pivot, x, z, phi, -side, kappa, ROCKING, hint
         )
         if other_rise < rise:

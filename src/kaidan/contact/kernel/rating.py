@@ -14,6 +14,7 @@ import math
 from kaidan.contact.codes import RotationOutcome, Status
 from kaidan.contact.columns import (
     BARRIER,
+    BARRIER_ACROSS,
     BELLY_TOUCHES,
     END_PHI,
     END_X,
@@ -152,6 +153,8 @@ def rate_rotations(
     g: float,
     flat: float,
     rough: float,
+    tilt_rear: float,
+    tilt_front: float,
     edges: PointTable,
     flights: FlightTable,
     found: ContactTable,
@@ -166,6 +169,7 @@ def rate_rotations(
     angle = 0.0
     avoids = 0.0
     fallen = 0.0
+    moved = 0.0
     lowest = math.inf
     highest = -math.inf
     flight = -1
@@ -178,6 +182,7 @@ def rate_rotations(
                 angle = 0.0
                 avoids = 0.0
                 fallen = 0.0
+                moved = 0.0
                 lowest = math.inf
                 highest = -math.inf
                 begins = True
@@ -189,6 +194,7 @@ def rate_rotations(
         d_x = rotations[row, START_X] - rotations[row, END_X]
         d_z = rotations[row, START_Z] - rotations[row, END_Z]
         fallen += (up * d_z + ahead * d_x) / size
+        moved -= (up * d_x - ahead * d_z) / size
         angle += rotations[row, ROTATION_ANGLE]
         if rotations[row, ROTATION_SENSE] < 0.0:
             avoids += beyond_the_edge(rotations, row, edges, flat, rough)
@@ -207,7 +213,13 @@ def rate_rotations(
         begins = False
         if arrested:
             speed = max(speed, impact_speed(ground, body, rotations, row, found))
-        spare = min(spare, rotations[row, BARRIER] / size - fallen)
+        rise = rotations[row, BARRIER] / size - fallen
+        way = moved + rotations[row, BARRIER_ACROSS]
+        if rotations[row, ROTATION_SENSE] < 0.0:
+            rise = math.cos(tilt_front) * rise - math.sin(tilt_front) * way
+        else:
+            rise = math.cos(tilt_rear) * rise + math.sin(tilt_rear) * way
+        spare = min(spare, rise)
         most = max(most, angle)
         if flight < 0:
             rocks = max(rocks, avoids)
@@ -232,6 +244,8 @@ def rate_many(
     g: float,
     touch: float,
     rough: float,
+    tilt_rear: float,
+    tilt_front: float,
     zones: ZoneTable,
     edges: PointTable,
     poses: PoseTable,
@@ -258,6 +272,8 @@ def rate_many(
     step, g, touch, rough
         Arclength between poses [m], gravity [m/s^2], gap of a contact, distance within which an
         edge is not ahead of another [m].
+    tilt_rear, tilt_front
+        Tilt of gravity towards an end that comes down, for the rise to spare [rad].
     zones
         Landings (k, 4): places of the front contact at which the robot lands, first and last x,
         lowest and highest z [m].
@@ -301,5 +317,5 @@ def rate_many(
         ratings[job, RATED_BELLY] = belly
         rate_rotations(
             ground, body, poses, n_pose, rotations, n_rotation, a, g, flats[robot], rough,
-            edges, flights[begin : flight_ends[robot]], found, ratings, job,
+            tilt_rear, tilt_front, edges, flights[begin : flight_ends[robot]], found, ratings, job,
         )  # fmt: skip

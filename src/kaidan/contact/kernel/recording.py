@@ -6,6 +6,7 @@ import math
 
 from kaidan.contact.columns import (
     BARRIER,
+    BARRIER_ACROSS,
     END_PHI,
     END_X,
     END_Z,
@@ -145,11 +146,15 @@ def write_rotation(
 
 
 def write_momentum(
-    rotations: RotationTable, row: int, kinetic: float, needed: float, topples: bool
+    rotations: RotationTable, row: int, kinetic: float, needed: float, across: float, topples: bool
 ) -> None:
-    """Write the energy after the last impact and the energy that toppling needs [J/kg]."""
+    """Write the energy after the last impact and the energy that toppling needs [J/kg].
+
+    ``across`` is how far the centroid has moved across effective gravity where it needs that [m].
+    """
     rotations[row, KINETIC] = kinetic
     rotations[row, BARRIER] = needed
+    rotations[row, BARRIER_ACROSS] = across
     rotations[row, TOPPLES] = 1.0 if topples else 0.0
 
 

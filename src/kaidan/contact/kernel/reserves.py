@@ -66,7 +66,7 @@ def barrier(
     kappa: float,
     tolerance: float,
     hint: int,
-) -> tuple[bool, float, int]:
+) -> tuple[bool, float, float, int]:
     """Rise of the centroid along the flow before it turns by more than rocking: the energy margin.
 
     It turns about ``pivot`` against gravity; where another gap closes farther out the turn goes on
@@ -79,12 +79,16 @@ def barrier(
         False if no such pose lies within 90 degrees (then the rise is a lower bound).
     rise [m]
         Along effective gravity.
+    across [m]
+        How far the centroid has moved across it there, along x.
     hint
     """
     down = math.sqrt(1.0 + kappa * kappa)
     height = (z + kappa * x) / down
+    begin = (x - kappa * z) / down
     total = 0.0
     best = 0.0
+    across = 0.0
     for _ in range(60):
         c = math.cos(phi)
         s = math.sin(phi)
@@ -93,10 +97,10 @@ def barrier(
         if delta * sense < 0.0:
             over = max(angle_until_over(ground, body, pivot, x, z, phi, sense, kappa, False), 0.0)
         elif total >= tolerance:
-            return True, best, hint
+            return True, best, across, hint
         most = 0.5 * math.pi - total
         if most <= 0.0:
-            return False, best, hint
+            return False, best, across, hint
         limit = foot_limit(ground, body, pivot, x, z, phi, sense)
         end = min(limit, most)
         if over <= end:  # past the pivot only as far as rocking is tolerated
@@ -106,24 +110,30 @@ def barrier(
             c_over = math.cos(over)
             s_over = sense * math.sin(over)
             top_x, top_z = carried(ground, body, pivot, x, z, c, s, sense * over, c_over, s_over)
-            best = max(best, (top_z + kappa * top_x) / down - height)
+            rise = (top_z + kappa * top_x) / down - height
+            if rise > best:
+                best = rise
+                across = (top_x - kappa * top_z) / down - begin
             if closed < 0 and angle < limit and pivot & KIND_MASK == VERTEX:
-                return True, best, hint  # past the highest point of a circle
+                return True, best, across, hint  # past the highest point of a circle
         x, z = carried(
             ground, body, pivot, x, z, c, s, sense * angle, math.cos(angle), sense * math.sin(angle)
         )
         phi += sense * angle
         total += angle
-        best = max(best, (z + kappa * x) / down - height)
+        rise = (z + kappa * x) / down - height
+        if rise > best:
+            best = rise
+            across = (x - kappa * z) / down - begin
         if closed >= 0:
             pivot = closed
         elif over <= angle and angle < limit:
-            return True, best, hint
+            return True, best, across, hint
         elif limit <= angle:
             pivot = next_pivot(ground, body, pivot, x, z, phi, sense)
         else:
-            return False, best, hint
-    return False, best, hint
+            return False, best, across, hint
+    return False, best, across, hint
 
 
 def lean(
