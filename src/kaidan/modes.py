@@ -130,6 +130,8 @@ POSTURE_CHANGE = failure_mode("posture_change", "", "rotating while its flippers
 FLIPPER_TORQUE = failure_mode("flipper_torque", "N m", "too little torque to move its flippers")
 POSTURE_TOLERANCE = failure_mode("posture_tolerance", "", "flippers some degrees off their angles")
 """Of a plan that was found: off its angles its verdict is worse."""
+GROUSER_SPEED = failure_mode("grouser_speed", "m/s", "driving too fast on grousers")
+"""Faster, grousers hooked a nosing or spun at a riser in simulations."""
 LANDING_ROOM = failure_mode("landing_room", "m", "a landing shorter than the robot")
 TURNING = failure_mode("turning", "", "too little room to turn on a landing")
 NARROW = failure_mode("narrow", "m", "a flight narrower than the robot needs")

@@ -32,6 +32,7 @@ OVER = Spread(*[NONE] * 10)
 ON, LANDS = SimpleNamespace(phase=Phase.TRAVERSE), SimpleNamespace(phase=Phase.LAND)
 ASKED = SimpleNamespace(
     yaw=0.0, terrain=None, energy_threshold=lambda slip=0.0: 0.01 + 0.5 * slip,
+    momentum_threshold=lambda: 0.015,
     robot=SimpleNamespace(tolerated_impact=0.5),
     allowance_d=SimpleNamespace(low=0.01, high=0.02),
     allowance_M=SimpleNamespace(low=0.03, high=0.05),
@@ -175,12 +176,12 @@ def test_how_hard_rotations_end_and_what_momentum_is_left():
     assert (momentum.mode, momentum.failing, momentum.phase) == (
         MOMENTUM, Verdict.CAUTION, Phase.ENTER,
     )  # fmt: skip
-    # downhill theta_d and theta_M, uphill theta_d; a sudden stop takes 0.01
-    assert momentum.worst.tolist() == pytest.approx([0.0300005 - 0.07 - 0.002 - 0.01])
+    # downhill theta_d and theta_M, uphill theta_d; stop and sag take 0.015
+    assert momentum.worst.tolist() == pytest.approx([0.0300005 - 0.07 - 0.002 - 0.015])
     assert momentum.best.tolist() == pytest.approx([0.05 - 0.04 - 0.001])
     assert momentum.step == 1
     momentum = _hits(ASKED, found(descending=True), chains)[1]  # its leading end is downhill
-    assert momentum.worst.tolist() == pytest.approx([0.0300005 - 0.02 - 0.007 - 0.01])
+    assert momentum.worst.tolist() == pytest.approx([0.0300005 - 0.02 - 0.007 - 0.015])
     assert momentum.best.tolist() == pytest.approx([0.05 - 0.01 - 0.004])
     assert [each.mode for each in _hits(ASKED, found(), chains[3:])] == [IMPACT]
 

@@ -637,3 +637,14 @@ def test_an_acceptance_that_is_none_is_refused_to_the_letter(given, shown):
     with pytest.raises(InputError) as error:
         Question.model_validate({**sheets, "accept": given})
     assert str(error.value) == f"question: accept = {shown} is not one of no-rotation, arrested"
+
+
+def test_momentum_threshold_by_hand():
+    """Going down a sudden stop and the sag of a track that gives theta_d; going up the stop."""
+    stairs = Stairs(rise=0.15, going=0.2, steps=6)  # 250 mm apart, sin 0.6, cos 0.8
+    asks = {"friction": 1.0, "theta_d": (0.0, math.asin(0.04)), "theta_M": 0.0}
+    up = Question.in_one_posture("kenaf", stairs, **asks)
+    down = Question.in_one_posture("kenaf", stairs, direction="down", **asks)
+    assert up.momentum_threshold() == up.energy_threshold() == down.energy_threshold()
+    sag = 0.25 * 0.04 / 0.8 * 0.6**2
+    assert down.momentum_threshold() - down.energy_threshold() == pytest.approx(sag)

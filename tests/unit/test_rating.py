@@ -55,7 +55,9 @@ def test_a_rating_is_that_of_the_traverse(descending, acceleration):
         assert each.impact_speed == pytest.approx(
             max((c.impact_speed for c in chains), default=0.0)
         )
-        assert each.spare == pytest.approx(min((c.spare for c in chains), default=math.inf))
+        assert each.spare == pytest.approx(
+            min((c.spare((0.0, 0.0)) for c in chains), default=math.inf)
+        )
         for margin, side in ((each.downhill, True), (each.uphill, False)):
             losses = found.criterion.losses if found.whole else ()
             of_side = [each.margin for each in losses if each.downhill is side]

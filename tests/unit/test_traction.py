@@ -83,19 +83,23 @@ def test_a_smooth_belt_is_judged_by_friction_alone():
     )
 
 
-def test_an_answer_for_grousers_says_from_which_speed_their_rule_is_not_known():
-    told = [
-        any("The rule of grousers knows no speed" in note for note in answer.notes)
-        for answer in (
-            assess(robot(**GROUSERS, **HARD), FLIGHT, friction=0.6, speed=0.19),
-            assess(robot(**GROUSERS, **HARD), FLIGHT, friction=0.6, speed=0.2),
-            assess(robot(**GROUSERS, **HARD), FLIGHT, friction=0.6, speed=0.2, direction="down"),
-            assess(robot(), FLIGHT, friction=0.6, speed=0.2),
-            # at a riser's face it may rely on friction alone, of a belt that pushes it off
-            assess(robot(**GROUSERS, **HARD), FLIGHT, friction=2.0, speed=0.2),
-        )
-    ]
-    assert told == [False, True, False, False, True]
+@pytest.mark.parametrize("direction", ["up", "down"])
+def test_grousers_faster_than_they_were_tried_are_no_go(direction):
+    """Beyond 0.2 m/s, whatever friction holds; the advice is to drive as fast as that."""
+    shoes = robot(**GROUSERS, **HARD)
+    asks = {"friction": 2.0, "direction": direction}
+    fast = assess(shoes, FLIGHT, speed=0.25, **asks)
+    assert (fast.verdict, fast.governs) == ("caution", "grouser_speed")
+    assert "0.25 m/s on grousers; beyond 0.20 m/s" in fast.reason
+    assert ("Drive at 0.20 m/s or less", "go") in {
+        (each.change, each.verdict) for each in fast.what_would_help
+    }
+    slow = assess(shoes, FLIGHT, speed=0.2, **asks)
+    assert slow.verdict == "go"
+    assert "grouser_speed" not in {each.mode for each in slow.findings}
+    assert "grouser_speed" not in {each.mode for each in assess(shoes, FLIGHT, **asks).findings}
+    smooth = assess(robot(), FLIGHT, speed=0.25, **asks)
+    assert "grouser_speed" not in {each.mode for each in smooth.findings}
 
 
 def test_grousers_hold_where_friction_does_not():

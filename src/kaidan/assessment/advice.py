@@ -22,6 +22,7 @@ from kaidan.modes import (
     ENERGY,
     FAILURE_MODES,
     FALLS,
+    GROUSER_SPEED,
     IMPACT,
     LANDING_ROOM,
     MOMENTUM,
@@ -201,6 +202,10 @@ def _candidates(
     energy = found.of(ENERGY)
     if governs == ENERGY.key and energy is not None:
         yield from _slower(question, float(energy.worst[0]) + question.energy_threshold())
+    fast = found.of(GROUSER_SPEED)
+    if governs == GROUSER_SPEED.key and fast is not None and question.speed is not None:
+        limit = question.speed + float(fast.worst[0])
+        yield Candidate(text.slower(limit), question.changed(speed=limit))
     if governs in _ROTATES:
         if conclusion.margin_best > 0:
             yield from _measured(question)

@@ -233,7 +233,7 @@ class Scores:
 
     @cached_property
     def _threshold(self) -> float:
-        return self.question.energy_threshold()
+        return self.question.momentum_threshold()
 
     @cached_property
     def _rated(self) -> dict[Hashable, Rated | None]:

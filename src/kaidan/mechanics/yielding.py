@@ -54,6 +54,41 @@ def theta_d_at_limit(*, eta: Number, p: Number) -> Number:
     return np.arcsin(eta / p)
 
 
+def drop_of_sag(*, theta_d: Number, p: Number, theta_s: Number) -> Number:
+    """Fall of the centroid as one nosing takes up all of the pull, of a track that gives theta_d.
+
+    ``w_n sin(theta_s)^2``, ``w_n = p sin(theta_d) / cos(theta_s)``
+
+    The robot comes back over the nosing by ``w_t sin(theta_s)`` along the stairs, and what that
+    shear stores is lost with the contact. Sag and indentation are taken as equal.
+
+    Parameters
+    ----------
+    theta_d : float or array
+        Extra inclination at the limit [rad].
+    p : float or array
+        Nosing spacing [m].
+    theta_s : float or array
+        Slope of the stairs [rad].
+
+    Returns
+    -------
+    float or array
+        Height [m].
+
+    Examples
+    --------
+    >>> fall = drop_of_sag(theta_d=np.arcsin(0.02), p=0.5, theta_s=np.arctan(0.75))
+    >>> print(round(fall, 12))
+    0.0045
+
+    References
+    ----------
+    Derived (docs/theory/yielding.md).
+    """
+    return p * np.sin(theta_d) * np.sin(theta_s) * np.tan(theta_s)
+
+
 def theta_d_two_contacts(
     *, L: Number, p: Number, C_L: Number, C_N: Number, theta_s: Number, w_n: Number
 ) -> Number:

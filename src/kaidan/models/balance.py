@@ -213,7 +213,7 @@ def _hits(question: Question, found: Traverse, chains: list[Chain]) -> list[Find
     """Rotations that are arrested: how hard they end, and whether momentum topples.
 
     Those that the rubber takes up have none; the energy margin judges their poses. Gravity is
-    tilted by the allowances, and a sudden stop adds to the drop.
+    tilted by the allowances; a sudden stop adds to the drop, and sag going down.
     """
     tolerated = question.robot.tolerated_impact
     each = [_of_smallest(IMPACT, [tolerated - one.impact_speed for one in chains], chains, found)]
@@ -230,7 +230,7 @@ def _hits(question: Question, found: Traverse, chains: list[Chain]) -> list[Find
         each.append(
             Finding(
                 mode=MOMENTUM,
-                worst=np.array([worst.spare(high) - question.energy_threshold()]),
+                worst=np.array([worst.spare(high) - question.momentum_threshold()]),
                 best=np.array([min(one.spare_after_impact(low) for one in chains)]),
                 failing=Verdict.CAUTION,
                 phase=worst.phase,

@@ -188,6 +188,7 @@ def findings_of(
     each = [
         *slides,
         *_obstacles(driven, found, phase, phases),
+        *traction.too_fast_on_grousers(question),
         *balance(question, driven, balanced, over, phase, held),
     ]
     gripping = Later(lambda: [traction.figures_of(driven, found, friction, held, phase)])

@@ -11,8 +11,9 @@ from kaidan.contact import Grousers
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.grousers import standing_run
 from kaidan.mechanics.rubber import height_lost, rubber_modulus
+from kaidan.models.findings import Finding
 from kaidan.models.traction_figures import USUAL, TractionFigures
-from kaidan.modes import Phase
+from kaidan.modes import CONTACT, GROUSER_SPEED, Phase, Verdict
 from kaidan.question import Question
 from kaidan.robot import Robot, Track
 from kaidan.terrain.stairs import NOSING_RADII, Stairs
@@ -33,6 +34,9 @@ YIELD = (0.0, 0.5)
 SLIDING = 0.8
 """Sliding over static friction [1]: rubber on concrete, Serway & Beichner, Physics for Scientists
 and Engineers, table 5.2 (0.8 and 1.0)."""
+FASTEST = 0.2
+"""Speed beyond which driven grousers hooked a nosing and fell, or spun at a first riser, in MuJoCo
+[m/s]: 3 of 203 GOs, and none of 107 slower (docs/physics.md)."""
 MOST_LOOKS = 20
 """Times that an angle of friction which is enough is improved."""
 _LITTLE = 1e-6
@@ -103,6 +107,14 @@ class Supplies(NamedTuple):
 
     worst: Supply
     best: Supply
+
+
+def too_fast_on_grousers(question: Question) -> list[Finding]:
+    """Finding of a speed beyond that up to which grousers were tried without a fall."""
+    if not question.robot.track.has_grousers or (question.speed or 0.0) <= FASTEST:
+        return []
+    spare = FASTEST - (question.speed or 0.0)
+    return [Finding.certain(GROUSER_SPEED, spare, failing=Verdict.CAUTION, model=CONTACT.name)]
 
 
 def supplies(

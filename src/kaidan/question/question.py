@@ -10,7 +10,7 @@ from kaidan.allowance import LARGEST_ALLOWANCE, Allowance
 from kaidan.errors import InputError
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.measures import kinetic_energy_height, sudden_stop_height
-from kaidan.mechanics.yielding import yielding_loss
+from kaidan.mechanics.yielding import drop_of_sag, yielding_loss
 from kaidan.modes import CONTACT, MODELS, PHYSICS, Acceptance, Phase
 from kaidan.question.fields import FACINGS, TRACKS, QuestionFields
 from kaidan.question.refusals import refuse_impossible
@@ -497,6 +497,20 @@ class Question(QuestionFields):
                 v=speed * (math.sqrt(self.kinetic_height) + math.sqrt(slip)),
                 lever=self.stance.com_height,
                 gyration=self.outline.least_gyration,
+            )
+        )
+
+    def momentum_threshold(self) -> float:
+        """Rise that a robot must have to spare after a drop, beyond all that it dropped [m].
+
+        A sudden stop adds to it; going down, so does the sag of a track that gives theta_d.
+        """
+        flight = self.steepest_flight
+        if self.direction == "up" or flight is None:
+            return self.energy_threshold()
+        return self.energy_threshold() + float(
+            drop_of_sag(
+                theta_d=self.allowance_d.high, p=flight.nosing_spacing, theta_s=flight.angle
             )
         )
 

@@ -10,9 +10,6 @@ if TYPE_CHECKING:
 WORTH_TELLING = 0.02
 """Friction by which the usual grousers need less than smooth belts, from which on it is said
 [1]."""
-SPINS = 0.2
-"""Speed from which driven grousers spun at a first riser in MuJoCo [m/s]: 2 of 280 GOs, and none
-slower (docs/physics.md); more where an end climbs a face by friction (docs/theory/grousers.md)."""
 
 
 def usual() -> str:
@@ -52,11 +49,6 @@ def notes(question: "Question", found: "TractionFigures") -> tuple[str, ...]:
             "a nosing. Left and right may hold one after the other, and the robot yaw meanwhile."
         )
     if track.has_grousers:
-        if question.direction == "up" and (question.speed or 0.0) >= SPINS:
-            each.append(
-                "The rule of grousers knows no speed: in simulations some spun at this speed at a "
-                "first riser higher than the end's radius. Meet it at 0.1 m/s."
-            )
         unknown = [
             name
             for name, value in (

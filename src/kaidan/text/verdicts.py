@@ -245,6 +245,17 @@ def _unseen(
     )
 
 
+def _too_fast(
+    question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
+) -> str:
+    assert question.speed is not None
+    limit = question.speed + finding.worst.min()
+    return (
+        f"It drives at {question.speed:.2f} m/s on grousers; beyond {limit:.2f} m/s some hooked a "
+        "nosing or spun at a riser in simulations."
+    )
+
+
 def _turns(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
@@ -339,6 +350,7 @@ _SAYINGS: dict[str, _Saying] = {
     "impact": _impact,
     "energy": _energy,
     "high_centring": _belly,
+    "grouser_speed": _too_fast,
     "landing_room": _room,
     "turning": _turns,
     "foot_unseen": _unseen,

@@ -141,8 +141,11 @@ def test_nothing_turns():
 
 def turn(angle, begin, end, sense=1.0, **more):
     """A rotation from one place (x, z, inclination) to another."""
-    names = {"barrier": at.BARRIER, "across": at.BARRIER_ACROSS, "s": at.ROTATION_S,
-             "rate": at.RATE_BEFORE, "outcome": at.OUTCOME, "pivot_x": at.PIVOT_X, "pivot_z": at.PIVOT_Z}  # fmt: skip
+    names = {
+        "barrier": at.BARRIER, "across": at.BARRIER_ACROSS, "s": at.ROTATION_S,
+        "rate": at.RATE_BEFORE, "outcome": at.OUTCOME, "pivot_x": at.PIVOT_X,
+        "pivot_z": at.PIVOT_Z,
+    }  # fmt: skip
     row = {at.ROTATION_ANGLE: angle, at.ROTATION_SENSE: sense}
     row |= dict(zip((at.START_X, at.START_Z, at.START_PHI), begin, strict=True))
     row |= dict(zip((at.END_X, at.END_Z, at.END_PHI), end, strict=True))
