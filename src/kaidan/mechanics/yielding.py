@@ -59,8 +59,8 @@ def drop_of_sag(*, theta_d: Number, p: Number, theta_s: Number) -> Number:
 
     ``w_n sin(theta_s)^2``, ``w_n = p sin(theta_d) / cos(theta_s)``
 
-    The robot comes back over the nosing by ``w_t sin(theta_s)`` along the stairs, and what that
-    shear stores is lost with the contact. Sag and indentation are taken as equal.
+    The robot comes back over the nosing by ``w_t sin(theta_s)`` along the stairs. Sag and
+    indentation under the whole weight are taken as equal, ``w_t = w_n``.
 
     Parameters
     ----------
