@@ -8,17 +8,14 @@ Python and the libraries; files in the page cache are not included.
 import argparse
 import json
 import resource
-import shutil
 import struct
-import subprocess
 import sys
-import tempfile
 import time
 from pathlib import Path
 
 import numpy as np
 
-from record import finish, options
+from record import finish, in_a_child, options, scratch
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 import cloud_campaign as campaign
@@ -75,17 +72,9 @@ def main() -> None:
     if chosen.child:
         print(json.dumps(run(chosen.child)))
         return
-    folder = Path(tempfile.mkdtemp(prefix="kaidan-scan-", dir=chosen.folder))
-    try:
-        free = shutil.disk_usage(folder).free / 1e9
-        if free < 1.05 * chosen.gigabytes:
-            sys.exit(f"{chosen.gigabytes} GB are needed in {folder}, {free:.1f} are free")
+    with scratch("scan", chosen.gigabytes, chosen.folder) as folder:
         count = make(folder / "large.las", chosen.gigabytes)
-        command = [sys.executable, __file__, "--child", str(folder / "large.las")]
-        done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
-    finally:
-        shutil.rmtree(folder)
-    found = json.loads(done.stdout)
+        found = in_a_child(__file__, "--child", str(folder / "large.las"))
     peak = "peak memory of the process [GB]"
     figures = {
         f"{count:.2e} points, {chosen.gigabytes:g} GB [s of processor]": found["seconds"],

@@ -2,6 +2,12 @@
 
 import argparse
 import json
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 
@@ -9,6 +15,25 @@ def options(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
     parser.add_argument("--save", type=Path, metavar="FILE", help="write the figures as JSON")
     parser.add_argument("--compare", type=Path, metavar="FILE", help="print beside saved figures")
     return parser
+
+
+@contextmanager
+def scratch(name: str, gigabytes: float, folder: Path | None) -> Iterator[Path]:
+    """A new folder with room for so much, removed at the end."""
+    made = Path(tempfile.mkdtemp(prefix=f"kaidan-{name}-", dir=folder))
+    try:
+        free = shutil.disk_usage(made).free / 1e9
+        if free < 1.05 * gigabytes:
+            sys.exit(f"{gigabytes:.1f} GB are needed in {made}, {free:.1f} are free")
+        yield made
+    finally:
+        shutil.rmtree(made)
+
+
+def in_a_child(*command: str) -> dict[str, float]:
+    """What a script prints as JSON, run in a process of its own."""
+    done = subprocess.run([sys.executable, *command], stdout=subprocess.PIPE, text=True, check=True)
+    return dict(json.loads(done.stdout))
 
 
 def finish(

@@ -9,10 +9,6 @@ the page cache not included. The columns lie in a new folder that is removed at 
 import argparse
 import json
 import resource
-import shutil
-import subprocess
-import sys
-import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack
@@ -24,7 +20,7 @@ from kaidan import stream
 from kaidan.mechanics.verdict import Judged
 from kaidan.sweeps.compiled import available
 from pairs import random_pairs
-from record import finish, options
+from record import finish, in_a_child, options, scratch
 
 COLUMNS = tuple(random_pairs(1))
 ALLOWANCE = dict.fromkeys(("theta_d", "theta_M", "theta_d_spare", "theta_M_spare"), 0.045)
@@ -94,20 +90,14 @@ def main() -> None:
         print(json.dumps(run(chosen.child, chosen.pairs, chosen.chunk, chosen.engine)))
         return
     needed = chosen.pairs * (8 * len(COLUMNS) + 8 * 10 + 2)
-    folder = Path(tempfile.mkdtemp(prefix="kaidan-stream-", dir=chosen.folder))
-    try:
-        free = shutil.disk_usage(folder).free
-        if free < 1.05 * needed:
-            sys.exit(f"{needed / 1e9:.1f} GB are needed in {folder}, {free / 1e9:.1f} are free")
+    with scratch("stream", needed / 1e9, chosen.folder) as folder:
         make(folder, chosen.pairs, chosen.chunk)
-        command = [sys.executable, __file__, "--child", str(folder), "--pairs", str(chosen.pairs)]
-        command += ["--chunk", str(chosen.chunk), "--engine", chosen.engine]
-        done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
+        found = in_a_child(
+            __file__, "--child", str(folder), "--pairs", str(chosen.pairs),
+            "--chunk", str(chosen.chunk), "--engine", chosen.engine,
+        )  # fmt: skip
         written = sum(path.stat().st_size for path in folder.glob("*.out"))
         assert written == chosen.pairs * (8 * 10 + 2), "a column is not whole"
-    finally:
-        shutil.rmtree(folder)
-    found = json.loads(done.stdout)
     peak = "peak memory of the process [GB]"
     figures = {
         f"{chosen.pairs:.0e} pairs, {chosen.engine} [s]": found["seconds"],

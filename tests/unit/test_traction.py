@@ -85,16 +85,17 @@ def test_a_smooth_belt_is_judged_by_friction_alone():
 
 @pytest.mark.parametrize("direction", ["up", "down"])
 def test_grousers_faster_than_they_were_tried_are_no_go(direction):
-    """Beyond 0.2 m/s, whatever friction holds; the advice is to drive as fast as that."""
+    """From 0.2 m/s on, whatever friction holds; the advice is to drive slower."""
     shoes = robot(**GROUSERS, **HARD)
     asks = {"friction": 2.0, "direction": direction}
     fast = assess(shoes, FLIGHT, speed=0.25, **asks)
     assert (fast.verdict, fast.governs) == ("caution", "grouser_speed")
-    assert "0.25 m/s on grousers; beyond 0.20 m/s" in fast.reason
-    assert ("Drive at 0.20 m/s or less", "go") in {
+    assert "0.25 m/s on grousers; from 0.20 m/s on" in fast.reason
+    assert ("Drive at 0.19 m/s or less", "go") in {
         (each.change, each.verdict) for each in fast.what_would_help
     }
-    slow = assess(shoes, FLIGHT, speed=0.2, **asks)
+    assert assess(shoes, FLIGHT, speed=0.2, **asks).governs == "grouser_speed"
+    slow = assess(shoes, FLIGHT, speed=0.19, **asks)
     assert slow.verdict == "go"
     assert "grouser_speed" not in slow.findings
     assert "grouser_speed" not in assess(shoes, FLIGHT, **asks).findings

@@ -204,7 +204,7 @@ def _candidates(
         yield from _slower(question, float(energy.worst[0]) + question.energy_threshold())
     fast = found.of(GROUSER_SPEED)
     if governs == GROUSER_SPEED.key and fast is not None and question.speed is not None:
-        limit = question.speed + float(fast.worst[0])
+        limit = round(question.speed + float(fast.worst[0]) - 0.01, 9)
         yield Candidate(text.slower(limit), question.changed(speed=limit))
     if governs in _ROTATES:
         if conclusion.margin_best > 0:

@@ -35,8 +35,8 @@ SLIDING = 0.8
 """Sliding over static friction [1]: rubber on concrete, Serway & Beichner, Physics for Scientists
 and Engineers, table 5.2 (0.8 and 1.0)."""
 FASTEST = 0.2
-"""Speed beyond which driven grousers hooked a nosing and fell, or spun at a first riser, in MuJoCo
-[m/s]: 3 of 203 GOs, and none of 107 slower (docs/physics.md)."""
+"""Speed from which on grousers are no GO [m/s]: driven in MuJoCo some hooked a nosing and fell, or
+spun at a riser (docs/physics.md, docs/theory/grousers.md)."""
 MOST_LOOKS = 20
 """Times that an angle of friction which is enough is improved."""
 _LITTLE = 1e-6
@@ -110,8 +110,8 @@ class Supplies(NamedTuple):
 
 
 def too_fast_on_grousers(question: Question) -> list[Finding]:
-    """Finding of a speed beyond that up to which grousers were tried without a fall."""
-    if not question.robot.track.has_grousers or (question.speed or 0.0) <= FASTEST:
+    """Finding of a speed at which grousers may hook a nosing, or spin at a riser."""
+    if not question.robot.track.has_grousers or (question.speed or 0.0) < FASTEST:
         return []
     spare = FASTEST - (question.speed or 0.0)
     return [Finding.certain(GROUSER_SPEED, spare, failing=Verdict.CAUTION, model=CONTACT.name)]

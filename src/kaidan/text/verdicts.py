@@ -251,8 +251,8 @@ def _too_fast(
     assert question.speed is not None
     limit = question.speed + finding.worst.min()
     return (
-        f"It drives at {question.speed:.2f} m/s on grousers; beyond {limit:.2f} m/s some hooked a "
-        "nosing or spun at a riser in simulations."
+        f"It drives at {question.speed:.2f} m/s on grousers; from {limit:.2f} m/s on some hooked "
+        "a nosing or spun at a riser in simulations."
     )
 
 
