@@ -219,6 +219,12 @@ def test_tilted_gravity_takes_from_the_rise_what_lies_on_the_way(sense, a):
         rise = row[at.BARRIER] / abs(load) * up + row[at.BARRIER_ACROSS] * (up / 1j)
         spares.append(of(moved + rise, tilted))
     assert rated([first, second], a=a, tilts=tilts)[3] == pytest.approx(min(spares))
+    # of one that does not follow at once its own way alone counts
+    apart = turn(0.1, (5.0, 1.0, 0.3), (5.0 + ahead * 0.1, 0.98, 0.1), sense,
+                 barrier=0.1, across=ahead * 0.05)  # fmt: skip
+    alone = rated([apart], a=a, tilts=tilts)[3]
+    assert alone < rated([first], a=a, tilts=tilts)[3]
+    assert rated([first, apart], a=a, tilts=tilts)[3] == pytest.approx(alone)
 
 
 def test_of_what_comes_down_only_what_is_beyond_the_next_edge_may_be_avoided():
