@@ -49,6 +49,11 @@ def height(p, kappa):
     return (p * up(kappa).conjugate()).real
 
 
+def across(p, kappa):
+    """Way of a vector across gravity that leans by kappa, towards the nose."""
+    return -(p * up(kappa).conjugate()).imag
+
+
 class Case:
     """A terrain and a robot as drawn, or in the mirror."""
 
@@ -113,10 +118,10 @@ def test_rise_over_an_edge(kappa, phi, mirrored):
     case = Case(plates(A), mirrored)
     c = A + (C - A) * cmath.exp(1j * phi)
     rise = abs(c - A) - height(c - A, kappa)
-    up = complex(kappa, 1.0) / abs(complex(kappa, 1.0))
-    way = ((c - A) / up).imag
     for tolerance in (0.0, 0.1):
         assert case.barrier(case.edge(A), kappa, tolerance, c, phi) == (True, near(rise))
+    over = abs(c - A) * up(kappa)  # the centroid, from A
+    way = across(over - (c - A), kappa)
     assert case.barrier_and_way(case.edge(A), kappa, 0.0, c, phi)[2] == near(way)
 
 
@@ -136,8 +141,9 @@ def test_rise_over_the_edge_that_the_flat_comes_upon(upon, kappa, mirrored):
 def test_no_rise_is_found_beyond_90_degrees(kappa, mirrored):
     """Gravity that draws forward: the centroid would have to come over the edge upside down."""
     alone, both = Case(plates(A), mirrored), Case(plates(D, A), mirrored)
-    rise = height(A + (C - A) * 1j - C, kappa)
-    assert alone.barrier(alone.edge(A), kappa) == (False, near(rise))
+    turned = A + (C - A) * 1j - C
+    rise, way = height(turned, kappa), across(turned, kappa)
+    assert alone.barrier_and_way(alone.edge(A), kappa) == (False, near(rise), near(way))
     rest = cmath.exp(1j * (math.pi / 2 - ONTO_D))
     rise = height(D + (ON_D - D) * rest - C, kappa)
     assert both.barrier(both.edge(A), kappa) == (False, near(rise))
@@ -189,7 +195,7 @@ def test_a_centroid_beyond_the_edge_rises_no_more(mirrored):
     """It is over it already; a rest within the tolerance is another pivot's."""
     edge, other = 0.02 + 0j, 0.02 - 0.2 * cmath.exp(0.1j)
     case = Case(plates(other, edge), mirrored)
-    assert case.barrier(case.edge(edge)) == (True, 0.0)
+    assert case.barrier_and_way(case.edge(edge)) == (True, 0.0, 0.0)
     assert case.barrier(case.edge(edge), 0.0, 0.05) == (True, 0.0)
     there = edge + (C - edge) * cmath.exp(0.1j)
     rise = abs(there - other) + other.imag - ABOVE
