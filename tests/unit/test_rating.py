@@ -34,7 +34,9 @@ def test_a_rating_is_that_of_the_traverse(descending, acceleration):
     outlines = [Outline.of(ABSOLEM, Posture(front=f, rear=r)) for f, r in ANGLES]
     parts = [Part(outline, *place) for outline in outlines for place in places]
     manner = {"descending": descending, "acceleration": acceleration, "step": 0.02}
-    rated = rate(STAIRS, parts, **manner)
+    downhill, uphill = 0.05, 0.03  # tilts of gravity
+    rated = rate(STAIRS, parts, tilts=(downhill, uphill), **manner)
+    trailing_and_leading = (uphill, downhill) if descending else (downhill, uphill)
     arrived = 0
     for each, part in zip(rated, parts, strict=True):
         found = traverse(STAIRS, part.outline, start=part.start, until=part.until, **manner)
@@ -56,7 +58,7 @@ def test_a_rating_is_that_of_the_traverse(descending, acceleration):
             max((c.impact_speed for c in chains), default=0.0)
         )
         assert each.spare == pytest.approx(
-            min((c.spare((0.0, 0.0)) for c in chains), default=math.inf)
+            min((c.spare(trailing_and_leading) for c in chains), default=math.inf)
         )
         for margin, side in ((each.downhill, True), (each.uphill, False)):
             losses = found.criterion.losses if found.whole else ()
