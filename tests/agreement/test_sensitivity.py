@@ -145,6 +145,14 @@ def test_single_steps_are_left_out_and_said_so():
     assert Sensitivity.from_json(found.to_json()) == found
 
 
+def test_it_is_of_the_plan_of_the_answer():
+    answer = assess("absolem", "ibc", friction=0.9)
+    found = sensitivity("absolem", "ibc", friction=0.9, samples=8)
+    assert (found.facing, found.flippers) == (answer.plan.facing, answer.plan.flippers)
+    assert (found.go, answer.verdict) == (1.0, "go")
+    assert found.margin_deg == pytest.approx(answer.margin_deg, abs=1e-6)
+
+
 @pytest.mark.parametrize("samples", [0, 7, 100])
 def test_samples_are_a_power_of_two(samples):
     with pytest.raises(InputError, match="is not a power of two from 8 on"):

@@ -250,7 +250,10 @@ def test_a_fall_is_no_rotation_that_ends():
 
 def test_a_change_that_leaves_the_verdict_as_it_is_says_so():
     answer = assess("absolem", "ada", friction=0.6)
-    assert "flippers flat, in line with the track: still NO-GO (" in str(answer)
+    assert "  not enough      Lay the flippers flat, in line with the track: still NO-GO (" in str(
+        answer
+    )
+    assert "\n  limit           " in str(answer)
 
 
 def test_where_nothing_helps_it_says_so():

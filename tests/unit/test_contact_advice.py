@@ -28,7 +28,7 @@ def changed(robot, text, question):
     friction = re.fullmatch(r".* friction of (\d\.\d\d) or more", text)
     speed = re.fullmatch(r"Drive at (\d+\.\d\d) m/s or less", text)
     moved = re.fullmatch(r"Move the centroid (\d+) mm towards the (front|rear)", text)
-    measured = re.fullmatch(r"Measure (.*): at best, if they are zero", text)
+    measured = re.fullmatch(r"Measure (.*): at best, if (?:it is|they are) zero", text)
     grousers = re.fullmatch(r"Belts with grousers of (\d+) mm every (\d+) mm", text)
     if grousers:
         height, spacing = (float(each) / 1e3 for each in grousers.groups())

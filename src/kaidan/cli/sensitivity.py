@@ -23,7 +23,7 @@ def register(app: typer.Typer) -> None:
     app.command("sensitivity")(sensitivity)
 
 
-@question(flippers="stowed")
+@question()
 def sensitivity(
     requested: "Question",
     samples: Samples = 256,

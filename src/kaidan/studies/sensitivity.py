@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.answer import Answer, Part
+from kaidan.assessment import found_plan
 from kaidan.assessment.uncertain_inputs import GROUPS, doubts_of, without
 from kaidan.errors import InputError, MissingExtraError
 from kaidan.modes import Verdict
@@ -55,6 +56,10 @@ class Sensitivity(Answer):
     """Name of the robot."""
     stairs: str
     """Name of the stairs."""
+    facing: str
+    """Which end leads."""
+    flippers: str
+    """Postures of its plan, as the option is written."""
     model: str
     """Which model judged."""
     judged: int
@@ -97,7 +102,8 @@ def sensitivity(
     Parameters
     ----------
     robot, stairs, **manner
-        As in `kaidan.assess`, or a whole question.
+        As in `kaidan.assess`, or a whole question. The best plan is found once, of the inputs as
+        they are stated; every draw drives it.
     samples : int
         A power of two; the number of judgements is this times the number of inputs and two.
     seed : int
@@ -128,7 +134,7 @@ def sensitivity(
     Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018, estimators; Herman & Usher 2017,
     doi:10.21105/joss.00097, SALib.
     """
-    question = Question.in_one_posture(robot, stairs, **manner)
+    question, _ = found_plan(Question.ask(robot, stairs, **manner))
     if samples < 8 or samples & (samples - 1):
         raise InputError(f"samples = {samples} is not a power of two from 8 on")
     drawn, left_out = _inputs(question)
@@ -172,6 +178,8 @@ def sensitivity(
     return Sensitivity(
         robot=question.robot.name,
         stairs=question.terrain_name,
+        facing=question.facing,
+        flippers=question.flippers,
         model=question.model,
         judged=len(margin),
         margin_deg=float(margin.mean()),

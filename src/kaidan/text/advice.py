@@ -56,7 +56,8 @@ def slower(speed: float) -> str:
 
 def measured(names: Sequence[str]) -> str:
     """Measure allowances."""
-    return f"Measure {' and '.join(names)}: at best, if they are zero"
+    zero = "it is" if len(names) == 1 else "they are"
+    return f"Measure {' and '.join(names)}: at best, if {zero} zero"
 
 
 def centroid(shift: float, end: str, *, of_payload: float | None) -> str:

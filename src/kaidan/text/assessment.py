@@ -39,12 +39,12 @@ def text(answer: "Assessment") -> str:
         lines.append(_row("weighed", thresholds(answer.centroid)))
     if answer.what_would_help:
         first, *others = answer.what_would_help
-        lines.append(_row("do", change_line(first, answer)))
+        lines.append(_row(change_name(answer).lower(), change_line(first, answer)))
         if others and others[0].verdict == first.verdict and answer.centroid is None:
             lines.append(_row("or", change_line(others[0], answer)))
-    elif answer.limits:
+    if answer.limits and not _is_enough(answer):
         lines.append(_row("limit", limits.text(answer.limits)))
-    elif answer.verdict in ("caution", "no-go") and _tried_changes(answer):
+    elif not answer.what_would_help and _tried_changes(answer):
         lines.append(_row("help", "none of the changes that were tried"))
     if answer.physics is not None:
         lines.append(_row("simulated", dynamic.simulated(answer.physics)))
@@ -64,14 +64,25 @@ def text(answer: "Assessment") -> str:
 
 def _tried_changes(answer: "Assessment") -> bool:
     """Whether changes were tried: not where nothing fails, and not many trials for each."""
-    return answer.governs != Undecided.MARGIN_UNKNOWN and answer.question.trials == 1
+    fails = answer.verdict in ("caution", "no-go") and answer.governs != Undecided.MARGIN_UNKNOWN
+    return fails and answer.question.trials == 1
+
+
+def _is_enough(answer: "Assessment") -> bool:
+    """Whether a change leads to another verdict, not only to a larger margin."""
+    return bool(answer.what_would_help) and answer.what_would_help[0].verdict != answer.verdict
 
 
 def advice(answer: "Assessment") -> str:
     """What to do first, in one line; empty where nothing helps, or need not."""
     if not answer.what_would_help:
         return ""
-    return f"Do: {change_line(answer.what_would_help[0], answer)}"
+    return f"{change_name(answer)}: {change_line(answer.what_would_help[0], answer)}"
+
+
+def change_name(answer: "Assessment") -> str:
+    """Name of the change that helps most."""
+    return "Do" if _is_enough(answer) else "Not enough"
 
 
 def short(answer: "Assessment") -> str:

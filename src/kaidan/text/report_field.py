@@ -6,6 +6,7 @@ from kaidan.modes import FAILURE_MODES
 from kaidan.text import turning
 from kaidan.text.assessment import (
     change_line,
+    change_name,
     friction_line,
     headline,
     margin_line,
@@ -60,7 +61,8 @@ def _facts(mission: "Mission") -> list[tuple[str, str]]:
         ("Go", f"{question.direction}, {question.facing.replace('-', ' ')}"),
         ("Speed", _speed(card.speed, card.judged_speed)),
     ]
-    for name, change in zip(("Do", "Or"), answer.what_would_help[:2], strict=False):
+    names = (change_name(answer), "Or")
+    for name, change in zip(names, answer.what_would_help[:2], strict=False):
         rows.append((name, change_line(change, answer)))
     rows += [
         ("Stairs", stairs_line(answer)),

@@ -14,12 +14,14 @@ def text(found: "Sensitivity") -> str:
     lines = [
         f"{found.robot} on {found.stairs}: margin {found.margin_deg:+.1f} deg, standard deviation "
         f"{found.deviation_deg:.1f} deg; GO with probability {found.go:.2f}",
-        f"{found.judged} draws, {found.model} model",
+        f"{found.judged} draws, {found.model} model, {found.facing.replace('-', ' ')}, "
+        f"flippers {found.flippers}",
         "",
     ]
     first = found.inputs[0]
     if first.margin_total > 0:
-        lines.insert(1, f"Measure first: {name(first.what)} ({first.name}).")
+        what = name(first.what)
+        lines.insert(1, f"Measure first: {what}{'' if what == first.name else f' ({first.name})'}.")
     heads = {"name": "input", "first": "margin, alone", "total": "in all", "sure": "+-"}
     heads |= {"go_first": "GO, alone", "go_total": "in all"} if 0 < found.go < 1 else {}
     rows = [
