@@ -14,6 +14,7 @@ from kaidan.assessment.plan_drives import Drives
 from kaidan.assessment.plan_hopes import LIMITS as LIMITS
 from kaidan.assessment.plan_hopes import Hope, Merit, Search
 from kaidan.assessment.plan_judged import Judged, Standing, judged_of, shortened
+from kaidan.assessment.plan_scores import UNKNOWN
 from kaidan.assessment.plan_sturdy import Sturdier
 from kaidan.assessment.plans import Plan, words
 from kaidan.assessment.plans import off_angles as off_angles
@@ -126,7 +127,7 @@ class _Off(NamedTuple):
     @property
     def sturdy(self) -> bool:
         """Whether its verdict holds off its angles."""
-        return self.worst == self.judged.merit
+        return self.worst[0] == self.judged.merit[0]
 
 
 class _Candidate(NamedTuple):
@@ -315,9 +316,13 @@ def _judged_off(
             return _Off(plan, worst, tested=False)
         if worst[0] == -Verdict.CAUTION.rank and drives.is_no_failure(off):
             continue
-        worst = (min(worst[0], drives.rank(off)), *plan.merit[1:])
-        if worst != plan.merit and worst[0] <= -Verdict.NO_GO.rank:
+        worst = (min(worst[0], drives.rank(off)), *worst[1:])
+        if worst[0] <= -Verdict.NO_GO.rank:
             break
+    if plan.question.surface is None and worst[0] == plan.merit[0]:
+        needed = friction_off_its_angles(plan.question, drives)
+        spare = math.degrees(math.atan(UNKNOWN) - math.atan(needed))
+        worst = (*worst[:3], min(worst[3], spare))  # of two, the one that needs less friction
     return _Off(plan, worst, tested=True)
 
 
