@@ -180,6 +180,34 @@ def test_the_trailing_end_slides_down_the_last_face_below_the_friction_of_a_ladd
     assert found.phases[-1].slides_below == pytest.approx(by_hand, abs=1e-6)
 
 
+def test_what_the_landing_requires_has_no_angle_drawn():
+    """By hand, small ends on a gentle flight: the flat needs its slope, and nothing beyond counts.
+
+    The trailing end on the edge, its normal leaning by l, the other end on the landing: forces that
+    lean by a from their normals meet on the gravity line. At l = 45 deg that is 0.351, no more
+    special than any other angle; at 90 deg, down the face, it is the most.
+    """
+    stairs = Stairs.inclined(angle=math.radians(11.1237), nosing_spacing=0.300479, steps=4)
+    track = Track(flat_length=0.8484, front_radius=0.005, rear_radius=0.01)
+    small = Outline.of(Robot(name="r", com_from_front=0.39125, com_height=0.2958, track=track))
+    for step in (STEP, 2 * STEP):
+        found = traverse(Profile.of_stairs(stairs), small, descending=True, step=step)
+        flight, land = found.phases[-2:]
+        assert flight.required_friction == pytest.approx(math.tan(stairs.angle), abs=1e-9)
+        assert land.required_friction < flight.required_friction
+        off = np.flatnonzero(trailing_end_leaves(found.path) & (found.phase_of_pose == "land"))
+        poses, x = found.path.poses, found.path.x[off]
+        lean, rear, front = poses.rear_lean[off], poses.rear_point[off], poses.front_point[off]
+        a = np.arctan(found.path.margins.required_friction[off])
+        meet_rear = rear[:, 1] + (x - rear[:, 0]) / np.tan(lean - a)
+        meet_front = front[:, 1] + (front[:, 0] - x) / np.tan(a)
+        # beside an exchange of contacts a pose is off it by 1 um, and the lines cross at a slant
+        assert meet_rear == pytest.approx(meet_front, rel=1e-5)
+        assert lean.min() < math.pi / 4
+        assert lean.max() == pytest.approx(math.pi / 2)
+        assert land.slides_below == pytest.approx(np.tan(a).max())
+
+
 def test_margins_just_after_a_nosing_has_left():
     """Theory, margin: then the lowest contact stands L - p behind the uphill tip."""
     theta, p = math.radians(50), 0.150
