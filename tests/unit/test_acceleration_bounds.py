@@ -1,5 +1,6 @@
 """Bounds of the acceleration over steps and samples, and over a flight, by hand."""
 
+import math
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,6 +10,7 @@ from kaidan import Question, Robot, Stairs
 from kaidan.mechanics.acceleration import tip_band
 from kaidan.mechanics.drive import drive_acceleration
 from kaidan.mechanics.margin import semi_stable_limit
+from kaidan.models import acceleration
 from kaidan.models.acceleration import _SIGN, _tightest, flight_band, semi_stable_angle
 from kaidan.models.samples import nominal
 from kaidan.robot import Drive
@@ -42,10 +44,17 @@ def test_the_slope_of_area_e_is_that_of_the_sheets_figures():
 
 @pytest.mark.parametrize("direction", ["up", "down"])
 @pytest.mark.parametrize("force", [None, 120.0])
-def test_the_band_of_a_flight_less_the_allowances(direction, force):
-    """Friction never decides here: tips and the drive do, spacing after spacing."""
+@pytest.mark.parametrize("C_L", [None, 0.05])
+def test_the_band_of_a_flight_less_the_allowances(direction, force, C_L):
+    """Friction never decides here: tips and the drive do, spacing after spacing.
+
+    A centroid at the uphill end tips over it unless it is kept there.
+    """
     drive = Drive(max_traction=force, max_acceleration=4.0, max_deceleration=3.0)
     robot = KENAF.model_copy(update={"mass": 20.0, "drive": drive})
+    if C_L is not None:
+        C_F = C_L if direction == "up" else KENAF.track.flat_length - C_L
+        robot = robot.with_centroid(C_F, 0.03)
     question = Question.in_one_posture(
         robot, FLIGHT, friction=5.0, theta_d=(0.0, 0.02), theta_M=(0.0, 0.05), direction=direction
     )
@@ -70,3 +79,38 @@ def test_the_band_of_a_flight_less_the_allowances(direction, force):
         found, (np.maximum(lower, -3.0), np.minimum(upper, 4.0), width), strict=True
     ):
         np.testing.assert_allclose(one, np.tile(expected, spans))
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "reserve", "holds"),
+    [
+        (0.0, 0.0, 0.0, True),
+        (0.0, 1.0, 0.1, True),
+        (-1.0, 0.0, 0.1, True),
+        (0.1, 1.0, 0.1, False),  # it gains speed from nosing to nosing
+        (-1.0, -0.1, 0.1, False),
+        (-1.0, 1.0, -0.1, False),
+        (-1.0, 1.0, math.nan, False),  # no plan
+    ],
+)
+def test_what_just_keeps_its_speed_and_just_has_a_plan_is_semi_stable(
+    lower, upper, reserve, holds, monkeypatch
+):
+    """Two cells of 0.05 and 0.1 m, with the same limits in both."""
+    drive = Drive(acceleration_control=True, max_speed=0.5)
+    question = Question.in_one_posture(KENAF.model_copy(update={"drive": drive}), FLIGHT)
+    band = np.full(2, lower), np.full(2, upper), np.array([0.05, 0.1])
+    asked = []
+
+    def plan(question, at, step, *, v_min):
+        asked.append(v_min)
+        return SimpleNamespace(reserve=reserve)
+
+    monkeypatch.setattr(acceleration, "flight_band", lambda question, at, step: band)
+    monkeypatch.setattr(acceleration, "plan_acceleration", plan)
+    at = nominal(question, FLIGHT)
+    assert acceleration.semi_stable(question, at, 0) is holds
+    assert asked == ([] if lower > 0 or upper < 0 else [pytest.approx(0.025)])
+    for other in (Drive(max_speed=0.5), Drive(acceleration_control=True)):
+        robot = KENAF.model_copy(update={"drive": other})
+        assert acceleration.semi_stable(question.changed(robot=robot), at, 0) is False

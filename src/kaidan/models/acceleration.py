@@ -156,7 +156,8 @@ def flight_band(question: Question, at: Draws, step: int) -> tuple[Array, Array,
         lower, upper, width = -upper[::-1], -lower[::-1], width[::-1]
     upper = np.minimum(upper, drive.max_acceleration or STANDARD_GRAVITY)
     lower = np.maximum(lower, -(drive.max_deceleration or STANDARD_GRAVITY))
-    spans = 0 if question.flight is None else len(question.flight.regular_steps)
+    assert question.flight is not None
+    spans = len(question.flight.regular_steps)
     return np.tile(lower, spans), np.tile(upper, spans), np.tile(width, spans)
 
 
