@@ -11,6 +11,7 @@ from kaidan.models import planned as module
 from kaidan.models.contact_figures import ContactFigures, Grades, PhaseFigures, TiltFigures
 from kaidan.models.findings import Finding, Findings
 from kaidan.models.planned import Part, Planned, _of_move, _smallest, _together, findings
+from kaidan.models.quasi_static import profile_of
 from kaidan.modes import (
     ENERGY,
     FLIPPER_TORQUE,
@@ -56,6 +57,60 @@ def test_a_plan_arrives_if_its_last_part_does_and_it_stands_at_every_change():
     assert arrives(True)
 
 
+class Driven:
+    """A traverse that records whence it began, and where it was to end."""
+
+    def __init__(self, name, start, until, arrived):
+        self.start, self.until, self.arrived = start, until, arrived
+        poses = SimpleNamespace(placement=lambda row: f"{name}[{row}]")
+        self.path = SimpleNamespace(poses=poses, ground=SimpleNamespace(points="ground"))
+
+
+@pytest.mark.parametrize(
+    ("stuck", "falls", "parts", "changes"),
+    [(None, None, 3, 2), (0, None, 1, 0), (1, None, 2, 1), (None, 0, 1, 1), (None, 1, 2, 2)],
+)
+def test_a_plan_is_driven_until_it_is_stuck_or_falls(stuck, falls, parts, changes, monkeypatch):
+    """Three postures, in two changes: each part begins where the change ended."""
+    asked = QUESTION.changed(
+        changes=(
+            {"before": "traverse", "posture": {"front": 0.3}},
+            {"before": "land", "posture": {"front": 0.5}},
+        )
+    )
+    driven, changed = [], []
+
+    def over(profile, alone, *, start, until):
+        driven.append(Driven(f"part {len(driven)}", start, until, len(driven) != stuck))
+        return driven[-1]
+
+    def move(robot, old, new, *, before, start, **given):
+        changed.append((old.front, new.front, before, start))
+        return change(stands=len(changed) - 1 != falls, end=f"change {len(changed)}")
+
+    monkeypatch.setattr(module, "move", move)
+    monkeypatch.setattr(module, "stop", lambda question, profile, phase: phase)
+    found = module.drive(asked, over=over)
+    starts, ends = [None, "change 1", "change 2"], [Phase.TRAVERSE, Phase.LAND, None]
+    assert [(one.start, one.until) for one in driven] == [*zip(starts, ends, strict=True)][:parts]
+    assert changed == [
+        (0.1, 0.3, Phase.TRAVERSE, "part 0[-1]"), (0.3, 0.5, Phase.LAND, "part 1[-1]")
+    ][:changes]  # fmt: skip
+    assert [part.question.posture.front for part in found.parts] == [0.1, 0.3, 0.5][:parts]
+    assert len(found.moves) == changes
+    assert found.arrived is (stuck is None and falls is None)
+
+
+def test_the_robot_changes_short_of_the_nosing_that_is_next():
+    """Going up the first or the last, going down as driven, from the other end."""
+    profile = profile_of(QUESTION)
+    up, down = QUESTION, QUESTION.changed(direction="down")
+    x = profile.nosings[:, 0]
+    for asked, first, last in ((up, x[0], x[-1]), (down, -x[-1], -x[0])):
+        for phase, at in ((Phase.TRAVERSE, first), (Phase.LAND, last)):
+            assert module.stop(asked, profile, phase) == pytest.approx(at - module.STAND_OFF)
+
+
 def test_a_tilt_on_the_way_of_a_change_counts_less_the_allowances():
     """Over its downhill end, but for the edge of the landing that it goes down over next."""
     d, M = QUESTION.allowance_d, QUESTION.allowance_M
@@ -72,6 +127,16 @@ def test_a_tilt_on_the_way_of_a_change_counts_less_the_allowances():
             assert (tips.phase, tips.failing) == (before, CAUTION)
             assert tips.worst == pytest.approx([least])
             assert tips.best > tips.worst
+
+
+def test_a_tilt_on_the_way_less_the_least_of_the_allowances_is_the_best_case():
+    d, M = ({"low": low, "high": high} for low, high in ((0.01, 0.02), (0.03, 0.05)))
+    asked = QUESTION.changed(theta_d=d, theta_M=M)
+    (tips,) = [
+        each for each in _of_move(asked, change(tilt=lambda side: 0.3)) if each.mode is TIP_DOWNHILL
+    ]
+    assert tips.worst == pytest.approx([0.3 - 0.02 - 0.05])
+    assert tips.best == pytest.approx([0.3 - 0.01 - 0.03])
 
 
 def test_the_tilt_on_the_way_is_told_where_it_is_less_than_before_and_after():
@@ -243,6 +308,11 @@ def test_figures_of_parts_as_one():
     assert found.grades.no_rotation is None
     assert (found.tilt.to_rock_deg, found.tilt.to_fall_deg) == (None, None)
     assert (found.margin_centroid_mm, found.traction_N, found.power_W) == (None, None, None)
+    other = figures([], grades=(True, False, True, 0.0, 0.0), tilt=(6.0, 8.0))
+    for pair in ([two, other], [other, two]):
+        (found,) = _together(pair)
+        assert (found.grades.arrested, found.grades.arrested_with_momentum) == (False, True)
+        assert (found.tilt.to_rock_deg, found.tilt.to_fall_deg) == (4.0, 2.0)
     (found,) = _together([one, nothing])
     assert found.grades.no_rotation is True
     assert found.grades.arrested is True

@@ -267,8 +267,8 @@ def _together(figures: Sequence[Figures]) -> Iterator[Figures]:
             "margin_centroid_mm": min(
                 (each for each in centroid if each is not None), default=None
             ),
-            "traction_N": max((each.traction_N or 0.0 for each in of_contact), default=0.0) or None,
-            "power_W": max((each.power_W or 0.0 for each in of_contact), default=0.0) or None,
+            "traction_N": max(each.traction_N or 0.0 for each in of_contact) or None,
+            "power_W": max(each.power_W or 0.0 for each in of_contact) or None,
         }
     )
 
