@@ -10,6 +10,7 @@ from kaidan import Question, Robot, Stairs, assessment
 from kaidan.assessment import plan_search
 from kaidan.assessment import unweighed as module
 from kaidan.errors import InputError
+from kaidan.models import unweighed as module_of_range
 from kaidan.models.findings import Finding, Findings
 from kaidan.models.unweighed import HEIGHTS, PLACES, Placed, judge_range, places
 from kaidan.modes import (
@@ -160,9 +161,23 @@ def test_places_without_an_answer():
     assert modes[TIP_DOWNHILL].worst[0] >= 0.3
     assert found.notes == (text.OF_THE_MIDDLE, text.OUTSIDE_SOMEWHERE)
     assert found.outside == ""
-    found, modes = over(lambda along, height: judged(outside="nowhere"))
-    assert (found.outside, modes) == ("nowhere", {})
+    # of no place at all it says why of the first
+    found, modes = over(lambda along, height: judged(outside=f"not at {along}, {height}"))
+    assert (found.outside, modes) == ("not at 0.24, 0.1", {})
     assert len(found.basis) == HEIGHTS * PLACES
+
+
+@pytest.mark.parametrize("off", [-0.03, 0.03])
+def test_of_two_places_alike_the_nearer_height_is_in_the_middle(off):
+    """The middle of the range lies 0.36 m behind the front, 0.15 m high."""
+
+    def away(along, height):
+        return module_of_range._off_the_middle(Placed(along, height, None, None), QUESTION)
+
+    assert away(0.36, 0.15) == 0.0
+    assert away(0.36, 0.15 + off) > away(0.36, 0.15 + 0.9 * off) > 0.0
+    # along it first, by any height
+    assert away(0.36 + off, 0.15) > away(0.36, 0.15 + off)
 
 
 def test_places_that_the_robot_cannot_have():

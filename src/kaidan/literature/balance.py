@@ -323,7 +323,7 @@ def _transitions(found: Traverse, stretches: tuple[Stretch, ...], speed: float) 
     }
     for each in run.events:
         event, row = each.kind, each.pose
-        if event in (contact.Event.MADE, contact.Event.TAIL_RESTS) and firsts.get(row, 0) > 0:
+        if event in (contact.Event.MADE, contact.Event.TAIL_RESTS) and firsts[row] > 0:
             transitions.append(_continuous(run, firsts[row], row, speed))
         elif event in kinds:
             begun += 1

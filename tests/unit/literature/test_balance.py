@@ -2,12 +2,14 @@
 
 import math
 from itertools import pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from kaidan import contact
 from kaidan.errors import InputError
+from kaidan.literature import balance as module
 from kaidan.literature.balance import Balance, Change, balance_along, energy_class, quality
 from kaidan.literature.equilibria import stable_poses
 from kaidan.mechanics import STANDARD_GRAVITY
@@ -263,3 +265,67 @@ def test_a_place_without_meaning():
 
 def test_status_of_the_climb_is_kept():
     assert along(FLIGHT, STOWED).traverse.status is contact.Status.FELL_BACKWARD
+
+
+# transitions of records made by hand
+
+
+def test_contacts_that_are_made_later_begin_a_stretch_and_losses_begin_in_theirs(monkeypatch):
+    """Stretches of the rows 0 to 3, 4 to 6 and 7 to 9; what is made at row 0 is the first."""
+    Event = contact.Event
+    events = [
+        (Event.MADE, 0), (Event.NOSE_DROPS, 3), (Event.MADE, 4), (Event.TIPS_BACK, 4),
+        (Event.ARRESTED, 7), (Event.TAIL_RESTS, 7), (Event.TIPS_BACK, 9),
+    ]  # fmt: skip
+    run = SimpleNamespace(
+        events=[SimpleNamespace(kind=kind, pose=row) for kind, row in events],
+        rotations=["first", "second", "third"],
+    )
+    stretches = [
+        SimpleNamespace(number=k, rows=rows) for k, rows in enumerate(((0, 4), (4, 7), (7, 10)))
+    ]
+    monkeypatch.setattr(contact, "impact_speeds", lambda run: np.array([0.1, 0.2, 0.3]))
+    monkeypatch.setattr(module, "_continuous", lambda run, end, row, speed: (end, row))
+    monkeypatch.setattr(module, "_loss", lambda found, *given: given)
+    found = module._transitions(SimpleNamespace(path=run), stretches, 0.1)
+    assert found == [
+        ("first", 0.1, Change.NOSE_DROPS, 0), (1, 4), ("second", 0.2, Change.TIPS_BACK, 1),
+        (2, 7), ("third", 0.3, Change.TIPS_BACK, 2),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("rises", "speed", "by_hand"),
+    [
+        ((0.5, 0.2, 0.3, 0.1), 2.0, 0.98),  # of rows 1 and 2 the smaller: 0.2 m of 0.204
+        ((0.1, 0.3, 0.2, 0.1), 2.0, 0.98),
+        ((0.1, 0.3, 0.25, 0.1), 2.0, 1.0),
+        ((0.1, -0.3, 0.25, 0.1), 2.0, 0.0),
+        ((0.1, 0.0, 0.25, 0.1), 0.0, 1.0),  # what needs nothing has all of it
+    ],
+)
+def test_the_quality_of_a_change_of_contacts_is_that_before_and_after(
+    rises, speed, by_hand, monkeypatch
+):
+    monkeypatch.setattr(module, "_energy", lambda run: np.array(rises))
+    run = SimpleNamespace(x=np.arange(4.0), inclination=0.1 * np.arange(4.0))
+    found = module._continuous(run, 1, 2, speed)
+    # half of 4 m^2/s^2 over g are 0.2039 m
+    assert found.quality == pytest.approx(by_hand, abs=1e-3)
+    assert (found.start, found.end, found.x, found.inclination) == (0, 1, (1.0, 2.0), (0.1, 0.2))
+
+
+@pytest.mark.parametrize("arrested", [True, False])
+@pytest.mark.parametrize("topples", [True, False])
+def test_a_loss_that_topples_or_is_not_arrested_is_worth_nothing(arrested, topples, monkeypatch):
+    monkeypatch.setattr(module, "quality", lambda **given: 0.7)
+    start, end = (SimpleNamespace(x=x, z=0.5 - x, inclination=-x) for x in (0.1, 0.2))
+    rotation = SimpleNamespace(
+        start=start, end=end, topples_with_momentum=topples, arrested=arrested, sense=-1,
+        angle=0.1, rate_before=2.0, kinetic=0.0, barrier=1.0,
+    )  # fmt: skip
+    found = SimpleNamespace(outline=KENAF)
+    loss = module._loss(found, rotation, 0.3, Change.NOSE_DROPS, 4)
+    assert loss.quality == (0.7 if arrested and not topples else 0.0)
+    assert loss.end == (5 if arrested else None)
+    assert (loss.rotation, loss.fall) == (-0.1, pytest.approx(0.1))
