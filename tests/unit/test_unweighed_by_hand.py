@@ -174,7 +174,7 @@ def test_of_two_places_alike_the_nearer_height_is_in_the_middle(off):
     def away(along, height):
         return module_of_range._off_the_middle(Placed(along, height, None, None), QUESTION)
 
-    assert away(0.36, 0.15) == 0.0
+    assert away(0.36, 0.15) == pytest.approx(0.0, abs=1e-12)
     assert away(0.36, 0.15 + off) > away(0.36, 0.15 + 0.9 * off) > 0.0
     # along it first, by any height
     assert away(0.36 + off, 0.15) > away(0.36, 0.15 + off)
