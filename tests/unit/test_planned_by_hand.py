@@ -269,11 +269,12 @@ def phase(name, friction, energy, **given):
     return PhaseFigures(**(usual | given))
 
 
-def figures(phases, *, grades=(True, True, True, 3.0, 4.0), tilt=(5.0, 6.0), **given):
+def figures(phases, *, grades=(True, True, True, 3.0, 4.0), tilt=(5.0, 6.0, 3.0), **given):
     names = tuple(Grades.model_fields)
+    rock, fall, reserve = tilt
     usual = {
         "grades": Grades(**dict(zip(names, grades, strict=True))),
-        "tilt": TiltFigures(to_rock_deg=tilt[0], to_fall_deg=tilt[1], reserve_deg=3.0),
+        "tilt": TiltFigures(to_rock_deg=rock, to_fall_deg=fall, reserve_deg=reserve),
         "phases": tuple(phases), "rotations": (), "energy_threshold_mm": 1.0,
         "speed_stated": True, "rear_length_mm": None, "margin_centroid_mm": None,
         "traction_N": None, "power_W": None,
@@ -284,13 +285,13 @@ def figures(phases, *, grades=(True, True, True, 3.0, 4.0), tilt=(5.0, 6.0), **g
 def test_figures_of_parts_as_one():
     one = figures(
         [phase("enter", 0.5, 7.0), phase("land", 0.4, None, slides_below=0.2)],
-        grades=(True, True, False, 3.0, 4.0), tilt=(5.0, None), margin_centroid_mm=8.0,
+        grades=(True, True, False, 3.0, 4.0), tilt=(5.0, None, 3.0), margin_centroid_mm=8.0,
         traction_N=100.0, power_W=0.5,
     )  # fmt: skip
     two = figures(
         [phase("land", 0.6, 3.0, slides_below=0.3, energy_margin_step=5, static_margin_mm=2.0,
                traction_over_weight=0.9, largest_rotation_deg=7.0, belly_touches=True)],
-        grades=(False, True, True, 2.0, 9.0), tilt=(4.0, 2.0), margin_centroid_mm=-1.0,
+        grades=(False, True, True, 2.0, 9.0), tilt=(4.0, 2.0, 3.0), margin_centroid_mm=-1.0,
         traction_N=50.0,
     )  # fmt: skip
     (found,) = _together([one, two])
@@ -303,14 +304,18 @@ def test_figures_of_parts_as_one():
     assert (land.energy_margin_mm, land.energy_margin_step) == (3.0, 5)
     assert (land.static_margin_mm, land.traction_over_weight) == (2.0, 0.9)
     assert (land.largest_rotation_deg, land.belly_touches) == (7.0, True)
-    nothing = figures([], grades=(None, True, True, 0.0, 0.0), tilt=(None, None))
+    nothing = figures([], grades=(None, True, True, 0.0, 0.0), tilt=(None, None, 3.0))
     (found,) = _together([nothing, nothing])
     assert found.grades.no_rotation is None
     assert (found.tilt.to_rock_deg, found.tilt.to_fall_deg) == (None, None)
     assert (found.margin_centroid_mm, found.traction_N, found.power_W) == (None, None, None)
-    other = figures([], grades=(True, False, True, 0.0, 0.0), tilt=(6.0, 8.0))
+    other = figures([], grades=(True, False, True, 0.0, 0.0), rear_length_mm=5.0,
+                    tilt=(6.0, 8.0, 4.0))  # fmt: skip
     for pair in ([two, other], [other, two]):
         (found,) = _together(pair)
+        first = pair[0]
+        assert found.rear_length_mm == first.rear_length_mm
+        assert found.tilt.reserve_deg == first.tilt.reserve_deg
         assert (found.grades.arrested, found.grades.arrested_with_momentum) == (False, True)
         assert (found.tilt.to_rock_deg, found.tilt.to_fall_deg) == (4.0, 2.0)
     (found,) = _together([one, nothing])
