@@ -154,6 +154,27 @@ def test_back_to_where_it_came_down_from_is_rocking():
     assert found == (pytest.approx(0.3), 0)
 
 
+def test_what_a_pose_rocks_onto_reaches_as_far_as_it_came_down_there():
+    """At 2.0 it is nose down by 0.2, from -0.05 so 0.15 is rocking; at 0.0 none would be."""
+    far = Onto(rocking=contact.ROCKING + 0.07)
+    found = lost(Way(METERS, far), [2], [1, 2], whence=-0.05)
+    assert found == (pytest.approx(REACHED, abs=PLACE), 1)
+
+
+def test_at_one_place_nothing_is_halved_out(monkeypatch):
+    """Two poses of one place, one of them on the nosing: an exchange of contacts."""
+    way, given = Way([2.0, 2.0], Onto()), Way.tilts
+
+    def tilts(self, rows, side, tolerance):
+        found = given(self, rows, side, tolerance)
+        if self is way:
+            found.rocking[np.asarray(rows) == 1] = 0.0
+        return found
+
+    monkeypatch.setattr(Way, "tilts", tilts)
+    assert lost(way, [0], [0, 1]) == NOTHING
+
+
 def test_from_one_nosing_that_it_rocks_onto_to_the_next():
     """There it is steeper by the difference, and no steeper where the next asks for more."""
     one, other = Onto(rocking=0.02), Onto(2.25, 3.5, rocking=0.005, tilt=0.22)
@@ -243,6 +264,22 @@ def test_dips_between_poses(monkeypatch):
     assert asked["values"] == [-inf, -0.3, -inf, -0.1, -inf, -inf]
     assert asked["group"] == [-1, 0, -1, 0, -1, -1]
     assert asked["measured"](Way([2.0, 4.0], Onto())).tolist() == pytest.approx([-0.1, -0.3])
+
+
+@pytest.mark.parametrize(("off", "row"), [(-1e-6, 3), (0.0, 2), (1e-6, 2)])
+def test_what_is_lost_counts_where_it_is_less(off, row, monkeypatch):
+    """The least of any pose is 0.25, of the third."""
+    asked = []
+
+    def dips(self, rows, alone):
+        asked.append(rows.tolist())
+        return [], np.empty(0, dtype=np.int64)
+
+    monkeypatch.setattr(_Tilted, "dips", dips)
+    monkeypatch.setattr(_Tilted, "lost_between", lambda *given: Rock(0.25 + off, 3))
+    found = rock(Way([5, 4, 3, 4]), own=2)
+    assert found == (pytest.approx(0.25 + min(off, 0.0), abs=1e-12), row)
+    assert asked == [[0, 1]]  # dips lie between poses that follow one another
 
 
 def test_a_dip_counts_as_the_pose_before_it(monkeypatch):

@@ -201,6 +201,22 @@ def test_up_to_what_is_enough_the_tilt_is_the_same(limit, enough):
     assert found <= whole
 
 
+def test_no_more_is_asked_than_says_what_is_sought_or_that_it_is_enough():
+    """Tilts are doubled: survived up to 0.5, felled at 0.6."""
+    first, second = [], []
+
+    def survives(asked):
+        return lambda tilt: asked.append(tilt) or tilt <= 0.5
+
+    largest_survived(survives(first))
+    doubled = first[1]
+    assert largest_survived(survives(second), enough=2 * doubled) == 2 * doubled
+    assert second == [0.0, doubled, 2 * doubled]
+    # what fells it at a tilt that is sought says that it does not exceed it
+    felled = next(tilt for tilt in first if tilt > 0.5)
+    assert largest_survived(survives([]), sought=(felled,)) == 4 * doubled
+
+
 def test_a_traverse_that_is_asked_of_a_tilt_says_on_which_side_it_falls(monkeypatch):
     """It falls back beyond 0.1 rad and forward beyond 0.3; what was tried is remembered."""
     tried = []
