@@ -1,6 +1,7 @@
 """The support polygon's findings at a yaw, of margins made by hand."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,7 +10,14 @@ from kaidan import Question, Robot, Stairs
 from kaidan.mechanics.oblique import body_inclination, oblique_friction
 from kaidan.models import support_polygon as module
 from kaidan.models.centroid import shift_of_centroid
-from kaidan.models.support_polygon import along_heading, energy_of, judge, margins_of, tips
+from kaidan.models.support_polygon import (
+    SCAN,
+    along_heading,
+    energy_of,
+    judge,
+    margins_of,
+    tips,
+)
 from kaidan.modes import (
     DRIVE,
     SLIDES_DOWN,
@@ -20,6 +28,7 @@ from kaidan.modes import (
     Phase,
     Verdict,
 )
+from kaidan.question import LARGEST_YAW
 from kaidan.robot import Drive
 
 G = 9.80665
@@ -162,3 +171,122 @@ def test_a_flight_along_a_heading():
     ):  # fmt: skip
         assert math.hypot(*turned) == pytest.approx(math.hypot(*step) / math.cos(psi))
         assert turned[0] / turned[1] == pytest.approx(step[0] / step[1] * math.cos(psi))
+    assert found.step_rises[0] / 0.1 == pytest.approx(found.step_rises[1] / 0.15)
+
+
+@pytest.mark.usefixtures("found")
+def test_of_several_kinds_of_steps_the_steepest_needs_most_friction_and_drive():
+    uneven = Stairs(rises=(0.1, 0.1, 0.108, 0.1), goings=(0.16, 0.16, 0.16))
+    judged = judge(Question.in_one_posture(ROBOT, uneven, friction=1.0, yaw=YAW))
+    theta = math.atan2(0.108, 0.16)
+    needed = float(oblique_friction(theta_s=theta, psi=YAW, a=0.0))
+    assert judged.required_friction == pytest.approx(needed)
+    (drive,) = (one for one in judged.each if one.mode is DRIVE)
+    spare = math.asin(150.0 / (20.0 * G)) - float(body_inclination(theta_s=theta, psi=YAW))
+    assert drive.worst[0] == pytest.approx(spare)
+
+
+def test_braking_as_much_as_the_slope_does_it_still_slides_down(found):
+    assert SLIDES_DOWN in found(acceleration=-G * math.sin(FLIGHT.angle))[1]
+
+
+def test_an_edge_that_every_slope_or_none_tips_it_over():
+    """Driven as hard as it falls: off one end at any slope, off the other at none."""
+    narrow = ROBOT.model_copy(update={"track": ROBOT.track.model_copy(update={"gauge": 0.2})})
+    flight = Stairs.inclined(angle=0.2, nosing_spacing=0.15)
+    for a in (9.0, -9.0):
+        question = Question.in_one_posture(narrow, flight, acceleration=a)
+        down, up, _ = margins_of(question, flight, np.array([0.9]))[:, 0, 0]
+        assert (down, up) == (math.copysign(math.pi / 2, -a), math.copysign(math.pi / 2, a))
+
+
+def test_a_track_as_long_as_the_nosings_are_apart_always_has_one():
+    flight = Stairs.inclined(angle=0.5, nosing_spacing=ROBOT.track.flat_length)
+    spacing = math.hypot(*flight.regular_steps[0])
+    for L, alone in ((spacing, False), (spacing * (1 - 1e-12), True)):
+        track = ROBOT.track.model_copy(update={"flat_length": L})
+        robot = ROBOT.model_copy(update={"track": track})
+        question = Question.in_one_posture(robot, flight)
+        found = margins_of(question, flight, np.array([0.0]))
+        assert bool((found == -math.pi / 2).all()) is alone
+
+
+# the yaw up to which it holds
+
+
+@pytest.mark.parametrize("uncertain", [False, True])
+@pytest.mark.parametrize("at", [1e-4, 0.3, 0.30001, 1.0, LARGEST_YAW - 1e-9])
+def test_the_yaw_up_to_which_it_holds_is_found(at, uncertain, monkeypatch):
+    """Within a quarter of a degree over 2^18; looked for no farther than any yaw is judged."""
+    asked = []
+
+    def holding(question, flight):
+        return lambda psi: (asked.extend(psi.tolist()), psi < at)[1]
+
+    monkeypatch.setattr(module, "_holding", holding)
+    question = SimpleNamespace(robot=ROBOT, uncertain=uncertain)
+    found = module.yaw_limit(question, FLIGHT)
+    # of rounding: the last halves are a million times as long
+    assert at - SCAN / 2**18 - 1e-12 <= found < at
+    # no place is looked at twice
+    inside = [each for each in asked if each > SCAN]
+    assert len({round(each, 12) for each in inside}) == len(inside) or uncertain
+
+
+@pytest.mark.parametrize("uncertain", [False, True])
+def test_who_holds_at_every_yaw_or_at_none_has_no_limit(uncertain, monkeypatch):
+    asked = []
+    question = SimpleNamespace(robot=ROBOT, uncertain=uncertain)
+
+    def holding(question, flight):
+        return lambda psi: (asked.extend(psi.tolist()), psi > -1.0)[1]
+
+    monkeypatch.setattr(module, "_holding", holding)
+    assert module.yaw_limit(question, FLIGHT) is None
+    assert asked == pytest.approx(np.linspace(0.0, LARGEST_YAW, len(asked)))
+    monkeypatch.setattr(module, "_holding", lambda *given: lambda psi: psi < 0.0)
+    assert module.yaw_limit(question, FLIGHT) is None
+    bare = KENAF.model_copy(update={"track": KENAF.track.model_copy(update={"gauge": None})})
+    assert module.yaw_limit(SimpleNamespace(robot=bare), FLIGHT) is None
+
+
+@pytest.mark.parametrize(
+    ("margins", "energy", "holds"),
+    [
+        ((0.08, 0.03, 0.03), 0.02, True),
+        ((0.07, 0.03, 0.03), 0.02, False),  # the allowances of 0.02 and 0.05
+        ((0.08, 0.02, 0.03), 0.02, False),
+        ((0.08, 0.03, 0.02), 0.02, False),
+        ((0.08, 0.03, 0.03), 0.01, False),  # the threshold itself
+    ],
+)
+@pytest.mark.parametrize("uncertain", [False, True])
+def test_it_holds_where_all_margins_and_the_energy_are_left(
+    margins, energy, holds, uncertain, monkeypatch
+):
+    """Margins of the samples, energy of the sheets' figures, each of its own edges."""
+
+    class Stated(Question):
+        def energy_threshold(self, slip=0.0):
+            return 0.01
+
+    def of(at, gauge, edges, a):
+        assert edges == (at, 0.4)
+        assert a == 0.0
+        return at
+
+    at = "sheets"
+    drawn = "samples" if uncertain else at
+    monkeypatch.setattr(module, "nominal", lambda question, flight: at)
+    monkeypatch.setattr(module, "draws", lambda question, at: iter([drawn]))
+    monkeypatch.setattr(module, "_edges", lambda at, gauge, psi: (at, gauge))
+    rows = [np.full((1, 3), each) for each in margins]
+    monkeypatch.setattr(module, "_margins", lambda *given: rows if of(*given) == drawn else None)
+    monkeypatch.setattr(
+        module, "_energy", lambda *given: np.array([energy]) if of(*given) == at else None
+    )
+    d, M = ({"low": 0.0, "high": high} for high in (0.02, 0.05))
+    question = Stated.model_validate(
+        {"robot": ROBOT, "terrain": FLIGHT, "theta_d": d, "theta_M": M, "posture": {}}
+    )
+    assert module._holding(question, FLIGHT)(np.array([0.1])).tolist() == [holds]
