@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from kaidan.traversal import static_criterion as static
 from kaidan.traversal.criterion import Tread
 from kaidan.traversal.drawn_criterion import DrawnTread, drawn_criterion
 from kaidan.traversal.static_criterion import flights_of, static_criterion
@@ -63,3 +64,59 @@ def test_each_draw_is_the_criterion_of_that_draw(seed, monkeypatch):
         assert found.rocking[k] == pytest.approx(alone.rocking, abs=1e-9)
         assert found.rise[k] == pytest.approx(rise_of(alone), abs=1e-9)
         assert found.landing_rise[k] == pytest.approx(rise_of(alone, landing=True), abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(60, 76))
+def test_of_any_part_of_a_flight_the_same_counts(seed):
+    """Parts of a fifth of it: what decides the whole is left out of most of them."""
+    nosings, drawn, tread, on, a = flights(seed, 6)
+    cuts = flights_of(nosings, tread.L)
+    first, last = nosings[0, 0], nosings[-1, 0]
+    each = []
+    for k, one in enumerate(drawn):
+        mine = tread._replace(L=on.L[k], C_L=on.C_L[k], C_N=on.C_N[k])
+        if flights_of(one, mine.L) == cuts:
+            each.append((k, static_criterion(one, mine, acceleration=a)))
+    for share in np.linspace(-0.2, 1.0, 9):
+        within = first + share * (last - first), first + (share + 0.2) * (last - first)
+        found = drawn_criterion(nosings, drawn, tread, on, acceleration=a, within=within)
+        for k, alone in each:
+            part = alone.within(*within)
+            figures = (
+                (found.downhill, margin_of(part, downhill=True)),
+                (found.uphill, margin_of(part, downhill=False)),
+                (found.landing, margin_of(part, downhill=True, landing=True)),
+                (found.rocking, part.rocking),
+                (found.rise, rise_of(part)),
+                (found.landing_rise, rise_of(part, landing=True)),
+            )
+            for drawn_ones, by_itself in figures:
+                # rad, m: rounding of functions of libm and numpy
+                assert drawn_ones[k] == pytest.approx(by_itself, abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_steepest_inclination_is_that_of_the_losses(seed, monkeypatch):
+    """Going up, before or after each, on the flight and with the uphill end over the landing."""
+    nosings, drawn, tread, on, a = flights(seed, 10)
+    found = drawn_criterion(nosings, drawn, tread, on, acceleration=a)
+    monkeypatch.setattr(static, "_gains", lambda *given: [])
+    for k, one in enumerate(drawn):
+        mine = tread._replace(L=on.L[k], C_L=on.C_L[k], C_N=on.C_N[k])
+        if flights_of(one, mine.L) != flights_of(nosings, tread.L):
+            continue
+        alone = static._of_nosings.__wrapped__(one.tobytes(), mine, a)
+        for drawn_ones, landing in ((found.inclination, False), (found.landing_inclination, True)):
+            slopes = [each.slope for each in losses_of(alone, landing=landing) if each.downhill]
+            assert drawn_ones[k] == pytest.approx(max(slopes, default=-math.inf), abs=1e-9)
+
+
+def test_where_there_is_no_flight_nothing_is_said():
+    tread = Tread(1.0, 0.4, 0.1, 0.1, 0.1, 0.3)
+    on = DrawnTread(*(np.full(3, each) for each in tread[:3]))
+    for nosings in (np.zeros((1, 2)), np.array([[0.0, 0.0], [1.2, 0.5]])):
+        found = drawn_criterion(nosings, np.repeat(nosings[None], 3, axis=0), tread, on)
+        inf = math.inf
+        expected = (inf, inf, inf, 0.0, inf, inf, -inf, -inf)
+        for each, one in zip(found, expected, strict=True):
+            assert each.tolist() == [one] * 3
