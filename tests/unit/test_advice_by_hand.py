@@ -118,6 +118,63 @@ def test_more_friction_is_a_hundredth_more_than_required(required, enough):
     assert found == ([] if enough is None else [pytest.approx((enough, enough))])
 
 
+@pytest.mark.parametrize(
+    ("off", "enough"), [(0.6, 0.61), (0.5, 0.51), (0.4, 0.51), (LARGEST_FRICTION, None)]
+)
+@pytest.mark.parametrize("search", [None, SimpleNamespace(drives="drives")])
+def test_off_the_angles_of_the_flippers_more_may_be_required(off, enough, search, monkeypatch):
+    """0.5 at them; drives that are known already are not made again."""
+    asked = []
+
+    def friction_off_its_angles(question, drives):
+        asked.append(drives)
+        return off
+
+    monkeypatch.setattr(plan_search, "friction_off_its_angles", friction_off_its_angles)
+    loose = Question.of(Robot.named("absolem"), KENAF.terrain, friction=1.0).changed(
+        best_of=(), posture={"front": 0.1, "rear": 0.1}, flipper_tolerance=0.05
+    )
+    needs = Findings(model="by hand", required_friction=0.5)
+    each = list(more_friction(loose, needs, search))
+    assert [one.question.friction[0] for one in each] == [enough] * (enough is not None)
+    assert all(one.holds and not one.certain for one in each)
+    assert asked == [search and "drives"]
+
+
+def test_in_doubt_friction_may_be_more_than_any_surface_has(monkeypatch):
+    """At the nominal friction it is the largest that is known: with the doubt it is beyond it."""
+    monkeypatch.setattr(traction_advice, "enough_at_the_risk", lambda *given: 2 * LARGEST_FRICTION)
+    needs = Findings(model="by hand", required_friction=LARGEST_FRICTION - 0.01)
+    sheet = KENAF.robot.model_dump() | {"uncertainty": {"com_height": 0.01}}
+    for robot, count in ((KENAF.robot, 1), (Robot.model_validate(sheet), 0)):
+        assert len(list(more_friction(KENAF.changed(robot=robot), needs))) == count
+
+
+def test_grousers_where_there_are_none_and_where_nobody_says():
+    """Of belts that are smooth with the usual figures, of others with none."""
+    usual = traction_advice.USUAL
+
+    def of(surface=KENAF.surface, **track):
+        belts = KENAF.robot.track.model_copy(update=track)
+        asked = KENAF.changed(
+            robot=KENAF.robot.model_copy(update={"track": belts}), surface=surface
+        )
+        return list(traction_advice.grousers(asked))
+
+    for belt, change, height, spacing in (
+        ("smooth", text.grousers(), usual.grouser_height, usual.grouser_spacing),
+        (None, text.state_grousers(), None, None),
+    ):
+        for surface in (KENAF.surface, None):
+            (one,) = of(surface, belt=belt)
+            track = one.question.robot.track
+            assert (one.change, one.holds) == (change, surface is not None)
+            assert (track.belt, track.grouser_height, track.grouser_spacing) == (
+                "grousers", height, spacing
+            )  # fmt: skip
+    assert of(belt="grousers") == []
+
+
 def finding(mode, margin):
     return Finding.certain(mode, margin, model="by hand")
 
@@ -241,6 +298,7 @@ def test_of_what_is_measured_a_verdict_or_a_margin_that_holds_must_come():
         ((), 0.5),
         ((-0.1, -0.2), math.ceil(100 * math.tan(math.atan(0.5) + 0.2) + 1) / 100),
         ((-1.1,), math.ceil(100 * math.tan(math.atan(0.5) + 1.1) + 1) / 100),
+        ((math.atan(0.5) - math.pi / 2,), 0.5),  # a right angle
     ],
 )
 def test_friction_enough_for_all_but_the_accepted_share(margins, enough, monkeypatch):
@@ -289,15 +347,32 @@ def test_the_largest_radius_of_the_nosings_by_hand(low, high, up_to, told):
 
     each = list(nosings(asked, slips, judged))
     radii = [round(1e3 * one.question.terrain.nosing_radius_high) for one in each]
+    for one in each:
+        smallest = min(asked.terrain.nosing_radii[0], one.question.terrain.nosing_radius_high)
+        assert one.question.terrain.nosing_radius_low == pytest.approx(smallest)
     assert radii == [told] * (told is not None)
     assert [one.change for one in each] == [text.nosings(each) for each in radii]
     assert all(one.then.verdict is Verdict.GO for one in each)
     # smooth belts, another reason, friction too little at best: nothing of nosings helps
     for question, now in (
         (asked.changed(robot=KENAF.robot), slips), (asked, slips._replace(governs="tip_downhill")),
-        (asked, slips._replace(margin_best=-0.1)),
+        (asked, slips._replace(margin_best=-0.1)), (asked, slips._replace(margin_best=0.0)),
     ):  # fmt: skip
         assert list(nosings(question, now, judged)) == []
+
+
+@pytest.mark.parametrize(("high", "told"), [(0.005, 4), (0.0045, 4), (0.004, None), (0.0035, None)])
+def test_nosings_as_round_as_they_may_be_have_failed_already(high, told):
+    """From 3.5 mm on: in whole millimetres below the largest, not that one again."""
+    gripping = KENAF.robot.track.model_copy(update={"belt": "grousers"})
+    asked = KENAF.changed(
+        robot=KENAF.robot.model_copy(update={"track": gripping}),
+        terrain=Stairs(rise=0.1, going=0.15, nosing_radius_low=0.0035, nosing_radius_high=high),
+    )
+    slips = concluded(Verdict.CAUTION)._replace(governs="slides_down")
+    each = list(nosings(asked, slips, lambda question: concluded(Verdict.GO)))
+    radii = [1e3 * one.question.terrain.nosing_radius_high for one in each]
+    assert radii == [pytest.approx(told)] * (told is not None)
 
 
 def test_friction_that_is_stated_and_that_is_not():
