@@ -188,7 +188,14 @@ def test_extremes_over_phases():
 
 
 def obstacles(
-    *, belly=None, touches=(), phase=None, status=Status.OK, descending=False, part=(None, None)
+    *,
+    belly=None,
+    touches=(),
+    phase=None,
+    status=Status.OK,
+    descending=False,
+    part=(None, None),
+    landings=(),
 ):
     start, until = part
     found = SimpleNamespace(
@@ -196,7 +203,9 @@ def obstacles(
         outline=SimpleNamespace(reach=(0.4, 0.6)), profile=SimpleNamespace(landings=(2.0, 3.0)),
     )  # fmt: skip
     phases = tuple(SimpleNamespace(phase=each, belly_touches=each in touches) for each in Phase)
-    return {one.mode: one for one in _obstacles(asked(belly=belly), found, phase, phases)}
+    question = asked(belly=belly)
+    question.landings = landings
+    return {one.mode: one for one in _obstacles(question, found, phase, phases)}
 
 
 def test_room_on_the_landings_is_the_least_of_both():
@@ -211,6 +220,25 @@ def test_room_on_the_landings_is_the_least_of_both():
     assert obstacles(part=("there", 0.7))[LANDING_ROOM].worst == math.inf
     assert obstacles(phase=Phase.ENTER) == {}
     assert list(obstacles(phase=Phase.LAND)) == [LANDING_ROOM]
+
+
+def landing(end, turn, *lengths):
+    return SimpleNamespace(end=end, turn=turn, lengths=lengths)
+
+
+@pytest.mark.parametrize(
+    ("landings", "room"),
+    [
+        ([landing("between", "none", 1.25, 1.2)], 0.2),  # the shorter of its lengths, no door
+        ([landing("between", "half", 1.9, 1.2)], 0.2),
+        ([landing("between", "unknown", 1.2)], 0.3),
+        ([landing("bottom", "half", 1.2)], 0.3),
+        ([landing("between", "half", 1.9), landing("between", "half", 1.1)], 0.1),
+    ],
+)
+def test_landings_between_flights_need_room_too(landings, room):
+    """1 m of robot, 0.3 m to spare on the first and the last landing."""
+    assert obstacles(landings=landings)[LANDING_ROOM].worst == pytest.approx(room)
 
 
 def test_where_it_is_stuck():
@@ -384,6 +412,65 @@ def test_findings_put_together(put_together):
     assert put_together(question_of(), held=held)[0].required_friction == 0.2
     failed, _ = put_together(question_of(), status=Status.TOO_LONG)
     assert (failed.outside, failed.each) == (Status.TOO_LONG.message, ())
+
+
+def test_notes_are_of_the_way_and_of_what_grips(put_together, monkeypatch):
+    monkeypatch.setattr(module, "_notes", lambda *given: ("of the way",))
+    monkeypatch.setattr(module.traction, "figures_of", lambda *given: "what grips")
+    monkeypatch.setattr(module.grips, "notes", lambda question, grip: (grip,))
+    found, _ = put_together(question_of())
+    assert tuple(found.notes) == ("of the way", "what grips")
+
+
+@pytest.mark.parametrize("uncertain", [False, True])
+@pytest.mark.parametrize(
+    ("slides", "most", "reserve", "left"),
+    [
+        ([0.3, 0.5], 1.0, 0.0, 0.3),
+        ([0.5, 0.3], 0.2, 0.0, 0.2),
+        ([math.nan, 0.3], 1.0, 0.0, 0.3),
+        ([-0.1], 1.0, 0.0, 0.0),  # below nothing nothing is left
+        ([0.3], 1.0, 0.2, 0.3),
+    ],
+)
+def test_falls_are_sought_as_far_as_they_may_be_the_smallest(
+    slides, most, reserve, left, uncertain
+):
+    """Beyond the allowances of 0.02 and 0.05, or the reserve if that is more."""
+    question = SimpleNamespace(
+        uncertain=uncertain, reserve=reserve, allowance_d=SimpleNamespace(high=0.02),
+        allowance_M=SimpleNamespace(high=0.05),
+    )  # fmt: skip
+    found = SimpleNamespace(sought="sought", seeking=lambda sought, *, enough: (sought, enough))
+    each = [SimpleNamespace(worst=np.array([margin, -1.0])) for margin in slides]
+    seen = module._seen_no_farther(question, found, each, most)
+    if uncertain:
+        assert seen is found
+    else:
+        sought, enough = seen
+        assert sought == "sought"
+        # rad: what is just as small is found too
+        assert max(0.07, reserve) + left < enough < max(0.07, reserve) + left + 1e-5
+
+
+@pytest.mark.parametrize("answered", [False, True])
+@pytest.mark.parametrize("otherwise", [False, True])
+@pytest.mark.parametrize("phase", [None, Phase.LAND])
+def test_sliding_is_known_first_where_grousers_hold_it(answered, otherwise, phase, monkeypatch):
+    """By hand: friction 0.5, 0.3 required."""
+    held = SimpleNamespace(phase=phase, required=0.3)
+    found = SimpleNamespace(status=Status.OK if answered else Status.TOO_LONG)
+    over = SimpleNamespace(friction=np.array([0.0, 0.1]), steeper=lambda phase: 0.0)
+    monkeypatch.setattr(module.traction, "holds_otherwise", lambda question: otherwise)
+    monkeypatch.setattr(module.traction, "supply", lambda driven, traverse, track: held)
+    monkeypatch.setattr(module, "spread", lambda *given: over)
+    question = question_of()
+    margin = module.sliding_margin(question, Basis(question, found))
+    if answered and otherwise and phase is not None:
+        by_hand = [math.atan(each) - math.atan(0.3) for each in (0.5, 0.6)]
+        assert margin == pytest.approx(by_hand)
+    else:
+        assert margin.tolist() == [math.inf]
 
 
 def test_figures_of_falls_that_were_looked_for(monkeypatch):
