@@ -122,7 +122,9 @@ def test_friction_that_nobody_stated_is_none():
     assert (found.margin, found.required) == (0.0, 0.0)
 
 
-@pytest.mark.parametrize(("margin", "finite"), [(-1.1, True), (-1.2, False), (-3.0, False)])
+@pytest.mark.parametrize(("margin", "finite"), [
+    (-1.1, True), (-1.2, False), (-3.0, False), (math.atan(0.5) - math.pi / 2, False),
+])  # fmt: skip
 def test_beyond_a_right_angle_no_friction_is_enough(margin, finite):
     """atan(0.5) is 0.464 rad, and 1.107 short of a right angle."""
     found = supply(asked(), driven(Holding(np.full(6, margin))), track(grousers=False))
@@ -138,6 +140,41 @@ def test_grousers_that_do_not_bear_half_of_the_traction():
     assert supply(asked(), driven(), weak).margin == -0.2
     assert supply(asked(), driven(tractions=(0.5, 1.2)), weak).margin == 0.0
     assert supply(asked(), driven(tractions=()), weak).margin == 0.0
+    # as strong as that force is not strong enough
+    assert supply(asked(), driven(tractions=(1.0,)), track(strength=G)).margin == -0.2
+
+
+@pytest.mark.parametrize(
+    ("rigid", "first", "gains", "enough", "looks"),
+    [
+        (False, 0.5, (), 0.5, 0),  # soft ones: cones that all grow alike
+        (True, 0.5, (-0.1, -0.02, 0.0), 0.62, 3),
+        (True, 1.3, (-0.1, -0.02, 0.0), 1.42, 3),
+        (True, 1.5, (-0.1,), 1.6, 1),  # beyond a right angle none is
+        (True, 1.6, (), 1.6, 0),
+        (True, 0.0, (), 0.0, 0),
+        (True, -0.1, (), -0.1, 0),
+        (True, 0.5, (0.3, -0.1, 1e-9, -0.2), 0.3, 3),
+    ],
+)
+def test_what_rigid_grousers_lack_is_added_until_nothing_is(
+    rigid, first, gains, enough, looks, monkeypatch
+):
+    """Of the poses that count; each look says what the least of them still lacks."""
+    left, asked_for = list(gains), []
+
+    def held(grip, phi, cases):
+        assert len(set(phi)) == 1
+        asked_for.append(phi[0])
+        return np.array([-9.0, left.pop(0), 0.7]), None
+
+    monkeypatch.setattr(module, "_held", held)
+    cases = (SimpleNamespace(rigid=False), SimpleNamespace(rigid=rigid))
+    rows = np.array([False, True, True])
+    angle, at = module._enough("grip", first, cases, rows, 7)
+    assert angle == pytest.approx(enough, abs=1e-6)
+    assert at == (1 if looks else 7)
+    assert len(asked_for) == looks
 
 
 def test_where_one_friction_of_smooth_belts_is_all_there_is_nothing_to_say():

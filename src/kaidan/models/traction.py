@@ -111,9 +111,9 @@ class Supplies(NamedTuple):
 
 def too_fast_on_grousers(question: Question) -> list[Finding]:
     """Finding of a speed at which grousers may hook a nosing, or spin at a riser."""
-    if not question.robot.track.has_grousers or (question.speed or 0.0) < FASTEST:
-        return []
     spare = FASTEST - (question.speed or 0.0)
+    if not question.robot.track.has_grousers or spare > 0:
+        return []
     return [Finding.certain(GROUSER_SPEED, spare, failing=Verdict.CAUTION, model=CONTACT.name)]
 
 
