@@ -104,9 +104,9 @@ BEYOND = 30.0
 def ground_table(terrain: ArrayLike) -> FloatArray:
     """Terrain polyline as the kernel's table.
 
-    Repeated points and points on the line of those beside them are dropped, so that refining a
-    profile changes nothing; the first and the last segment are continued by 30 m (level, if the
-    profile begins or ends with a riser).
+    Repeated points and points on the line of those beside them are dropped, and folds of a vertical
+    face, so that refining a profile changes nothing; the first and the last segment are continued
+    by 30 m (level, if the profile begins or ends with a riser).
 
     Parameters
     ----------
@@ -144,6 +144,7 @@ def ground_table(terrain: ArrayLike) -> FloatArray:
             last = point
     if len(keep) < 2:
         raise ValueError("terrain: at least two different points are needed")
+    keep = _unfolded(keep)
     keep = [_beyond(keep[1], keep[0], -1.0), *keep, _beyond(keep[-2], keep[-1], 1.0)]
     xy = np.array(_corners(keep))
     table = np.zeros((len(xy), GROUND_COLUMNS))
@@ -154,8 +155,28 @@ def ground_table(terrain: ArrayLike) -> FloatArray:
     table[-1, [U_X, U_Z]] = table[-2, [U_X, U_Z]]
     table[:-1, LENGTH] = length
     turn = table[:-2, U_X] * table[1:-1, U_Z] - table[:-2, U_Z] * table[1:-1, U_X]
-    table[1:-1, CONVEX] = turn < 0
+    back = (turn == 0) & (table[:-2, U_Z] > 0) & (table[1:-1, U_Z] < 0)  # a tip of a face
+    table[1:-1, CONVEX] = (turn < 0) | back
     return table
+
+
+def _unfolded(points: list[list[float]]) -> list[list[float]]:
+    """Points without those by which a vertical face goes up and down within itself.
+
+    The noise of a scan folds a face so. It is the same face: of its points only the ends count, and
+    what is higher or lower than both.
+    """
+    x, z = np.array(points).T
+    begins = np.append(np.flatnonzero(np.diff(x, prepend=-math.inf)), len(x))
+    keep = np.ones(len(x), dtype=np.bool_)
+    for k in np.flatnonzero(np.diff(begins) > 2):
+        first, last = begins[k], begins[k + 1] - 1
+        face = z[first : last + 1]
+        keep[first + 1 : last] = False
+        top, bottom = int(np.argmax(face)), int(np.argmin(face))
+        keep[first + top] |= face[top] > max(face[0], face[-1]) + COLLINEAR
+        keep[first + bottom] |= face[bottom] < min(face[0], face[-1]) - COLLINEAR
+    return [points[k] for k in np.flatnonzero(keep).tolist()]
 
 
 def _corners(points: list[list[float]]) -> list[list[float]]:

@@ -113,6 +113,51 @@ def test_bad_terrain(terrain, text):
         ground_table(terrain)
 
 
+FOLDS = [(-3, 0), (0, 0), (0, 0.04), (0, 0.02), (0, 0.09), (0, 0.03), (0, 0.1), (3, 0.1)]
+"""A face of 0.1 m that goes up and down within itself, as the noise of a scan has it."""
+
+
+def test_a_face_that_goes_up_and_down_within_itself_is_the_same_face():
+    """Of its points the ends count; a tip over the tread and a slit into the floor stay."""
+    ends = [FOLDS[1], FOLDS[-2]]
+    assert ground_table(FOLDS)[1:-1, :2].tolist() == [list(each) for each in ends]
+    tip, slit = (0, 0.13), (0, -0.02)
+    for more in ([tip], [slit], [slit, tip], [tip, slit]):
+        points = [*FOLDS[:3], *more, *FOLDS[3:]]
+        expected = [ends[0], *more, ends[1]]
+        assert ground_table(points)[1:-1, :2].tolist() == [list(each) for each in expected]
+    # as high as the tread, twice: still its end alone
+    twice = [*FOLDS[:3], (0, 0.1), *FOLDS[3:]]
+    assert (ground_table(twice) == ground_table(FOLDS)).all()
+
+
+def test_a_folded_face_is_climbed_like_a_smooth_one():
+    """By hand: no pose depends on what a face does within itself."""
+    smooth = [*FOLDS[:2], *FOLDS[-2:]]
+    found, expected = (
+        traverse(each, stadium(0.47, 0.196, 0.071, 0.06), -1.0, 0.5) for each in (FOLDS, smooth)
+    )
+    assert found.status is Status.OK
+    assert (found.poses.table == expected.poses.table).all()
+
+
+@pytest.mark.parametrize(
+    ("points", "z", "highest"),
+    [
+        ([(-3, 0), (0, 0), (0, 0.1001), (0, 0.1), (3, 0.1)], 0.171, 0.402),
+        ([(-3, 0.1), (0, 0.1), (0, 0.1001), (0, 0), (3, 0)], 0.071, 1e-9),
+    ],
+)
+def test_a_tip_of_a_face_is_no_wall(points, z, highest):
+    """By hand: beyond a tip of 0.1 mm the robot comes over the edge of a kerb of 0.1 m, up and
+    down, and stands on the floor as high as its centroid above the flat; smooth it rises by 0.401.
+    """
+    run = traverse(points, stadium(0.47, 0.196, 0.071, 0.06), -1.0, 0.5)
+    assert run.status is Status.OK
+    assert run.z[-1] == pytest.approx(z, abs=1e-9)
+    assert run.inclination.max() == pytest.approx(highest, abs=1e-3)
+
+
 def test_bad_robot():
     with pytest.raises(ValueError, match="negative"):
         body_table([[0, 0, -0.1, 1, 0, 0.1]])
