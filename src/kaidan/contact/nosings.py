@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from kaidan.contact.codes import Feature
+from kaidan.contact.codes import FeatureTable
 from kaidan.contact.columns import PASSED_COLUMNS
 from kaidan.contact.path import TOUCH, Path
 from kaidan.contact.records import Events
@@ -68,7 +68,7 @@ def without_nosings(
     begin = path.s[events.pose]
     shares = (events.s - begin) / (path.s[events.pose + 1] - begin)
     poses = path.table_between(events.pose, shares)
-    points = np.array([Feature.of(each.feature).point for each in events], dtype=np.int64)
+    points = FeatureTable.of(events.feature).point
     margins, found = margin_tables(len(poses))
     kernel().margins_without(
         path.ground.table, path.body.table, poses, points, acceleration, gravity, TOUCH,

@@ -223,6 +223,11 @@ class Events(_Table, Sequence[EventRecord]):
         return self._column(at.EVENT_S)
 
     @property
+    def feature(self) -> IntArray:
+        """What each happens to, read by `Feature.of`; -1: nothing."""
+        return self._whole(at.EVENT_FEATURE)
+
+    @property
     def pose(self) -> IntArray:
         """Row of the pose of each."""
         return self._whole(at.EVENT_POSE)

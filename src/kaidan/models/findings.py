@@ -146,6 +146,8 @@ def at_risk(values: Array, risk: float) -> float:
 
 def each_at_risk(values: Array, risk: float) -> Array:
     """`at_risk` of several quantities: samples along the last axis."""
+    if values.shape[-1] == 1:
+        return values[..., 0]
     known = ~np.isnan(values)
     ordered = np.sort(np.where(known, values, -np.inf), axis=-1)
     found = ordered[..., int(risk * values.shape[-1])]

@@ -204,13 +204,15 @@ def margins_of(question: Question, flight: Stairs, psi: Array, *, certain: bool 
 def _margins(at: Draws, gauge: float, edges: "_Edges", a: float) -> Array:
     yaw = edges.yaw
     kappa = np.cos(yaw) + _END * (edges.left - edges.right) * np.sin(yaw) / gauge
-    slack = _END * edge_slack(x=edges.x, kappa=kappa, C_N=at.C_N, theta_s=at.theta_s, a=a)
     limit = edge_limit(x=edges.x, kappa=kappa, C_N=at.C_N, a=a)
     margin = _END * (limit - at.theta_s)
-    margin = np.where(np.isnan(margin), np.copysign(math.pi / 2, slack), margin)
-    down, up = np.minimum(margin[0], margin[1]), np.minimum(margin[2], margin[3])
-    side = sideways_limit(gauge=gauge, C_N=at.C_N, psi=yaw) - at.theta_s
-    tips = np.stack(np.broadcast_arrays(down, up, side))
+    without = np.isnan(margin)
+    if without.any():
+        slack = _END * edge_slack(x=edges.x, kappa=kappa, C_N=at.C_N, theta_s=at.theta_s, a=a)
+        margin = np.where(without, np.copysign(math.pi / 2, slack), margin)
+    tips = np.empty((3, *margin.shape[1:]))
+    tips[0], tips[1] = np.minimum(margin[0], margin[1]), np.minimum(margin[2], margin[3])
+    tips[2] = sideways_limit(gauge=gauge, C_N=at.C_N, psi=yaw) - at.theta_s
     rows = np.where(at.p / np.cos(yaw) > at.L, -math.pi / 2, tips)
     return np.asarray(rows.min(axis=-1))
 

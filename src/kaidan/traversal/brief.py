@@ -36,7 +36,8 @@ def by_how_long(path: contact.Path, traction: Array, row: NDArray[np.int64]) -> 
         Row of the path of which each is.
     """
     poses = path.poses
-    if len(poses) == 0:
+    falls = np.sin(poses.path_direction) < 0.0
+    if not falls.any():
         return traction
     s, leg = poses.s, poses.leg
     exchange = (s[1:] - s[:-1] < contact.ONE_PLACE) | (leg[1:] != leg[:-1])
@@ -47,7 +48,7 @@ def by_how_long(path: contact.Path, traction: Array, row: NDArray[np.int64]) -> 
     length = poses.s[last] - poses.s[first]
     long = np.flatnonzero(length >= BRIEF)
     at = run[row]
-    brakes = (np.sin(poses.path_direction[row]) < 0.0) & (length[at] < BRIEF)
+    brakes = falls[row] & (length[at] < BRIEF)
     if len(long) == 0 or not brakes.any():
         return traction
     most = np.full(count, -np.inf)

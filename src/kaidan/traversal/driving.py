@@ -140,8 +140,11 @@ def _rocks_onto_flippers(body: Outline) -> bool:
 
     The flat ends at a kink there, and what lies beyond it carries as on a low nosing.
     """
+    flippers = body.parts[body.kinds == contact.FLIPPER]
+    if len(flippers) == 0:
+        return False
     (last, *_), (first, *_) = _flat_ends(body)
-    x, z, radius = body.parts[body.kinds == contact.FLIPPER].reshape(-1, 3).T
+    x, z, radius = flippers.reshape(-1, 3).T
     beyond = np.maximum(x - first, last - x)
     z = z + body.stance.com_height
     lowest = z * math.cos(contact.ROCKING) - beyond * math.sin(contact.ROCKING) - radius

@@ -104,18 +104,18 @@ def phase_extremes(
     sudden = {side: _as_on_the_flat(seen, body, side) for side in (-1.0, 1.0)}
     # of a pose between two phases the other one judges
     of_criterion = _on_a_flight(seen, profile, room) | (phase[samples.row] != Phase.TRAVERSE.value)
+    at_nosing = np.isin(places, profile.nosings[:, 0])
     extremes = []
     for name in Phase:
         rows = np.flatnonzero(closed[name][samples.row] & samples.lasts)
         if len(rows) == 0:
             continue
-        of = seen.margins[rows]
-        downhill, side = (of.front, -1.0) if descending else (of.back, 1.0)
+        margins, side = (seen.margins.front, -1.0) if descending else (seen.margins.back, 1.0)
         of_rises = [each for each in rises if each.phase is name]
         posed = np.ones(len(rows), dtype=np.bool_)
         if of_rises:  # where nosings carry, the criterion's contacts count, not those of a moment
             posed[:] = name is not Phase.TRAVERSE
-            posed &= ~np.isin(places[rows], profile.nosings[:, 0])
+            posed &= ~at_nosing[rows]
         if descending and name is Phase.ENTER and not profile.is_level:
             # the edge of the landing obliges it to rotate
             posed[:] = False
@@ -149,7 +149,7 @@ def phase_extremes(
                 uphill_energy_margin_step=uphill_step,
                 steadiness=steady,
                 uphill_steadiness=uphill_steady,
-                static_margin=float(np.nanmin(downhill)),
+                static_margin=float(np.nanmin(margins[rows])),
                 traction_over_weight=float(np.nanmax(np.where(slides, 0.0, samples.traction[rows])))
                 / STANDARD_GRAVITY,
                 largest_rotation=max(
@@ -172,7 +172,7 @@ def phase_extremes(
                     _rock(seen, uphill_rows, -side, profile, descending, acceleration, own),
                     _rotated(path, phase, name, -side, profile, descending, whole),
                 ),
-                belly_touches=bool(of.belly_touches.any()),
+                belly_touches=bool(seen.margins.belly_touches[rows].any()),
             )
         )
     return tuple(extremes)

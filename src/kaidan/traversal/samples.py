@@ -126,8 +126,9 @@ def trailing_end_leaves(path: contact.Path) -> NDArray[np.bool_]:
     ahead more than the flat would; and the path falls.
     """
     poses = path.poses
-    flat = np.maximum(-poses.inclination, 0.0)
-    return np.asarray((poses.rear_lean > flat + _ALIKE) & (np.sin(poses.path_direction) < 0.0))
+    leaves = poses.rear_lean > np.maximum(-poses.inclination, 0.0) + _ALIKE
+    leaves[leaves] = np.sin(poses.path_direction[leaves]) < 0.0
+    return np.asarray(leaves)
 
 
 def _friction(path: contact.Path) -> Array:
