@@ -128,3 +128,24 @@ def test_walls_at_both_sides_say_nothing_of_a_last_level_that_was_not_seen():
     nosings, length = landing(moved(sides), alone=False)
     assert nosings == 5
     assert np.isnan(length)
+
+
+@pytest.mark.parametrize("odd", [-0.03, 0.02])
+@pytest.mark.parametrize("end", [False, True])
+def test_a_last_level_is_not_drawn_to_the_regular_one(odd, end):
+    """9 mm of noise, and points within 27 mm of the regular level, of which its mean was taken; or
+    the end of its face, seen 6 mm too high, though its landing is seen."""
+    rng = np.random.default_rng(3)
+    number = np.arange(5)
+    found = np.column_stack([0.3 * number, 0.15 * (number + 1.0)])
+    line = StairLine(s0=0.0, z0=0.15, going=0.3, rise=0.15, first=0, last=4)
+    s, t = rng.uniform(1.2, 2.2, 2000), rng.uniform(0.0, 0.9, 2000)
+    z = rng.normal(0.75 + odd, 0.009, 2000)
+    near = np.abs(z - 0.75) < 0.027
+    found[-1, 1] = 0.75 + odd + 0.006 if end else z[near].mean()
+    assert end or abs(found[-1, 1] - 0.75 - odd) > 0.003
+    sigma, measured = np.full((5, 2), 4e-3), np.ones((5, 2), dtype=bool)
+    places = np.full((5, 2, 2, 3), np.nan)
+    nosings, sigma, *_ = last_riser(found, sigma, measured, places, line, s, t, z, 0.009, 0.027)
+    assert nosings[-1, 1] == pytest.approx(0.75 + odd, abs=4 * 0.009 / np.sqrt(2000))
+    assert sigma[-1, 1] < 5e-4

@@ -33,6 +33,11 @@ narrower."""
 FACE_SEEN = 0.3
 """Height over which the points of the first riser lie, in rises [1]: those of a floor that lies
 lower than a regular riser leads up from are of one level."""
+ALONE = 0.8
+"""Share of the points under a nosing, a going before and behind it, that are its face where little
+of that is seen [1]."""
+CENTRED = 6
+"""Times that a level is sought about where it was found, at most."""
 FLOOR_SEEN = 15
 """Points from which a floor counts as seen."""
 
@@ -80,11 +85,9 @@ def from_the_first(line: StairLine, s: Array, t: Array, z: Array, tight: float) 
         s1, z1 = line.at(np.array([line.first]))[0]
         ahead = s - line.skew * t - s1
         level = np.abs(z - z1) < tight
-        before = (level & (ahead > -0.4 * g - 0.15) & (ahead < -0.04)).sum()
+        before = int((level & (ahead > -0.4 * g - 0.15) & (ahead < -0.04)).sum())
         behind = (level & (ahead > 0.04) & (ahead < 0.9 * g)).sum()
-        face = (np.abs(ahead) < tight) & (z < z1 - 0.15 * r) & (z > z1 - 0.85 * r)
-        tall = face.sum() >= 5 and _span(z[face], 0.1) > FACE_SEEN * r
-        if tall and face.sum() > before:
+        if _is_face(ahead, z - z1, line, tight, before):
             break
         front = fronts(begun, s, t, z, tight) if front is None else front
         ends = (front.at - line.skew * front.t)[front.step == line.first]
@@ -108,6 +111,22 @@ def from_the_first(line: StairLine, s: Array, t: Array, z: Array, tight: float) 
             break
         line = replace(line, first=line.first - 1)
     return line
+
+
+def _is_face(ahead: Array, over: Array, line: StairLine, tight: float, before: int) -> bool:
+    """Whether the face of a first riser is seen under its nosing, of which there are these points.
+
+    It is more than the level before the nosing, and stands up; or little of it is seen, as by one
+    beam, and nothing else of that height lies about it, as a floor would.
+    """
+    g, r = line.going, line.rise
+    below = (over < -0.15 * r) & (over > -0.85 * r) & (np.abs(ahead) < g)
+    face = below & (np.abs(ahead) < tight)
+    count = int(face.sum())
+    if count < 5 or count <= before:
+        return False
+    alone = count > ALONE * below.sum()
+    return alone or _span(over[face], 0.1) > FACE_SEEN * r
 
 
 def floor_before(
@@ -146,13 +165,12 @@ def last_riser(
     last, r, g = found[-1], line.rise, line.going
     alone = bool(measured[-1, 1])
     within = tight if alone else max(tight, ODD_UNSEEN * r)
-    near = (np.abs(z - last[1]) < within) & (s > last[0] + 0.03)
-    height, doubt, count = _densest(z[near], max(tight, 0.01))
-    on = near & (np.abs(z - height) < tight)
+    behind = s > last[0] + 0.03
+    height, doubt, count = _centred(z[behind], float(last[1]), within, tight)
+    on = behind & (np.abs(z - height) < tight)
     if count >= FLOOR_SEEN and _reach(s[on] - last[0]) > g + 0.1 and (alone or not _narrow(t, on)):
-        if not alone:
-            found[-1, 1], sigma[-1, 1], measured[-1, 1] = height, doubt, True
-            places[-1, 1] = place_of(s, t, z, np.flatnonzero(on))
+        found[-1, 1], sigma[-1, 1], measured[-1, 1] = height, doubt, True
+        places[-1, 1] = place_of(s, t, z, np.flatnonzero(on))
         return found, sigma, measured, places, _reach(s[on] - last[0])
     above = (s > last[0] + g + 0.03) & (s < last[0] + g + 1.2)
     above &= (z > last[1] + 0.2 * r) & (z < last[1] + 1.7 * r)
@@ -183,6 +201,22 @@ def last_riser(
         np.concatenate([places, here[None]]),
         reach,
     )
+
+
+def _centred(values: Array, about: float, within: float, width: float) -> tuple[float, float, int]:
+    """`_densest` of the values near one, then of those near that, until it stays where it is.
+
+    Those near a regular level alone would draw that of another riser towards it.
+    """
+    found = _densest(values[np.abs(values - about) < within], max(width, 0.01))
+    for _ in range(CENTRED):
+        before = found[0]
+        if not math.isfinite(before):
+            break
+        found = _densest(values[np.abs(values - before) < 2 * width], max(width, 0.01))
+        if abs(found[0] - before) < 0.1 * found[1]:
+            break
+    return found
 
 
 def _densest(values: Array, width: float) -> tuple[float, float, int]:

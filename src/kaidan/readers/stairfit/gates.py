@@ -29,10 +29,16 @@ EXPLAINED_OF_FEW = 0.56
 """The same of a flight of three nosings [1]: 20 that were cast had 0.63 and more, ends of ramps up
 to 0.50."""
 DEPTHS = (0.8, 1.25)
-"""Scatter about the line of the nosings over that of steps [1]: flights had 0.93 to 1.07, ramps
-with battens up to 0.75, seats of a grandstand of twice the height 1.38."""
+"""Scatter about the line of the nosings over that of steps [1]: flights had 1.00 to 1.18, heaps and
+shelves up to 1.7."""
+EVEN = 0.3
+"""Points of every second step over those of the others [1]: 90 flights had 0.61 and more, seats of
+a grandstand of twice the height, each with an empty step between them, up to 0.1."""
 LEVEL = 0.7
 """Least share of the points on treads whose plane is level [1]."""
+SLANTED = 0.5
+"""Slope of treads, or lean of risers, over that of the flight from which they are nearer to a ramp
+than to steps [1]: 500 flights had up to 0.2, ramps with battens and without 0.4 to 1.1."""
 MEASURED = 0.8
 """Least share of nosings whose front or level was seen [1]."""
 IRREGULAR = 0.045
@@ -62,10 +68,12 @@ def refused(
         )
     if noise > HIDDEN * line.rise or steps.residual > max(RESIDUAL, 2 * noise):
         return Refusal("noisy", {"residual_mm": 1e3 * max(noise, steps.residual)}, provenance)
-    if steps.depth < DEPTHS[0]:
+    if steps.depth < DEPTHS[0] or abs(steps.slant) > SLANTED:
         numbers = {"angle_deg": math.degrees(angle), "residual_mm": 1e3 * steps.residual}
         return Refusal("ramp", numbers, provenance)
-    if steps.depth > DEPTHS[1] or steps.measured.mean(axis=0).max() < MEASURED:
+    if steps.depth > DEPTHS[1] or steps.evenness < EVEN:
+        return Refusal("none", {}, provenance)
+    if steps.measured.mean(axis=0).max() < MEASURED:
         return Refusal("none", {}, provenance)
     few = len(steps.at) == FEWEST_NOSINGS
     if steps.explained < (EXPLAINED_OF_FEW if few else EXPLAINED) or steps.level < LEVEL:

@@ -18,6 +18,9 @@ _BINS = 12
 """Parts of a going in which the phase is sought."""
 EDGE_LANE = 0.05
 """Width of a lane in which the end of a tread or of a riser is sought [m]."""
+BEFORE, GOES_ON = 0.45, 0.1
+"""Part of a step up to which the end of an element is sought beyond its regular place, and part of
+that next to which, as within a gap, the element goes on instead [1]."""
 FEWEST_OF_LANE = 3
 """Points that an end needs in its lane."""
 SCARCE = 0.15
@@ -165,9 +168,10 @@ def fronts(
 ) -> Edges:
     """Front ends of treads: least s of the points at the level of a tread."""
     ahead = s - line.skew * t - line.s0
-    k = np.floor(ahead / line.going + 0.45).astype(np.int64)
+    k = np.floor(ahead / line.going + BEFORE).astype(np.int64)
     on = (np.abs(z - line.z0 - k * line.rise) < tolerance) & _within(line, k)
     found = _ends(k[on], t[on], -ahead[on], 0.3 * line.going, wide)
+    found = _ending(found, found.at + found.step * line.going, BEFORE * line.going)
     return replace(found, at=-found.at + line.s0 + line.skew * found.t)
 
 
@@ -179,8 +183,15 @@ def tops(
     k = np.round(ahead / line.going).astype(np.int64)
     up = z - line.z0 - k * line.rise
     on = (np.abs(ahead - k * line.going) < tolerance) & (up > -0.75 * line.rise)
-    on &= (up < 0.45 * line.rise) & _within(line, k)
-    return _ends(k[on], t[on], z[on], 0.35 * line.rise, wide)
+    on &= (up < BEFORE * line.rise) & _within(line, k)
+    found = _ends(k[on], t[on], z[on], 0.35 * line.rise, wide)
+    return _ending(found, found.at - line.z0 - found.step * line.rise, BEFORE * line.rise)
+
+
+def _ending(edges: Edges, beyond: Array, sought: float) -> Edges:
+    """Those of the ends that are some: what goes on farther than they are sought has none."""
+    good = beyond < sought - np.maximum(edges.gap, GOES_ON * sought)
+    return Edges(edges.step[good], edges.t[good], edges.at[good], edges.gap[good])
 
 
 def _within(line: StairLine, k: Indices) -> NDArray[np.bool_]:

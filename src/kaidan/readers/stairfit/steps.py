@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from kaidan.readers.flight import LAST_SPREAD, UNCHECKED
 from kaidan.readers.kinds import Array, Indices
 from kaidan.readers.stairfit.doubts import SMALLEST, across, common, place_of
+from kaidan.readers.stairfit.evidence import by_step, depth, evenness, level_share, slant
 from kaidan.readers.stairfit.flight_ends import (
     EDGE_OFF,
     FEWEST_LANES,
@@ -26,13 +27,11 @@ from kaidan.readers.stairfit.flight_ends import (
 )
 from kaidan.readers.stairfit.quantiles import median, quantile
 from kaidan.readers.stairfit.staircase_line import (
-    Assigned,
     StairLine,
     assigned,
     explained_share,
     fitted,
     fronts,
-    grouped,
     robust_plane,
     tops,
 )
@@ -40,8 +39,6 @@ from kaidan.readers.stairfit.turning_steps import nosing_angles, turn_of
 
 LANES = (0.05, 0.2)
 """Widths of the lanes in which ends are sought, the second where the first holds too few [m]."""
-OUT_OF_LEVEL = math.tan(math.radians(3.0))
-"""Slope across at which a tread is none; along it, where edges blur it, twice that."""
 LAST_UNSEEN = 2 * LAST_SPREAD
 """Standard uncertainty of the last level where nothing of it was seen [m]: what last rises are like
 says more."""
@@ -81,6 +78,11 @@ class Steps:
     a ramp."""
     level: float
     """Share of the treads, by their points, that are level across and along [1]; NaN: too few."""
+    slant: float
+    """Slope of treads, or lean of risers, over that of the line of the nosings: 0 for stairs, 1 for
+    a ramp; NaN: too few."""
+    evenness: float
+    """Points of every second step over those of the others [1]."""
     width: tuple[float, float]
     """Least and greatest t at which steps were seen [m]."""
     angles: Array
@@ -124,6 +126,8 @@ def steps_of(
     line = from_the_first(whole, s, t, z, tight)
     if line.last - line.first < 2:
         return None
+    if line.first > whole.first:  # the floor may lie elsewhere than a tread would
+        line = fitted(line, s, t, z, tolerances=(1.5 * tight, tight))
     line = _without_odd(line, s, t, z, tight)
     found, sigma, places = _alone(line, *every, noise, tight)
     seen = np.flatnonzero(np.isfinite(sigma).any(axis=1))
@@ -171,8 +175,9 @@ def steps_of(
         with_floor=covariance[:-1, -1].reshape(m, 2),
         ends=math.isfinite(landing), landing=landing, run_up=run_up,
         roughness=rms, residual=median(np.abs(off)),
-        explained=explained_share(line, s, t, z, tight), depth=_depth(line, s, t, z),
-        level=_level_share(line, at, s, t, z),
+        explained=explained_share(line, s, t, z, tight), depth=depth(line, s, t, z),
+        level=level_share(line, at, s, t, z), slant=slant(line, s, t, z),
+        evenness=evenness(line, at),
         width=width, angles=angles,
     )  # fmt: skip
 
@@ -190,8 +195,8 @@ def _alone(
     found, sigma = regular.copy(), np.full(regular.shape, np.nan)
     places = np.full((len(number), 2, 2, 3), np.nan)
     inner = at.inner
-    treads = _by_step(line, at.step, at.tread & inner)
-    risers = _by_step(line, at.step, at.riser & inner)
+    treads = by_step(line, at.step, at.tread & inner)
+    risers = by_step(line, at.step, at.riser & inner)
     for row, (tread, riser) in enumerate(zip(treads, risers, strict=True)):
         face = s[riser] - line.skew * t[riser]
         found[row, 0], sigma[row, 0] = _mean(face, len(tread))
@@ -215,38 +220,6 @@ def _alone(
                 end = _end(at_0[here], gap, noise, float(regular[row, axis]), far)
                 found[row, axis], sigma[row, axis] = end
     return found, sigma, places
-
-
-def _by_step(line: StairLine, step: Indices, on: NDArray[np.bool_]) -> list[Indices]:
-    """Rows of the points of each step of a line, sorted once."""
-    rows = np.flatnonzero(on & (step >= line.first) & (step <= line.last))
-    return grouped(rows, step[rows] - line.first, line.last - line.first + 1)
-
-
-def _depth(line: StairLine, s: Array, t: Array, z: Array) -> float:
-    """Scatter of the points about the line through mid-steps, over rise / sqrt(12)."""
-    k, u, v = line.local(s, t, z)
-    over = v - line.rise * (u / line.going - 0.5)
-    near = (np.abs(over) < 0.8 * line.rise) & (k >= line.first) & (k < line.last)
-    if near.sum() < 20:
-        return 0.0
-    return float(np.sqrt(np.mean(over[near] ** 2))) * math.sqrt(12.0) / line.rise
-
-
-def _level_share(line: StairLine, at: Assigned, s: Array, t: Array, z: Array) -> float:
-    """Points on treads whose plane is level, as a share of those on treads that have one."""
-    good = total = 0
-    for rows in _by_step(line, at.step, at.tread):
-        x, y, height = s[rows], t[rows], z[rows]
-        if len(x) < 40 or np.std(y) < 0.08:
-            continue
-        columns = np.column_stack([np.ones(len(x)), x - x.mean(), y - y.mean()])
-        _, along, across = np.linalg.lstsq(columns, height, rcond=None)[0].tolist()
-        seen_along = np.std(x) > 0.03
-        total += len(x)
-        level = abs(across) < OUT_OF_LEVEL and (not seen_along or abs(along) < 2 * OUT_OF_LEVEL)
-        good += len(x) if level else 0
-    return good / total if total else math.nan
 
 
 def _mean(values: Array, others: int) -> tuple[float, float]:
@@ -294,7 +267,7 @@ def _fill(number: Indices, value: Array, sigma: Array, good: NDArray[np.bool_]) 
 
 def _without_odd(line: StairLine, s: Array, t: Array, z: Array, tight: float) -> StairLine:
     """Line fitted to its steps alone, and not to the last riser, which may be another one."""
-    if line.last - line.first < 3:
+    if line.last - line.first < 2:
         return line
     inner = replace(line, last=line.last - 1)
     return replace(fitted(inner, s, t, z, tolerances=(tight, tight)), last=line.last)
