@@ -60,8 +60,8 @@ def test_a_curved_flight_is_refused_with_its_turn(step_deg):
     assert refusal.numbers["turn_deg"] == pytest.approx(13 * step_deg, rel=0.1)
 
 
-def test_a_spiral_is_no_straight_flight():
-    assert the_refusal(turning(np.random.default_rng(0), 22.5, 0.1)).why == "none"
+def test_a_spiral_is_a_curved_flight():
+    assert the_refusal(turning(np.random.default_rng(0), 22.5, 0.1)).why == "curved"
 
 
 def test_winders_are_refused_with_their_angle():
