@@ -17,7 +17,7 @@ from kaidan.readers.stairfit.staircase_line import (
 OUT_OF_LEVEL = math.tan(math.radians(3.0))
 """Slope across at which a tread is none; along it, where edges blur it, twice that."""
 FEWEST_SLANTED = 30
-"""Points of treads, or of risers, from which their slope is told."""
+"""Points of treads, or of risers, from which their slope is taken."""
 
 
 def by_step(line: StairLine, step: Indices, on: NDArray[np.bool_]) -> list[Indices]:
@@ -96,7 +96,7 @@ def evenness(line: StairLine, at: Assigned) -> float:
     """Points of every second step as a share of those of the steps beside them.
 
     Near 0 where the steps are twice as long and as high as the line has them. Each is held against
-    the geometric mean of its neighbours, so that it does not matter how far away they are.
+    the geometric mean of those before and behind it, so that it does not matter how far away they are.
     """
     on = (at.tread | at.riser) & (at.step >= line.first) & (at.step <= line.last)
     count = np.bincount(at.step[on] - line.first, minlength=line.last - line.first + 1)
