@@ -96,7 +96,7 @@ def evenness(line: StairLine, at: Assigned) -> float:
     """Points of every second step as a share of those of the steps beside them.
 
     Near 0 where the steps are twice as long and as high as the line has them. Each is held against
-    the geometric mean of those before and behind it, so that it does not matter how far away they are.
+    the geometric mean of those before and behind it: it does not matter how far away they are.
     """
     on = (at.tread | at.riser) & (at.step >= line.first) & (at.step <= line.last)
     count = np.bincount(at.step[on] - line.first, minlength=line.last - line.first + 1)
