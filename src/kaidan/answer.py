@@ -139,9 +139,9 @@ def plain(value: Any) -> Any:
         return value if math.isfinite(value) else None
     if kind in _PLAIN or issubclass(kind, BaseModel):
         return value
-    if isinstance(value, Mapping):
+    if kind is dict or isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
+    if isinstance(value, (list, tuple)):
         return [plain(item) for item in value]
     if hasattr(value, "tolist"):
         return plain(value.tolist())

@@ -145,7 +145,7 @@ def _moved(question: Question, one: Finding, draws: Mapping[str, Array], count: 
     }
     by = [name for name in _DRIVEN_BY.get(one.mode.key, ()) if name in draws]
     whole = sum(widths[name] for name in by)
-    if not by or not np.isfinite([worst, best]).all():
+    if not by or not (np.isfinite(one.worst).all() and np.isfinite(one.best).all()):
         return np.array(worst)
     part = np.zeros(count)
     for name in by:

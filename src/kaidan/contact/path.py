@@ -377,6 +377,6 @@ def joined(paths: Sequence[Path]) -> Path:
     margins = [each.margins.table for each in paths if each.margins is not None]
     return replace(
         paths[0],
-        poses=Poses(np.vstack([each.poses.table for each in paths])),
-        margins=Margins(np.vstack(margins)) if len(margins) == len(paths) else None,
+        poses=Poses(np.concatenate([each.poses.table for each in paths])),
+        margins=Margins(np.concatenate(margins)) if len(margins) == len(paths) else None,
     )

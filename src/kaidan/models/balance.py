@@ -299,7 +299,10 @@ def _energy(
     for each in phases:
         (down, step_down), (up, step_up) = each.steadiness, each.uphill_steadiness
         of_slip = [
-            question.energy_threshold(heights.get(each.phase, 0.0)) - threshold for heights in slips
+            question.energy_threshold(heights[each.phase]) - threshold
+            if each.phase in heights
+            else 0.0
+            for heights in slips
         ]
         values = []
         if not flight:

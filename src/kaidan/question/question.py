@@ -441,7 +441,7 @@ class Question(QuestionFields):
         )
         return pair.tip_radius if pair is not None and extension > 1e-9 else radius
 
-    @property
+    @cached_property
     def allowance_M(self) -> Allowance:
         """theta_M likewise; zero when descending without a figure of the question's own."""
         down = self.direction == "down"

@@ -10,7 +10,7 @@ from kaidan import contact
 from kaidan.outline import Outline
 from kaidan.terrain.profile import Profile
 from kaidan.traversal.driving import criterion_of as criterion_of
-from kaidan.traversal.driving import refuse_too_long, span, way, whole_of
+from kaidan.traversal.driving import refuse_too_long, way, whole_of
 from kaidan.traversal.events import TraverseEvent as TraverseEvent
 from kaidan.traversal.extremes import PhaseExtremes as PhaseExtremes
 from kaidan.traversal.passage import FirstRock as FirstRock
@@ -80,13 +80,14 @@ def traverse(
     along = -acceleration if descending else acceleration
     tread, criterion = criterion_of(driven, body, along)
     whole = whole_of(tread, criterion, body)
-    x_start, x_end = span(driven, body, start, until)
+    there = way(driven, body, start, until)
+    x_start, x_end = there["x_start"], there["x_end"]
     if start is not None or until is not None:
         criterion = criterion.within(*((-x_end, -x_start) if driven.falls else (x_start, x_end)))
     refuse_too_long(driven, body, (x_start, x_end), step)
     path = contact.traverse(
-        **way(driven, body, start, until), acceleration=along, step=step,
-        with_margins=with_margins, with_energy=with_energy,
+        **there, acceleration=along, step=step, with_margins=with_margins,
+        with_energy=with_energy,
     )  # fmt: skip
     return Traverse(
         status=path.status,

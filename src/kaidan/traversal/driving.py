@@ -102,7 +102,7 @@ def tread_of(body: Outline) -> Tread:
     """Underside of a robot on a flight that rises towards +x."""
     stance = body.stance
     level = _level(body)
-    last, first = _flat_ends(body)
+    last, first = _flat_ends(body, level)
     return Tread(
         L=stance.flat_length,
         C_L=float(first[0]),
@@ -121,10 +121,9 @@ def _level(body: Outline) -> NDArray[np.bool_]:
     return np.asarray(np.abs(above) <= IN_LINE * length[:, None] + ROUNDING)
 
 
-def _flat_ends(body: Outline) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Rear and front disc of the flat: x, z, radius [m]."""
-    ends = np.vstack([body.parts[:, :3], body.parts[:, 3:]])
-    on = ends[np.concatenate(_level(body).T)]
+def _flat_ends(body: Outline, level: NDArray[np.bool_]) -> tuple[Array, Array]:
+    """Rear and front disc of the flat, of those in its line: x, z, radius [m]."""
+    on = body.parts.reshape(-1, 2, 3).swapaxes(0, 1)[level.T]
     return on[np.argmin(on[:, 0])], on[np.argmax(on[:, 0])]
 
 
@@ -143,7 +142,7 @@ def _rocks_onto_flippers(body: Outline) -> bool:
     flippers = body.parts[body.kinds == contact.FLIPPER]
     if len(flippers) == 0:
         return False
-    (last, *_), (first, *_) = _flat_ends(body)
+    (last, *_), (first, *_) = _flat_ends(body, _level(body))
     x, z, radius = flippers.reshape(-1, 3).T
     beyond = np.maximum(x - first, last - x)
     z = z + body.stance.com_height

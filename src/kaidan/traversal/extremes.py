@@ -104,7 +104,8 @@ def phase_extremes(
     sudden = {side: _as_on_the_flat(seen, body, side) for side in (-1.0, 1.0)}
     # of a pose between two phases the other one judges
     of_criterion = _on_a_flight(seen, profile, room) | (phase[samples.row] != Phase.TRAVERSE.value)
-    at_nosing = np.isin(places, profile.nosings[:, 0])
+    at_nosing = np.isin(places, profile.nosings[:, 0]) if rises else np.zeros(0, dtype=np.bool_)
+    on_belly = seen.margins.belly_touches
     extremes = []
     for name in Phase:
         rows = np.flatnonzero(closed[name][samples.row] & samples.lasts)
@@ -172,7 +173,7 @@ def phase_extremes(
                     _rock(seen, uphill_rows, -side, profile, descending, acceleration, own),
                     _rotated(path, phase, name, -side, profile, descending, whole),
                 ),
-                belly_touches=bool(seen.margins.belly_touches[rows].any()),
+                belly_touches=bool(on_belly[rows].any()),
             )
         )
     return tuple(extremes)

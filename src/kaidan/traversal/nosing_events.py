@@ -50,24 +50,24 @@ def nosing_events(path: contact.Path) -> Events:
             path, _straight_pieces(path), TOUCH
         ).tolist()
     ]
+    kept = _once(found)
+    rows, shares = [each.row for each in kept], np.array([each.share for each in kept])
     places = path.poses.placements
-    events = []
-    for each in _once(found):
-        here, then = places[each.row], places[each.row + 1]
-        x, z, inclination = (here + each.share * (then - here)).tolist()
-        events.append(
-            EventRecord(
-                kind=Event.REACHED if each.reached else Event.LEFT,
-                s=each.s,
-                x=x,
-                z=z,
-                inclination=inclination,
-                feature=Feature(each.point, each.part, FeatureKind.VERTEX).code,
-                other=-1,
-                pose=each.row,
-            )
+    here = places[rows]
+    there = here + shares[:, None] * (places[[row + 1 for row in rows]] - here)
+    return Events.of(
+        EventRecord(
+            kind=Event.REACHED if each.reached else Event.LEFT,
+            s=each.s,
+            x=x,
+            z=z,
+            inclination=inclination,
+            feature=Feature(each.point, each.part, FeatureKind.VERTEX).code,
+            other=-1,
+            pose=each.row,
         )
-    return Events.of(events)
+        for each, (x, z, inclination) in zip(kept, there.tolist(), strict=True)
+    )
 
 
 def _straight_pieces(path: contact.Path) -> NDArray[np.int64]:
