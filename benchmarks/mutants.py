@@ -105,10 +105,19 @@ def mutants(path: Path) -> Iterator[tuple[Mutant, CodeType]]:
     tree = ast.parse(path.read_text())
     for name, function in functions(tree):
         for statement in function.body:
-            for parent in ast.walk(statement):
+            for parent in _inside(statement):
                 yield from _of_statement(path, tree, name, parent)
             if not isinstance(statement, ast.Expr):  # as children the loop above has them
                 yield from _replaced(path, tree, name, function, "body", statement)
+
+
+def _inside(node: ast.AST) -> Iterator[ast.AST]:
+    """A node and what is in it, but for types."""
+    yield node
+    types = (getattr(node, "annotation", None), getattr(node, "returns", None))
+    for child in ast.iter_child_nodes(node):
+        if child not in types:
+            yield from _inside(child)
 
 
 def _of_statement(

@@ -148,6 +148,27 @@ def test_where_there_are_few_nosings():
         assert len(scores(Profile.of_points(two)).phases) == phases
 
 
+def test_the_slope_on_which_it_begins_to_land_is_that_of_two_nosings():
+    two = [(-2, 0), (0, 0), (0, 0.1), (0.3, 0.1), (0.3, 0.3), (2, 0.3)]
+    start, _ = scores(Profile.of_points(two)).stretch(Phase.LAND)
+    assert start.inclination == pytest.approx(math.atan2(0.2, 0.3))
+
+
+def test_what_is_known_or_fails_holds_up_no_other_score(monkeypatch):
+    """The first is known, the second's centroid lies outside; two are rated."""
+    found = scores()
+    known, outside, *rest = degrees(0.0, 10.0, 20.0, 30.0)
+    found.known[Phase.ENTER, known] = "known"
+    found._outlines[outside] = None
+    monkeypatch.setattr(plan_scores, "rate", lambda profile, parts, **how: [RATED] * len(parts))
+    plan_scores.rated_on.cache_clear()
+    found.work_out((Phase.ENTER, each) for each in (known, outside, *rest))
+    assert found.known[Phase.ENTER, known] == "known"
+    assert found.known[Phase.ENTER, outside] == plan_scores.FAILED
+    assert all(found.known[Phase.ENTER, each] == found._score(RATED) for each in rest)
+    plan_scores.rated_on.cache_clear()
+
+
 def test_off_its_angles_a_posture_is_as_good_as_the_worst():
     found = scores(flipper_tolerance=math.radians(2.0))
     posture, up, down = found.about(degrees(10.0)[0])

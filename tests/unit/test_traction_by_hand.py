@@ -177,6 +177,15 @@ def test_what_rigid_grousers_lack_is_added_until_nothing_is(
     assert len(asked_for) == looks
 
 
+def test_of_cases_the_worst_counts_with_grousers_and_without():
+    """Rigid ones of 40 mm hold 0.01 more at a face than soft ones of 60 mm."""
+    cases = module.grousers_of(None, None, best=False)
+    for order in (cases, cases[::-1]):
+        held, alone = module._held(Holding(), (0.5, 0.7, 0.6), order)
+        assert held.tolist() == np.minimum(*HELD.values()).tolist()
+        assert alone.tolist() == ALONE.tolist()
+
+
 def test_where_one_friction_of_smooth_belts_is_all_there_is_nothing_to_say():
     smooth, found = asked(grousers=False), driven()
     assert supplies(smooth, smooth, found, None) is None

@@ -1,0 +1,291 @@
+"""The search among plans put together by hand: which phase first, which plans, what is known."""
+
+import math
+from types import SimpleNamespace
+
+import pytest
+
+from kaidan import Question, Robot, Stairs
+from kaidan.assessment import plan_search as module
+from kaidan.assessment.plan_drives import Drives
+from kaidan.assessment.plan_hopes import KEPT, Search
+from kaidan.assessment.plan_judged import Judged
+from kaidan.assessment.plan_scores import ENOUGH, FAILED, Score
+from kaidan.modes import Phase, Verdict
+from kaidan.robot import Posture
+
+ABSOLEM = Robot.named("absolem")
+STAIRS = Stairs(rise=0.17, going=0.29, steps=6)
+GO, CAUTION, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.CAUTION, Verdict.NO_GO))
+ENTER, TRAVERSE, LAND = Phase
+
+
+def degrees(*angles):
+    return [Posture(front=math.radians(each)) for each in angles]
+
+
+# postures of each phase
+
+
+class Stated:
+    """Scores of postures stated by phase and front angle [deg], stowed by None."""
+
+    def __init__(self, margins, facing="nose-first"):
+        self.margins, self.facing, self.phases = margins, facing, tuple(margins)
+
+    def of(self, phase, posture):
+        angle = posture.front
+        at = round(math.degrees(angle)) if isinstance(angle, float) else angle
+        return Score(True, 0, self.margins[phase].get(at, -80.0), 0.0)
+
+    off = of
+
+    def bound(self, phase):
+        return ENOUGH
+
+    def work_out(self, wanted):
+        for _ in wanted:
+            pass
+
+
+def searching(margins, facing="nose-first", robot=ABSOLEM):
+    question = Question.in_one_posture(robot, STAIRS, friction=1.0)
+    search = Search(question, facing, (math.radians(-60.0), math.radians(60.0)))
+    search.scores = Stated(margins, facing)
+    return search
+
+
+def test_the_weakest_phase_is_looked_at_first_and_what_is_enough_follows_it():
+    """By the best of the postures that have a name: 4, 9 and 2 deg, stowed or flat."""
+    margins = {
+        ENTER: {None: 4.0, "flat": 1.0}, TRAVERSE: {None: 0.0, "flat": 9.0}, LAND: {None: 2.0}
+    }  # fmt: skip
+    search = searching(margins)
+    scanned, kept = [], []
+
+    def scan(phase, known, enough):
+        scanned.append((phase, enough))
+        better = degrees({LAND: 10.0, ENTER: 20.0, TRAVERSE: 30.0}[phase])[0]
+        margins[phase][round(math.degrees(better.front))] = {LAND: 6.0, ENTER: 5.0}.get(phase, 7.0)
+        search._allowed[phase][better] = None
+
+    search._scan = scan
+    search._together = lambda choices: kept.extend(choices)
+    search.hopes()
+    assert scanned == [(LAND, math.inf), (ENTER, 6.0), (TRAVERSE, 5.0)]
+    # of each phase those with a name, its own best ones, and the best one of each other phase
+    assert [len(each) == len(set(each)) for each in kept] == [True] * 3
+    best = dict(zip((LAND, ENTER), degrees(10.0, 20.0), strict=True))
+    for each in kept:
+        assert {best[LAND], best[ENTER], Posture()} <= {*each}
+        assert len(each) >= KEPT
+
+
+@pytest.mark.parametrize(("facing", "order"), [("nose-first", ["front", "rear"]),
+                                               ("tail-first", ["rear", "front"])])  # fmt: skip
+def test_the_leading_pair_is_turned_first_from_the_best_posture(facing, order):
+    search = searching({ENTER: {None: 1.0, 10: 3.0, 20: 2.0}}, facing)
+    begun, known = [], [Posture(), *degrees(10.0, 20.0)]
+
+    def better(phase, best, end, angles, enough):
+        begun.append((best, end))
+        return best
+
+    search._better = better
+    search._scan(ENTER, known, 5.0)
+    assert begun[0][0] == known[1]
+    assert [end for _, end in begun] == order * 3  # the grid, then twice about the best
+
+
+def test_those_that_are_not_scored_in_every_phase_come_last():
+    search = searching({ENTER: {}, LAND: {}})
+    search.scores.known = {
+        (phase, posture): Score(True, 0, margin, 0.0)
+        for posture, margin in zip(degrees(10.0, 20.0), (3.0, 1.0), strict=True)
+        for phase in (ENTER, LAND)
+    }
+    search.scores.known[ENTER, degrees(30.0)[0]] = FAILED
+    questions = [
+        Question.in_one_posture(ABSOLEM, STAIRS, friction=1.0).changed(posture=each)
+        for each in degrees(40.0, 10.0, 30.0, 20.0)
+    ]
+    order = [round(math.degrees(each.posture.front)) for each in search.weakest_first(questions)]
+    assert order == [20, 10, 40, 30]
+
+
+# plans
+
+
+def conclusion(verdict, margin=0.1):
+    return SimpleNamespace(verdict=verdict, margin=margin, governs="tip_downhill", doubts=())
+
+
+def judged(verdict=Verdict.GO, question="own"):
+    return Judged(question, "findings", conclusion(verdict), 0.0, True)
+
+
+@pytest.fixture
+def searched(monkeypatch):
+    """A search of each end that leads: its best plan, and how many drives it took."""
+
+    def of(*ends, best_of=("flippers", "facing")):
+        left, ranked = list(ends), []
+
+        def search(question, facing, limits):
+            count, _ = left[0]
+            return SimpleNamespace(scores=SimpleNamespace(known=range(count)))
+
+        def sturdiest(search, beaten, drives, stated):
+            return left.pop(0)[1]
+
+        def on_the_whole(stated, plans, drives):
+            ranked.extend(plans)
+            return module.Found("question", "findings", True, "short", drives)
+
+        monkeypatch.setattr(module, "Search", search)
+        monkeypatch.setattr(module, "_sturdiest", sturdiest)
+        monkeypatch.setattr(module, "_on_the_whole", on_the_whole)
+        question = Question.of(ABSOLEM, STAIRS, friction=1.0).changed(best_of=best_of)
+        return module.found_of(question), ranked
+
+    return of
+
+
+def off(verdict, value, *, sturdy=True):
+    plan = judged(verdict)
+    worst = (-verdict.rank if sturdy else NO_GO, True, 0, value)
+    return SimpleNamespace(judged=plan, worst=worst, sturdy=sturdy)
+
+
+def test_the_other_end_is_tried_where_the_nose_is_no_sturdy_go(searched):
+    go, loose = off(Verdict.GO, 5.0), off(Verdict.GO, 9.0, sturdy=False)
+    caution = off(Verdict.CAUTION, 3.0)
+    for first, second, ends in (
+        (go, None, 1), (loose, go, 2), (caution, go, 2), (go, caution, 1), (None, caution, 2),
+        (None, None, 2),
+    ):  # fmt: skip
+        found, ranked = searched((30, first), (4, second))
+        assert found.ends == ("nose-first", "tail-first")[:ends]
+        assert found.tried == (30, 34)[ends - 1]
+        plans = [each for each in (first, second)[:ends] if each is not None]
+        assert ranked == sorted(plans, key=lambda each: each.worst, reverse=True)
+    found, _ = searched((30, caution), best_of=("flippers",))
+    assert (found.ends, found.tried) == (("nose-first",), 30)
+
+
+@pytest.mark.parametrize(
+    ("merit", "verdict", "stated", "whole"),
+    [
+        ((True, 0, 5.0), Verdict.GO, {}, True),
+        ((True, 0, 5.0), Verdict.CAUTION, {}, False),
+        ((True, -1, 5.0), Verdict.GO, {}, False),
+        ((False, 0, 5.0), Verdict.GO, {}, False),
+        ((True, 0, 5.0), Verdict.GO, {"surface": None}, False),
+        ((True, 0, 5.0), Verdict.GO, None, False),
+    ],
+)
+def test_what_promises_go_is_judged_on_the_whole_terrain(
+    merit, verdict, stated, whole, monkeypatch
+):
+    monkeypatch.setattr(module, "judge", lambda question: "of the whole")
+    monkeypatch.setattr(
+        module, "judged_of", lambda question, found: judged(verdict, (question, found))
+    )
+    monkeypatch.setattr(module, "_judged", lambda question, drives: judged(verdict, "short"))
+    question = Question.in_one_posture(ABSOLEM, STAIRS, friction=1.0)
+    each = module._Candidate(SimpleNamespace(question=lambda asked: asked), merit, merit)
+    search = SimpleNamespace(question=question)
+    asked = None if stated is None else question.changed(**stated)
+    found = module._judged_at(each, search, None, asked)
+    assert found.whole is whole
+    assert found.question == ((question, "of the whole") if whole else "short")
+
+
+def test_of_two_plans_alike_the_second_is_not_judged(monkeypatch):
+    """A tenth of a degree more than the best one's is alike; nor what promises its verdict."""
+    robot = SimpleNamespace(track=SimpleNamespace(has_grousers=False))
+    search = SimpleNamespace(question=SimpleNamespace(surface="known", robot=robot))
+
+    def candidate(hope, *, failing=0):
+        return module._Candidate("plan", (True, 0, hope), (True, failing, 0.0))
+
+    def may(each, of_best=None):
+        return module._may_be_better(search, each, (GO, True, 0, 0.0), of_best, None)
+
+    best = candidate(0.0)
+    assert not may(candidate(module.NEARLY), best)
+    assert may(candidate(module.NEARLY + 1e-9 + module.SLACK), best)
+    # nothing is judged to say that: off its angles it promises as much
+    assert may(candidate(9.0), best)
+
+
+def test_any_worse_verdict_tells_that_a_plan_does_not_hold(monkeypatch):
+    beaten = []
+
+    def judged_off(plan, worse, drives):
+        beaten.append(worse)
+        return SimpleNamespace(sturdy="sturdy")
+
+    monkeypatch.setattr(module, "_judged", lambda question, drives: judged(Verdict.CAUTION))
+    monkeypatch.setattr(module, "_judged_off", judged_off)
+    question = Question.in_one_posture(ABSOLEM, STAIRS, friction=1.0)
+    plan = SimpleNamespace(robot=SimpleNamespace(middle=ABSOLEM), changed=lambda *, robot: question)
+    with monkeypatch.context() as patch:
+        patch.setattr(Judged, "merit", property(lambda self: (CAUTION, True, 0, 5.0)))
+        assert module.holds_off_its_angles(plan) == "sturdy"
+    (worse,) = beaten
+    assert (NO_GO, True, 0, 1e9) <= worse < (CAUTION, False, -9, -90.0)
+
+
+@pytest.mark.parametrize(
+    ("each", "most"),
+    [((0.3, 0.5, 0.4), 0.5), ((0.3, math.inf), 0.3), ((math.nan,), 0.0), ((), 0.0)],
+)
+def test_friction_off_the_angles_is_the_most_that_is_known(each, most, monkeypatch):
+    question = Question.in_one_posture(ABSOLEM, STAIRS, friction=1.0)
+    monkeypatch.setattr(module, "off_angles", lambda question: each)
+    monkeypatch.setattr(Drives, "required_friction", lambda self, off: off)
+    assert module.friction_off_its_angles(question) == most
+    other = SimpleNamespace(required_friction=lambda off: 2 * off)
+    found = module.friction_off_its_angles(question, other)
+    assert found == (2 * most if most else 0.0)
+
+
+def test_as_many_plans_as_asked_are_the_best_off_their_angles():
+    """Of the three best the third is to be beaten, not the second."""
+    hopes = [SimpleNamespace(plan=name, merit=(True, 0, value))
+             for name, value in zip("abcd", (10.0, 9.0, 8.0, 7.0), strict=True)]  # fmt: skip
+    at = {"a": 9.5, "b": 8.5, "c": 1.0, "d": 6.0}
+    search = SimpleNamespace(off=lambda plan: (True, 0, at[plan]))
+    assert module._best_off(search, hopes, 3) == ["a", "b", "d"]
+
+
+def test_what_is_no_failure_may_still_be_less_than_go(monkeypatch):
+    """It is passed over only where the worst is a CAUTION already."""
+    asked = []
+    drives = SimpleNamespace(
+        is_no_failure=lambda k: True, rank=lambda k: (asked.append(k), CAUTION)[1]
+    )
+    monkeypatch.setattr(module, "off_angles", lambda question: range(3))
+    question = Question.in_one_posture(ABSOLEM, STAIRS, friction=1.0)
+    plan = judged(question=question)
+    found = module._judged_off(plan, None, drives)
+    assert (found.worst[0], asked) == (CAUTION, [0])
+
+
+@pytest.mark.parametrize("model", ["contact", "physics"])
+def test_a_model_of_one_posture_takes_the_best_word(model, monkeypatch):
+    question = Question.in_one_posture(ABSOLEM, STAIRS, friction=1.0).changed(model=model)
+    margins = iter((0.1, 0.3, 0.2, 0.05))
+
+    def judged_each(asked, drives):
+        return Judged(asked, "coarse", conclusion(Verdict.GO, next(margins)), 0.0, True)
+
+    monkeypatch.setattr(module, "_judged", judged_each)
+    monkeypatch.setattr(module, "words", lambda robot: [Posture(), Posture(front="flat")])
+    monkeypatch.setattr(module, "judge", lambda asked: "fine")
+    found = module._fixed(question, ("nose-first", "tail-first"), Drives())
+    assert (found.question.facing, found.question.posture) == ("nose-first", Posture(front="flat"))
+    assert found.findings == ("fine" if model == "contact" else "coarse")
+    assert (found.sturdy, found.tried) == (True, 4)
+    assert found.ends == ("nose-first", "tail-first")
