@@ -10,7 +10,7 @@ import numpy as np
 
 from kaidan import catalog
 from kaidan.allowance import Allowance
-from kaidan.errors import InputError, short, shown
+from kaidan.errors import InputError, did_you_mean, short, shown
 from kaidan.override import OVERRIDES, kind_of_figure, overridden, paths_of, words_of_figure
 from kaidan.robot import Payload, Posture, PostureChange, Robot
 from kaidan.surface import Surface
@@ -202,9 +202,10 @@ def _figures(
     values: dict[str, float] = {}
     for key, value in pairs:
         if key not in kinds:
+            meant = did_you_mean(key, kinds)
             raise InputError(
-                f"{name} {shown(key)} is not known; write NAME=VALUE with a name of "
-                f"{', '.join(kinds)}"
+                f"{name} {shown(key)} is not known{meant}{' W' if meant else '; w'}rite "
+                f"NAME=VALUE with a name of {', '.join(kinds)}"
             )
         if key in values:
             raise InputError(f"{name} {key} is given twice")

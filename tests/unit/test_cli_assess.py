@@ -395,7 +395,8 @@ REFUSALS = {
     ),
     "set": (
         [*KENAF_40, "--override", "height=5mm"],
-        "override 'height' is not known; write NAME=VALUE with a name of com_from_front, "
+        "override 'height' is not known; did you mean com_height? Write NAME=VALUE with a name of "
+        "com_from_front, "
         "com_height, flat_length, gauge, mass",
     ),
     "set twice": (

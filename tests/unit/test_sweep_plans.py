@@ -105,9 +105,19 @@ def test_what_a_parameter_measures(name, kind, unit):
         ("frction", "unknown parameter 'frction'; known: friction, acceleration"),
         (
             "track.length",
-            "'track.length' is no figure of a robot's sheet; known there: flat_length",
+            "'track.length' is no figure of a robot's sheet; did you mean flat_length[?] Known",
+        ),
+        (
+            "track.colour",
+            "'track.colour' is no figure of a robot's sheet; known there: flat_length",
         ),
         ("engine.power", "'engine.power' is no figure of a robot's sheet"),
+        (
+            "track.flat_lenght",
+            "'track.flat_lenght' is no figure of a robot's sheet; did you mean flat_length[?] "
+            "Known there: flat_length, front_radius",
+        ),
+        ("track.belts", "'track.belts' is no figure of a robot's sheet; did you mean belt[?]"),
     ],
 )
 def test_an_unknown_parameter_is_refused(name, said):
