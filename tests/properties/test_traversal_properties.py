@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -112,6 +113,40 @@ def test_points_on_existing_lines_change_nothing(robot, flight, seed):
     refined = Profile.of_points(np.vstack([points, more])[order])
     more = driven(refined, outline)
     same(driven(profile, outline), more, 1e-7, sampled=1e-4)  # rad: 1e-11 m on 0.1 m
+
+
+@SETTINGS
+@given(robots, flights, st.integers(0, 2**31), st.booleans())
+def test_folds_and_tips_of_risers_are_no_walls(robot, flight, seed, descending):
+    """A scan's noise folds risers within themselves and leaves tips of no width at their ends.
+
+    Folds change nothing. A tip is an edge as high as that of a tread which begins there and slopes
+    down, by 0.05 mm over 150 mm at most: less than 0.02 degrees.
+    """
+    rng = np.random.default_rng(seed)
+    smooth = Profile.of_stairs(flight).points.tolist()
+    folded, tipped, sloping = [], [], []
+    for (x, z), (then, higher) in pairwise(smooth):
+        folded.append((x, z))
+        tipped.append((x, z))
+        if not sloping or sloping[-1][0] != x:
+            sloping.append((x, z))
+        if x == then:
+            within = [(x, z + share * (higher - z)) for share in rng.random(4)]
+            tip = (x, higher + rng.uniform(1e-6, 5e-5))
+            folded += within
+            tipped += [*within, tip]
+            sloping += [tip]
+    outline = Outline.of(robot)
+    one, other, rough, alike = (
+        driven(Profile.of_points([*points, smooth[-1]]), outline, descending=descending)
+        for points in (smooth[:-1], folded, tipped, sloping)
+    )
+    assert (one.path.poses.table == other.path.poses.table).all()
+    assert rough.status == alike.status == one.status
+    margins = rough.downhill_margin, alike.downhill_margin
+    # a tip is left at once, a tread that slopes is not: 0.09 degrees in 1 of 1,200 cases
+    assert margins[0] == pytest.approx(margins[1], abs=math.radians(0.2), nan_ok=True)
 
 
 @SETTINGS

@@ -38,6 +38,18 @@ def test_a_uniform_flight():
     assert not profile.open_risers
 
 
+def test_a_face_that_a_scan_folds_has_one_nosing():
+    """By hand: two risers of 0.1 m, the first goes up and down within itself by 20 and 60 mm."""
+    folded = [(0, 0.04), (0, 0.02), (0, 0.09), (0, 0.03)]
+    before, behind = [(-2, 0), (0, 0)], [(0, 0.1), (0.3, 0.1), (0.3, 0.15), (0.3, 0.2), (2, 0.2)]
+    profile = Profile.of_points([*before, *folded, *behind])
+    smooth = Profile.of_points([*before, *behind])
+    assert profile.nosings.tolist() == smooth.nosings.tolist() == [[0.0, 0.1], [0.3, 0.2]]
+    assert profile.points.tolist() == smooth.points.tolist()
+    assert [0.3, 0.15] in profile.points.tolist()  # of a face that only rises every point stays
+    assert profile.roughness == smooth.roughness
+
+
 def test_an_irregular_flight():
     """By hand: nosings at (0, .1), (.3, .3), (.6, .5), (.9, .74): the last stands off the line."""
     profile = Profile.of_stairs(Stairs(rises=(0.1, 0.2, 0.2, 0.24), goings=(0.3, 0.3, 0.3)))

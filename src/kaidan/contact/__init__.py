@@ -43,7 +43,7 @@ from kaidan.contact.switch import (
     using_kernel,
     without_native,
 )
-from kaidan.contact.tables import body_table, ground_table, mirror
+from kaidan.contact.tables import body_table, ground_table, mirror, without_folds
 from kaidan.contact.traversing import STEP, arrives, plain_seconds, traverse, traverse_many
 from kaidan.contact.ways import Ways
 
@@ -106,6 +106,7 @@ __all__ = [
     "traverse_many",
     "use_kernel",
     "using_kernel",
+    "without_folds",
     "without_native",
     "without_nosings",
 ]

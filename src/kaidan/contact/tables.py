@@ -144,7 +144,7 @@ def ground_table(terrain: ArrayLike) -> FloatArray:
             last = point
     if len(keep) < 2:
         raise ValueError("terrain: at least two different points are needed")
-    keep = _unfolded(keep)
+    keep = without_folds(np.array(keep)).tolist()
     keep = [_beyond(keep[1], keep[0], -1.0), *keep, _beyond(keep[-2], keep[-1], 1.0)]
     xy = np.array(_corners(keep))
     table = np.zeros((len(xy), GROUND_COLUMNS))
@@ -160,23 +160,32 @@ def ground_table(terrain: ArrayLike) -> FloatArray:
     return table
 
 
-def _unfolded(points: list[list[float]]) -> list[list[float]]:
-    """Points without those by which a vertical face goes up and down within itself.
+def without_folds(points: FloatArray) -> FloatArray:
+    """Points of a line that leads ahead, no vertical face of which goes up and down within itself.
 
     The noise of a scan folds a face so. It is the same face: of its points only the ends count, and
     what is higher or lower than both.
+
+    Examples
+    --------
+    >>> face = [(0.0, 0.0), (0.0, 0.04), (0.0, 0.02), (0.0, 0.1)]
+    >>> without_folds(np.array([(-1.0, 0.0), *face, (1.0, 0.1)])).tolist()
+    [[-1.0, 0.0], [0.0, 0.0], [0.0, 0.1], [1.0, 0.1]]
     """
-    x, z = np.array(points).T
+    x, z = points.T
     begins = np.append(np.flatnonzero(np.diff(x, prepend=-math.inf)), len(x))
     keep = np.ones(len(x), dtype=np.bool_)
     for k in np.flatnonzero(np.diff(begins) > 2):
         first, last = begins[k], begins[k + 1] - 1
         face = z[first : last + 1]
+        ways = np.sign(np.diff(face))
+        if np.ptp(ways) == 0:
+            continue
         keep[first + 1 : last] = False
         top, bottom = int(np.argmax(face)), int(np.argmin(face))
         keep[first + top] |= face[top] > max(face[0], face[-1]) + COLLINEAR
         keep[first + bottom] |= face[bottom] < min(face[0], face[-1]) - COLLINEAR
-    return [points[k] for k in np.flatnonzero(keep).tolist()]
+    return points[keep]
 
 
 def _corners(points: list[list[float]]) -> list[list[float]]:

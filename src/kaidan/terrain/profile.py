@@ -139,7 +139,8 @@ class Profile:
             Nosings are the peaks of ``z - x`` that stand out by more than 15 mm: convex corners
             between a part steeper than 45 degrees and one less steep, wherever points lie on the
             line between them. A vertical riser before a level tread stands out by the smaller of
-            its height and the tread's depth. Repeated points are dropped.
+            its height and the tread's depth. Repeated points are dropped, and a vertical face goes
+            up and down within itself no more.
 
         Raises
         ------
@@ -147,7 +148,10 @@ class Profile:
             Not (n, 2) finite numbers of metres, fewer than two different points, a line that
             crosses itself, or a doubt that no nosings have.
         """
+        from kaidan.contact import without_folds
+
         envelope, overhangs = upper_envelope(measured_line(points))
+        envelope = without_folds(envelope)
         nosings, falling, roughness = convex_corners(envelope)
         return cls(
             points=frozen(envelope),
