@@ -332,13 +332,19 @@ def test_what_tips_in_every_sample_has_no_energy(monkeypatch):
     assert FALL_DOWNHILL in modes(0.0, -0.01, -0.02)
 
 
-@pytest.mark.parametrize(("tilt", "sought"), [(0.04, [((0.3,), 0.11)]), (0.2, [])])
-def test_of_what_tips_a_fall_beyond_the_reserve_need_not_be_found(tilt, sought, monkeypatch):
+@pytest.mark.parametrize(
+    ("tilt", "sample", "sought"),
+    [(0.04, 0.0, [((0.3,), 0.11)]), (0.2, 0.0, []), (0.2, -0.15, [((0.3,), 0.11)])],
+)
+def test_of_what_tips_a_fall_beyond_the_reserve_need_not_be_found(
+    tilt, sample, sought, monkeypatch
+):
     """Where it is enough to know it to 0.5 rad, and the margin against tipping is spent."""
     asked_for = []
 
     def seeking(tilts, *, enough):
         asked_for.append((tilts, pytest.approx(enough)))
+        assert enough > 0.11  # what is just that is found
         return run
 
     run = found(
@@ -347,8 +353,22 @@ def test_of_what_tips_a_fall_beyond_the_reserve_need_not_be_found(tilt, sought, 
     )  # fmt: skip
     monkeypatch.setattr(module, "drawn_falls", lambda *given, downhill: np.full(3, 0.1))
     asked = SimpleNamespace(**(vars(ASKED) | {"reserve": 0.11}))
-    balance(asked, asked, run, OVER, None, None)
+    over = OVER._replace(tip_downhill=np.array([0.0, sample, 0.0]))  # one that tips is enough
+    balance(asked, asked, run, over, None, None)
     assert asked_for == sought
+
+
+@pytest.mark.parametrize("phase", [None, Phase.LAND])
+def test_a_fall_of_a_phase_is_found_by_what_rocks_anywhere(phase, monkeypatch):
+    rocks = []
+    monkeypatch.setattr(module, "_tips", lambda *given: ())
+    monkeypatch.setattr(module, "_rocking", lambda found, over, phase: phase)
+    monkeypatch.setattr(module, "_falls", lambda *given: rocks.append(given[4:]) or [])
+    monkeypatch.setattr(module, "_hits", lambda *given: [])
+    monkeypatch.setattr(module, "_energy", lambda *given: "energy")
+    each = balance(ASKED, ASKED, found(), OVER, phase, None)
+    assert rocks == [(None, phase)]  # of which rocking, and of which phase the fall
+    assert each == [phase, "energy"]
 
 
 def test_the_smaller_of_two_findings_by_their_smallest_sample():

@@ -12,7 +12,7 @@ from kaidan.outline import Outline
 from kaidan.robot import Posture, Robot, Track
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
-from kaidan.traversal import Chain, Phase, Rotation, traverse
+from kaidan.traversal import Chain, Phase, Rotation, rotations, traverse
 from kaidan.traversal.rotations import (
     AT_ONCE,
     ROCKING,
@@ -297,11 +297,34 @@ def test_of_a_turn_on_a_flight_no_more_rocks_than_is_off_its_slope():
     back = rotation(start=0.46, reached=0.48, angle=0.02, avoidable=0.02, theta_s=0.5)
     chain = Chain((on, back))
     assert (chain.inclinations, chain.theta_s) == ((0.46, 0.53), 0.5)
+    assert chain.beyond_slope == pytest.approx(0.04)
+    assert Chain((rotation(start=0.57, reached=0.48, theta_s=0.5),)).beyond_slope == pytest.approx(
+        0.07
+    )
+    assert math.isnan(Chain((rotation(**turn),)).beyond_slope)
     assert chain.rocking == pytest.approx(0.04)
     off = rotation(**turn)
     for chain in (Chain((on, off)), Chain((off, on)), Chain((off, off))):
         assert math.isnan(chain.theta_s)
         assert chain.rocking == pytest.approx(0.14)
+
+
+def test_what_does_not_drop_leaves_an_impact_nothing():
+    """Whatever tilted gravity makes of the way that the centroid moved."""
+    level = rotation(drop=0.0, moved=0.05, left=0.0, rise=0.12, ahead=0.06)
+    by_hand = math.cos(0.1) * 0.12 - math.sin(0.1) * 0.06
+    assert level.spare_after_impact(0.1) == pytest.approx(by_hand)
+
+
+def test_the_flight_under_both_poses_of_a_rotation():
+    """The contacts of the one before it and of the one after it, and of no other."""
+    rear = np.array([[0.5, 0.0], [0.2, 0.0], [0.3, 0.0], [0.0, 0.0]])
+    front = np.array([[0.9, 0.0], [0.8, 0.0], [0.7, 0.0], [2.0, 0.0]])
+    poses = SimpleNamespace(rear_point=rear, front_point=front)
+    for begin, end, on in ((0.2, 0.8, True), (0.25, 0.9, False), (0.1, 0.75, False)):
+        found = rotations._slope_under(poses, 1, [(-9.0, 0.1, 0.7), (begin, end, 0.5)])
+        assert (found == 0.5) is on
+        assert math.isnan(found) is not on
 
 
 def test_flights_with_a_mean_slope():
