@@ -338,3 +338,69 @@ def test_the_robot_and_its_acceleration_as_driven():
     np.testing.assert_array_equal(up.outline.parts, OUTLINE.parts)
     tail = traverse(STEPS, **kenaf, facing="tail-first")
     np.testing.assert_array_equal(tail.outline.parts, OUTLINE.turned_round().parts)
+
+
+# rocks and falls beyond what any robot keeps
+
+
+def test_tilts_are_tried_as_far_as_it_rocks():
+    assert passage._most(0.1) == LARGEST
+    assert passage._most(1.0) == 1.0
+    assert passage._most(3.0) == math.pi / 2
+
+
+@pytest.mark.parametrize(
+    ("tilt", "rocks", "most"),
+    [(math.inf, (0.9, 1.2), 0.9), (math.inf, (1.2, 0.3), None), (0.4, (0.9, 1.2), None)],
+)
+def test_what_no_tilt_fells_is_tried_as_far_as_it_rocks(tilt, rocks, most, monkeypatch):
+    found = made(
+        criterion=Criterion(()),
+        phases=[extremes(phase, each) for phase, each in zip((Phase.ENTER, Phase.LAND), rocks,
+                                                             strict=True)],
+    )  # fmt: skip
+    known = Fall(tilt, Phase.LAND, 2)
+    vars(found)["falls_downhill"] = known
+    monkeypatch.setattr(Traverse, "_fall", lambda self, **how: how)
+    expected = known if most is None else {"downhill": True, "most": most}
+    assert found._limiting_fall == expected
+
+
+def test_a_fall_just_there_is_none_beyond_and_enough_is_not_driven(monkeypatch):
+    monkeypatch.setattr(Traverse, "_survived", lambda self, back, sought, most: 0.1)
+    monkeypatch.setattr(contact, "traverse", lambda **how: pytest.fail("driven"))
+    assert not made()._falls_beyond(0.1)
+    found = made(enough=0.1, path=path_to(-1.0, NOSINGS[1] + 0.01))
+    assert found._fall(downhill=True) == (0.1, *found.end)
+
+
+def test_a_fall_counts_in_the_phases_that_are_looked_at(monkeypatch):
+    """It is looked for a little beyond the first rock."""
+    sought = []
+    monkeypatch.setattr(
+        Traverse, "_falls_beyond", lambda self, tilt: (sought.append(tilt), False)[1]
+    )
+    on, lands = extremes(Phase.TRAVERSE, 0.3, step=2), extremes(Phase.LAND, 0.35, step=4)
+    found = made(whole=False, phases=(on, lands), criterion=Criterion(()))
+    vars(found)["falls_downhill"] = Fall(0.15, Phase.LAND, 3)
+    assert found.first_rock(downhill=True) == (0.15, Phase.LAND, 3)
+    assert found.first_rock(downhill=True, phases=(lands, on)) == (0.15, Phase.LAND, 3)
+    assert found.first_rock(downhill=True, phases=(on,)) == (0.3, Phase.TRAVERSE, 2)
+    assert all(0.3 < each < 0.3 + 1e-5 for each in sought)
+
+
+def test_where_it_may_fall_before_it_rocks():
+    """Steps alike, all on one flight: only down over the edge, or over a first riser higher."""
+
+    def steps(first, lifted=0.0):
+        points = [(-1, 0), (0, 0), (0, first)]
+        for k in range(1, 4):
+            points += [(0.3 * k, first + 0.1 * (k - 1)), (0.3 * k, first + 0.1 * k)]
+        return Profile.of_points(np.add([*points, (3, first + 0.3)], (0.0, lifted)))
+
+    for lifted in (0.0, 1.0, -1.0):
+        assert not made(profile=steps(0.1, lifted))._may_fall_first
+        assert not made(profile=steps(0.05, lifted))._may_fall_first
+        assert made(profile=steps(0.15, lifted))._may_fall_first
+        assert made(profile=steps(0.1, lifted), descending=True)._may_fall_first
+    assert made(whole=False)._may_fall_first
