@@ -1,0 +1,379 @@
+"""What a path says of its tables, and what goes into the kernel, by hand."""
+
+import math
+from functools import partial
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from kaidan import contact
+from kaidan.contact import columns as at
+from kaidan.contact import heights, scratch, steepest, traversing
+from kaidan.contact.codes import (
+    Feature,
+    FeatureKind,
+    FeatureTable,
+    PartKind,
+    RotationOutcome,
+    Status,
+)
+from kaidan.contact.contacts import contacts_of
+from kaidan.contact.margin_records import Margins, Summaries
+from kaidan.contact.path import Path
+from kaidan.contact.records import ONE_PLACE, Body, Events, Ground, Poses, Rotations
+from kaidan.contact.rest import resting_height, settle
+from kaidan.contact.tables import body_table, ground_table
+from kaidan.contact.ways import Ways
+from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.traversal.nosing_events import nosing_events
+
+KERB = [(-4, 0), (0, 0), (0, 0.1), (4, 0.1)]
+ROBOT = [[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]]
+BOTH = [*ROBOT, [0.196, -0.011, 0.06, 0.45, 0.05, 0.03]]
+
+
+def table(columns, rows, **given):
+    """A table of zeros but for some columns."""
+    found = np.zeros((rows, columns))
+    for name, values in given.items():
+        found[:, getattr(at, name)] = values
+    return found
+
+
+def path_of(*, status=Status.OK, s=(0.0, 1.0), rotations=(), margins=None, parts=BOTH, bodies=None,
+            kinds=(0, 1), **poses):  # fmt: skip
+    names = {"ROTATION_ANGLE": 1, "OUTCOME": 2, "TOPPLES": 3, "END_PHI": 4}
+    turns = table(
+        at.ROTATION_COLUMNS, len(rotations),
+        **{name: [row[k - 1] for row in rotations] for name, k in names.items()},
+    )  # fmt: skip
+    return Path(
+        status, Poses(table(at.POSE_COLUMNS, len(s), POSE_S=s, **poses)), Events.of([]),
+        Rotations(turns), margins, Ground(ground_table(KERB)), Body(body_table(parts, kinds)),
+        bodies,
+    )  # fmt: skip
+
+
+# records
+
+
+def test_features_of_a_table_are_those_of_each_code():
+    each = [
+        Feature(point, part, kind)
+        for point in (0, 7, 1023) for part in (0, 5, 15) for kind in FeatureKind
+    ]  # fmt: skip
+    found = FeatureTable.of(np.array([one.code for one in each]))
+    assert list(zip(*(column.tolist() for column in found), strict=True)) == [
+        tuple(e) for e in each
+    ]
+    assert [Feature.of(one.code) for one in each] == each
+
+
+def test_pairs_of_columns_are_pairs():
+    path = path_of()
+    poses, body = path.poses, path.body
+    for each in (poses.rear_point, poses.front_point, poses.rear_normal, poses.front_normal):
+        assert each.shape == (2, 2)
+    assert body.discs.tolist() == np.array(BOTH).tolist()
+    margins = Margins(table(at.MARGIN_COLUMNS, 3, OUTER_REAR=(64, 65, 66), OUTER_FRONT=128))
+    assert margins.outermost.tolist() == [[64, 128], [65, 128], [66, 128]]
+
+
+def test_poses_lead_on_along_one_line_and_not_at_one_place():
+    poses = Poses(
+        table(
+            at.POSE_COLUMNS, 6, POSE_S=(1.0, 1.2, 1.2 + 0.5 * ONE_PLACE, 1.2 + 2 * ONE_PLACE,
+                                        1.3, 1.4), POSE_LEG=(0, 0, 0, 0, 1, 1),
+        )
+    )  # fmt: skip
+    assert poses.leads_on.tolist() == [True, False, True, False, True]
+
+
+def test_flags_are_those_that_are_set():
+    rotations = Rotations(
+        table(
+            at.ROTATION_COLUMNS, len(RotationOutcome), TOPPLES=(0, 1, 0, 1, 0),
+            OUTCOME=[float(each) for each in RotationOutcome],
+        )
+    )  # fmt: skip
+    assert rotations.arrested.tolist() == [True, False, False, False, False]
+    assert rotations.topples_with_momentum.tolist() == [False, True, False, True, False]
+    summaries = Summaries(
+        table(at.SUMMARY_COLUMNS, 2, SUMMARY_TOPPLES=(0, 1), SUMMARY_BELLY=(1, 0))
+    )
+    assert summaries.topples_with_momentum.tolist() == [False, True]
+    assert summaries.belly_touches.tolist() == [True, False]
+
+
+# paths
+
+ARRESTED, FALLS = RotationOutcome.ARRESTED, RotationOutcome.PAST_VERTICAL
+
+
+def test_grades_of_a_path():
+    turns = [(0.1, ARRESTED, 0, 0.3), (0.3, ARRESTED, 0, 0.2), (0.9, FALLS, 0, 1.2)]
+    assert path_of(rotations=turns).largest_rotation == 0.3
+    assert path_of().largest_rotation == 0.0
+    topples = [(0.1, ARRESTED, 1, 0.3), (0.1, ARRESTED, 0, 0.3)]
+    assert path_of(rotations=turns).arrives_with_momentum
+    assert not path_of(rotations=topples).arrives_with_momentum
+    assert not path_of(status=Status.STUCK).arrives_with_momentum
+    assert path_of(rotations=turns, POSE_PHI=(0.5, 0.4)).largest_inclination() == 1.2
+    assert path_of(rotations=turns[:2], POSE_PHI=(0.4, 0.5)).largest_inclination() == 0.5
+    assert path_of(POSE_PHI=(-0.4, -0.5)).largest_inclination() == -0.4
+
+
+def test_nothing_of_the_robot_is_farther_away_than_its_reach():
+    farthest = math.hypot(0.45, 0.05) + 0.03
+    assert farthest <= path_of().reach < 2 * farthest
+    longer = np.stack([body_table(BOTH), body_table([*ROBOT, [0.2, 0, 0.06, 0.9, 0, 0.03]])])
+    assert path_of(bodies=longer).reach >= 0.93
+
+
+def test_the_row_before_an_arclength():
+    """Two lines of poses meet at 0.2 m, where it rotates: before it the last one of the first."""
+    path = path_of(s=(0.0, 0.1, 0.2, 0.2, 0.3), POSE_LEG=(0, 0, 0, 1, 1))
+    for s, row in ((0.2, 2), (0.2 + 5e-10, 2), (0.2 - 5e-10, 2), (0.15, 1), (0.25, 3), (0.1, 1),
+                   (0.3, 4), (-1.0, 0), (0.05, 0), (9.0, 4)):  # fmt: skip
+        assert path.row_before(s) == row
+    # two rotations at one place, and several poses of the first line there
+    path = path_of(s=(0.0, 0.2, 0.2, 0.2, 0.2), POSE_LEG=(0, 0, 0, 1, 2))
+    assert path.row_before(0.2) == 2
+
+
+def test_the_first_pose_alone_and_the_first_that_slips():
+    path = contact.traverse(KERB, ROBOT, -0.6, 0.5, step=0.02)
+    first = path.first()
+    assert (len(first.poses), len(first.margins)) == (1, 1)
+    assert (len(first.events), len(first.rotations)) == (0, 0)
+    assert first.x[0] == path.x[0]
+    required = path.margins.required_friction
+    most = float(required.max())
+    assert path.first_beyond(most) is None  # just that is enough
+    row = path.first_beyond(math.nextafter(most, 0.0))
+    assert required[row] == most
+
+
+def test_the_parts_that_carry():
+    path = path_of(
+        POSE_REAR=Feature(1, 0, FeatureKind.VERTEX).code,
+        POSE_FRONT=Feature(2, 1, FeatureKind.DISC_1).code, REAR_X=(0.1, 0.2), FRONT_N_Z=1.0,
+    )  # fmt: skip
+    rear, front = path.carrying(1)
+    assert (rear.kind, front.kind) == (PartKind.TRACK, PartKind.FLIPPER)
+    assert (rear.point, front.normal, rear.gap, front.gap) == ((0.2, 0.0), (0.0, 1.0), 0.0, 0.0)
+
+
+def test_a_rotation_carried_out_in_part():
+    """A track that drops from the edge of a kerb: its centroid turns about the edge."""
+    path = contact.traverse(KERB, ROBOT, -0.6, 0.5, step=0.02)
+    record = next(iter(path.rotations))
+    for angle in (0.0, 0.1, record.angle):
+        place = contact.rotated(path, record, angle)
+        assert place.inclination == pytest.approx(record.start.inclination + record.sense * angle)
+        pivot = complex(*record.pivot_point)
+        turned = (complex(*record.start[:2]) - pivot) * np.exp(1j * record.sense * angle)
+        if angle < 0.2:  # as long as it turns about that edge
+            assert complex(place.x, place.z) == pytest.approx(pivot + turned, abs=1e-6)
+
+
+def test_nosings_come_and_go_where_they_are_left_out():
+    """The poses without them stand where their events are."""
+    flight = [(-3, 0), (0, 0)]
+    for k in range(6):
+        flight += [(0.2 * k, 0.1 * (k + 1)), (0.2 * (k + 1), 0.1 * (k + 1))]
+    path = contact.traverse([*flight, (4, 0.6)], ROBOT, -0.5, 1.0, step=0.05)
+    passed = nosing_events(path)
+    assert len(passed) > 3
+    found = contact.without_nosings(path, passed)
+    assert found.s == pytest.approx(passed.s)
+
+
+# robot at rest
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.3, -0.4])
+def test_contacts_of_a_robot_at_rest_on_a_slope(slope):
+    rise = math.tan(slope)
+    found = settle([(-4, -4 * rise), (4, 4 * rise)], ROBOT, 0.5, 0.0)
+    assert found.inclination == pytest.approx(slope)
+    for x, z in found.points:
+        assert z == pytest.approx(x * rise, abs=1e-9)
+    ends = [math.dist(*found.points), 0.47]
+    assert ends[0] == pytest.approx(ends[1])
+
+
+def lowest(ground, parts, x, phi):
+    """Lowest height by the undersides of discs and the hull between them, every 10 um or so."""
+    c, s = math.cos(phi), math.sin(phi)
+    points = []
+    turn = np.linspace(-math.pi, 0.0, 8_001)
+    for x1, z1, r1, x2, z2, r2 in parts:
+        share = np.linspace(0.0, 1.0, 201)[:, None]
+        for a, b, r in ((x1, z1, r1), (x2, z2, r2)):
+            points.append(np.stack([a + r * np.cos(turn), b + r * np.sin(turn)]))
+        # the hull is that of discs between both
+        middle = np.stack([x1 + share * (x2 - x1), z1 + share * (z2 - z1)])
+        r = r1 + share * (r2 - r1)
+        some = turn[::20]
+        points.append(
+            np.stack([middle[0] + r * np.cos(some), middle[1] + r * np.sin(some)]).reshape(2, -1)
+        )
+    u, v = np.hstack(points)
+    along, up = x + c * u - s * v, s * u + c * v
+    g_x, g_z = np.array(ground, dtype=float).T
+    rises = np.flatnonzero(np.diff(g_x) == 0)
+    level = np.interp(along, g_x + 1e-12 * np.arange(len(g_x)), g_z)
+    best = float((level - up).max())
+    # corners against the underside at each
+    order = np.argsort(along)
+    for k in {*rises.tolist(), *(rises + 1).tolist()}:
+        under = up[np.abs(along - g_x[k]) < 2e-5]
+        if len(under):
+            best = max(best, float(g_z[k] - under.min()))
+    assert len(order)
+    return best
+
+
+@pytest.mark.parametrize("phi", [-1.2, -0.5, 0.0, 0.3, 0.9])
+def test_touching_heights_over_a_map_are_those_of_each_place(phi):
+    """As the kernel finds them one by one, and as the outline says, to 0.1 mm."""
+    ground = [
+        (-3, -0.3),
+        (-1, 0.1),
+        (0, 0.1),
+        (0, 0.3),
+        (0.25, 0.3),
+        (0.25, 0.5),
+        (1, 0.3),
+        (3, 0.5),
+    ]
+    for parts in (BOTH, [[-0.2, 0.02, 0.1, 0.3, -0.1, 0.03], [0.3, -0.1, 0.05, 0.1, 0.2, 0.02]]):
+        path = path_of(parts=parts)
+        x = np.linspace(-0.9, 1.2, 15)
+        table = Ground(ground_table(ground))
+        found = heights.touching_heights(table, path.body, x, np.array([phi, phi / 2]))
+        for row, angle in enumerate((phi, phi / 2)):
+            each = [resting_height(ground, parts, one, angle, kinds=(0, 1)) for one in x]
+            assert found.z[row] == pytest.approx(each, abs=1e-9)
+            assert found.z[row, 4] == pytest.approx(lowest(ground, parts, x[4], angle), abs=1e-4)
+            for k, one in enumerate(x):
+                place = contact.Placement(one, found.z[row, k], angle)
+                points = [c.point for c in contacts_of(table.table, path.body.table, *place,
+                                                               1e-9)]  # fmt: skip
+                at_ = found.contact_x[row, k], found.contact_z[row, k]
+                assert min(math.dist(at_, point) for point in points) < 1e-6
+
+
+# into the kernel
+
+
+@pytest.fixture
+def driven(monkeypatch):
+    """What the kernel is given of a drive; it ends at once."""
+    given = []
+
+    def drive(*arguments):
+        given.append(arguments)
+        return [(Status.STUCK if arguments[8] else Status.OK), 0, 0, 0]
+
+    monkeypatch.setattr(traversing, "kernel", lambda: SimpleNamespace(drive=drive))
+    monkeypatch.setattr(
+        traversing, "most_poses", lambda way, step, points: given.append(way) or 100
+    )
+    return given
+
+
+@pytest.mark.parametrize("tilt", [0.0, 0.4, -0.4])
+def test_tilted_gravity_and_the_room_for_a_way(tilt, driven):
+    ways = (
+        (3.0, partial(contact.traverse, gravity=3.0, with_margins=False)),
+        (STANDARD_GRAVITY, contact.arrives),
+    )
+    for gravity, drive in ways:
+        driven.clear()
+        found = drive(KERB, ROBOT, -0.6, 0.5, tilt=tilt)
+        way, arguments = driven
+        assert way == pytest.approx(1.1)
+        assert arguments[7] == pytest.approx(gravity * math.cos(tilt))
+        assert arguments[8] == pytest.approx(math.tan(tilt))
+        if gravity > 3.0:
+            assert found is (tilt == 0.0)
+
+
+@pytest.mark.parametrize(
+    ("x_end", "step", "text"),
+    [(-0.6, 0.02, "must be ahead"), (-0.7, 0.02, "must be ahead"), (0.5, 0.0, "must be positive"),
+     (0.5, -0.1, "must be positive"), (0.5, math.nan, "must be positive")],
+)  # fmt: skip
+def test_what_is_no_way(x_end, step, text):
+    with pytest.raises(ValueError, match=text):
+        contact.traverse(KERB, ROBOT, -0.6, x_end, step=step)
+
+
+def test_the_time_of_the_plain_kernel_by_hand():
+    """Poses each 5 mm of the way and of the risers; on each those corners that lie under it."""
+    points = [(-3, 0), (0, 0), (0, 0.2), (1, 0.2), (1, 0.1), (4, 0.1)]
+    parts = [[-0.3, 0, 0.1, 0.3, 0, 0.1], [0.3, 0, 0.1, 0.5, 0.2, 0.05]]
+    a, b = traversing.A_POSE, traversing.A_POINT
+    poses, under = (2.0 + 0.2) / 0.005, 0.4 + 0.55
+    found = traversing.plain_seconds(points, parts, -1.5, 0.5, step=0.005)
+    assert found == pytest.approx(poses * (a + b * 2 * under / 2.0))
+    short = traversing.plain_seconds(points, parts, -0.1, 0.5, step=0.005)
+    assert short == pytest.approx((0.6 + 0.2) / 0.005 * (a + b * 2))
+    both = traversing.plain_seconds(points, parts, -0.1, 1.0, step=0.005)  # up to the edge itself
+    assert both == pytest.approx((1.1 + 0.3) / 0.005 * (a + b * 4 * under / 1.1))
+
+
+def test_a_path_has_room_for_its_poses():
+    for way, step, points in ((1.0, 0.005, 10), (1.0, 1e-5, 10), (3.0, 0.01, 2000)):
+        size = scratch.most_poses(way, step, points)
+        assert way / step + 10 * points < size <= scratch.MOST
+    assert scratch.most_poses(1.0, 0.005, 10) < 10_000
+    assert scratch.most_poses(1e4, 1e-3, 10) == scratch.MOST
+    for size in (300, 40, 5000):
+        tables = scratch.path_scratch(size)
+        assert [len(each) for each in tables[:2]] == [size, size]
+        assert len(tables[2]) >= size / 8
+
+
+def test_the_steepest_flight_is_halved_out(monkeypatch):
+    """Held up to 0.7 rad, with 0.05 rad beyond the flight's angle."""
+    asked = []
+
+    def traverse(terrain, parts, x_start, x_end, *, step, with_margins):
+        asked.append((terrain, with_margins))
+        extra = 0.05 if terrain <= limit else 0.06
+        return SimpleNamespace(status=status(terrain), largest_inclination=lambda: terrain + extra)
+
+    def flight(angle):
+        return angle, 0.0, 1.0
+
+    monkeypatch.setattr(steepest, "traverse", traverse)
+    limit, status = 0.7, lambda angle: Status.OK
+    how = {"largest_extra": 0.05 + 1e-12, "low": 0.2, "high": 1.4}
+    found = steepest.steepest_flight(flight, ROBOT, **how)
+    assert 0.7 - 1e-5 <= found <= 0.7
+    assert not any(with_margins for _, with_margins in asked)
+    limit, status = 9.0, lambda angle: Status.OK if angle <= 0.5 else Status.STUCK
+    assert 0.5 - 1e-5 <= steepest.steepest_flight(flight, ROBOT, **how) <= 0.5
+    limit = 0.1
+    assert math.isnan(steepest.steepest_flight(flight, ROBOT, **how))
+
+
+def test_one_way_alone_is_cut_too():
+    """A tent over two poses, with one way between them."""
+    ways = Ways(
+        np.array([0.0, 1.0]), np.array([True]), np.array([1.0, 2.0]), np.zeros(2, dtype=int),
+        1e-4, np.array([True]),
+    )  # fmt: skip
+    rows, shares = ways.cut_first(4)
+    assert rows.tolist() == [0] * len(rows)
+    assert len(rows) > 0
+    assert ((shares > 0) & (shares < 1)).all()
+    none = Ways(
+        np.array([0.0, 1.0]), np.array([False]), np.array([1.0, 2.0]), np.zeros(2, dtype=int),
+        1e-4, None,
+    )  # fmt: skip
+    assert len(none.cut_first(4)[0]) == 0
