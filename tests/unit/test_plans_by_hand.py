@@ -12,7 +12,7 @@ from kaidan.assessment.plan import PlanShown, PlanStep
 from kaidan.assessment.plan import plan_of as plan_of_answer
 from kaidan.assessment.plan_hopes import Hope, Search, _along, _order
 from kaidan.assessment.plan_judged import Judged
-from kaidan.assessment.plan_scores import ENOUGH, Score
+from kaidan.assessment.plan_scores import ENOUGH, FAILED, Score
 from kaidan.assessment.plan_search import (
     _best_off,
     _better,
@@ -23,11 +23,21 @@ from kaidan.assessment.plan_search import (
     _on_the_whole,
     _rank,
 )
-from kaidan.assessment.plan_sturdy import ANY, OUT, Sturdier, Worth
-from kaidan.assessment.plans import Plan, cost_of, cost_of_drop, off, off_angles, pressed, words
+from kaidan.assessment.plan_sturdy import ANY, OUT, SHORT_OF_GO, Sturdier, Worth
+from kaidan.assessment.plans import (
+    GENTLE,
+    Plan,
+    cost_of,
+    cost_of_drop,
+    off,
+    off_angles,
+    pressed,
+    words,
+)
 from kaidan.models.findings import Finding, Findings
-from kaidan.modes import FALL_DOWNHILL, POSTURE_TOLERANCE, Phase, Verdict
+from kaidan.modes import FALL_DOWNHILL, POSTURE_TOLERANCE, Acceptance, Phase, Verdict
 from kaidan.robot import Posture, Robot
+from kaidan.surface import Surface
 
 GO, CAUTION, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.CAUTION, Verdict.NO_GO))
 ABSOLEM = Robot.named("absolem")
@@ -297,6 +307,118 @@ def test_the_worst_is_looked_at_until_it_is_beaten(sturdier):
     assert search._worst(Phase.LAND, degrees(20.0)[0], OUT) == Worth(GO, pytest.approx(-2.0))
     assert Worth(GO, 0.0).holds
     assert not Worth(CAUTION, 9.0).holds
+
+
+def test_a_grid_from_the_lowest_angle_to_the_highest(sturdier):
+    """Each 18 deg, and the flat; no farther than is allowed."""
+
+    def grid(*limits):
+        search, _ = sturdier((0.0, 1.0), limits=limits)
+        each = [round(math.degrees(one.front), 6) for one in search._grid(Posture())]
+        laid = math.degrees(pressed(ONE, Posture(front="flat"), TWO).front)
+        assert each[0] == pytest.approx(laid)
+        return each[1:]
+
+    assert grid(-6.0, 30.0) == [-6.0, 12.0, 30.0]
+    assert grid(-6.0, 29.0) == [-6.0, 12.0]
+    assert grid(-6.0, 11.0) == [-6.0]  # a degree short of the next
+
+
+def test_postures_close_by_are_within_the_limits(sturdier):
+    search, _ = sturdier((0.0, 1.0))
+    four = math.radians(4.0)
+    at = Posture(front=0.5, rear=-0.3)
+    search.limits = -0.3 - four, 0.5 + four
+    alone = [each.front for each in search._close_to(Posture(front=0.5))]
+    assert alone == pytest.approx([0.5, 0.5 - four, 0.5 + four, 0.5 - 2 * four])
+    search.question = asked(ABSOLEM, posture=at)
+    both = [(each.front, each.rear) for each in search._close_to(at)]
+    fronts = [0.0, -four, four, -2 * four]
+    rears = [0.0, -four, four, 2 * four]
+    assert both == [
+        (pytest.approx(0.5 + one), pytest.approx(-0.3 + two)) for one in fronts for two in rears
+    ]
+
+
+def test_which_postures_are_looked_at_more_closely(sturdier, monkeypatch):
+    """Those that rotate on their way come last; what holds one too little is not judged."""
+    a, b, c, d, e, f = each = degrees(1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
+    tipping = dict(zip(each, (5.0, 9.0, 7.0, 8.0, 10.0, 11.0), strict=True))
+    drops = {b: -GENTLE - 1.0, c: -GENTLE}
+    failing = {e: -1, f: -2}
+    search, _ = sturdier((0.0, 1.0))
+
+    def score(phase, posture):
+        return Score(False, failing.get(posture, 0), -90.0, drops.get(posture, 0.0),
+                     tipping[posture])  # fmt: skip
+
+    def off(phase, posture):
+        return score(phase, posture)._replace(failing=-2 if posture is e else 0)
+
+    judged, held = [], []
+
+    def of(self, phase, posture, beaten):
+        assert beaten == SHORT_OF_GO
+        judged.append(posture)
+        return Worth(GO, tipping[posture])
+
+    def holds(self, phase, posture):
+        held.append(each[round(math.degrees(posture.front)) - 1])
+        return Worth(GO, 1.0) if held[-1] is d else ANY
+
+    monkeypatch.setattr(Sturdier, "_of", of)
+    monkeypatch.setattr(Sturdier, "_held", holds)
+    search.scores = SimpleNamespace(work_out=list, of=score, off=off)
+    ranked = search._ranked(Phase.ENTER, each)
+    assert next(ranked) == (Worth(GO, 7.0), c)
+    assert (held, judged) == ([d, c], [c])
+    assert next(ranked) == (Worth(GO, 5.0), a)
+    assert next(ranked) == (Worth(GO, 8.0), d)
+    assert next(ranked) == (Worth(GO, 9.0), b)
+    assert list(ranked) == []
+
+
+def test_a_posture_stays_where_another_is_no_better(sturdier, monkeypatch):
+    search, _ = sturdier((0.0, 1.0))
+    (posture,) = degrees(3.0)
+    worth = Worth(CAUTION, 2.0)
+    monkeypatch.setattr(Sturdier, "_most", lambda self, phase, about: [ANY] * len(about))
+    monkeypatch.setattr(Sturdier, "_worst", lambda self, phase, posture, beaten: worth)
+    assert search._best_about(Phase.ENTER, posture, worth) == (posture, worth)
+    other, found = search._best_about(Phase.ENTER, posture, Worth(CAUTION, 1.0))
+    assert (other == posture, found) == (False, worth)
+
+
+def test_what_a_phase_may_come_to_by_its_scores():
+    """A tenth of a degree better than those of coarse drives; of a failure nothing is known."""
+    score = Score(True, 0, 3.0, 0.0, 5.0)
+    assert plan_sturdy._most(score) == Worth(GO, pytest.approx(5.0 + plan_sturdy.SLACK))
+    assert plan_sturdy._hope(score) == Worth(GO, pytest.approx(3.0 + plan_sturdy.SLACK))
+    assert plan_sturdy._hope(score._replace(failing=-1)).rank == CAUTION
+    assert plan_sturdy._hope(score._replace(passes=False)).rank == NO_GO
+    assert plan_sturdy._hope(FAILED) == Worth(NO_GO, ENOUGH)
+
+
+def test_scores_tell_where_nothing_but_the_flat_and_one_friction_count():
+    """Not where rotations are accepted, a figure is uncertain or frictions differ."""
+
+    def scored(question):
+        scores = SimpleNamespace(question=question, facing="nose-first")
+        return Sturdier(scores, (-1.0, 1.0), None)._scored is not None
+
+    question = asked()
+    uncertain = ONE.model_copy(
+        update={"uncertainty": ONE.uncertainty.model_copy(update={"com_height": 0.01})}
+    )
+    parts = Surface(
+        friction_low=0.6, friction_high=0.9,
+        treads={"low": 0.4, "high": 0.9},
+    )  # fmt: skip
+    plain = question.changed(accept=Acceptance.NO_ROTATION)
+    assert scored(plain)
+    assert not scored(question.changed(accept=Acceptance.ARRESTED))
+    assert not scored(plain.changed(robot=uncertain))
+    assert not scored(plain.changed(surface=parts))
 
 
 def test_angles_about_a_posture(sturdier):
