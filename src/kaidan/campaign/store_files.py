@@ -4,6 +4,7 @@ A part has its checksum in its name, a line of a journal at its beginning, `camp
 field; so damage is reported wherever it is, and never read as a result.
 """
 
+import errno
 import hashlib
 import io
 import json
@@ -103,6 +104,13 @@ def _numbered(folder: Path, paths: Iterator[Path], form: re.Pattern[str]) -> dic
     return found
 
 
+def _content(path: Path) -> bytes:
+    """What a file holds; a pipe or a device in its place is not waited for."""
+    if path.exists() and not path.is_file() and not path.is_dir():
+        raise OSError(errno.EINVAL, "it is no file")
+    return path.read_bytes()
+
+
 def batches_of(part: Path, columns: Sequence[str], schema: Any) -> Iterator[Any]:
     """Record batches of a part.
 
@@ -113,7 +121,7 @@ def batches_of(part: Path, columns: Sequence[str], schema: Any) -> Iterator[Any]
     """
     match = _PART.fullmatch(part.name)
     try:
-        data = part.read_bytes()
+        data = _content(part)
         if match is None or _checksum(data) != match[2]:
             raise InputError(f"{part}: is damaged: its checksum is not that of its name")
         with arrow("pyarrow.parquet").ParquetFile(io.BytesIO(data)) as file:
@@ -148,7 +156,7 @@ def journal_rows(path: Path) -> list[Row]:
     """
     rows: dict[str, Row] = {}
     bad = 0
-    for number, line in enumerate(path.read_bytes().split(b"\n"), start=1):
+    for number, line in enumerate(_content(path).split(b"\n"), start=1):
         check, _, text = line.partition(b" ")
         if check != _checksum(text).encode("ascii"):
             bad = bad or number
@@ -174,7 +182,7 @@ def about_store(folder: Path, *, missing_is_new: bool = False) -> dict[str, Any]
         The folder is no store, of another format, or damaged.
     """
     try:
-        about = json.loads((folder / ABOUT).read_bytes())
+        about = json.loads(_content(folder / ABOUT))
     except FileNotFoundError:
         if missing_is_new:
             return None

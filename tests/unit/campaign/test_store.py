@@ -234,6 +234,25 @@ def test_foreign_files_are_named(tmp_path, name):
         )
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes in folders")
+@pytest.mark.parametrize("place", ["pipe", "device", "folder"])
+@pytest.mark.parametrize("file", ["part", "journal", "campaign.json"])
+def test_what_is_no_file_is_refused_and_not_waited_for(tmp_path, file, place):
+    path = filled(tmp_path, settled=file == "part")
+    path = tmp_path / file if file == "campaign.json" else path
+    path.unlink()
+    if place == "pipe":
+        os.mkfifo(path)
+    elif place == "device":
+        path.symlink_to("/dev/zero")
+    else:
+        path.mkdir()
+    why = "Is a directory" if place == "folder" else "it is no file"
+    for reads in (read_table, lambda folder: Store(folder, FAKE)):
+        with pytest.raises(InputError, match=f"{why}$"):
+            reads(tmp_path)
+
+
 def test_a_part_of_another_store_is_named(tmp_path):
     part = filled(tmp_path / "a", settled=True)
     other = dataclasses.replace(FAKE, columns={"n": "count"})
