@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from kaidan import Payload, Question, Robot, Stairs
-from kaidan.assessment import advice, plan_search, traction_advice
+from kaidan.assessment import advice, plan_search, plans, traction_advice
 from kaidan.assessment.advice import (
     WORTH_TELLING,
     _centroid_moved,
@@ -30,10 +30,13 @@ from kaidan.assessment.traction_advice import (
 )
 from kaidan.assessment.verdict import Conclusion, conclude
 from kaidan.errors import InputError
+from kaidan.models import clearance
 from kaidan.models.findings import Finding, Findings
 from kaidan.models.unweighed import Placed
 from kaidan.modes import (
     ENERGY,
+    GROUSER_SPEED,
+    LANDING_ROOM,
     SLIDES_DOWN,
     SLIDES_UP,
     TIP_DOWNHILL,
@@ -42,6 +45,7 @@ from kaidan.modes import (
     Phase,
     Verdict,
 )
+from kaidan.robot import Posture
 from kaidan.text import advice as text
 
 G = 9.80665
@@ -226,13 +230,16 @@ def test_a_centroid_that_is_moved_moves_that_of_robot_and_payload(load, share):
 def tried(monkeypatch):
     """Names of what is tried."""
     for name in ("_flippers_flat", "_flippers_raised", "more_friction", "grousers", "_measured",
-                 "_centroid_moved"):  # fmt: skip
+                 "_centroid_moved", "_stowed_on_landings"):  # fmt: skip
         monkeypatch.setattr(advice, name, lambda *given, name=name: [name.lstrip("_")])
     monkeypatch.setattr(advice, "_slower", lambda question, energy: [("slower", energy)])
 
-    def of(governs, question=KENAF, *, searched=False, phase=None, best=-0.1, energy=None):
+    def of(governs, question=KENAF, *, searched=False, phase=None, best=-0.1, energy=None,
+           fast=None):  # fmt: skip
         concluded = Conclusion(Verdict.NO_GO, governs, phase, None, -0.2, best, np.zeros(1), ())
-        found = Findings(model="", each=() if energy is None else (finding(ENERGY, energy),))
+        known = {ENERGY: energy, GROUSER_SPEED: fast}
+        each = tuple(finding(mode, one) for mode, one in known.items() if one is not None)
+        found = Findings(model="", each=each)
         each = advice._candidates(question, found, concluded, object() if searched else None)
         return [one.change if isinstance(one, Candidate) else one for one in each]
 
@@ -274,6 +281,92 @@ def test_what_is_tried_for_its_energy(tried):
     assert tried("energy", asked, searched=True, energy=-0.002) == [slower]
     assert tried("energy", asked, searched=True) == []
     assert tried("drive", asked, searched=True, energy=-0.002) == []
+
+
+def test_what_is_tried_on_landings_that_are_too_short(tried):
+    assert tried("landing_room", searched=True) == ["stowed_on_landings"]
+
+
+def test_on_grousers_a_speed_below_the_limit_is_tried(tried):
+    """0.05 m/s beyond the limit, and a hundredth below it."""
+    asked = KENAF.changed(speed=0.25)
+    assert tried("grouser_speed", asked, searched=True, fast=-0.05) == [text.slower(0.19)]
+    assert tried("grouser_speed", asked, searched=True) == []
+    assert tried("grouser_speed", KENAF, searched=True, fast=-0.05) == []
+    assert tried("drive", asked, searched=True, fast=-0.05) == []
+
+
+FLIPPERS = Question.of(Robot.named("absolem"), KENAF.terrain, friction=1.0).changed(
+    best_of=(), posture=Posture(front=0.1, rear=0.1)
+)
+
+
+@pytest.mark.parametrize(
+    ("at_them", "off", "verdict"),
+    [
+        (0.2, (0.2, 0.1), Verdict.GO),
+        (0.2, (0.2, -0.1), Verdict.CAUTION),  # off its angles it is none
+        (0.2, (-0.1, 0.1), Verdict.CAUTION),
+        (-0.1, (0.2, 0.1), Verdict.CAUTION),
+    ],
+)
+def test_flippers_stowed_on_a_short_landing(at_them, off, verdict, monkeypatch):
+    """The room with them stowed, in place of the room without; all else as it was found."""
+    judged = []
+
+    def findings(margin):
+        return Findings(
+            model="by hand",
+            each=(Finding.certain(TIP_DOWNHILL, margin, model="", failing=Verdict.CAUTION),
+                  Finding.certain(LANDING_ROOM, -0.3, model="", failing=Verdict.CAUTION)),
+        )  # fmt: skip
+
+    def judge(question):
+        judged.append(question)
+        return findings(question)
+
+    def conclude_by_hand(question, found):
+        rooms = [one.worst.tolist() for one in found.each if one.mode is LANDING_ROOM]
+        assert rooms == [[0.25]]
+        tips = [one.worst[0] for one in found.each if one.mode is TIP_DOWNHILL]
+        return concluded(Verdict.GO if tips[0] > 0 else Verdict.CAUTION, tips[0])
+
+    monkeypatch.setattr(clearance, "room_when_stowed", lambda question: 0.25)
+    monkeypatch.setattr(plans, "off_angles", lambda question: off)
+    monkeypatch.setattr(advice, "judge", judge)
+    monkeypatch.setattr(advice, "conclude", conclude_by_hand)
+    (one,) = advice._stowed_on_landings(FLIPPERS, findings(at_them))
+    assert (one.change, one.question, one.certain) == (text.STOWED, FLIPPERS, True)
+    assert one.then.verdict is verdict
+    assert bool(judged) is (at_them > 0)
+
+
+def test_where_stowed_flippers_are_no_help_on_a_landing(monkeypatch):
+    """No flippers, a landing in between, and no room with them stowed either."""
+    monkeypatch.setattr(advice, "conclude", lambda question, found: concluded(Verdict.CAUTION))
+
+    def helps(question, room):
+        monkeypatch.setattr(clearance, "room_when_stowed", lambda question: room)
+        return bool(list(advice._stowed_on_landings(question, Findings(model=""))))
+
+    assert helps(FLIPPERS, 0.25)
+    assert helps(FLIPPERS, 1e-6)
+    assert not helps(FLIPPERS, 0.0)
+    assert not helps(FLIPPERS, -0.1)
+    assert not helps(KENAF, 0.25)
+    two = SimpleNamespace(
+        robot=FLIPPERS.robot,
+        landings=[SimpleNamespace(end="bottom"), SimpleNamespace(end="between")],
+    )
+    assert not helps(two, 0.25)
+
+
+def test_flat_flippers_are_tried_unless_they_are_flat_or_there_are_none():
+    (one,) = advice._flippers_flat(FLIPPERS)
+    flat = Posture(front="flat", rear="flat")
+    assert (one.change, one.question.posture) == (text.FLAT, flat)
+    assert list(advice._flippers_flat(FLIPPERS.changed(posture=flat))) == []
+    assert list(advice._flippers_flat(KENAF)) == []
 
 
 def test_of_what_is_measured_a_verdict_or_a_margin_that_holds_must_come():
@@ -499,6 +592,23 @@ def test_changes_that_help_the_best_first(helps):
     # a GO counts as what it is off its angles, if these are in doubt
     found = helps(each, off=same._replace(margin=0.9), tolerance=0.05)
     assert found == (["go", "go more", "better"], {"found"}, ["go", "go more"])
+
+
+def test_sharper_nosings_are_judged_of_the_plan_at_hand(monkeypatch):
+    anew_ones = []
+
+    def planned(changed, then, search, *, anew):
+        anew_ones.append(anew)
+        return then, anew
+
+    monkeypatch.setattr(advice, "_planned", planned)
+    monkeypatch.setattr(advice, "judge", lambda question, *, known: "found")
+    monkeypatch.setattr(advice, "conclude", lambda question, found: concluded(Verdict.GO))
+    monkeypatch.setattr(advice, "_candidates", lambda *given: [])
+    monkeypatch.setattr(advice, "_known_better", lambda *given: [])
+    monkeypatch.setattr(advice, "nosings", lambda question, now, judged: [judged(question)][:0])
+    assert advice.what_would_help(KENAF, "found", concluded(Verdict.CAUTION)) == ()
+    assert anew_ones == [False]
 
 
 def test_a_plan_off_its_angles_and_another_one(monkeypatch):

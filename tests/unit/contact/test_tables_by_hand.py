@@ -94,6 +94,32 @@ def test_faces_that_fold_have_tips_above_and_pits_below():
     assert below[1:-1, [Z, CONVEX]].tolist() == [[0.1, 1.0], [-0.1, 0.0], [0.3, 1.0]]
 
 
+def test_the_ground_of_two_points_and_of_a_hollow():
+    floor = ground_table([(-1, 0.2), (1, 0.2)])
+    assert floor[:, [X, Z, CONVEX]].tolist() == [[-1 - BEYOND, 0.2, 0], [1 + BEYOND, 0.2, 0]]
+    hollow = ground_table([(0, 1.0), (1, 0.2), (2, 0.0), (3, 0.3), (4, 0.3)])
+    assert hollow[:, CONVEX].tolist() == [0, 0, 0, 1, 0]
+    # it is continued along its last piece, whatever came before
+    ends = ground_table([(0, 0), (1, 0), (1, 0.5), (2, 0.5), (2.5, 1.0)])
+    assert ends[-1, [X, Z]] == pytest.approx(np.array([2.5, 1.0]) + BEYOND / math.sqrt(2))
+
+
+def test_of_a_face_that_folds_only_its_ends_and_what_lies_beyond_them_count():
+    def heights(*face):
+        points = [(-1, face[0]), *((0, z) for z in face), (1, face[-1])]
+        return ground_table(points)[1:-1, Z].tolist()
+
+    assert heights(0.0, 0.1, 0.3) == [0.0, 0.3]
+    assert heights(0.0, 0.2, 0.1, 0.15, 0.12, 0.3) == [0.0, 0.3]
+    assert heights(0.3, 0.1, 0.2, 0.0) == [0.3, 0.0]
+    assert heights(0.0, 0.2, 0.5, 0.1, 0.4, 0.3) == [0.0, 0.5, 0.3]
+    assert heights(0.0, 0.2, -0.1, 0.3) == [0.0, -0.1, 0.3]
+    assert heights(0.1, 0.4, 0.0, 0.3) == [0.1, 0.4, 0.0, 0.3]
+    # as high as an end is not beyond it
+    assert heights(0.0, 0.3, 0.1, 0.3) == [0.0, 0.3]
+    assert heights(0.0, 0.2, 0.0, 0.3) == [0.0, 0.3]
+
+
 @pytest.mark.parametrize(
     ("points", "text"),
     [
@@ -181,6 +207,14 @@ def test_parts_that_are_none():
     for parts in ([part] * 17, [], part, [part[:5]], [[part]]):
         with pytest.raises(ValueError, match="1 <= m <= 16"):
             body_table(parts)
+    with pytest.raises(ValueError, match="must not be negative"):
+        body_table([[*part[:5], -0.1]])
+    for kinds in ([0, 1], [3], [0.5], [[0]]):
+        with pytest.raises(ValueError, match="one of 0"):
+            body_table([part], kinds)
+    # discs that overlap are no disc within another
+    (row,) = body_table([[0.0, 0.0, 0.04, 0.05, 0.0, 0.03]])
+    assert row[FLAT] == pytest.approx(math.sqrt(0.05**2 - 0.01**2))
     with pytest.raises(ValueError, match="every number must be finite"):
         body_table([[*part[:5], math.nan]])
 
