@@ -111,6 +111,8 @@ def _decisive(steps: list[tuple[float, float]]) -> tuple[Array, Array]:
     """
     rise, going = np.array(steps).T
     theta_s, p = np.arctan2(rise, going), np.hypot(rise, going)
+    if len(steps) == 1:
+        return theta_s, p
     counts = np.zeros(len(steps), dtype=bool)
     for steepness in (theta_s, -theta_s):
         order = np.lexsort((-p, -steepness))

@@ -251,7 +251,7 @@ class Profile:
         """Mean distance from nosing to nosing [m]; NaN with fewer than two."""
         return float(self.spacings.mean()) if len(self.nosings) > 1 else math.nan
 
-    @property
+    @cached_property
     def angle(self) -> float:
         """Slope of the line fitted to the nosings [rad]; NaN with fewer than two."""
         if len(self.nosings) < 2:
