@@ -172,7 +172,7 @@ class Run:
                 chosen.sort(key=lambda k: (k != last.get(mutant.function), usual[k][0]))
                 mutant.outcome = UNTESTED
                 if chosen:
-                    mutant.outcome, killer = self._try(change, items, chosen, usual)
+                    mutant.outcome, killer = self._noticed(change, items, chosen, usual)
                     if killer is not None:
                         mutant.by, last[mutant.function] = items[killer].nodeid, killer
                 counts[mutant.outcome] += 1
@@ -231,6 +231,19 @@ class Run:
         null = os.open(os.devnull, os.O_WRONLY)
         os.dup2(null, 1)
         os.dup2(null, 2)
+
+    def _noticed(
+        self, change: Callable[[], None], items: list[pytest.Item], chosen: list[int],
+        usual: dict[int, tuple[float, set[object]]],
+    ) -> tuple[str, int | None]:  # fmt: skip
+        """Outcome of a mutant and the test that notices it alone, where no test ran before it."""
+        while True:
+            outcome, killer = self._try(change, items, chosen, usual)
+            if killer is None or killer == chosen[0]:
+                return outcome, killer
+            if self._try(change, items, [killer], usual)[0] != SURVIVES:
+                return outcome, killer
+            chosen = [each for each in chosen if each != killer]  # another test left something
 
     def _try(
         self, change: Callable[[], None], items: list[pytest.Item], chosen: list[int],

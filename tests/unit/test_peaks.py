@@ -84,6 +84,8 @@ def test_nothing_is_looked_at_where_nothing_is_promised():
 
 def test_slope_between_two_poses_at_one_place():
     assert math.isnan(slope(1.0, 1.0, 2.0, 2.0))
+    assert math.isnan(slope(1.0, 1.0, NAN, 2.0))
+    assert math.isnan(slope(1.0, 1.0, 2.0, NAN))
     assert slope(1.0, 1.0, 2.0, 3.0) == math.inf
     assert slope(1.0, 1.0, 2.0, 1.0) == -math.inf
     assert slope(1.0, 1.0, 2.0, -1.0) == -math.inf
@@ -95,16 +97,18 @@ def test_slope_is_not_known_where_either_pose_tells_nothing():
 
 
 @pytest.mark.parametrize(("given", "expected"), [
-    # begin, end, slopes before, on and after a way of 0.5 m
-    ((-2.0, -4.0, NAN, -4.0, NAN), -1.9),  # a twentieth above the higher end
-    ((1.0, 2.0, NAN, 2.0, -3.0), 3.5),  # back along the line after it
-    ((1.0, 2.0, 4.0, 2.0, NAN), 3.0),  # on along the line before it
-    ((1.0, 2.0, NAN, 2.0, 5.0), 2.0),  # on its own line: no more than its end
-    ((2.0, 1.0, -5.0, -2.0, NAN), 2.0),
-    ((1.0, 1.0, 3.0, 0.0, -1.0), 1.375),  # the lines meet after an eighth of a metre
-    ((1.0, 1.0, 3.0, 0.0, -3.0), 1.75),  # halfway
-    ((1.0, 2.0, 2.0, 2.0, 2.0), 2.0),  # a line
-    ((1.0, 1.0, -1.0, 0.0, 1.0), 1.0),  # a hollow
+    # begin, end, slopes before and after a way of 0.5 m
+    ((-2.0, -4.0, NAN, NAN), -1.9),  # a twentieth above the higher end
+    ((1.0, 2.0, NAN, -3.0), 3.5),  # back along the line after it
+    ((1.0, 2.0, 4.0, NAN), 3.0),  # on along the line before it
+    ((1.0, 2.0, NAN, 5.0), 2.0),  # the line behind it lies lower: no more than its end
+    ((2.0, 1.0, -5.0, NAN), 2.0),
+    ((1.0, 1.0, 3.0, -1.0), 1.375),  # the lines meet after an eighth of a metre
+    ((1.0, 1.0, 3.0, -3.0), 1.75),  # halfway
+    ((1.0, 2.0, 2.0, 2.0), 2.0),  # a line
+    ((1.0, 1.0, -1.0, 1.0), 1.0),  # a hollow
+    ((1.0, 3.0, 1.0, -1.0), 3.0),  # the lines meet beyond its end
+    ((3.0, 1.0, 1.0, -1.0), 3.0),  # and before its begin
 ])  # fmt: skip
 def test_what_lines_through_the_outer_poses_promise(given, expected):
     assert promised(0.5, *given) == pytest.approx(expected, abs=1e-12)
@@ -180,5 +184,7 @@ def test_lines_through_the_neighbours_bound_a_figure():
         ([NAN, 1.0, 2.0, 3.0], 2.0),
     ]
     for height, expected in cases:
-        slopes = [slope(0.0, 1.0, one, other) for one, other in pairwise(height)]
-        assert promised(1.0, *height[1:3], *slopes) == pytest.approx(expected, abs=1e-12), height
+        before, _, after = (slope(0.0, 1.0, one, other) for one, other in pairwise(height))
+        assert promised(1.0, *height[1:3], before, after) == pytest.approx(expected, abs=1e-12), (
+            height
+        )

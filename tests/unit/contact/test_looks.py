@@ -1,13 +1,25 @@
 """Where a step is looked at next for the place of an event, and how many looks that takes."""
 
+import math
 from math import radians
 
+import numpy as np
 import pytest
 
 from contact_cases import flight, stadium
 from kaidan import contact
-from kaidan.contact.kernel import advance, event_location, renaming
-from kaidan.contact.kernel.event_location import SAME_END, moved_again, next_look
+from kaidan.contact import Feature, FeatureKind, body_table, ground_table
+from kaidan.contact.codes import Advance
+from kaidan.contact.kernel import advance, contact_changes, event_location, renaming
+from kaidan.contact.kernel.continuation import stepped, tilt
+from kaidan.contact.kernel.event_location import (
+    PENETRATED,
+    SAME_END,
+    closing_time,
+    moved_again,
+    next_look,
+    quantity,
+)
 
 
 @pytest.mark.parametrize(
@@ -64,3 +76,111 @@ def test_a_place_is_found_in_a_few_looks(monkeypatch):
         assert len(each) >= 5
         assert sorted(each)[len(each) // 2] <= 7
     assert max(events + names) <= 15
+
+
+L, C_L, C_N, R = 0.6, 0.28, 0.1, 0.08
+BODY = body_table(stadium(L, C_L, C_N, R))
+HALF_DEEP = 0.5 * PENETRATED
+G = 9.8
+
+
+def code(point, kind):
+    return Feature(point, 0, kind).code
+
+
+def placed(ground, x, phi=0.0):
+    """The robot let down at x: its pose with the way on, rear and front."""
+    good, at = contact_changes.settled(ground, BODY, x, phi, 0.0)
+    assert good
+    return at
+
+
+def searched(ground, what, at, ds, a=0.0, kappa_g=0.0):
+    """What `closing_time` finds on a step that is good, from the figures at its ends."""
+    x, z, phi, *way, rear, front = at
+    good, x1, z1, phi1, _, _, u_x, u_z, _, r1, f1 = stepped(
+        ground, BODY, rear, front, x, z, phi, *way, ds
+    )
+    assert good
+    ends = [
+        quantity(ground, BODY, what, *pair, *place, tilt(a, G, kappa_g, *direction))
+        for pair, place, direction in (
+            ((rear, front), (x, z, phi), way[:2]), ((r1, f1), (x1, z1, phi1), (u_x, u_z))
+        )
+    ]  # fmt: skip
+    assert ends[0] > 0.0 >= ends[1]
+    return closing_time(ground, BODY, what, rear, front, x, z, phi, *way, ds, *ends, a, G, kappa_g)
+
+
+def test_what_stays_positive_as_long_as_nothing_happens():
+    """On a floor 0.1 m below the centroid, the feet 0.32 m behind and 0.28 m ahead of it."""
+    ground = ground_table([(-4, 0), (1, 0), (1, 0.1), (4, 0.1)])
+    *place, _, _, _, rear, front = placed(ground, 0.3)
+    at_pose = (rear, front, *place[:3])
+    for kappa in (0.0, 0.3, -0.3):
+        asked = (*at_pose, kappa)
+        lean = 0.1 * kappa
+        expected = {
+            Advance.OVER_REAR: L - C_L - lean, Advance.OVER_FRONT: C_L + lean,
+            rear: HALF_DEEP, front: HALF_DEEP,
+            # the nosing from the front disc's centre
+            code(2, FeatureKind.VERTEX): math.hypot(1 - 0.3 - C_L, 0.02) - R + HALF_DEEP,
+            # the tread's line is met beyond its end: the rear disc is as far from its nosing
+            code(2, FeatureKind.DISC_1): math.hypot(1 - 0.3 + L - C_L, 0.02) - R + HALF_DEEP,
+        }  # fmt: skip
+        for what, value in expected.items():
+            assert quantity(ground, BODY, what, *asked) == pytest.approx(value, abs=1e-15)
+
+
+@pytest.mark.parametrize("ds", [0.02, 0.03])
+def test_where_an_end_meets_a_nosing(ds):
+    """Up to the nosing it is level: by the circle about it the disc's centre is 77.5 mm off."""
+    ground = ground_table([(-4, 0), (1, 0), (1, 0.1), (4, 0.1)])
+    meets = 1 - C_L - math.sqrt(R**2 - 0.02**2)
+    found, at = searched(ground, code(2, FeatureKind.VERTEX), placed(ground, meets - 0.012), ds)
+    assert found == 1
+    assert at + 1e-12 >= 0.012
+    assert at == pytest.approx(0.012, abs=2e-10)
+
+
+@pytest.mark.parametrize(("a", "kappa_g"), [(0.0, 0.0), (0.6, 0.0), (-0.5, 0.1)])
+@pytest.mark.parametrize("up", [1.0, -1.0])
+def test_where_the_centroid_comes_over_an_edge(a, kappa_g, up):
+    """On two edges under the flat, on a slope: by the tilt of gravity against the flat."""
+    phi = 0.1 * up
+    turn = complex(math.cos(phi), math.sin(phi))
+    edges = [along * turn for along in (-0.2, 0.0, 0.2)]
+    line = [(-4, -2)]
+    for p in edges:
+        line += [(p.real - 1e-3, -2), (p.real, p.imag), (p.real + 1e-3, -2)]
+    ground = ground_table([*line, (4, -2)])
+    rear, front = (int(np.argmin(abs(ground[:, 0] + 1j * ground[:, 1] - p))) for p in edges[:2])
+    # gravity from the centroid meets the flat so far ahead of the foot of its height above it
+    over = C_N * math.tan(phi + math.atan(tilt(a, G, kappa_g, turn.real, turn.imag)))
+    start = (over - 0.006 + 1j * C_N) * turn
+    at = (start.real, start.imag, phi, turn.real, turn.imag, 0.0,
+          code(rear, FeatureKind.VERTEX), code(front, FeatureKind.VERTEX))  # fmt: skip
+    found, place = searched(ground, Advance.OVER_FRONT, at, 0.01, a, kappa_g)
+    assert found == 1
+    assert place >= 0.006 - 1e-12
+    assert place == pytest.approx(0.006, abs=2e-10)
+
+
+def test_a_name_that_a_contact_takes_on_the_way_is_no_event():
+    """The rear end runs on along one slope, over a point that lies amid it."""
+    ground = ground_table([(-4, 0), (0, 0), (0.1, -1e-3), (4, -0.04)])
+    at = placed(ground, 0.3)
+    what = code(1, FeatureKind.DISC_1)
+    found, _ = closing_time(ground, BODY, what, *at[6:], *at[:6], 0.05, 1e-3, -1e-3, 0.0, G, 0.0)
+    assert found == 2
+
+
+def test_no_place_where_the_corrector_fails():
+    """37 degrees off the line of poses it does."""
+    ground = ground_table([(-4, 0), (4, 0)])
+    x, z, phi, *_, rear, front = placed(ground, 0.3)
+    found, at = closing_time(
+        ground, BODY, Advance.OVER_REAR, rear, front, x, z, phi, 0.8, 0.0, 0.6, 0.01, 1e-3, -1e-3,
+        0.0, G, 0.0,
+    )  # fmt: skip
+    assert (found, at) == (0, 0.0)

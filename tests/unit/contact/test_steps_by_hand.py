@@ -188,7 +188,7 @@ def test_a_step_keeps_its_sense():
     assert not continuation.stepped(LEVEL, BODY, REAR, FRONT, 0.3, C_N, 0.0, *sharp, 0.01)[0]
 
 
-@pytest.mark.parametrize("a", [0.5, -0.5, 0.0])
+@pytest.mark.parametrize("a", [0.5, -0.5, 0.0, 1.0])
 def test_effective_gravity(a):
     """g (kappa_g, 1) down and a against the way: what is behind over what is down."""
     g, kappa_g, psi = 9.8, 0.2, 0.4
@@ -374,6 +374,7 @@ def test_momentum_is_written_as_it_is():
 def test_a_rotation_repeats_one_of_the_twelve_before():
     rows = np.zeros((16, at.ROTATION_COLUMNS))
     rows[:, at.START_X] = np.arange(16.0)
+    rows[:, at.START_PHI] = 0.3
     rows[:, at.ROTATION_SENSE] = 1.0
 
     def repeats(row, last, **off):
@@ -454,7 +455,9 @@ def test_the_way_of_a_pose_follows_the_normals_of_the_belt():
         ground = ground_table(points)
         one, other = (at.POINT * int(np.argmin(np.abs(ground[:, 0] - p[0]))) for p in places)
         rear, front = (one, other) if end > 0 else (other, one)
-        for t_x, t_z in ((1.0, 0.2), (-1.0, 0.2), (0.05, 1.0), (0.0, 0.0)):
+        ways = [(1.0, 0.2), (-1.0, 0.2), (0.05, 1.0), (0.0, 0.0), (0.0, 1.0), (0.0, -1.0)]
+        ways += [(-1.0, 0.0), (-1e-13, 0.0), (1e-3, 1.0), (1e-3, -1.0)]  # square to it, or nearly
+        for t_x, t_z in ways:
             poses = np.zeros((1, at.POSE_COLUMNS))
             held = (0.0, 0.0, 0.0, t_x, t_z, 0.0, rear, front)
             recording.record_pose(ground, body_table([parts]), poses, 0, 2.5, held, 3)
@@ -464,7 +467,7 @@ def test_the_way_of_a_pose_follows_the_normals_of_the_belt():
             pressed = abs(n - rigid).max() > 1e-9
             if not pressed:
                 assert angle == 0.6  # the arc is beyond what yields
-                expected = math.atan2(t_z, t_x)
+                expected = math.atan2(t_z, t_x) if math.hypot(t_x, t_z) > 1e-12 else 0.0
             else:
                 # where the normals meet: that of the nosing under the flat runs up at 0.05
                 reach = (0.05 - places[1][0]) / n[0] if abs(n[0]) > 1e-12 else math.inf
@@ -473,6 +476,8 @@ def test_the_way_of_a_pose_follows_the_normals_of_the_belt():
                 else:
                     meet = np.array([0.05, places[1][1] + reach * n[1]])
                     u = np.array([meet[1], -meet[0]]) / np.hypot(*meet)
+                if math.hypot(t_x, t_z) > 0.0 and abs(u @ (t_x, t_z)) < 1e-12:
+                    continue  # square to it
                 ahead = math.copysign(1.0, u @ (t_x, t_z))
                 expected = math.atan2(ahead * u[1], ahead * u[0])
             assert math.cos(poses[0, at.POSE_PSI] - expected) == pytest.approx(1.0, abs=1e-9)

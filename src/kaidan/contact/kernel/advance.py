@@ -37,6 +37,9 @@ OF_RADIUS = 0.25
 #: Longest step within which an end may pass a corner unseen [m], and how far past it a foot lies.
 CORNER = 1e-4
 PAST = 1e-9
+#: A step within which what happens is not found is cut to this share, so often at most.
+SHORTER = 0.4
+TRIES = 8
 
 
 def shallow(body: BodyTable, feature: int, distance: float) -> bool:
@@ -228,31 +231,12 @@ def named(ground: GroundTable, body: BodyTable, what: int, at: Held) -> int:
     return relabelled(ground, body, what, at[0], at[1], math.cos(at[2]), math.sin(at[2]))
 
 
-def advance(
-    ground: GroundTable,
-    body: BodyTable,
-    at: Held,
-    ds: float,
-    thinnest: float,
-    a: float,
-    g: float,
-    kappa_g: float,
+def cut_at_event(
+    ground: GroundTable, body: BodyTable, at: Held, ds: float, a: float, g: float, kappa_g: float,
     hint: int,
-) -> tuple[int, Held, int, float]:
-    """One step along the line of poses, cut short at the first event.
-
-    Returns
-    -------
-    outcome
-        An `Advance`, or the feature that has closed.
-    pose
-        Reached, with its tangent and contacts.
-    hint, ds
-        For the scan; the step actually taken [m].
-    """
+) -> tuple[int, Held, int, float]:  # fmt: skip
+    """A step, cut short at the first event: as `advance`, which says what is returned."""
     x, z, phi, t_x, t_z, t_w, rear, front = at
-    if OF_RADIUS * thinnest < ds:
-        ds = careful(ground, body, rear, front, x, z, phi, ds, thinnest, hint)
     good, there, third, distance, behind, ahead, hint, ds = clear_step(
         ground, body, at, ds, a, g, kappa_g, hint
     )  # fmt: skip
@@ -290,4 +274,37 @@ def advance(
         behind = -lever(ground, body, r1, x1, z1, c, s, kappa)
         ahead = lever(ground, body, f1, x1, z1, c, s, kappa)
         third, distance, hint = nearest(ground, body, x1, z1, c, s, r1, f1, 0.0, hint)
+    return Advance.NOT_CONVERGED, at, hint, ds
+
+
+def advance(
+    ground: GroundTable,
+    body: BodyTable,
+    at: Held,
+    ds: float,
+    thinnest: float,
+    a: float,
+    g: float,
+    kappa_g: float,
+    hint: int,
+) -> tuple[int, Held, int, float]:
+    """One step along the line of poses, cut short at the first event.
+
+    Returns
+    -------
+    outcome
+        An `Advance`, or the feature that has closed.
+    pose
+        Reached, with its tangent and contacts.
+    hint, ds
+        For the scan; the step actually taken [m].
+    """
+    x, z, phi, _, _, _, rear, front = at
+    if OF_RADIUS * thinnest < ds:
+        ds = careful(ground, body, rear, front, x, z, phi, ds, thinnest, hint)
+    for _ in range(TRIES):
+        what, there, hint, taken = cut_at_event(ground, body, at, ds, a, g, kappa_g, hint)
+        if what != Advance.NOT_CONVERGED:
+            return what, there, hint, taken
+        ds *= SHORTER
     return Advance.NOT_CONVERGED, at, hint, ds

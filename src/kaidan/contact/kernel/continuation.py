@@ -24,7 +24,8 @@ from kaidan.contact.tables import BodyTable, GroundTable
 ARM = 0.3
 #: A gap is closed at this [m] or less: a hundred times the rounding of coordinates of metres.
 CLOSED = 2e-13
-#: Names of one contact within a step, at most: two for each point of the ground.
+#: Names of one contact within a step, at most: two for each point of the ground. Beyond them the
+#: step is too long.
 MOST_NAMES = 40
 
 
@@ -151,10 +152,13 @@ def stepped(
         ground, body, rear, front, x + ds * t_x, z + ds * t_z, phi + ds * t_w / ARM
     )
     if good:
-        for _ in range(MOST_NAMES):
+        for names in range(MOST_NAMES + 1):
             new_rear = relabelled(ground, body, rear, x1, z1, c, s)
             new_front = relabelled(ground, body, front, x1, z1, c, s)
             if new_rear == rear and new_front == front:
+                break
+            if names == MOST_NAMES:
+                good = False
                 break
             rear = new_rear
             front = new_front

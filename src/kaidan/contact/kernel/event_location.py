@@ -13,6 +13,9 @@ from kaidan.contact.tables import BodyTable, GroundTable
 #: A gap below minus this [m] is a penetration.  An end's arc leaves a nosing like e^2/(2 R), so an
 #: event is seen sqrt(2 R 2e-12) = 0.5 um late for R = 60 mm; still ten times the corrector's rest.
 PENETRATED = 2e-12
+#: A gap that is deeper than this [m] where it closes has not closed there: on one side of the place
+#: an end stands on other points than on the other side, and no more on all that lies under it.
+JUMP = 1e-8
 #: Looks in a row that move the same end of the way, after which it is halved.
 SAME_END = 3
 
@@ -138,4 +141,6 @@ def closing_time(
             far = value
             at_hi = value
             near *= 0.5 if moved < -1 else 1.0
+    if what >= 0 and at_hi < -JUMP:
+        return 0, lo
     return 1, hi

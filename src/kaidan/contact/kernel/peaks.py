@@ -47,9 +47,7 @@ def slope(s: float, then: float, height: float, higher: float) -> float:
     return (higher - height) / (then - s)
 
 
-def promised(
-    length: float, begin: float, end: float, before: float, on: float, after: float
-) -> float:
+def promised(length: float, begin: float, end: float, before: float, after: float) -> float:
     """How high a figure may be on a way: where lines through its outer poses meet, or its ends.
 
     Parameters
@@ -58,26 +56,24 @@ def promised(
         From its one end to the other [m].
     begin, end
         The figure at its ends.
-    before, on, after
-        Its slopes before, on and after the way. NaN where nothing is known: without one of the
-        outer ones the other line counts, without both `NEAR` above the higher end.
+    before, after
+        Its slopes before and after the way. NaN where nothing is known: without one of them the
+        other line counts, without both `NEAR` above the higher end.
     """
     higher = larger(begin, end)
     if math.isnan(before) and math.isnan(after):
         return larger(higher, higher + NEAR * abs(higher))
-    rises = on if math.isnan(before) or on > before else before
-    falls = on if math.isnan(after) or on < after else after
     if math.isnan(before):
-        return larger(higher, end - falls * length)
+        return larger(higher, end - after * length)
     if math.isnan(after):
-        return larger(higher, begin + rises * length)
-    bends = rises - falls if rises - falls > 0.0 else math.inf
-    meets = (end - begin - falls * length) / bends
+        return larger(higher, begin + before * length)
+    bends = before - after if before - after > 0.0 else math.inf
+    meets = (end - begin - after * length) / bends
     if meets < 0.0:
         meets = 0.0
     if meets > length:
         meets = length
-    return larger(higher, begin + rises * meets)
+    return larger(higher, begin + before * meets)
 
 
 def larger(one: float, other: float) -> float:
@@ -166,7 +162,7 @@ def open_ways(
         else:
             may = promised(
                 s[row + 1] - s[row], begin, end, slope(s_behind, s[row], behind, begin),
-                slope(s[row], s[row + 1], begin, end), slope(s[row + 1], s_ahead, end, ahead),
+                slope(s[row + 1], s_ahead, end, ahead),
             )  # fmt: skip
         if is_open(may, largest[group[row]], tolerance):
             noted(
@@ -335,7 +331,7 @@ def cut_ways(
             s_ahead, ahead = end_of_piece(kept, way, cut + 2, inside, count, k)
             may = promised(
                 s_end - s_begin, begin, end, slope(s_behind, s_begin, behind, begin),
-                slope(s_begin, s_end, begin, end), slope(s_end, s_ahead, end, ahead),
+                slope(s_end, s_ahead, end, ahead),
             )  # fmt: skip
             noted(
                 ways, left, int(kept[way, WAY_ROW]), int(kept[way, WAY_GROUP]), s_behind, s_begin,
