@@ -21,7 +21,9 @@ class Lock:
     """
 
     def __init__(self, folder: Path) -> None:
-        self.file: IO[str] = (folder / FILE).open("a+", encoding="utf-8", errors="replace")
+        flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0)
+        opened = os.open(folder / FILE, flags, 0o666)  # a link would have another file emptied
+        self.file: IO[str] = os.fdopen(opened, "a+", encoding="utf-8", errors="replace")
         for _ in range(4):
             if _try_to_lock(self.file):
                 break

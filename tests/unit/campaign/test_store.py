@@ -253,6 +253,19 @@ def test_what_is_no_file_is_refused_and_not_waited_for(tmp_path, file, place):
             reads(tmp_path)
 
 
+@pytest.mark.skipif(not hasattr(os, "O_NOFOLLOW"), reason="no such flag")
+def test_a_link_in_the_place_of_the_lock_empties_no_other_file(tmp_path):
+    other = tmp_path / "other"
+    other.write_text("kept")
+    filled(tmp_path / "store", settled=True)
+    lock = tmp_path / "store" / "lock"
+    lock.unlink()
+    lock.symlink_to(other)
+    with pytest.raises(InputError, match="cannot be used: Too many levels of symbolic links"):
+        Store(tmp_path / "store", FAKE)
+    assert other.read_text() == "kept"
+
+
 def test_a_part_of_another_store_is_named(tmp_path):
     part = filled(tmp_path / "a", settled=True)
     other = dataclasses.replace(FAKE, columns={"n": "count"})
