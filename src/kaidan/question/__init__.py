@@ -5,6 +5,7 @@ people write, names, numbers and texts with units; the command line passes its t
 """
 
 from kaidan.question.fields import FACINGS, LARGEST_YAW
-from kaidan.question.question import ROCKING_SPEED, Question
+from kaidan.question.question import Question
+from kaidan.question.yielding import ROCKING_SPEED
 
 __all__ = ["FACINGS", "LARGEST_YAW", "ROCKING_SPEED", "Question"]

@@ -6,14 +6,15 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from kaidan.allowance import LARGEST_ALLOWANCE, Allowance
+from kaidan.allowance import Allowance
 from kaidan.errors import InputError
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.measures import kinetic_energy_height, sudden_stop_height
-from kaidan.mechanics.yielding import drop_of_sag, yielding_loss
+from kaidan.mechanics.yielding import drop_of_sag
 from kaidan.modes import CONTACT, MODELS, PHYSICS, Acceptance, Phase
 from kaidan.question.fields import FACINGS, TRACKS, QuestionFields
 from kaidan.question.refusals import refuse_impossible
+from kaidan.question.yielding import ROCKING_SPEED, allowance_d, theta_d_at
 from kaidan.robot import Posture, Stance
 from kaidan.sheet import model_validator
 from kaidan.spelling import (
@@ -39,15 +40,9 @@ from kaidan.terrain.stairs import Stairs
 if TYPE_CHECKING:
     from kaidan.outline import Outline
 
-ROCKING_SPEED = 0.1
-"""Speed whose energy the robot is taken to have where none is stated [m/s]: the paper's test
-speed, at which the rig rocked visibly with 0.07 mm of energy margin against 0.51 mm of v^2/2g."""
 FLIPPER_TOLERANCE = 0.03490658503988659
 """How far off its angles a plan that is found has to hold where nobody says, 2 degrees [rad]: an
 operator sets a flipper by an indicator of whole degrees, and it gives under load."""
-FASTEST_YIELDING = 0.15
-"""Fastest speed for which the loss on a yielding track was tried [m/s]; beyond it a robot passes a
-nosing faster than it falls."""
 
 
 def _optional(name: str, given: Any, kind: str) -> float | None:
@@ -339,107 +334,15 @@ class Question(QuestionFields):
 
     @cached_property
     def allowance_d(self) -> Allowance:
-        """theta_d as stated, else as the robot's sheet has it, else the default range.
+        """theta_d as stated, of a yielding track as measured, or by default.
 
-        Where the sheet has indentation and sag, what they cost by mechanics takes the place of the
-        default range, and raises a measured one that is smaller: the most over the spacings.
+        See `kaidan.question.yielding.allowance_d`.
         """
-        stated = Allowance.of(self.theta_d or self.robot.theta_d, name="theta_d")
-        if self.theta_d is not None or not any(self._yielding_lengths):
-            return stated
-        stance, nosings = self._bare, self.profile.nosings
-        L, C_L = stance.flat_length, stance.com_from_front
-        losses = self._losses(
-            L=L,
-            p=np.hypot(*np.diff(nosings, axis=0).T),
-            C_L=C_L if self.nose_up else L - C_L,
-            C_N=stance.com_height,
-        )
-        high = float(np.nanmax(losses, initial=0.0))
-        if np.isnan(losses).all():
-            return stated
-        if high <= stated.high and not (self._yields_as_measured and stated.source == "default"):
-            return stated
-        return Allowance(low=stated.low, high=high, source="indentation and sag as measured")
+        return allowance_d(self)
 
     def theta_d_at(self, *, L: Any, p: Any, C_L: Any, C_N: Any) -> Any:
-        """High end of `allowance_d` of the same robot with other lengths [rad].
-
-        Parameters
-        ----------
-        L, p, C_L, C_N : float or array
-            Flat length, nosing spacing, centroid behind the uphill tip and above the underside [m].
-        """
-        high = Allowance.of(self.theta_d or self.robot.theta_d, name="theta_d")
-        losses = self._losses(L=L, p=p, C_L=C_L, C_N=C_N)
-        if losses is None:
-            return high.high
-        alone = self._yields_as_measured and high.source == "default"
-        least = np.where(np.isnan(losses) | (not alone), high.high, 0.0)
-        return np.fmax(losses, least)
-
-    def _losses(self, *, L: Any, p: Any, C_L: Any, C_N: Any) -> Any:
-        """Margin that a yielding track costs [rad]; None: stated otherwise, or nothing is known.
-
-        With one of indentation and sag the other counts as equal.
-        """
-        lengths = self._yielding_lengths
-        known = [each for each in lengths if each is not None]
-        if self.theta_d is not None or not known:
-            return None
-        mu = self.friction[1]
-        losses = yielding_loss(
-            L=L,
-            p=p,
-            C_L=C_L,
-            C_N=C_N,
-            w_n=lengths[0] or known[0],
-            w_t=lengths[1] or known[0],
-            R=self._radius_downhill,
-            mu=math.inf if math.isnan(mu) else mu,
-            speed=ROCKING_SPEED if self.speed is None else min(self.speed, FASTEST_YIELDING),
-            gyration=L / math.sqrt(12.0),
-        )
-        return np.minimum(losses, LARGEST_ALLOWANCE)
-
-    @property
-    def _yields_as_measured(self) -> bool:
-        """Whether indentation and sag are both known, of a belt that the mechanics knows."""
-        return None not in self._yielding_lengths and not self.robot.track.has_grousers
-
-    @property
-    def _yielding_lengths(self) -> tuple[float | None, float | None]:
-        """How far the whole weight on one nosing presses in and drags the tracks [m]."""
-        track, own, mass = self.robot.track, self.robot.mass, self._bare.mass
-        if own is None or mass is None:
-            return track.indentation, track.sag
-
-        def of(length: float | None, stiffness: float | None) -> float | None:
-            if stiffness is not None:
-                return mass * STANDARD_GRAVITY / stiffness
-            return None if length is None else length * mass / own
-
-        return of(track.indentation, track.stiffness), of(track.sag, track.shear_stiffness)
-
-    @property
-    def _bare(self) -> Stance:
-        """Stance on the flight; with the flippers stowed as long as they are to be found."""
-        if "flippers" in self.best_of:
-            return self.robot.stance(None, self.payload)
-        return self.stance
-
-    @property
-    def _radius_downhill(self) -> float:
-        """Radius of the downhill end of the flat underside [m]."""
-        robot, stance = self.robot, self._bare
-        front = stance.front_extension
-        rear = stance.flat_length - robot.track.flat_length - front
-        pair, extension, radius = (
-            (robot.rear_flippers, rear, robot.track.rear_radius)
-            if self.nose_up
-            else (robot.front_flippers, front, robot.track.front_radius)
-        )
-        return pair.tip_radius if pair is not None and extension > 1e-9 else radius
+        """High end of `allowance_d` of the same robot with other lengths [rad]."""
+        return theta_d_at(self, L=L, p=p, C_L=C_L, C_N=C_N)
 
     @cached_property
     def allowance_M(self) -> Allowance:
