@@ -27,6 +27,10 @@ NAMES = {
 }  # fmt: skip
 
 
+_TYPES = ("annotation", "returns")
+"""Fields of nodes that are types."""
+
+
 @dataclass
 class Mutant:
     """One change of one function."""
@@ -114,7 +118,7 @@ def mutants(path: Path) -> Iterator[tuple[Mutant, CodeType]]:
 def _inside(node: ast.AST) -> Iterator[ast.AST]:
     """A node and what is in it, but for types."""
     yield node
-    types = (getattr(node, "annotation", None), getattr(node, "returns", None))
+    types = [getattr(node, each, None) for each in _TYPES]
     for child in ast.iter_child_nodes(node):
         if child not in types:
             yield from _inside(child)
@@ -126,7 +130,7 @@ def _of_statement(
     if isinstance(parent, ast.AnnAssign):
         fields: tuple[str, ...] = ("value",)  # no type is changed
     else:
-        fields = parent._fields
+        fields = tuple(each for each in parent._fields if each not in _TYPES)
     for field in fields:
         value = getattr(parent, field, None)
         for child in value if isinstance(value, list) else [value]:

@@ -9,7 +9,8 @@ import pytest
 
 from kaidan import contact
 from kaidan.contact import columns as at
-from kaidan.contact import heights, scratch, steepest, traversing
+from kaidan.contact import heights, rating, scratch, steepest, supports, traversing
+from kaidan.contact import path as paths
 from kaidan.contact.codes import (
     Feature,
     FeatureKind,
@@ -257,6 +258,9 @@ def test_touching_heights_over_a_map_are_those_of_each_place(phi):
         for row, angle in enumerate((phi, phi / 2)):
             each = [resting_height(ground, parts, one, angle, kinds=(0, 1)) for one in x]
             assert found.z[row] == pytest.approx(each, abs=1e-9)
+            for k in range(len(x)):  # of one place alone less of the ground is looked at
+                alone = heights.touching_heights(table, path.body, x[k : k + 1], np.array([angle]))
+                assert alone.z[0, 0] == found.z[row, k]
             assert found.z[row, 4] == pytest.approx(lowest(ground, parts, x[4], angle), abs=1e-4)
             for k, one in enumerate(x):
                 place = contact.Placement(one, found.z[row, k], angle)
@@ -264,6 +268,29 @@ def test_touching_heights_over_a_map_are_those_of_each_place(phi):
                                                                1e-9)]  # fmt: skip
                 at_ = found.contact_x[row, k], found.contact_z[row, k]
                 assert min(math.dist(at_, point) for point in points) < 1e-6
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.5, -0.4])
+def test_a_nosing_under_the_flat_and_one_under_an_end(slope):
+    """At rest on two edges, one of them under the straight underside."""
+    c, s = math.cos(slope), math.sin(slope)
+    edges = [(0.0, 0.0), (0.25 * c, 0.25 * s), (0.5 * c, 0.5 * s)]
+    ground = [(-4, -1)]
+    for x, z in edges:
+        ground += [(x, z), (x + 0.02, z)] if slope < 0 else [(x - 0.02, z), (x, z)]
+        ground.append((ground[-1][0] + 0.01, z - 0.05))
+    path = path_of(parts=ROBOT, kinds=[0], POSE_PHI=slope)
+    path = Path(path.status, path.poses, path.events, path.rotations, None,
+                Ground(ground_table(sorted(ground))), path.body)  # fmt: skip
+    table = path.ground.table
+    point = int(np.argmin(np.hypot(table[:, 0] - edges[1][0], table[:, 1] - edges[1][1])))
+    for along, on in ((-0.2, True), (0.2, True), (-0.3, False), (0.26, False)):
+        # the centroid so far from the middle edge along the flat, 0.071 m above it
+        x = edges[1][0] - along * c - 0.071 * s
+        z = edges[1][1] - along * s + 0.071 * c
+        path.poses.table[0, [at.POSE_X, at.POSE_Z]] = x, z
+        on_flat = path.is_on_flat(Feature(point, 0, FeatureKind.VERTEX).code, 0)
+        assert on_flat is (on and -0.274 <= along <= 0.196)
 
 
 # into the kernel
@@ -310,6 +337,72 @@ def test_tilted_gravity_and_the_room_for_a_way(tilt, driven):
 def test_what_is_no_way(x_end, step, text):
     with pytest.raises(ValueError, match=text):
         contact.traverse(KERB, ROBOT, -0.6, x_end, step=step)
+
+
+def test_of_energies_that_are_all_infinite_the_first_pose_is_told(monkeypatch):
+    margins = Margins(table(at.MARGIN_COLUMNS, 3, BACK_RISE=(0.3, 0.1, 0.2), FRONT_RISE=1.0))
+    path, given = path_of(s=(0.0, 1.0, 2.0), margins=margins), []
+
+    def least(ground, body, poses, of, rows, side, weights, tie):
+        given.append((rows.tolist(), weights.tolist(), side))
+        return answer
+
+    monkeypatch.setattr(paths, "kernel", lambda: SimpleNamespace(least_flow_energy=least))
+    rows, weights = np.array([2, 0]), np.array([1.0, 0.5])
+    for answer, row in (((0.1, 0), 0), ((0.1, 2), 2), ((math.inf, -1), 2)):
+        assert path.least_energy(rows, 1.0, weights, 1e-9) == (answer[0], row)
+    assert given[0] == ([0, 2], [0.5, 1.0], 1.0)  # those first that rise least
+    path.least_energy(rows, -1.0, weights, 1e-9)
+    assert given[-1] == ([0, 2], [0.5, 1.0], -1.0)
+
+
+@pytest.mark.parametrize("climbs", [True, False])
+def test_grousers_stand_uphill_of_a_nosing(climbs, monkeypatch):
+    signs = []
+
+    def standing_margins(*arguments):
+        signs.append(arguments[-2])
+        arguments[-1][:] = np.arange(6.0)
+
+    monkeypatch.setattr(
+        supports, "kernel", lambda: SimpleNamespace(standing_margins=standing_margins)
+    )
+    found = object.__new__(supports.Supports)
+    vars(found).update(_table=np.zeros((6, 4)), _slots=2, _loads=None, _like=None, _climbs=climbs)
+    grousers = (0.01, 0.04, 0.005, 0.002, True)
+    assert found.standing_margins((0.1, 0.2, 0.3), grousers).tolist() == [[0, 1], [2, 3], [4, 5]]
+    assert signs == [1.0 if climbs else -1.0]
+
+
+def test_ratings_have_room_for_the_longest_way(monkeypatch):
+    ways = []
+
+    def most_poses(way, step, points):
+        ways.append(way)
+        return scratch.most_poses(way, step, points)
+
+    monkeypatch.setattr(rating, "most_poses", most_poses)
+    jobs = [contact.Job(0, 0, -1.0, 0.5), contact.Job(0, 0, -0.6, -0.5)]
+    found = contact.rate_many(KERB, [ROBOT], [0], [0.5], [[]], jobs, step=0.02, zones=[],
+                              edges=[[0, 0.1]], rough=0.01)  # fmt: skip
+    assert ways == [pytest.approx(1.5)]
+    assert len(found.status) == 2
+
+
+def test_who_stands_in_turn_has_no_events():
+    flat = [[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]]
+    found = contact.stand_in_turn([[0, 0], [4, 0]], [flat, flat], [0], [[-0.039, 0]] * 2, 2.0, 0.0)
+    assert (len(found.poses), len(found.events), len(found.rotations)) == (2, 0, 0)
+
+
+def test_the_plain_kernel_whatever_its_entries_are_given():
+    """Several traverses at once cut tables up, a single one does not: both answer alike."""
+    floor, short = [[-4, 0], [4, 0]], {"step": 0.05, "with_margins": False}
+    with contact.using_kernel("plain"):
+        one = contact.traverse(floor, ROBOT, 0.0, 0.1, **short)
+        many = contact.traverse_many([floor], [ROBOT], [contact.Job(0, 0, 0.0, 0.1)], size=100,
+                                     step=0.05)  # fmt: skip
+    assert many.x[0] == pytest.approx(one.x[-1])
 
 
 def test_the_time_of_the_plain_kernel_by_hand():
