@@ -354,11 +354,44 @@ def test_where_stowed_flippers_are_no_help_on_a_landing(monkeypatch):
     assert not helps(FLIPPERS, 0.0)
     assert not helps(FLIPPERS, -0.1)
     assert not helps(KENAF, 0.25)
-    two = SimpleNamespace(
-        robot=FLIPPERS.robot,
-        landings=[SimpleNamespace(end="bottom"), SimpleNamespace(end="between")],
-    )
-    assert not helps(two, 0.25)
+    for ends, help_ in ((("bottom", "top"), True), (("bottom", "between", "top"), False)):
+        landings = [SimpleNamespace(end=end) for end in ends]
+        assert helps(SimpleNamespace(robot=FLIPPERS.robot, landings=landings), 0.25) is help_
+
+
+def test_leading_flippers_are_raised_going_up():
+    def raised(question):
+        return [one.question.posture for one in advice._flippers_raised(question)]
+
+    up = advice.RAISED
+    assert raised(FLIPPERS) == [Posture(front=up, rear=0.1)]
+    tail = FLIPPERS.changed(facing="tail-first")
+    assert raised(tail) == [Posture(front=0.1, rear=up)]
+    assert raised(FLIPPERS.changed(direction="down")) == []
+    assert raised(FLIPPERS.changed(posture=Posture(front=up, rear=0.1))) == []
+    assert raised(KENAF) == []
+
+
+def test_straight_on_and_at_a_steady_speed():
+    robot = KENAF.robot
+    gauged = robot.model_copy(update={"track": robot.track.model_copy(update={"gauge": 0.4})})
+    asked = KENAF.changed(robot=gauged, yaw=0.2, acceleration=0.3)
+    concluded_ = concluded(Verdict.CAUTION)._replace(governs="drive")
+    straight, steady = list(advice._candidates(asked, Findings(model=""), concluded_, object()))
+    assert (straight.change, straight.question) == (text.STRAIGHT, asked.changed(yaw=0.0))
+    assert (steady.change, steady.question) == (text.STEADY, asked.changed(acceleration=0.0))
+
+
+@pytest.mark.parametrize(("shift", "told"), [(0.0123, 0.014), (0.0128, 0.014), (0.0131, 0.015),
+                                             (None, None)])  # fmt: skip
+def test_a_shift_is_told_in_millimetres_and_one_more(shift, told, monkeypatch):
+    """Of a robot of unknown mass it is that of all."""
+    monkeypatch.setattr(advice, "shift_of_centroid", lambda question, *, downhill: shift)
+    found = Findings(model="by hand", each=(finding(TIP_DOWNHILL, -0.1),))
+    assert KENAF.robot.mass is None
+    each = list(_centroid_moved(KENAF, found, conclude(KENAF, found)))
+    moved = [KENAF.robot.com_from_front - one.question.robot.com_from_front for one in each]
+    assert moved == ([] if told is None else [pytest.approx(told)])
 
 
 def test_flat_flippers_are_tried_unless_they_are_flat_or_there_are_none():
