@@ -54,10 +54,22 @@ def touching(
     -------
     z [m], feature
     """
+    z, feature, _ = touching_near(ground, body, x, c, s, 0)
+    return z, feature
+
+
+def touching_near(
+    ground: GroundTable, body: BodyTable, x: float, c: float, s: float, hint: int
+) -> tuple[float, int, int]:
+    """The same, with a point of the terrain near the rear of the robot, from the call before.
+
+    Returns
+    -------
+    z [m], feature, hint for the next call
+    """
     n = ground.shape[0]
     best = -FAR
     which = NO_FEATURE
-    hint = 0
     for part in range(body.shape[0]):
         r1 = body[part, R1]
         r2 = body[part, R2]
@@ -123,7 +135,7 @@ def touching(
                         best = z
                         which = POINT * k + PART * part + DISC_2
             k += 1
-    return best, which
+    return best, which, hint
 
 
 def lever(
@@ -166,16 +178,20 @@ def settle(
     found, z [m], phi [rad], rear feature, front feature.  ``found`` is False if it turns past
     90 degrees.
     """
-    z, feature = touching(ground, body, x, math.cos(phi), math.sin(phi))
-    delta = lever(ground, body, feature, x, z, math.cos(phi), math.sin(phi), kappa)
+    c = math.cos(phi)
+    s = math.sin(phi)
+    z, feature, hint = touching_near(ground, body, x, c, s, 0)
+    delta = lever(ground, body, feature, x, z, c, s, kappa)
     up = delta > 0.0
     step = 0.004
     while True:
         trial = phi + step if up else phi - step
         if abs(trial) > 0.5 * math.pi:
             return False, z, phi, feature, NO_FEATURE
-        z, f_trial = touching(ground, body, x, math.cos(trial), math.sin(trial))
-        delta = lever(ground, body, f_trial, x, z, math.cos(trial), math.sin(trial), kappa)
+        c = math.cos(trial)
+        s = math.sin(trial)
+        z, f_trial, hint = touching_near(ground, body, x, c, s, hint)
+        delta = lever(ground, body, f_trial, x, z, c, s, kappa)
         if (delta > 0.0) != up:
             break
         phi = trial
@@ -212,7 +228,7 @@ def settle(
             trial = q_phi
         c = math.cos(trial)
         s = math.sin(trial)
-        z, f_trial = touching(ground, body, x, c, s)
+        z, f_trial, hint = touching_near(ground, body, x, c, s, hint)
         if good and trial == q_phi and z <= q_z + 1e-12:
             return True, q_z, trial, f_hi, f_lo
         if hi - lo < 1e-14:
