@@ -15,7 +15,7 @@ from kaidan.readers.stairfit.chain import staircases
 from kaidan.readers.stairfit.corridor import NARROWEST, SURE, lanes
 from kaidan.readers.stairfit.doubts import LOCAL
 from kaidan.readers.stairfit.gates import refused, surface_refusal
-from kaidan.readers.stairfit.gravity import frame, refined
+from kaidan.readers.stairfit.gravity import Upward, frame, leant, refined
 from kaidan.readers.stairfit.one_flight import estimate, measured, tilted
 from kaidan.readers.stairfit.patches import (
     SMALL,
@@ -39,6 +39,8 @@ scanner, and of a surveyor's instrument."""
 STATED, LEVELLED = math.radians(1.5), math.radians(0.2)
 """Standard error of an up axis that a file states or a person, and of one that a surveyor's
 instrument levelled [rad]."""
+AGAIN = math.radians(0.1)
+"""Angle by which the treads turn what is level, from which flights are measured again [rad]."""
 COARSE = 0.03
 """Side of the cubes of which one point is enough to find stairs [m]."""
 MOST_FLIGHTS = 8
@@ -72,6 +74,9 @@ class _Try:
     frame: Array
     sure: bool = False
     """Whether one of them leaves no need to look in another direction."""
+    leans: tuple[tuple[Array, float, float], ...] = ()
+    """Of each flight its heading, shape (3,), the angle by which up leans along it as its treads
+    have it, and its doubt [rad]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -220,7 +225,7 @@ def _ups(stated: Known | None, patches: Patches, *, oriented: bool) -> list[tupl
 
 
 def _with_up(seen: _Cloud, up: Array, known: Known, hints: Hints) -> _Try:
-    provenance, patches, noise = replace(seen.provenance, up=known), seen.patches, seen.noise
+    provenance, patches = replace(seen.provenance, up=known), seen.patches
     sigma = LEVELLED if provenance.form in SURVEYED else STATED
     sigma = hints.gravity if hints.gravity is not None else sigma
     side = upright(known.value)[0]
@@ -228,6 +233,20 @@ def _with_up(seen: _Cloud, up: Array, known: Known, hints: Hints) -> _Try:
     error = RANGE_ERROR_SURVEYED if provenance.form in SURVEYED else RANGE_ERROR
     error = error if hints.range_error is None else hints.range_error
     upward = refined(patches, up, sigma, eye=seen.eye, local=LOCAL * error)
+    tried = _along(seen, upward, side, provenance, error)
+    if seen.eye is None:
+        return tried
+    better = upward
+    for ahead, angle, doubt in tried.leans:
+        better = leant(better, ahead, angle, doubt, up, sigma)
+    if float(better.built @ upward.built) > math.cos(AGAIN):
+        return tried
+    return _along(seen, better, side, provenance, error)
+
+
+def _along(seen: _Cloud, upward: Upward, side: Array, provenance: Provenance, error: float) -> _Try:
+    """Flights along what is taken for level and plumb."""
+    patches, noise = seen.patches, seen.noise
     turn, upright_turn = frame(upward.built, side), frame(upward.up, side)
     against = turn @ upward.against @ turn.T
     level = replace(patches, middle=patches.middle @ turn.T, normal=patches.normal @ turn.T)
@@ -237,6 +256,7 @@ def _with_up(seen: _Cloud, up: Array, known: Known, hints: Hints) -> _Try:
     tolerance = min(max(3 * noise, 0.012), 0.04)
     flights: list[FlightEstimate] = []
     refusals: list[Refusal] = []
+    leans: list[tuple[Array, float, float]] = []
     sure, score, left = False, 0.0, np.ones(len(thin), dtype=bool)
     for _ in range(MOST_FLIGHTS):
         flight = None
@@ -248,6 +268,9 @@ def _with_up(seen: _Cloud, up: Array, known: Known, hints: Hints) -> _Try:
                 continue
             assert steps is not None
             flight = estimate(steps, aligned, upward.sigma, error, placed)
+            if math.isfinite(steps.lean[0]):
+                ahead = np.array([math.cos(aligned.heading), math.sin(aligned.heading), 0.0])
+                leans.append((ahead @ turn, *steps.lean))
             break
         if flight is None:
             break
@@ -269,4 +292,6 @@ def _with_up(seen: _Cloud, up: Array, known: Known, hints: Hints) -> _Try:
         refusals = surface_refusal(level, provenance) + refusals
     leant = upright_turn @ turn.T
     flights = [tilted(flight, leant) for flight in flights]
-    return _Try(tuple(flights), tuple(refusals), score, provenance, upright_turn, sure)
+    return _Try(
+        tuple(flights), tuple(refusals), score, provenance, upright_turn, sure, tuple(leans)
+    )

@@ -36,6 +36,9 @@ lower than a regular riser leads up from are of one level."""
 ALONE = 0.8
 """Share of the points under a nosing, a going before and behind it, that are its face where little
 of that is seen [1]."""
+CLOSE = 0.6
+"""Distance behind the last nosing up to which a landing says its level where enough of it is seen
+[m]: a plane that leans by 2 degrees is 20 mm higher there."""
 CENTRED = 6
 """Times that a level is sought about where it was found, at most."""
 FLOOR_SEEN = 15
@@ -166,27 +169,30 @@ def last_riser(
     alone = bool(measured[-1, 1])
     within = tight if alone else max(tight, ODD_UNSEEN * r)
     behind = s > last[0] + 0.03
-    height, doubt, count = _centred(z[behind], float(last[1]), within, tight)
+    close = behind & (s < last[0] + CLOSE)
+    known = close if (close & (np.abs(z - last[1]) < within)).sum() >= 2 * FLOOR_SEEN else behind
+    height, doubt, count = _centred(z[known], float(last[1]), within, tight)
     on = behind & (np.abs(z - height) < tight)
     if count >= FLOOR_SEEN and _reach(s[on] - last[0]) > g + 0.1 and (alone or not _narrow(t, on)):
         found[-1, 1], sigma[-1, 1], measured[-1, 1] = height, doubt, True
-        places[-1, 1] = place_of(s, t, z, np.flatnonzero(on))
+        places[-1, 1] = place_of(s, t, z, np.flatnonzero(on & known))
         return found, sigma, measured, places, _reach(s[on] - last[0])
     above = (s > last[0] + g + 0.03) & (s < last[0] + g + 1.2)
     above &= (z > last[1] + 0.2 * r) & (z < last[1] + 1.7 * r)
-    height, doubt, count = _densest(z[above], max(tight, 0.01))
+    close = above & (s < last[0] + g + CLOSE)
+    height, doubt, count = _densest(z[close], max(tight, 0.01))
     if count < FLOOR_SEEN:
         return found, sigma, measured, places, math.nan
     on = above & (np.abs(z - height) < tight)
     reach = _reach(s[on] - last[0] - g)
     narrow = _narrow(t, on)
     high = height > last[1] + HIGHEST_LAST * r
-    if reach < 0.1 + 0.5 * g or count < 0.5 * above.sum() or narrow or high:
+    if reach < 0.1 + 0.5 * g or on.sum() < 0.5 * above.sum() or narrow or high:
         return found, sigma, measured, places, math.nan
     face = (np.abs(s - last[0] - g) < max(2 * tight, 0.04)) & (z > last[1] + 0.1 * r)
     face &= z < height - 0.1 * r
     here = np.full((2, 2, 3), np.nan)
-    here[1] = place_of(s, t, z, np.flatnonzero(on))
+    here[1] = place_of(s, t, z, np.flatnonzero(on & close))
     if face.sum() >= FEWEST_POINTS:
         front, doubt_s = median(s[face]), noise / math.sqrt(face.sum())
         here[0] = place_of(s, t, z, np.flatnonzero(face))

@@ -7,7 +7,7 @@ import numpy as np
 from kaidan.readers.estimate import Refusal
 from kaidan.readers.kinds import Provenance
 from kaidan.readers.stairfit.corridor import Lane
-from kaidan.readers.stairfit.echo import SPACINGS
+from kaidan.readers.stairfit.echo import RISES, SPACINGS
 from kaidan.readers.stairfit.patches import Patches
 from kaidan.readers.stairfit.steps import Steps
 from kaidan.readers.stairfit.turning_steps import turn_of
@@ -60,7 +60,12 @@ def refused(
         return Refusal("too-few", {"steps": seen, "needed": FEWEST_NOSINGS}, provenance)
     if angle > ANGLES[1]:
         return Refusal("ladder", {"angle_deg": math.degrees(angle)}, provenance)
-    if line.going < LEAST_GOING or angle < ANGLES[0] or not SPACINGS[0] <= spacing <= SPACINGS[1]:
+    if (
+        line.rise < RISES[0]
+        or line.going < LEAST_GOING
+        or angle < ANGLES[0]
+        or not SPACINGS[0] <= spacing <= SPACINGS[1]
+    ):
         return Refusal("none", {}, provenance)
     if len(steps.at) == FEWEST_NOSINGS and angle > STEEP:
         return Refusal(

@@ -82,6 +82,28 @@ def refined(
         near = min(max(3.0 * median(off), NARROWEST), 0.7 * near)
     scatter_of = float(np.sqrt(np.mean(off**2)) / math.sqrt(max(len(off) / 8.0, 1.0)))
     up, against = _by_planes(patches, up, math.hypot(scatter_of, EDGES), eye, local)
+    return _with_stated(up, against, stated, sigma)
+
+
+def leant(
+    upward: Upward, ahead: Array, angle: float, doubt: float, stated: Array, sigma: float
+) -> Upward:
+    """The same with what treads say: that up leans ahead by an angle, known to a doubt [rad].
+
+    `ahead` is a level unit vector, shape (3,); `stated` and `sigma` are those of `refined`. Where
+    both contradict each other by more than their doubts, the doubt grows by it (Birge 1932).
+    """
+    against = upward.against
+    pull = against @ ahead
+    variance = float(ahead @ pull) + doubt**2
+    up = upward.built + pull * (angle / variance)
+    grown = max(angle**2 / variance, 1.0)
+    known = (against - np.outer(pull, pull) / variance) * grown
+    return _with_stated(up / np.linalg.norm(up), known, stated, sigma)
+
+
+def _with_stated(up: Array, against: Array, stated: Array, sigma: float) -> Upward:
+    """What was built level and plumb, and what is stated, by their variances."""
     across = np.eye(3) - np.outer(up, up)
     doubt = float(np.linalg.eigvalsh(across @ against @ across)[-1])
     found = math.sqrt(doubt + OUT_OF_TRUE**2)
