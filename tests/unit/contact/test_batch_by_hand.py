@@ -6,7 +6,15 @@ import numpy as np
 import pytest
 
 from contact_cases import stadium
-from kaidan.contact import Job, PartKind, Status, body_table, ground_table, traverse_many
+from kaidan.contact import (
+    Job,
+    PartKind,
+    Status,
+    body_table,
+    ground_table,
+    traverse,
+    traverse_many,
+)
 from kaidan.contact import columns as at
 from kaidan.contact.kernel.batch import extremes, settle_many, worst_margins
 
@@ -89,3 +97,15 @@ def test_poses_settled_on_a_floor():
     # no tilt of gravity is borne that leads beyond both ends
     settle_many(ground, body, np.array([0.0]), np.array([0.0]), 9.0, settled)
     assert settled[:, at.SETTLED_FOUND].tolist() == [0.0, 1.0, 1.0]
+
+
+def test_the_first_pose_counts_as_any_other():
+    """Off a slope onto the level, from where it has the least energy to spare on."""
+    terrain, robot = [(-9.0, -5.4), (0.0, 0.0), (9.0, 0.0)], stadium(L, 0.2, C_N, R)
+    whole = traverse(terrain, robot, -1.0, 1.0)
+    begin = float(whole.poses.x[np.argmin(whole.margins.energy)]) + 1e-3
+    path = traverse(terrain, robot, begin, 1.0, inclination=0.3)
+    assert path.margins.energy[0] < path.margins.energy[1:].min() - 1e-6
+    job = Job(0, 0, begin, 1.0, 0.3)
+    found = traverse_many([terrain], [robot], [job], with_margins=True).table[0]
+    assert found[at.SUMMARY_ENERGY] == path.margins.energy[0]

@@ -147,11 +147,11 @@ def test_a_contact_has_room_as_long_as_it_keeps_its_name():
     assert min(kept, lost) > 50
 
 
-@pytest.mark.parametrize(("x", "z"), [(0.05, 0.1), (-0.02, 0.06), (-0.001, 0.13)])
+@pytest.mark.parametrize(("x", "z"), [(0.05, 0.1), (-0.02, 0.06), (-0.001, 0.13), (-0.1, 0.105)])
 def test_room_by_hand(x, z):
     """A disc of 50 mm at (x, z) by a ridge with slopes of 45 degrees, on one of them or its top."""
     ground = ground_table([(-3, -3), (0, 0), (3, -3)])
-    body = body_table([[0.0, 0.0, 0.05, 1.0, 0.3, 0.05]])
+    body = body_table([[0.0, 0.0, 0.05, 0.3, 1.0, 0.05]])
     ahead, behind = (x - z) / math.sqrt(2.0), (x + z) / math.sqrt(2.0)  # feet, from the top on
     pose = (x, z, 1.0, 0.0)
     rear = [Feature(k, 0, FeatureKind.DISC_1).code for k in (0, 1)]
@@ -163,7 +163,7 @@ def test_room_by_hand(x, z):
     # on the top: until the normal leans as that of either slope
     size = math.hypot(x, z)
     top = Feature(1, 0, FeatureKind.VERTEX).code
-    along = (complex(-x, -z) * complex(1.0, 0.3).conjugate()).real / abs(complex(1.0, 0.3))
+    along = (complex(-x, -z) * complex(0.3, 1.0).conjugate()).real / abs(complex(0.3, 1.0))
     room = min(behind / size, -ahead / size, -along)
     assert name_room(ground, body, top, False, *pose) == pytest.approx(room)
     # under the flat: as far as it is from its rear end
@@ -177,7 +177,7 @@ def test_poses_between_two_of_a_path(share):
     path = contact.traverse(flight(0.6, 0.2, 3), robot, -0.6, 0.5, step=0.01)
     ground, body, poses = path.ground.table, path.body.table, path.poses.table
     same = (np.diff(path.poses.leg) == 0) & (np.diff(path.s) > 1e-3)
-    rows = np.flatnonzero(same)[::3]
+    rows = np.flatnonzero(same)[::3].copy()
     between = np.full((len(rows), at.POSE_COLUMNS), math.nan)
     poses_between(ground, body, poses, rows, np.full(len(rows), share), between)
     for row, found in zip(rows, between, strict=True):

@@ -370,3 +370,13 @@ def test_a_foot_beyond_the_flat_or_the_segment_is_none():
     assert here(TO_ARC_1, -5.0)
     assert here(TO_ARC_2, -5.0)
     assert not here(TO_FLAT, -5.0)
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_over_the_pivot_it_is_there_already(sense):
+    """On an edge, and on a disc whose centre lies straight below the centroid: no turn of 360."""
+    ground = ground_table([(-3, -1), (0, 0), (3, -1)])
+    body = body_table([[0.0, -0.1, 0.05, 0.4, -0.1, 0.05]])
+    assert angle_until_over(ground, body, 64, 0.0, 0.2, 0.0, sense, 0.0, False) == 0.0
+    level = ground_table([(-3, 0), (3, 0)])
+    assert angle_until_over(level, body, 1, 0.3, 0.15, 0.0, sense, 0.0, False) == 0.0

@@ -22,8 +22,15 @@ from kaidan.contact import (
     settle,
 )
 from kaidan.contact import columns as at
-from kaidan.contact.codes import Advance
-from kaidan.contact.kernel import advance, contact_changes, continuation, driver, recording
+from kaidan.contact.codes import ROCKING, Advance
+from kaidan.contact.kernel import (
+    advance,
+    contact_changes,
+    continuation,
+    driver,
+    recording,
+    reserves,
+)
 from kaidan.contact.kernel.settling import lever
 
 L, C_L, C_N, R = 0.6, 0.28, 0.1, 0.08
@@ -215,6 +222,45 @@ def test_settled_on_two_contacts_or_not():
     assert there[3:6] == (0.0, 0.0, 0.0)
 
 
+def test_settled_on_feet_that_are_near():
+    body = body_table(stadium(0.2, 0.1, 0.1, 0.05))
+    assert contact_changes.settled(LEVEL, body, 0.3, 0.0, 0.0)[0]
+
+
+@pytest.mark.parametrize("way", [(-0.1, 0.9), (0.9, -0.1), (0.6, 0.6)])
+@pytest.mark.parametrize("slope", [0.4, 1.0])
+def test_of_contacts_in_one_line_the_way_that_is_most_like_it(way, slope):
+    """Along the slope, in the sense in which the way before led along it."""
+    along = complex(math.cos(slope), math.sin(slope))
+    ground = ground_table([(s * along.real, s * along.imag) for s in (-4.0, 4.0)])
+    body = body_table([TRACK[0], *ON_ITS_LINE])
+    k = int(np.flatnonzero(ground[:, 0] < 0.0)[-1])
+    track = [at.POINT * k + disc for disc in (at.DISC_1, at.DISC_2)]
+    made = at.POINT * k + at.PART + at.DISC_2
+    place = (0.7 + 1j * C_N) * along
+    here = (place.real, place.imag, slope, *way, 0.0, *track)
+    good, lost, there = contact_changes.exchanged(ground, body, made, here, -math.tan(slope))
+    sense = math.copysign(1.0, way[0] * along.real + way[1] * along.imag)
+    assert (good, lost) == (True, track[1])
+    assert there[3:6] == pytest.approx((sense * along.real, sense * along.imag, 0.0), abs=1e-9)
+
+
+def test_let_down_again_on_a_line_that_turns():
+    """Ahead is what leads on as before, by all of the way: place, height and inclination."""
+    ground, body = ground_table(steps(0.17, 0.28, 4)), body_table(stadium(0.3, 0.12, 0.06, 0.05))
+    turns = 0
+    for x in np.linspace(-0.3, 0.4, 71):
+        good, (x, z, phi, *u, rear, front) = contact_changes.settled(ground, body, x, 0.3, 0.0)
+        if not good or abs(u[2]) < 0.72:
+            continue
+        turns += 1
+        small = math.copysign(0.01, u[0])
+        for way, leads in ((u, True), ((small, -u[1], -u[2]), False)):
+            here = (x, z, phi, *way, rear, front)
+            assert contact_changes.settled_again(ground, body, here, 0.0)[0] == leads
+    assert turns > 2
+
+
 @pytest.mark.parametrize("t_x", [1.0, -1.0])
 def test_let_down_again_a_little_farther_on(t_x):
     """On level ground the first nudge does, unless the pose there is another one."""
@@ -280,6 +326,15 @@ def test_the_way_on_is_that_on_which_the_lost_contact_opens(opens):
     assert lost == held
     assert there[6:] == (REAR, made)
     assert (there[3] > 0.0) == opens
+    # where the corrector would move it by more than rounding, the way is that of the pose it has
+    beside = (here[0], here[1] + 1e-5, *here[2:])
+    for place in (here, beside):
+        _, _, there = contact_changes.exchanged(ground, BODY, made, place, 0.0)
+        turn = (math.cos(phi), math.sin(phi))
+        rates = [continuation.gap_rate(ground, BODY, each, *there[:2], *turn, *there[3:6])
+                 for each in (REAR, made)]  # fmt: skip
+        assert rates == pytest.approx([0.0, 0.0], abs=1e-8)
+        assert there[1] == pytest.approx(place[1], abs=1e-11)
 
 
 def test_an_exchange_for_itself_has_no_line():
@@ -448,7 +503,7 @@ def test_the_way_of_a_pose_follows_the_normals_of_the_belt():
     """About the point in which they meet; in the sense of the rigid outline's way."""
     parts = [-0.3, 0.0, 0.1, 0.3, 0.0, 0.1]
     # a nosing under the flat, and one some way round an end, whose normal is the flat's, pressed
-    for end, angle in itertools.product((1.0, -1.0), (0.1, 0.6)):
+    for end, angle in itertools.product((1.0, -1.0), (0.1, 0.3, 0.6)):
         off = 0.1 * np.array([end * math.sin(angle), -math.cos(angle)])
         places = [(0.05, -0.1), (end * 0.3 + off[0], off[1])]
         points = sorted([*places, *((p[0] + 0.1, -2.0) for p in places), (-3, -3), (3, -3)])
@@ -456,7 +511,7 @@ def test_the_way_of_a_pose_follows_the_normals_of_the_belt():
         one, other = (at.POINT * int(np.argmin(np.abs(ground[:, 0] - p[0]))) for p in places)
         rear, front = (one, other) if end > 0 else (other, one)
         ways = [(1.0, 0.2), (-1.0, 0.2), (0.05, 1.0), (0.0, 0.0), (0.0, 1.0), (0.0, -1.0)]
-        ways += [(-1.0, 0.0), (-1e-13, 0.0), (1e-3, 1.0), (1e-3, -1.0)]  # square to it, or nearly
+        ways += [(-1.0, 0.0), (-1e-13, 0.0), (0.02, 1.0), (0.02, -1.0)]  # square to it, or nearly
         for t_x, t_z in ways:
             poses = np.zeros((1, at.POSE_COLUMNS))
             held = (0.0, 0.0, 0.0, t_x, t_z, 0.0, rear, front)
@@ -503,3 +558,45 @@ def test_a_small_step_leads_along_the_way_forth_and_back(x, sense):
 def test_effective_gravity_does_not_hang_on_the_size_of_the_way():
     assert contact_changes.effective_gravity(3.0, 4.0, 0.0, 1e-6) == pytest.approx(7.0)
     assert contact_changes.effective_gravity(3.0, 4.0, 0.0, -1e-6) == pytest.approx(1.0)
+    assert contact_changes.effective_gravity(4.0, 4.0, 0.0, -1.0) == 0.0
+
+
+def rotated(ground, place, pivot, sense, gravity=9.7):
+    """What `rotate` returns, and the row that it writes."""
+    rows = np.full((1, at.ROTATION_COLUMNS), math.nan)
+    found = contact_changes.rotate(
+        ground, BODY, pivot, *place, sense, 0.0, 0.2, gravity, 2.5, rows, 0, 0
+    )
+    return found, rows[0]
+
+
+def test_what_is_arrested_at_once_is_no_rotation():
+    found, row = rotated(LEVEL, (0.3, C_N, 0.0), FRONT, -1.0)  # its rear foot would go up
+    assert found[0] == RotationOutcome.PAST_VERTICAL
+    found, row = rotated(LEVEL, (0.3, C_N, 0.0), REAR, -1.0)
+    assert found[0] == RotationOutcome.ARRESTED
+    assert found[6] < 1e-9
+    assert found[7] == 0
+    assert np.isnan(row).all()
+
+
+def test_a_fall_from_upright_is_written_with_no_momentum():
+    """It is past the vertical where it begins."""
+    found, row = rotated(LEVEL, (0.3, L - C_L, 0.5 * math.pi), REAR, 1.0)
+    assert found[0] == RotationOutcome.PAST_VERTICAL
+    assert found[6:8] == (0.0, 1)
+    columns = [at.KINETIC, at.BARRIER, at.BARRIER_ACROSS, at.TOPPLES]
+    assert row[columns].tolist() == [0.0, 0.0, 0.0, 1.0]
+
+
+def test_energy_needed_is_weight_times_rise():
+    """The nose drops over an edge onto a floor 0.1 m lower; on about the nose it would rise."""
+    ground = ground_table([(-3, 0), (0, 0), (0, -0.1), (3, -0.1)])
+    found, row = rotated(ground, (0.01, C_N, 0.0), vertex(1), -1.0)
+    assert found[0] == RotationOutcome.ARRESTED
+    _, rise, across, _ = reserves.barrier(
+        ground, BODY, found[2], *found[3:6], -1.0, 0.0, ROCKING, 0
+    )
+    assert rise > 0.05
+    assert row[at.BARRIER] == pytest.approx(9.7 * rise)
+    assert row[at.BARRIER_ACROSS] == across
