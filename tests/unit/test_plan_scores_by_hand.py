@@ -180,6 +180,19 @@ def test_off_its_angles_a_posture_is_as_good_as_the_worst():
     assert found.of(Phase.LAND, posture).margin == 5.0
 
 
+def test_postures_up_and_down_by_both_pairs_and_turned_round():
+    both = Robot.named("absolem")
+    posture = Posture(front=0.3, rear=-0.2)
+    found = scores(robot=both, flipper_tolerance=0.05)
+    _, up, down = found.about(posture)
+    assert (up.front, up.rear) == pytest.approx((0.35, -0.15))
+    assert (down.front, down.rear) == pytest.approx((0.25, -0.25))
+    outline = Outline.of(both, posture)
+    back = scores(facing="tail-first", robot=both)._outline(posture)
+    assert found._outline(posture).parts.tolist() == outline.parts.tolist()
+    assert back.parts.tolist() == outline.turned_round().parts.tolist()
+
+
 # the search among postures
 
 

@@ -13,6 +13,7 @@ from kaidan.assessment.plan_judged import Judged
 from kaidan.assessment.plan_scores import ENOUGH, FAILED, Score
 from kaidan.modes import Phase, Verdict
 from kaidan.robot import Posture
+from kaidan.surface import Surface
 
 ABSOLEM = Robot.named("absolem")
 STAIRS = Stairs(rise=0.17, going=0.29, steps=6)
@@ -128,7 +129,7 @@ def judged(verdict=Verdict.GO, question="own"):
 def searched(monkeypatch):
     """A search of each end that leads: its best plan, and how many drives it took."""
 
-    def of(*ends, best_of=("flippers", "facing")):
+    def of(*ends, best_of=("flippers", "facing"), known=False):
         left, ranked = list(ends), []
 
         def search(question, facing, limits):
@@ -136,6 +137,9 @@ def searched(monkeypatch):
             return SimpleNamespace(scores=SimpleNamespace(known=range(count)))
 
         def sturdiest(search, beaten, drives, stated):
+            assert (drives == "known") if known else isinstance(drives, Drives)
+            assert stated.tolerance == question.tolerance
+            assert (stated.best_of, stated.changes) == ((), ())
             return left.pop(0)[1]
 
         def on_the_whole(stated, plans, drives):
@@ -146,7 +150,7 @@ def searched(monkeypatch):
         monkeypatch.setattr(module, "_sturdiest", sturdiest)
         monkeypatch.setattr(module, "_on_the_whole", on_the_whole)
         question = Question.of(ABSOLEM, STAIRS, friction=1.0).changed(best_of=best_of)
-        return module.found_of(question), ranked
+        return module.found_of(question, drives="known" if known else None), ranked
 
     return of
 
@@ -169,7 +173,7 @@ def test_the_other_end_is_tried_where_the_nose_is_no_sturdy_go(searched):
         assert found.tried == (30, 34)[ends - 1]
         plans = [each for each in (first, second)[:ends] if each is not None]
         assert ranked == sorted(plans, key=lambda each: each.worst, reverse=True)
-    found, _ = searched((30, caution), best_of=("flippers",))
+    found, _ = searched((30, caution), best_of=("flippers",), known=True)
     assert (found.ends, found.tried) == (("nose-first",), 30)
 
 
@@ -217,6 +221,8 @@ def test_of_two_plans_alike_the_second_is_not_judged(monkeypatch):
     assert may(candidate(module.NEARLY + 1e-9 + module.SLACK), best)
     # nothing is judged to say that: off its angles it promises as much
     assert may(candidate(9.0), best)
+    rocks = module._Candidate("plan", (True, -1, 9.0), (True, -1, 0.0))
+    assert module._may_be_better(search, rocks, (CAUTION, True, -2, 0.0), None, None)
 
 
 def test_any_worse_verdict_tells_that_a_plan_does_not_hold(monkeypatch):
@@ -271,6 +277,27 @@ def test_what_is_no_failure_may_still_be_less_than_go(monkeypatch):
     plan = judged(question=question)
     found = module._judged_off(plan, None, drives)
     assert (found.worst[0], asked) == (CAUTION, [0])
+
+
+@pytest.mark.parametrize(
+    ("rank", "surface", "needed", "told"),
+    [
+        (GO, None, 0.9, math.degrees(math.atan(1.0) - math.atan(0.9))),
+        (GO, None, 0.1, 5.0),  # what it has to spare at its angles is less
+        (CAUTION, None, 0.9, 5.0),  # its verdict does not hold: nothing else counts
+        (GO, Surface.of_friction(1.0), 0.9, 5.0),
+    ],
+)
+def test_where_no_friction_is_stated_what_is_required_off_the_angles_counts(
+    rank, surface, needed, told, monkeypatch
+):
+    monkeypatch.setattr(module, "off_angles", lambda question: range(2))
+    monkeypatch.setattr(module, "friction_off_its_angles", lambda question, drives: needed)
+    monkeypatch.setattr(Judged, "merit", property(lambda self: (GO, True, -1, 5.0)))
+    question = Question.in_one_posture(ABSOLEM, STAIRS, friction=1.0).changed(surface=surface)
+    drives = SimpleNamespace(rank=lambda k: rank, is_no_failure=lambda k: False)
+    found = module._judged_off(judged(question=question), None, drives)
+    assert found.worst == (rank, True, -1, pytest.approx(told))
 
 
 @pytest.mark.parametrize("model", ["contact", "physics"])
