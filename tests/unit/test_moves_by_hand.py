@@ -8,6 +8,7 @@ import pytest
 
 from kaidan import Robot, contact
 from kaidan.contact import Placement
+from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.modes import Phase
 from kaidan.outline import Outline
 from kaidan.robot import Posture
@@ -95,3 +96,38 @@ def test_all_flippers_turn_together_until_the_farthest_is_there(fastest, seconds
 def test_the_middle_is_that_of_the_tracks():
     """By hand: axles 221 mm behind and 279 mm ahead of the centroid, 95 mm below it."""
     assert moves._middle(Outline.of(ABSOLEM)) == pytest.approx([0.029, -0.095])
+
+
+@pytest.mark.parametrize("facing", ["nose-first", "tail-first"])
+def test_the_torque_of_a_contact_that_pulls_and_pushes_on_a_slope(facing, monkeypatch):
+    """Moments in complex numbers: the force at the tip about the pivot, and its own weight."""
+    phi, load, pull = 0.3, 40.0, -15.0
+    posture = Posture(front=0.4, rear=-0.2)
+    outline = Outline.of(ABSOLEM, posture)
+    outline = outline if facing == "nose-first" else outline.turned_round()
+    place = Placement(0.7, 0.5, phi)
+    flippers = [k for k, kind in enumerate(outline.kinds) if kind == contact.FLIPPER]
+    row = flippers[1]  # the rear pair comes first, whichever end leads
+    first = facing == "nose-first"
+    part = outline.parts[row]
+    pivot = complex(*(part[:2] if first else part[3:5]))
+    point, normal = (1.1, 0.45), (math.sin(-0.2), math.cos(-0.2))
+    code = contact.Feature(3, row, contact.FeatureKind.DISC_2).code
+    other = contact.Feature(1, 0, contact.FeatureKind.VERTEX).code
+    each = (SimpleNamespace(feature=other, point=(0.2, 0.1), normal=(0.0, 1.0)),
+            SimpleNamespace(feature=code, point=point, normal=normal))  # fmt: skip
+    path = SimpleNamespace(
+        carrying=lambda row: each, poses=SimpleNamespace(placement=lambda row: place)
+    )
+    monkeypatch.setattr(contact, "pair_forces", lambda *given: (0.3, 50.0, 5.0, load, pull))
+    angles = {"front": 0.4, "rear": -0.2}
+    found = moves._torques(ABSOLEM, angles, outline, path, 0, facing)
+    n = complex(*normal)
+    force = load * n + pull * n * -1j  # ahead lies a quarter of a turn from the normal
+    arm = complex(*point) - (complex(place.x, place.z) + pivot * np.exp(1j * phi))
+    moment = ABSOLEM.mass * abs((arm.conjugate() * force).imag)
+    front, rear = (
+        pair.mass * STANDARD_GRAVITY * pair.com_from_pivot * math.cos(angles[end])
+        for end, pair in ABSOLEM.flippers().items()
+    )
+    assert found == {"front": pytest.approx(front + moment), "rear": pytest.approx(rear)}

@@ -208,3 +208,22 @@ def test_changed_nosings_by_hand():
 
 def test_rows_of_unit_draws_do_not_depend_on_their_number():
     np.testing.assert_array_equal(unit_draws(100, 9)[:6], unit_draws(100))
+
+
+@pytest.mark.parametrize(("s_r", "s_g"), [(0.003, 0.0), (0.0, 0.004), (0.003, 0.004)])
+def test_the_doubt_of_a_step_is_one_of_slope_and_spacing(s_r, s_g):
+    """By hand, 3-4-5: along the slope s_r sin and s_g cos, beside what is stated of the whole."""
+    stairs = Stairs(rise=0.15, going=0.2, steps=6)
+    of_all = {"angle": 0.01, "nosing_spacing": 0.002, "rise": s_r, "going": s_g}
+    doubtful = stairs.model_copy(
+        update={"uncertainty": stairs.uncertainty.model_copy(update=of_all)}
+    )
+    question = Question.in_one_posture("kenaf", doubtful, friction=1.0)
+    angle, spacing = samples._of_the_whole(question)[3:5]
+    of_a_step = samples.local_angle_deviation(
+        theta_s=math.atan2(0.15, 0.2), p=0.25, s_r=s_r, s_g=s_g
+    )
+    assert angle == pytest.approx(math.hypot(0.01, float(of_a_step)))
+    assert spacing == pytest.approx(math.hypot(0.002, s_r * 0.6, s_g * 0.8))
+    none = question.changed(terrain=stairs)
+    assert samples._of_the_whole(none) == none.spread
