@@ -639,8 +639,12 @@ def test_sharper_nosings_are_judged_of_the_plan_at_hand(monkeypatch):
     monkeypatch.setattr(advice, "conclude", lambda question, found: concluded(Verdict.GO))
     monkeypatch.setattr(advice, "_candidates", lambda *given: [])
     monkeypatch.setattr(advice, "_known_better", lambda *given: [])
-    monkeypatch.setattr(advice, "nosings", lambda question, now, judged: [judged(question)][:0])
-    assert advice.what_would_help(KENAF, "found", concluded(Verdict.CAUTION)) == ()
+    monkeypatch.setattr(
+        advice, "nosings",
+        lambda question, now, judged: [Candidate("sharper", question, then=judged(question))],
+    )  # fmt: skip
+    (change,) = advice.what_would_help(KENAF, "found", concluded(Verdict.CAUTION))
+    assert (change.change, change.verdict) == ("sharper", "go")  # and not "with another plan"
     assert anew_ones == [False]
 
 

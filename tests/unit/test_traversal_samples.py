@@ -137,6 +137,14 @@ def test_where_a_nosing_moves_along_an_end():
         assert moves((DISC, VERTEX), (level, leans), end=end) == [True]
         assert moves((DISC, DISC), (level, leans), end=end) == [False]
         assert moves((VERTEX, VERTEX), (leans, leans), end=end) == [False]
+    three = path(3)
+    vars(three.poses).update(
+        front=np.array([codes[VERTEX], codes[DISC], codes[DISC]]), rear=np.array([codes[DISC]] * 3),
+        front_normal=np.array([level, leans, leans]), rear_normal=np.array([level] * 3),
+    )  # fmt: skip
+    assert samples._along_ends(three).tolist() == [True, False]
+    vars(three.poses).update(front=np.array([codes[VERTEX]] * 3))
+    assert samples._along_ends(three).tolist() == [True, False]
     # the body turns with the normal, and under it
     assert moves((VERTEX, VERTEX), (level, leans), (0.3, 0.0)) == [False]
     assert moves((VERTEX, VERTEX), (leans, leans), (0.3, 0.0)) == [True]
@@ -150,6 +158,9 @@ def test_where_a_path_passes_upright():
     up, down = math.pi / 2, -math.pi / 2
     assert rows.tolist() == [0, 4]
     assert shares == pytest.approx([(up - 1.4) / 0.3, (down + 3.0) / 1.5])
+    # by more than a right angle it passes upright once, up and not down
+    rows, shares = _upright(path(2, path_direction=[0.1, 3.0]))
+    assert (rows.tolist(), shares) == ([0], pytest.approx([(up - 0.1) / 2.9]))
 
 
 @pytest.mark.parametrize("a", [0.7, -0.7])
