@@ -1,0 +1,131 @@
+"""What a drive does where a step fails or ends at once: in steps that are written by hand.
+
+Hardly any drive comes there, so steps are put in the place of those of the plain kernel.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from contact_cases import stadium
+from kaidan.contact import Event, Feature, FeatureKind, Status, body_table, ground_table
+from kaidan.contact import columns as at
+from kaidan.contact.codes import Advance
+from kaidan.contact.kernel import driver
+
+LEVEL = ground_table([(-4, 0), (4, 0)])
+C_N, R = 0.1, 0.08
+BODY = body_table(stadium(0.6, 0.28, C_N, R))
+REAR, FRONT = (Feature(0, 0, kind).code for kind in (FeatureKind.DISC_1, FeatureKind.DISC_2))
+NUDGE = 1e-5  # m: the first by which a robot is let down farther on
+STARTS = (0.3, C_N, 0.0, 1.0, 0.0, 0.0, REAR, FRONT)
+
+
+def driven(x_end=0.4, rows=300):
+    """A drive over a floor from 0.3 m on."""
+    tables = [np.full((rows, columns), math.nan) for columns in
+              (at.POSE_COLUMNS, at.EVENT_COLUMNS, at.ROTATION_COLUMNS)]  # fmt: skip
+    found = driver.drive(LEVEL, BODY, 0.3, x_end, 0.0, 0.01, 0.0, 9.8, 0.0, 0.2, *tables)
+    status, poses, events, rotations = found
+    return status, tables[0][:poses], tables[1][:events], rotations
+
+
+def put(monkeypatch, outcomes):
+    """Steps of the given outcomes by number, and otherwise as they are."""
+    step_on, calls = driver.step_on, []
+
+    def step(ground, body, here, x_end, step, *rest):
+        calls.append(here)
+        found = step_on(ground, body, here, x_end, step, *rest)
+        change = outcomes(len(calls), here)
+        return found if change is None else change
+
+    monkeypatch.setattr(driver, "step_on", step)
+    return calls
+
+
+def failed(here):
+    return Advance.NOT_CONVERGED, here, 0, 0.0, False
+
+
+def test_after_a_failure_it_is_let_down_a_little_farther_on(monkeypatch):
+    put(monkeypatch, lambda call, here: failed(here) if call in (3, 4) else None)
+    status, poses, events, rotations = driven()
+    assert (status, rotations) == (Status.OK, 0)
+    assert events[:, at.EVENT_KIND].tolist() == [Event.RESETTLED, Event.RESETTLED, Event.ARRIVED]
+    # two steps of 10 mm, then on by two nudges
+    assert events[:2, at.EVENT_X] == pytest.approx([0.32 + NUDGE, 0.32 + 2 * NUDGE], abs=1e-12)
+    assert events[:2, at.EVENT_S] == pytest.approx([0.02 + NUDGE, 0.02 + 2 * NUDGE], abs=1e-12)
+    assert events[:, at.EVENT_POSE].tolist() == [2, 2, len(poses) - 1]
+    assert poses[-1, at.POSE_X] == pytest.approx(0.4, abs=1e-9)
+    assert poses[-1, at.POSE_S] == pytest.approx(0.1, abs=1e-9)
+
+
+def test_fifty_failures_are_too_many(monkeypatch):
+    calls = put(monkeypatch, lambda call, here: failed(here))
+    status, poses, events, _ = driven()
+    assert status == Status.NOT_CONVERGED
+    assert (len(poses), len(events), len(calls)) == (1, driver.FAILURES, driver.FAILURES + 1)
+
+
+def test_a_failure_where_it_can_not_be_let_down_ends_the_drive(monkeypatch):
+    put(monkeypatch, lambda call, here: failed(here) if call == 3 else None)
+    monkeypatch.setattr(
+        driver, "settled_again", lambda ground, body, here, kappa: (False, 0.0, here)
+    )
+    status, poses, events, _ = driven()
+    assert (status, len(poses), len(events)) == (Status.NOT_CONVERGED, 3, 0)
+
+
+@pytest.mark.parametrize("short", [-1e-12, 5e-10, 3e-9])
+def test_what_happens_where_it_arrives_counts_no_more(monkeypatch, short):
+    """Within 1e-9 m of the end; farther before it the robot falls, as the step says."""
+
+    def outcome(call, here):
+        if call != 2:
+            return None
+        there = (0.35 - short, *here[1:])
+        return Advance.OVER_FRONT, there, 0, 0.04, True
+
+    put(monkeypatch, outcome)
+    status, poses, events, _ = driven(x_end=0.35)
+    if short > 1e-9:
+        assert status == Status.FELL_FORWARD
+        return
+    assert status == Status.OK
+    assert events[:, at.EVENT_KIND].tolist() == [Event.ARRIVED]
+    assert poses[-1, at.POSE_X] == 0.35 - short
+
+
+@pytest.mark.parametrize(
+    ("x_end", "cut", "ends"),
+    [(0.9, 0.305, False), (0.305, 0.3, False), (0.304, 0.3045, True), (0.3, 0.305, False)],
+)
+def test_a_step_that_leads_beyond_upright_is_cut_there(monkeypatch, x_end, cut, ends):
+    """It ends where the robot stands upright; whether it arrives is told of where it ends then."""
+    calls = []
+
+    def advance(ground, body, here, ds, *rest):
+        calls.append(ds)
+        phi = here[2] + 10.0 * ds
+        x = here[0] + ds if phi > driver.UPRIGHT + 1e-9 else cut
+        return Advance.NOTHING, (x, 5.0, phi, *here[3:]), 0, ds
+
+    monkeypatch.setattr(driver, "advance", advance)
+    here = (0.3, -5.0, 1.55, *STARTS[3:])
+    what, there, _, ds, over = driver.step_on(LEVEL, BODY, here, x_end, 0.01, R, 0.0, 9.8, 0.0, 0)
+    assert what == Advance.NOTHING
+    assert over == ends
+    assert there[2] == pytest.approx(driver.UPRIGHT, abs=1e-9)
+    assert there[0] == cut
+    assert ds == calls[-1] == pytest.approx((driver.UPRIGHT - 1.55) / 10.0)
+
+
+def test_no_exchange_where_the_new_pair_has_no_line():
+    """The rear foot for itself, where gravity leans so far that it is ahead."""
+    poses, events = np.full((3, at.POSE_COLUMNS), 7.0), np.full((3, at.EVENT_COLUMNS), 7.0)
+    found = driver.exchange(LEVEL, BODY, REAR, STARTS, 5.0, 1.0, 0, poses, 1, events, 2)
+    assert found == (False, STARTS, 1, 2)
+    assert (poses == 7.0).all()
+    assert (events == 7.0).all()
