@@ -187,6 +187,7 @@ def test_nosings_come_and_go_where_they_are_left_out():
     path = contact.traverse([*flight, (4, 0.6)], ROBOT, -0.5, 1.0, step=0.05)
     passed = nosing_events(path)
     assert len(passed) > 3
+    assert contact.nosings_passed(path, np.empty((0, 2), dtype=np.int64), 1e-7).shape[0] == 0
     found = contact.without_nosings(path, passed)
     assert found.s == pytest.approx(passed.s)
 
@@ -465,6 +466,10 @@ def test_one_way_alone_is_cut_too():
     assert rows.tolist() == [0] * len(rows)
     assert len(rows) > 0
     assert ((shares > 0) & (shares < 1)).all()
+    nothing = Ways(
+        np.array([0.0, 1.0]), np.array([True]), np.array([1.0, 2.0]), np.full(2, -1), 1e-4, None
+    )
+    assert [len(each) for each in nothing.cut_first(4)] == [0, 0]
     none = Ways(
         np.array([0.0, 1.0]), np.array([False]), np.array([1.0, 2.0]), np.zeros(2, dtype=int),
         1e-4, None,

@@ -120,6 +120,20 @@ def test_of_a_face_that_folds_only_its_ends_and_what_lies_beyond_them_count():
     assert heights(0.0, 0.2, 0.0, 0.3) == [0.0, 0.3]
 
 
+def test_every_face_that_folds_is_unfolded():
+    """Of three the first and the last do; the one between them goes up straight."""
+    points = [(-1, 0), (0, 0), (0, 0.2), (0, 0.1), (0, 0.3)]
+    points += [(1, 0.3), (1, 0.4), (1, 0.45), (1, 0.6)]
+    points += [(2, 0.6), (2, 0.8), (2, 0.7), (2, 0.75), (2, 1.0), (3, 1.0)]
+    found = ground_table(points)[1:-1, [X, Z]].tolist()
+    assert found == [[0, 0], [0, 0.3], [1, 0.3], [1, 0.6], [2, 0.6], [2, 1.0]]
+    # the lower end of a face counts as the upper one does
+    down = ground_table([(-1, 0.3), (0, 0.3), (0, 0.1), (0, 0.2), (0, 0.0), (1, 0.0)])
+    assert down[1:-1, Z].tolist() == [0.3, 0.0]
+    pit = ground_table([(-1, 0.3), (0, 0.3), (0, -0.1), (0, 0.2), (0, 0.0), (1, 0.0)])
+    assert pit[1:-1, Z].tolist() == [0.3, -0.1, 0.0]
+
+
 @pytest.mark.parametrize(
     ("points", "text"),
     [
