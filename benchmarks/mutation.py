@@ -37,7 +37,8 @@ LEAST_LIMIT = 1.0
 SLOWER = 8.0
 """A mutant hangs if a test takes this many times its usual CPU time."""
 MEMORY = 4 << 30
-"""Address space of a mutant [B]."""
+"""Address space of a mutant beyond what the tests have taken already [B]: of many modules that is
+gigabytes, and a limit on all of it would end mutants that nothing notices."""
 
 
 def load(path: Path) -> None:
@@ -75,6 +76,12 @@ def empty(held: list[_lru_cache_wrapper]) -> None:
     """Let functions forget what they remember."""
     for each in held:
         each.cache_clear()
+
+
+def taken() -> int:
+    """Address space of this process [B]."""
+    pages = int(Path("/proc/self/statm").read_text().split()[0])
+    return pages * resource.getpagesize()
 
 
 class Lines:
@@ -256,7 +263,8 @@ class Run:
             os.close(read)
             os.setsid()
             self._quiet()
-            resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+            room = taken() + MEMORY
+            resource.setrlimit(resource.RLIMIT_AS, (room, room))
             change()
             for at in chosen:
                 os.write(write, f"{at} ".encode())
