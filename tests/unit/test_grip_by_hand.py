@@ -9,7 +9,7 @@ import pytest
 
 from kaidan import contact
 from kaidan.mechanics.grousers import slip_height
-from kaidan.traversal.grip import Grip, _treads
+from kaidan.traversal.grip import Grip, treads_of
 
 NAN = math.nan
 X = np.array([-1.0, 0.0, 0.0, 0.06, 0.06, 1.0])
@@ -24,10 +24,10 @@ def test_treads_uphill_of_a_point(rises):
     z = np.array([0.0, 0.0, 0.18, 0.18 + 0.06 * rises, 0.36, 0.36])
     tilt = -math.atan(rises)
     expected = [0.0, NAN, tilt, NAN, 0.0, 0.0]
-    up = _treads(SimpleNamespace(x=X, z=z), descending=False)
+    up = treads_of(SimpleNamespace(x=X, z=z), descending=False)
     assert up == pytest.approx(expected, abs=1e-9, nan_ok=True)
     seen_from_the_other_side = SimpleNamespace(x=-X[::-1], z=z[::-1])
-    down = _treads(seen_from_the_other_side, descending=True)
+    down = treads_of(seen_from_the_other_side, descending=True)
     mirrored = [-each for each in expected[::-1]]
     assert down == pytest.approx(mirrored, abs=1e-9, nan_ok=True)
 

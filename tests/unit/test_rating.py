@@ -8,7 +8,9 @@ import pytest
 
 from kaidan import contact
 from kaidan.contact import Placement
+from kaidan.models.traction import gripping, supply
 from kaidan.outline import Outline
+from kaidan.question import Question
 from kaidan.robot import Posture, Robot, Track
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
@@ -148,7 +150,7 @@ def test_what_is_asked_of_the_kernel(monkeypatch):
         asked.update(jobs=jobs, lengths=lengths, flights=flights, **how)
         nothing = np.zeros(len(jobs))
         names = ("required_friction", "belly_touches", "largest_rotation", "rocking",
-                 "impact_speed", "spare")  # fmt: skip
+                 "impact_speed", "spare", "held", "held_at_best")  # fmt: skip
         return SimpleNamespace(status=np.array([0, 1, 0]), **dict.fromkeys(names, nothing))
 
     monkeypatch.setattr(contact, "rate_many", rate_many)
@@ -167,3 +169,72 @@ def test_what_is_asked_of_the_kernel(monkeypatch):
     jobs = [tuple(each) for each in asked["jobs"]]
     assert [each[:2] for each in jobs] == [(0, 0), (0, 1), (0, 2)]
     assert [each[4] for each in jobs] == [0.3, 0.0, 0.0]
+
+
+ROBOTS = {name: Robot.named(name) for name in ("kenaf", "marv")}
+ON_GROUSERS = {"belt": "grousers", "grouser_height": 0.012, "grouser_spacing": 0.05}
+
+
+def close_to_one_another(going):
+    points = [(-2.0, 0.0)]
+    for k in range(16):
+        points += [(k * going, 0.4 * k * going), (k * going, 0.4 * (k + 1) * going)]
+    return Profile.of_points([*points, (16 * going + 2.0, points[-1][1])])
+
+
+@pytest.mark.parametrize("friction", [(0.7, 0.9), (0.5, 0.5)])
+@pytest.mark.parametrize("direction", ["up", "down"])
+@pytest.mark.parametrize("figures", [{"belt": "grousers"}, ON_GROUSERS])
+@pytest.mark.parametrize("going", [0.279, 0.09])
+def test_how_grousers_hold_is_that_of_the_traverse(going, figures, direction, friction):
+    # oracle: the supply of the traverse with its poses; there is room for eight supports
+    many = going < 0.1
+    stairs = close_to_one_another(going) if many else STAIRS
+    robot = ROBOTS["kenaf" if many else "marv"]
+    robot = robot.model_copy(update={"track": robot.track.model_copy(update=figures)})
+    postures = [Posture()] if many else [Posture(front=f, rear=r) for f, r in ANGLES]
+    asked = [
+        Question.of(robot, stairs, friction=friction, direction=direction, flippers=each)
+        for each in postures
+    ]
+    belts = gripping(asked[0])
+    down = direction == "down"
+    outlines = [each.outline for each in asked]
+    manner = {"descending": down, "step": 0.04}
+    rated = rate(stairs, [Part(each) for each in outlines], belts=belts, **manner)
+    smooth = rate(stairs, [Part(each) for each in outlines], **manner)
+    most = 0
+    for question, each, plain in zip(asked, rated, smooth, strict=True):
+        found = traverse(stairs, question.outline, **manner)
+        assert (each is not None) == found.arrived
+        if each is None:
+            continue
+        assert each._replace(held=math.inf, held_at_best=math.inf) == plain
+        for best, margin in ((False, each.held), (True, each.held_at_best)):
+            known = supply(question, found, robot.track, best=best).margin
+            assert margin == pytest.approx(known, abs=1e-5)
+        most = max(most, found.grip._points.shape[1])
+    assert (most > 4) is many
+
+
+def test_of_more_supports_than_there_is_room_for_nothing_is_known():
+    kenaf = ROBOTS["kenaf"]
+    robot = kenaf.model_copy(update={"track": kenaf.track.model_copy(update=ON_GROUSERS)})
+    close = close_to_one_another(0.04)
+    question = Question.of(robot, close, friction=0.9, flippers="stowed")
+    (found,) = rate(close, [Part(question.outline)], belts=gripping(question), step=0.04)
+    assert found.held == found.held_at_best == math.inf
+
+
+def test_grousers_of_which_is_not_known_how_they_hold():
+    """Without a surface, where there are none, or none that bear."""
+    marv = ROBOTS["marv"]
+    robot = marv.model_copy(update={"track": marv.track.model_copy(update=ON_GROUSERS)})
+    known = Question.of(robot, STAIRS, friction=(0.6, 0.9), flippers="flat")
+    cases = gripping(known)
+    assert [each.best for each in cases] == [False] * 2 + [True]
+    assert [each.phi for each in cases] == [(math.atan(each),) * 3 for each in (0.6, 0.6, 0.9)]
+    assert gripping(Question.of(robot, STAIRS, flippers="flat")) is None
+    assert gripping(known.changed(robot=marv)) is None
+    weak = robot.track.model_copy(update={"grouser_strength": 1e-3})
+    assert gripping(known.changed(robot=robot.model_copy(update={"track": weak}))) is None

@@ -19,7 +19,7 @@ from kaidan.contact.heights import TouchingHeights, touching_heights
 from kaidan.contact.margin_records import Job, Margins, Summaries, Tilts
 from kaidan.contact.nosings import nosings_passed, without_nosings
 from kaidan.contact.path import Path, joined
-from kaidan.contact.rating import Ratings, rate_many
+from kaidan.contact.rating import Belts, Ratings, rate_many
 from kaidan.contact.records import (
     ONE_PLACE,
     Body,
@@ -31,6 +31,7 @@ from kaidan.contact.records import (
     RotationRecord,
     Rotations,
 )
+from kaidan.contact.remembered import ground_of
 from kaidan.contact.rest import Settled, resting_height, settle
 from kaidan.contact.rotations import impact_speeds, rotated
 from kaidan.contact.slipping import held_while_slipping
@@ -55,6 +56,7 @@ __all__ = [
     "ROCKING",
     "STEP",
     "TRACK",
+    "Belts",
     "Body",
     "Contact",
     "Event",
@@ -85,6 +87,7 @@ __all__ = [
     "Ways",
     "arrives",
     "body_table",
+    "ground_of",
     "ground_table",
     "held_while_slipping",
     "impact_speeds",

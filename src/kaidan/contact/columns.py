@@ -85,12 +85,13 @@ JOB_COLUMNS = 8
 SUMMARY_COLUMNS = 14
 
 # Ratings of a batch: status, friction, belly; of rotations angle, rocking [rad],
-# speed of an impact [m/s], rise to spare [m].
+# speed of an impact [m/s], rise to spare [m]; margin of belts with grousers in the worst and in
+# the best case [rad].
 (
     RATED_STATUS, RATED_FRICTION, RATED_BELLY, RATED_ANGLE, RATED_ROCKING, RATED_IMPACT,
-    RATED_SPARE,
-) = range(7)  # fmt: skip
-RATING_COLUMNS = 7
+    RATED_SPARE, RATED_HELD, RATED_HELD_BEST,
+) = range(9)  # fmt: skip
+RATING_COLUMNS = 9
 
 # Points, and zones of a place: smallest and largest x, smallest and largest z [m].
 POINT_COLUMNS = 2
@@ -135,3 +136,12 @@ NOWHERE = -1
 # [rad].
 LOAD_X, LOAD_Z, LOAD_COULOMB = range(3)
 LOAD_COLUMNS = 3
+
+# Grousers under load: height, spacing, width of their tips, radius of the nosings that they meet
+# [m], whether they are rigid (1.0); angles of friction beside them of nosings, treads and riser
+# faces [rad], whether the case is the best one (1.0).
+(
+    GROUSER_HEIGHT, GROUSER_SPACING, GROUSER_WIDTH, GROUSER_RADIUS, GROUSER_RIGID, GROUSER_NOSINGS,
+    GROUSER_TREADS, GROUSER_FACES, GROUSER_BEST,
+) = range(9)  # fmt: skip
+GROUSER_COLUMNS = 9

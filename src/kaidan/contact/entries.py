@@ -38,6 +38,7 @@ KERNEL_MODULES = (
     "energy_margins",
     "standing",
     "impact",
+    "holding",
     "rating",
     "batch",
 )

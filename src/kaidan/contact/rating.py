@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +14,7 @@ from kaidan.contact.margin_records import Job
 from kaidan.contact.path import TOUCH
 from kaidan.contact.records import BoolArray, _Table
 from kaidan.contact.remembered import body_of, ground_of
-from kaidan.contact.scratch import most_poses, path_scratch
+from kaidan.contact.scratch import holding_scratch, most_poses, path_scratch
 from kaidan.contact.switch import kernel
 from kaidan.contact.tables import FloatArray, IntArray, margin_tables
 from kaidan.mechanics import STANDARD_GRAVITY
@@ -60,6 +61,39 @@ class Ratings(_Table):
         """
         return self._column(at.RATED_SPARE)
 
+    @property
+    def held(self) -> FloatArray:
+        """Least margin of the belts with grousers in the worst case [rad].
+
+        Infinite where nobody asks for it, or more nosings than there is room for touch a flat.
+        """
+        return self._column(at.RATED_HELD)
+
+    @property
+    def held_at_best(self) -> FloatArray:
+        """The same in the best case [rad]."""
+        return self._column(at.RATED_HELD_BEST)
+
+
+class Belts(NamedTuple):
+    """Belts with grousers, and on what they stand."""
+
+    grousers: tuple[tuple[float, ...], ...]
+    """Cases, see `kaidan.contact.columns`: all of the worst have to hold, and of the best."""
+    treads: FloatArray
+    """Tilt of the normal of the tread uphill of each point of the ground [rad]; NaN: none."""
+    climbs: bool
+    """Whether the way leads up the stairs."""
+    steep: float
+    """Slope beyond which the ground is a face [rad]."""
+    touch: float
+    """Gap up to which a nosing lies on a flat [m]."""
+    slip: float
+    """How far beyond the spacing of grousers a slip is followed [m]."""
+
+
+NO_BELTS = Belts((), np.full(1, math.nan), True, 0.0, 0.0, 0.0)
+
 
 def rate_many(
     terrain: ArrayLike,
@@ -74,6 +108,7 @@ def rate_many(
     edges: ArrayLike,
     rough: float,
     tilts: tuple[float, float] = (0.0, 0.0),
+    belts: Belts | None = None,
 ) -> Ratings:
     """Rate many traverses over one terrain.
 
@@ -96,6 +131,8 @@ def rate_many(
         Edges that may hold an end (k, 2), and how far ahead they have to be [m].
     tilts
         Of gravity, towards the trailing and the leading end that comes down [rad].
+    belts
+        Belts with grousers, of which is asked how they hold.
 
     Returns
     -------
@@ -114,6 +151,8 @@ def rate_many(
     size = most_poses(longest, step, len(ground))
     on = [np.array(each, dtype=np.float64).reshape(-1, at.FLIGHT_COLUMNS) for each in flights]
     ratings = np.full((len(jobs), at.RATING_COLUMNS), math.nan)
+    of_belts = NO_BELTS if belts is None else belts
+    cases = np.array(of_belts.grousers, dtype=np.float64).reshape(-1, at.GROUSER_COLUMNS)
     kernel().rate_many(
         ground, np.concatenate(bodies), np.cumsum([len(each) for each in bodies]),
         np.array(flats, dtype=np.float64),
@@ -122,6 +161,7 @@ def rate_many(
         step, STANDARD_GRAVITY, TOUCH, rough, *tilts,
         np.array(zones, dtype=np.float64).reshape(-1, at.ZONE_COLUMNS),
         np.array(edges, dtype=np.float64).reshape(-1, at.POINT_COLUMNS),
-        *path_scratch(size), *margin_tables(size), ratings,
+        *of_belts[1:], cases,
+        *path_scratch(size), *margin_tables(size), *holding_scratch(size if belts else 1), ratings,
     )  # fmt: skip
     return Ratings(ratings)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from kaidan.contact.tables import FloatArray, body_table, ground_table
 
 #: So many of each are remembered.
-GROUNDS, BODIES = 32, 256
+GROUNDS, BODIES = 32, 1024
 
 
 def ground_of(terrain: ArrayLike) -> FloatArray:

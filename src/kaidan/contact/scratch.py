@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import threading
 
-from kaidan.contact.tables import FloatArray, path_tables
+import numpy as np
+
+from kaidan.contact.columns import LOAD_COLUMNS, SUPPORT_COLUMNS
+from kaidan.contact.kernel.holding import MOST_SUPPORTS
+from kaidan.contact.tables import FloatArray, IntArray, path_tables
 
 #: Rows up to which tables are kept.
 KEPT = 40_000
@@ -34,3 +38,13 @@ def path_scratch(size: int) -> tuple[FloatArray, FloatArray, FloatArray]:
         kept = _of_thread.tables = path_tables(size)
     poses, events, rotations = kept
     return poses[:size], events[:size], rotations[: size // 8 + 16]
+
+
+def holding_scratch(size: int) -> tuple[FloatArray | IntArray, ...]:
+    """Tables of :func:`kaidan.contact.kernel.holding.least_held` for a path of so many poses."""
+    wide = size * MOST_SUPPORTS
+    of_poses = [np.empty(size, dtype=np.int64) for _ in range(3)]
+    return (
+        np.empty((wide, SUPPORT_COLUMNS)), np.empty((size, LOAD_COLUMNS)), *of_poses,
+        np.empty(wide, dtype=np.int64), np.empty(wide), np.empty(size), np.empty(size),
+    )  # fmt: skip

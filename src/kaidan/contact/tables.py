@@ -28,6 +28,7 @@ from kaidan.contact.columns import (
     EVENT_COLUMNS,
     FLIGHT_COLUMNS,
     GROUND_COLUMNS,
+    GROUSER_COLUMNS,
     JOB_COLUMNS,
     LENGTH,
     LOAD_COLUMNS,
@@ -77,6 +78,7 @@ FlightTable = Annotated[FloatArray, FLIGHT_COLUMNS]
 PassedTable = Annotated[FloatArray, PASSED_COLUMNS]
 SupportTable = Annotated[FloatArray, SUPPORT_COLUMNS]
 LoadTable = Annotated[FloatArray, LOAD_COLUMNS]
+GrouserTable = Annotated[FloatArray, GROUSER_COLUMNS]
 SettledTable = Annotated[FloatArray, SETTLED_COLUMNS]
 WayTable = Annotated[FloatArray, WAY_COLUMNS]
 #: Numbers that belong together, in the kernel: four, or x, z, cosine, sine and a point, or x, z and

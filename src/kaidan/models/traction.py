@@ -21,6 +21,7 @@ from kaidan.traversal import Traverse
 from kaidan.traversal.grip import Grip
 from kaidan.traversal.moves import Move
 from kaidan.traversal.phases import step_at
+from kaidan.traversal.rating import Case, Gripping
 from kaidan.traversal.samples import lasting
 
 HEIGHT = (0.010, 0.020)
@@ -208,6 +209,25 @@ def supply(
         slip=slip,
         heights=heights,
     )
+
+
+def gripping(question: Question) -> Gripping | None:
+    """Belts of a question by cases; None where they have no grousers, or none that bear.
+
+    Parameters
+    ----------
+    question : Question
+        With a surface, without a yaw.
+    """
+    track, surface = question.robot.track, question.surface
+    if surface is None or not (holds_otherwise(question) and _bears(question, track)):
+        return None
+    cases = []
+    for best in (False, True):
+        nosings, treads, faces = surface.of_parts(best=best)
+        phi = math.atan(nosings), math.atan(treads), math.atan(faces)
+        cases += [Case(one, phi, best) for one in grousers_of(question, track, best=best)]
+    return tuple(cases)
 
 
 def _held(

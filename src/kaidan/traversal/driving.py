@@ -27,7 +27,7 @@ CLEARANCE = 0.05
 """Way on level ground before the first and behind the last contact with the flight [m]."""
 MANY = 100
 """Nosings above which what the criterion says is not remembered."""
-ROBOTS = 128
+ROBOTS = 512
 """Robots of which it is."""
 ROUNDING = 1e-12
 """Height above the flat that is none [m]."""
@@ -129,9 +129,12 @@ def _flat_ends(body: Outline, level: NDArray[np.bool_]) -> tuple[Array, Array]:
 
 def whole_of(tread: Tread, criterion: Criterion, body: Outline) -> bool:
     """Whether one flat carries all along on the flight, so that the criterion judges there."""
-    if criterion.holds is None or not tread.whole or body.stance.tips_below:
-        return False
-    return not _rocks_onto_flippers(body)
+    return criterion.holds is not None and is_whole(tread, body)
+
+
+def is_whole(tread: Tread, body: Outline) -> bool:
+    """Whether one flat carries all along on a flight, however long that is."""
+    return tread.whole and not body.stance.tips_below and not _rocks_onto_flippers(body)
 
 
 def _rocks_onto_flippers(body: Outline) -> bool:

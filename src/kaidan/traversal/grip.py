@@ -53,7 +53,7 @@ class Grip:
             path,
             force=(size * path.margins.tilt / down, size / down),
             coulomb=self.coulomb,
-            treads=_treads(path.ground, descending),
+            treads=treads_of(path.ground, descending),
             climbs=not descending,
             steep=STEEP,
             touch=TOUCH,
@@ -144,7 +144,7 @@ class Grip:
         return np.asarray(phi[0] + self._known[grousers])
 
 
-def _treads(ground: contact.Ground, descending: bool) -> Array:
+def treads_of(ground: contact.Ground, descending: bool) -> Array:
     """Tilt of the normal of the tread uphill of each point of the ground [rad]; NaN: none."""
     x, z = ground.x, ground.z
     uphill = -1.0 if descending else 1.0

@@ -5,6 +5,7 @@ r"""Traverses rated: the largest figures of each, worked out where its poses are
     drive -> poses, rotations      of a traverse that arrives: friction, belly
                   |                of its rotations, those that follow at once together:
                   `-> a row        angle, rocking, speed of impact, rise to spare
+    poses, belts -> what grousers hold, see `kaidan.contact.kernel.holding`
 """
 
 from __future__ import annotations
@@ -41,6 +42,8 @@ from kaidan.contact.columns import (
     RATED_ANGLE,
     RATED_BELLY,
     RATED_FRICTION,
+    RATED_HELD,
+    RATED_HELD_BEST,
     RATED_IMPACT,
     RATED_ROCKING,
     RATED_SPARE,
@@ -58,6 +61,7 @@ from kaidan.contact.columns import (
 )
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.driver import drive
+from kaidan.contact.kernel.holding import find_standing, least_held
 from kaidan.contact.kernel.impact import impact_speed
 from kaidan.contact.kernel.margins import pose_margins
 from kaidan.contact.tables import (
@@ -67,13 +71,16 @@ from kaidan.contact.tables import (
     FlightTable,
     FloatRow,
     GroundTable,
+    GrouserTable,
     IntArray,
     JobTable,
+    LoadTable,
     MarginTable,
     PointTable,
     PoseTable,
     RatingTable,
     RotationTable,
+    SupportTable,
     ZoneTable,
 )
 
@@ -248,11 +255,26 @@ def rate_many(
     tilt_front: float,
     zones: ZoneTable,
     edges: PointTable,
+    treads: FloatRow,
+    climbs: bool,
+    steep: float,
+    on_flat: float,
+    slip: float,
+    grousers: GrouserTable,
     poses: PoseTable,
     events: EventTable,
     rotations: RotationTable,
     margins: MarginTable,
     found: ContactTable,
+    supports: SupportTable,
+    loads: LoadTable,
+    unlike: IntArray,
+    like: IntArray,
+    counts: IntArray,
+    points: IntArray,
+    standing: FloatRow,
+    friction: FloatRow,
+    held: FloatRow,
     ratings: RatingTable,
 ) -> None:
     """Drive a list of jobs over one terrain and rate each.
@@ -279,13 +301,23 @@ def rate_many(
         lowest and highest z [m].
     edges
         Edges of the terrain that may hold an end as it comes down (k, 2) [m].
+    treads, climbs, steep, on_flat
+        As :func:`kaidan.contact.kernel.supports.find_supports` takes them, the last as its touch.
+    slip
+        How far beyond the spacing of grousers a slip is followed [m].
+    grousers
+        Cases of grousers on the belts, the worst and the best; none: nobody asks how they hold.
     poses, events, rotations, margins, found
         Scratch, see :func:`kaidan.contact.kernel.driver.drive`.
+    supports, loads, unlike, like, counts, points, standing, friction, held
+        Scratch of what grousers hold, see :mod:`kaidan.contact.kernel.holding`.
     ratings
         To be filled, a row a job: status; of one that arrives the largest required friction but
         where the trailing end leaves an edge as it lands, whether the belly touches (0, 1), and of
         rotations that follow at once the largest angle, the largest rocking [rad], the largest
-        speed of an impact [m/s], the least rise to spare [m].
+        speed of an impact [m/s], the least rise to spare [m]; and the least margin of belts with
+        grousers in the worst and in the best case [rad], infinite where nobody asks for it or more
+        nosings than there is room for touch a flat.
     """
     for job in range(jobs.shape[0]):
         robot = int(jobs[job, JOB_ROBOT])
@@ -315,6 +347,25 @@ def rate_many(
                 mu = math.inf if math.isnan(margins[row, FRICTION]) else margins[row, FRICTION]
         ratings[job, RATED_FRICTION] = mu
         ratings[job, RATED_BELLY] = belly
+        ratings[job, RATED_HELD] = math.inf
+        ratings[job, RATED_HELD_BEST] = math.inf
+        slots = 0
+        if grousers.shape[0] > 0:
+            slots = find_standing(
+                ground, body, poses, n_pose, margins, a, g, treads, climbs, steep, on_flat,
+                supports, loads, unlike, like, points,
+            )  # fmt: skip
+        if slots > 0:
+            for row in range(n_pose):
+                counts[row] = 0 if comes_off(poses, row, zones) else 1
+            ratings[job, RATED_HELD] = least_held(
+                poses, n_pose, climbs, slip, grousers, False, counts, slots, supports, loads, like,
+                points, standing, friction, held,
+            )  # fmt: skip
+            ratings[job, RATED_HELD_BEST] = least_held(
+                poses, n_pose, climbs, slip, grousers, True, counts, slots, supports, loads, like,
+                points, standing, friction, held,
+            )  # fmt: skip
         rate_rotations(
             ground, body, poses, n_pose, rotations, n_rotation, a, g, flats[robot], rough,
             tilt_rear, tilt_front, edges, flights[begin : flight_ends[robot]], found, ratings, job,
