@@ -656,9 +656,9 @@ def test_a_plan_off_its_angles_and_another_one(monkeypatch):
     def of(ends=2, *, now=then, holds=False, sturdy=True, own=best, com_range=None, anew=False):
         asked = []
 
-        def found_of(question, *, drives):
-            asked.append((question, drives))
-            return SimpleNamespace(question="own", findings="its", sturdy=sturdy)
+        def better_than(verdict, question, *, drives):
+            asked.append((verdict, question, drives))
+            return own and SimpleNamespace(question="own", findings="its", sturdy=sturdy)
 
         def holds_off(question, drives):
             assert drives == (None if search is None else "drives")
@@ -670,15 +670,16 @@ def test_a_plan_off_its_angles_and_another_one(monkeypatch):
             changed=lambda best_of: best_of,
             tolerance=0.05,
         )
-        monkeypatch.setattr(plan_search, "found_of", found_of)
+        monkeypatch.setattr(plan_search, "better_than", better_than)
         monkeypatch.setattr(plan_search, "holds_off_its_angles", holds_off)
         monkeypatch.setattr(advice, "conclude", lambda question, found: own)
         return advice._planned(question, now, search, anew=anew), asked
 
     assert of(None, holds=True) == of(holds=True) == ((then, False), [])
     assert of(None) == of(com_range="range") == ((caution, False), [])
-    assert of() == ((best, True), [(("flippers", "facing"), "drives")])
-    assert of(1) == ((best, True), [(("flippers",), "drives")])
+    assert of() == ((best, True), [(Verdict.CAUTION, ("flippers", "facing"), "drives")])
+    assert of(1) == ((best, True), [(Verdict.CAUTION, ("flippers",), "drives")])
+    assert of(own=None)[0] == (caution, False)  # no plan has a better verdict
     assert of(sturdy=False)[0] == (caution, False)
     assert of(own=concluded(Verdict.CAUTION, 0.1))[0] == (caution, False)
     # no GO at its angles: only where another plan may be the best

@@ -11,6 +11,7 @@ from kaidan.assessment.plan_hopes import Hope, Search
 from kaidan.assessment.plan_judged import Judged, judged_of, shortened
 from kaidan.assessment.plan_scores import ENOUGH, ROUNDING, UNKNOWN, Score, Scores
 from kaidan.assessment.plan_search import _Candidate, _candidates, _Off, _sturdiest
+from kaidan.assessment.plans import Plan
 from kaidan.models.findings import Findings
 from kaidan.models.planned import STAND_OFF
 from kaidan.models.quasi_static import Basis
@@ -26,7 +27,7 @@ ONE = Robot.model_validate(Robot.named("absolem").model_dump() | {"rear_flippers
 FLIGHT = Stairs(rise=0.17, going=0.29, steps=6)
 RATED = Rated(
     required_friction=0.5, belly_touches=False, rotation=0.2, rocking=0.0, impact_speed=0.1,
-    spare=0.01, downhill=0.3, uphill=0.25,
+    spare=0.01, held=0.2, held_at_best=0.3, downhill=0.3, uphill=0.25,
 )  # fmt: skip
 
 
@@ -35,8 +36,8 @@ def asked(terrain=FLIGHT, robot=ONE, **given):
     return Question.in_one_posture(robot, terrain, **(usual | given))
 
 
-def scores(terrain=FLIGHT, facing="nose-first", **given):
-    return Scores(asked(terrain, **given), facing)
+def scores(terrain=FLIGHT, facing="nose-first", belts=None, **given):
+    return Scores(asked(terrain, **given), facing, belts)
 
 
 def degrees(*angles):
@@ -65,6 +66,16 @@ def test_the_score_of_a_drive():
     assert nobody(RATED._replace(required_friction=0.9)).margin == pytest.approx(
         math.degrees(math.atan(1.0) - math.atan(0.9))
     )
+
+
+def test_grousers_hold_in_place_of_friction():
+    """Their margin counts."""
+    of = scores(belts=())._score
+    assert of(RATED).margin == pytest.approx(math.degrees(0.2))
+    assert of(RATED._replace(held=-0.01)).margin == pytest.approx(math.degrees(-0.01))
+    assert of(RATED._replace(held=-0.01)).failing == -1
+    assert of(RATED._replace(held_at_best=-0.01)).passes is False
+    assert of(RATED._replace(held=-0.01, required_friction=1.2)).passes is True
 
 
 def test_what_one_friction_rated_serves_another(monkeypatch):
@@ -271,6 +282,30 @@ def test_plans_put_together_of_two_phases():
     assert search.off(found[0].plan) == found[0].merit
 
 
+def test_which_plans_may_hold_on_their_grousers():
+    """All that nothing is known of; else those whose phases fail nowhere off their angles."""
+    plan = Plan("nose-first", tuple(zip((Phase.ENTER, Phase.LAND), degrees(4.0, 6.0), strict=True)))
+    belts = {"track": ONE.track.model_copy(update={"belt": "grousers"})}
+    on_grousers = ONE.model_copy(update=belts)
+    assert Search(asked(), "nose-first", (-1.0, 1.0)).may_hold(plan)
+    nobody = asked(robot=on_grousers, friction=None)
+    assert Search(nobody, "nose-first", (-1.0, 1.0)).may_hold(plan)
+    search = Search(asked(robot=on_grousers), "nose-first", (-1.0, 1.0))
+    assert search.scores.belts is None
+    assert len(search._on_belts.belts) == 4
+
+    def may(**off):
+        def score(phase, posture):
+            return Score(**({"passes": True, "failing": 0, "margin": 1.0, "drop": 0.0} | off))
+
+        search._on_belts = SimpleNamespace(work_out=list, about=lambda one: [one], off=score)
+        return search.may_hold(plan)
+
+    assert may()
+    assert not may(failing=-1)
+    assert not may(passes=False)
+
+
 # plans judged
 
 
@@ -288,8 +323,9 @@ def judged(rank, name="plan"):
 def sturdiest(monkeypatch):
     """The best of candidates: of each its rank, the worst off its angles, whether it is tried."""
 
-    def of(*each, grousers=False, sturdier=None, beaten=None):
+    def of(*each, grousers=False, doubtful=(), sturdier=None, beaten=None):
         search = SimpleNamespace(
+            may_hold=lambda plan: plan.question(None) not in doubtful,
             question=SimpleNamespace(
                 robot=SimpleNamespace(track=SimpleNamespace(has_grousers=grousers)), surface="known"
             ),
@@ -301,7 +337,10 @@ def sturdiest(monkeypatch):
             ranks["sturdier"] = sturdier
 
         def plan(name):
-            return SimpleNamespace(question=lambda question: name)
+            return SimpleNamespace(
+                question=lambda question: name, facing="tail-first",
+                postures=[(phase, Posture()) for phase in Phase],
+            )  # fmt: skip
 
         candidates = [
             _Candidate(plan(str(k)), (True, 0, 0.0), (True, 0 if one[0] == GO else -1, 0.0))
@@ -362,6 +401,22 @@ def test_a_plan_that_is_go_at_its_angles_alone_is_made_sturdier(sturdiest):
     assert sturdiest((CAUTION, CAUTION, True), sturdier=(GO, GO))[0] == "0"
     assert sturdiest((CAUTION, CAUTION, True), sturdier=(GO, GO), grousers=True)[0] == "sturdier"
     assert sturdiest((NO_GO, NO_GO, True), sturdier=(GO, GO), grousers=True)[0] == "0"
+    # of those that do not hold off them one that does is sought first; they are judged without it
+    grips = {"grousers": True, "doubtful": ("0", "1")}
+    name, bars, _ = sturdiest((CAUTION, CAUTION, True), sturdier=(GO, GO), **grips)
+    assert (name, bars) == ("sturdier", [])
+    name, bars, _ = sturdiest((CAUTION, CAUTION, True), sturdier=(GO, NO_GO), **grips)
+    assert (name, bars[0][0]) == ("0", NO_GO)
+    assert sturdiest((NO_GO, NO_GO, True), sturdier=(GO, GO), **grips)[0] == "sturdier"
+    assert sturdiest((CAUTION, CAUTION, True), **grips)[0] == "0"
+    each = (CAUTION, CAUTION, True), (GO, CAUTION, True), (GO, GO, True)
+    name, bars, _ = sturdiest(*each, sturdier=(GO, GO), **grips)
+    assert (name, bars) == ("2", [])
+    name, bars, _ = sturdiest(*each[:2], sturdier=(CAUTION, CAUTION), **grips)
+    assert [bar[0] for bar in bars] == [CAUTION, CAUTION]
+    low = judged(CAUTION).merit
+    name, bars, _ = sturdiest((GO, NO_GO, False), sturdier=(GO, GO), beaten=low, **grips)
+    assert (name, bars) == ("sturdier", [])
     # the best of all at its angles is what counts
     assert sturdiest(
         (CAUTION, CAUTION, True), (GO, NO_GO, True), sturdier=(GO, GO)

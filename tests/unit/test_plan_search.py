@@ -15,6 +15,7 @@ from kaidan.assessment.plan_judged import shortened
 from kaidan.assessment.plan_scores import Score
 from kaidan.assessment.plan_search import (
     LIMITS,
+    better_than,
     found_of,
     holds_off_its_angles,
     off_angles,
@@ -317,6 +318,19 @@ def test_without_a_posture_the_best_is_found():
     found = kaidan.assess("absolem", STAIRS, friction=0.9)
     assert found == best()
     assert kaidan.traverse("absolem", STAIRS, friction=0.9).question == found.question
+
+
+def test_a_plan_of_a_better_verdict_or_none(monkeypatch):
+    slippery = Question.of("absolem", STAIRS, friction=(0.6, 1.0))
+    grippy = Question.of("absolem", STAIRS, friction=1.2)
+    assert found_of(slippery).findings is not None
+    assert better_than(Verdict.NO_GO, slippery).question == found_of(slippery).question
+    assert better_than(Verdict.CAUTION, grippy).question == found_of(grippy).question
+    judged = []
+    monkeypatch.setattr(Drives, "judge", lambda self, question: judged.append(question))
+    assert better_than(Verdict.CAUTION, slippery) is None
+    assert better_than(Verdict.GO, grippy) is None
+    assert not judged  # their scores tell
 
 
 def test_of_two_ways_that_fail_the_one_that_arrives_comes_first():

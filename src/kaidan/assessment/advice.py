@@ -138,7 +138,7 @@ def _planned(
     is_go = then.verdict is Verdict.GO
     if (is_go and not question.tolerance) or not (is_go or (anew and search is not None)):
         return then, False
-    from kaidan.assessment.plan_search import found_of, holds_off_its_angles
+    from kaidan.assessment.plan_search import better_than, holds_off_its_angles
 
     drives = None if search is None else search.drives
     if is_go and holds_off_its_angles(question, drives):
@@ -147,9 +147,10 @@ def _planned(
         then = then._replace(verdict=Verdict.CAUTION)
     if search is not None and question.robot.com_range is None:
         ends = ("flippers", "facing") if len(search.ends) > 1 else ("flippers",)
-        own = found_of(question.changed(best_of=ends), drives=drives)
-        if own.sturdy and _is_better(best := conclude(own.question, own.findings), then):
-            return best, True
+        own = better_than(then.verdict, question.changed(best_of=ends), drives=drives)
+        if own is not None and own.sturdy:
+            best = conclude(own.question, own.findings)
+            return (best, True) if best.verdict.rank < then.verdict.rank else (then, False)
     return then, False
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from kaidan.assessment.plan_scores import ENOUGH, Score, Scores
 from kaidan.assessment.plans import Plan, cost_of, cost_of_drop, costs_of_changes, pressed, words
+from kaidan.models.traction import gripping
 from kaidan.modes import Facing, Phase
 from kaidan.question import Question
 from kaidan.robot import Posture
@@ -57,6 +58,8 @@ class Search:
         self.scores = Scores(question, facing)
         self._allowed: dict[Phase, dict[Posture, None]] = {}
         """Postures of each phase at angles that a plan may have."""
+        belts = None if question.uncertain else gripping(question)
+        self._on_belts = None if belts is None else Scores(question, facing, belts)
 
     def hopes(self) -> list[Hope]:
         """Most promising plans without a change, with one, and with two."""
@@ -82,7 +85,16 @@ class Search:
 
     def off(self, plan: Plan) -> Merit:
         """What a plan lets one hope for where its angles are a tolerance off."""
-        scores = self.scores
+        return self._off(plan, self.scores)
+
+    def may_hold(self, plan: Plan) -> bool:
+        """Whether a plan may be a GO off its angles, by its grousers where they are known."""
+        if self._on_belts is None:
+            return True
+        passes, failing, _ = self._off(plan, self._on_belts)
+        return passes and not failing
+
+    def _off(self, plan: Plan, scores: Scores) -> Merit:
         scores.work_out(
             (phase, each) for phase, posture in plan.postures for each in scores.about(posture)
         )

@@ -19,7 +19,7 @@ from kaidan.outline import Outline
 from kaidan.question import Question
 from kaidan.robot import Posture
 from kaidan.terrain.profile import Profile
-from kaidan.traversal.rating import Part, Rated, rate
+from kaidan.traversal.rating import Gripping, Part, Rated, rate
 from kaidan.traversal.rotations import ROCKING
 
 COARSE = 0.04
@@ -75,6 +75,7 @@ def rated_on(
     down: bool,
     acceleration: float,
     tilts: tuple[float, float],
+    belts: Gripping | None = None,
 ) -> dict[Hashable, Rated | None]:
     """Ratings that are remembered of one terrain, by outline, start and end."""
     return {}
@@ -98,10 +99,12 @@ class Scores:
     question : Question
     facing : {"nose-first", "tail-first"}
         Which end leads.
+    belts : Gripping, optional
+        Belts with grousers that hold in place of one friction of smooth belts.
     """
 
-    def __init__(self, question: Question, facing: Facing) -> None:
-        self.question, self.facing = question, facing
+    def __init__(self, question: Question, facing: Facing, belts: Gripping | None = None) -> None:
+        self.question, self.facing, self.belts = question, facing, belts
         self.known: dict[tuple[Phase, Posture], Score] = {}
         self._about: dict[Posture, tuple[Posture, Posture, Posture]] = {}
         self._outlines: dict[Posture, Outline | None] = {}
@@ -152,6 +155,7 @@ class Scores:
             acceleration=self.question.acceleration,
             tilts=self._allowances,
             step=COARSE,
+            belts=self.belts,
         )
         if len(self._rated) > MANY:
             self._rated.clear()
@@ -237,9 +241,13 @@ class Scores:
 
     @cached_property
     def _rated(self) -> dict[Hashable, Rated | None]:
-        """What this process rated on the same terrain before: friction plays no part in it."""
+        """What this process rated on the same terrain: friction plays no part but beside belts."""
         return rated_on(
-            terrain_key(self.profile), self._down, self.question.acceleration, self._allowances
+            terrain_key(self.profile),
+            self._down,
+            self.question.acceleration,
+            self._allowances,
+            self.belts,
         )
 
     def _score(self, rated: Rated | None) -> Score:
@@ -250,6 +258,8 @@ class Scores:
         downhill, uphill = self._allowances
         required = math.atan(rated.required_friction)
         slides, slides_at_best = math.atan(low) - required, math.atan(high) - required
+        if self.belts is not None:
+            slides, slides_at_best = rated.held, rated.held_at_best
         tips = rated.downhill - downhill, rated.uphill - uphill
         failing = (
             slides < NO_MARGIN,

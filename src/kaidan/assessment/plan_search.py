@@ -53,10 +53,25 @@ class Found(NamedTuple):
 def found_of(
     question: Question, limits: tuple[float, float] = LIMITS, *, drives: Drives | None = None
 ) -> Found:
-    """Best plan of a question whose posture is to be found.
+    """Best plan of a question whose posture is to be found; see `better_than`."""
+    found = better_than(None, question, limits, drives=drives)
+    assert found is not None
+    return found
+
+
+def better_than(
+    verdict: Verdict | None,
+    question: Question,
+    limits: tuple[float, float] = LIMITS,
+    *,
+    drives: Drives | None = None,
+) -> Found | None:
+    """Best plan of a question whose posture is to be found; None: none has a better verdict.
 
     Parameters
     ----------
+    verdict : Verdict, optional
+        That a plan has to exceed; without it any plan is looked at.
     question : Question
         With `best_of`.
     limits : (float, float)
@@ -78,19 +93,22 @@ def found_of(
     if not stated.plannable:
         return _fixed(stated, facings, drives)
     short = shortened(stated)
+    beaten = None if verdict is None else (-verdict.rank, True, 0, math.inf)
     plans: list[_Off] = []
     ends: tuple[Facing, ...] = ()
     tried = 0
     for facing in facings:
         search = Search(short, facing, limits)
-        found = _sturdiest(search, plans[-1].worst if plans else None, drives, stated)
+        found = _sturdiest(search, plans[-1].worst if plans else beaten, drives, stated)
         ends = (*ends, facing)
         tried += len(search.scores.known)
-        if found is None:
+        if found is None or (beaten is not None and found.worst <= beaten):
             continue
         plans.append(found)
         if found.sturdy and found.judged.conclusion.verdict is Verdict.GO:
             break
+    if not plans and verdict is not None:
+        return None
     ranked = sorted(plans, key=lambda each: each.worst, reverse=True)
     return _on_the_whole(stated, ranked, drives)._replace(tried=tried, ends=ends)
 
@@ -147,10 +165,36 @@ def _sturdiest(
 
     Of plans that are no better than what is beaten it is any; None: no plan promised to be better.
     """
-    best: _Off | None = None
-    first: Judged | None = None
-    of_best = None
+    holding: list[_Candidate] = []
+    others: list[_Candidate] = []
     for each in _candidates(search):
+        (holding if search.may_hold(each.plan) else others).append(each)
+    best, first = _best_of(holding, search, None, beaten, drives, stated)
+    plan = _to_steady(search, first, others)
+    if plan is not None and not (best is not None and best.worst[0] == -Verdict.GO.rank):
+        steadied = _steadied(search, plan, _better(beaten, best), drives)
+        best = max((each for each in (best, steadied) if each), key=_worst, default=None)
+    if best is not None and best.worst[0] == -Verdict.GO.rank:
+        return best
+    return _best_of(others, search, best, beaten, drives, stated)[0]
+
+
+def _worst(plan: "_Off") -> Standing:
+    return plan.worst
+
+
+def _best_of(
+    candidates: Sequence[_Candidate],
+    search: Search,
+    best: _Off | None,
+    beaten: Standing | None,
+    drives: Drives,
+    stated: Question | None,
+) -> tuple[_Off | None, Judged | None]:
+    """The best of some plans and of what is known already, and the best of those judged at them."""
+    first: Judged | None = None
+    of_best: _Candidate | None = None
+    for each in candidates:
         bar = _better(beaten, best)
         if bar is not None and not _may_be_better(search, each, bar, of_best, drives):
             continue
@@ -161,19 +205,37 @@ def _sturdiest(
             best = found
             as_hoped = found.sturdy and -judged.merit[0] == _rank(search, each.off)
             of_best = each if as_hoped else None
-    if best is None or first is None:
-        return best
+    return best, first
+
+
+def _to_steady(search: Search, first: Judged | None, others: Sequence[_Candidate]) -> Plan | None:
+    """Plan about which others are sought that hold off their angles; None: none will.
+
+    Parameters
+    ----------
+    search : Search
+    first : Judged, optional
+        The best that was judged, at its angles.
+    others : sequence of _Candidate
+        Plans that were not judged, as their grousers do not hold off their angles.
+    """
+    if first is None:
+        return others[0].plan if others else None
+    known = search.question.surface is not None  # else no plan is a GO
+    grips = known and search.question.robot.track.has_grousers
     hoped = first.conclusion.verdict
-    gripping = search.question.robot.track.has_grousers and hoped is Verdict.CAUTION
-    if best.worst[0] == -Verdict.GO.rank or not (hoped is Verdict.GO or gripping):
-        return best
+    if not (hoped is Verdict.GO or (grips and hoped is Verdict.CAUTION)):
+        return None
     at = first.question.postures
-    plan = Plan(search.scores.facing, tuple((phase, at[phase]) for phase in search.scores.phases))
+    return Plan(search.scores.facing, tuple((phase, at[phase]) for phase in search.scores.phases))
+
+
+def _steadied(search: Search, plan: Plan, beaten: Standing | None, drives: Drives) -> _Off | None:
+    """A plan like another one that holds off its angles; None: none is found."""
     sturdier = Sturdier(search.scores, search.limits, drives).plan(plan)
     if sturdier is None:
-        return best
-    found = _judged_off(_judged(sturdier.question(search.question), drives), best.worst, drives)
-    return max(best, found, key=lambda each: each.worst)
+        return None
+    return _judged_off(_judged(sturdier.question(search.question), drives), beaten, drives)
 
 
 def _judged_at(each: _Candidate, search: Search, drives: Drives, stated: Question | None) -> Judged:

@@ -20,7 +20,7 @@ from kaidan.assessment.verdict import conclude
 from kaidan.errors import InputError
 from kaidan.models.findings import at_risk
 from kaidan.models.quasi_static import Basis, findings_of, sliding_margin
-from kaidan.models.traction import holds_otherwise
+from kaidan.models.traction import gripping, holds_otherwise
 from kaidan.modes import Acceptance, Phase, Verdict
 from kaidan.robot import Posture
 from kaidan.traversal.moves import angles_of
@@ -85,8 +85,9 @@ class Sturdier:
         self._scored: Scores | None = None
         """Scores of what is looked at here; None where they do not tell what a phase comes to."""
         plain = self.question.accept is Acceptance.NO_ROTATION and not self.question.uncertain
-        if plain and not holds_otherwise(self.question):
-            self._scored = Scores(scores.question, scores.facing)
+        belts = gripping(self.question)
+        if plain and (belts is not None or not holds_otherwise(self.question)):
+            self._scored = Scores(scores.question, scores.facing, belts)
         self._driven: dict[tuple[Phase, Posture], Basis | None] = {}
         self._sliding: dict[tuple[Phase, Posture], Worth] = {}
         """What phases come to by what holds them alone."""
@@ -164,18 +165,19 @@ class Sturdier:
         it may be the next: by its scores, off its angles, by what holds it, and judged.
         """
         each = list(postures)
-        self.scores.work_out((phase, one) for one in each)
-        scores = [self.scores.of(phase, one) for one in each]
+        scored, hope = (self.scores, _most) if self._scored is None else (self._scored, _hope)
+        scored.work_out((phase, one) for one in each)
+        scores = [scored.of(phase, one) for one in each]
         gentle = [-score.drop <= GENTLE for score in scores]
 
         def place(k: int, most: Worth, looks: int) -> _Place:
             return (-most.rank, not gentle[k], -most.margin), k, looks, most
 
-        waiting = [place(k, _most(score), 0) for k, score in enumerate(scores) if _lacks(score)]
+        waiting = [place(k, hope(score), 0) for k, score in enumerate(scores) if _lacks(score)]
         heapq.heapify(waiting)
         while waiting:
             _, k, looks, most = heapq.heappop(waiting)
-            if looks == 0 and _lacks(self.scores.off(phase, each[k])):
+            if looks == 0 and _lacks(scored.off(phase, each[k])):
                 heapq.heappush(waiting, place(k, most, 1))
             elif looks == 1:
                 most = min(most, self._held(*self._key(phase, each[k])))

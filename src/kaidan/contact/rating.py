@@ -65,7 +65,7 @@ class Ratings(_Table):
     def held(self) -> FloatArray:
         """Least margin of the belts with grousers in the worst case [rad].
 
-        Infinite where nobody asks for it, or more nosings than there is room for touch a flat.
+        Infinite without grousers, or where more nosings than there is room for touch a flat.
         """
         return self._column(at.RATED_HELD)
 
@@ -132,7 +132,7 @@ def rate_many(
     tilts
         Of gravity, towards the trailing and the leading end that comes down [rad].
     belts
-        Belts with grousers, of which is asked how they hold.
+        Belts with grousers; without them it is not found how they hold.
 
     Returns
     -------

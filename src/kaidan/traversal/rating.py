@@ -50,8 +50,7 @@ class Case(NamedTuple):
 
 
 Gripping = tuple[Case, ...]
-"""Belts with grousers, of which is asked how they hold: all cases of the worst have to, and all of
-the best."""
+"""Cases of belts with grousers: all of the worst have to hold, and all of the best."""
 
 
 class Rated(NamedTuple):
@@ -106,7 +105,7 @@ def rate(
     step : float
         Arclength between poses [m].
     belts : Gripping, optional
-        Belts with grousers; without them nobody asks how they hold.
+        Belts with grousers; without them it is not found how they hold.
 
     Returns
     -------
