@@ -16,9 +16,9 @@ ANGLES = (math.radians(15.0), math.radians(60.0))
 """Slopes between which stairs lie [rad]."""
 LEAST_GOING = 0.12
 """Shortest going of stairs [m]: the least for dwellings in Japan is 150 mm; stacks have less."""
-FEWEST_NOSINGS, STEEP = 3, math.radians(45.0)
-"""Nosings that a flight has at least; one more where it is steeper than this [rad], as stacks of
-things are."""
+FEWEST_NOSINGS, STEEP, LOW = 3, math.radians(45.0), 0.1
+"""Nosings that a flight has at least; one more where it is steeper than this [rad], or its risers
+are lower than this [m], the least that IBC 1011.5.2 has, as stacks of things are."""
 RESIDUAL = 0.010
 """Median distance of points from the steps that is always allowed [m]; two sigma of the noise
 otherwise."""
@@ -67,7 +67,7 @@ def refused(
         or not SPACINGS[0] <= spacing <= SPACINGS[1]
     ):
         return Refusal("none", {}, provenance)
-    if len(steps.at) == FEWEST_NOSINGS and angle > STEEP:
+    if len(steps.at) == FEWEST_NOSINGS and (angle > STEEP or line.rise < LOW):
         return Refusal(
             "too-few", {"steps": FEWEST_NOSINGS, "needed": FEWEST_NOSINGS + 1}, provenance
         )
