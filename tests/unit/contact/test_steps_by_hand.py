@@ -600,3 +600,22 @@ def test_energy_needed_is_weight_times_rise():
     assert rise > 0.05
     assert row[at.BARRIER] == pytest.approx(9.7 * rise)
     assert row[at.BARRIER_ACROSS] == across
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_one_contact_by_another_name_turns_on_as_before(sense):
+    """Two parts alike: what opens is what closes, and the way is the one before."""
+    parts = stadium(0.3, 0.12, 0.06, 0.05)
+    ground, body = ground_table(steps(0.17, 0.28, 4)), body_table([parts[0], parts[0]])
+    turns = 0
+    for x in np.linspace(-0.3, 0.4, 71):
+        good, (x, z, phi, *u, rear, front) = contact_changes.settled(ground, body, x, 0.3, 0.0)
+        if not good or abs(u[2]) < 0.72 or Feature.of(front).part != 0:
+            continue
+        turns += 1
+        way = tuple(sense * each for each in u)
+        here = (x, z, phi, *way, rear, front)
+        good, lost, there = contact_changes.exchanged(ground, body, front + at.PART, here, 0.0)
+        assert (good, lost, there[6:]) == (True, front, (rear, front + at.PART))
+        assert there[3:6] == pytest.approx(way, abs=1e-9)
+    assert turns > 2

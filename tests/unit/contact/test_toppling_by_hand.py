@@ -18,7 +18,7 @@ import pytest
 
 from kaidan.contact import RotationOutcome, body_table, ground_table, mirror
 from kaidan.contact.kernel.gaps import contact_point
-from kaidan.contact.kernel.toppling import fall, same_place
+from kaidan.contact.kernel.toppling import fall, rates, same_place
 
 HALF, ABOVE, RADIUS = 0.3, 0.1, 0.05
 GYRATION, GRAVITY = 0.15, 9.7
@@ -172,3 +172,41 @@ def test_contacts_are_one_where_their_points_are(off):
     pose = (1 + HALF, 0.5 + ABOVE, 0.0)  # its rear end on the edge
     assert same_place(ground, body, 64, 1, *pose)
     assert not same_place(ground, body, 64, 128, *pose)
+
+
+def test_rates_of_an_impact():
+    """Energy over half the square of inertia; of no energy none; none after no contact."""
+    ground = ground_table([(-2, 0.0), (0.0, 0.0), (0.3, -0.4), (5, -1)])
+    body, point = body_table(PARTS), 64
+    x, z = 0.05, 0.1
+    square = GYRATION**2 + abs(complex(x, z)) ** 2
+    for energy in (0.5, 1e-3, 0.0, -0.1):
+        before = math.sqrt(2.0 * max(energy, 0.0) / square)
+        found = rates(ground, body, point, -1, x, z, 0.0, GYRATION**2, energy)
+        assert found == (near(before), 0.0, 0.0)
+        found = rates(ground, body, point, 128, x, z, 0.0, GYRATION**2, energy)
+        _, after, left = speed_and_impact(
+            max(energy, 0.0), complex(x, z), complex(x - 0.3, z + 0.4)
+        )
+        assert found == (near(before), near(after), near(left))
+
+
+@pytest.mark.parametrize("spacing", [9.0, 0.05, 0.01])
+@pytest.mark.parametrize("phi", [0.6, -0.4])
+def test_it_rolls_on_one_end_until_the_centroid_hangs_below(phi, spacing):
+    """A disc of 0.5 m, the centroid 0.2 m below its centre: it rocks, over any points."""
+    inner = np.arange(-0.5, 0.5, spacing) if spacing < 1.0 else []
+    ground = ground_table([(-4, 0), *((x + 1e-3, 0.0) for x in inner), (4, 0)])
+    body = body_table([[0.0, 0.2, 0.5, 0.1, 0.6, 0.1]])
+    centre = 0.5j  # at x = 0
+    start = centre - 0.2j * cmath.exp(1j * phi)
+    k = int(np.flatnonzero(ground[:, 0] <= 0.0)[-1])
+    sense = -math.copysign(1.0, phi)
+    outcome, _, _, x, z, end, before, after, turned, _ = fall(
+        ground, body, 64 * k + 1, start.real, start.imag, phi, sense, 0.0, GYRATION, GRAVITY, 0
+    )
+    assert outcome == RotationOutcome.ROCKING
+    assert (x, z, end, turned) == (near(0.5 * phi), near(0.3), near(0.0), near(abs(phi)))
+    drop = 0.2 * (1.0 - math.cos(phi))
+    assert before == near(math.sqrt(2.0 * GRAVITY * drop / (GYRATION**2 + 0.3**2)))
+    assert after == 0.0
