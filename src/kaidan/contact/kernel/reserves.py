@@ -89,7 +89,7 @@ def barrier(
     total = 0.0
     best = 0.0
     across = 0.0
-    for _ in range(60):
+    for _ in range(60 + 2 * ground.shape[0]):  # an end rolls over each point by two names
         c = math.cos(phi)
         s = math.sin(phi)
         delta = lever(ground, body, pivot, x, z, c, s, kappa)

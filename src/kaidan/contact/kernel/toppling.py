@@ -150,7 +150,7 @@ def fall(
     outcome: int = RotationOutcome.ENDLESS
     rear = pivot
     front = NO_FEATURE
-    for _ in range(60):
+    for _ in range(60 + 2 * ground.shape[0]):  # an end rolls over each point by two names
         most = min(0.5 * math.pi - sense * phi, 0.5 * math.pi - total)
         if most <= 0.0:
             outcome = RotationOutcome.PAST_VERTICAL
