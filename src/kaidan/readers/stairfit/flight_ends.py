@@ -150,7 +150,7 @@ def floor_before(
         on = before & (np.abs(z - level) < tight)
         if not _narrow(t, on):
             break
-        before &= ~on  # what lies on the floor
+        before &= z < level - tight  # what lies on the floor is higher than it
     reach = _reach(-ahead[on])
     if reach < SHORTEST_FLOOR:
         return nowhere
