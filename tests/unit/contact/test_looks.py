@@ -184,3 +184,14 @@ def test_no_place_where_the_corrector_fails():
         0.0, G, 0.0,
     )  # fmt: skip
     assert (found, at) == (0, 0.0)
+
+
+def test_no_place_where_a_gap_jumps():
+    """A plate that is 30 mm deep in the flat all the way has not closed within a step."""
+    ground = ground_table([(-4, 0), (0.3, 0), (0.3, 0.05), (0.301, 0), (4, 0)])
+    what = code(int(np.argmax(ground[:, 1])), FeatureKind.VERTEX)
+    k = int(np.flatnonzero(ground[:, 0] < 0.3)[-1])
+    rear, front = code(k, FeatureKind.DISC_1), code(len(ground) - 2, FeatureKind.DISC_2)
+    at = (0.3, C_N, 0.0, 1.0, 0.0, 0.0)
+    found = closing_time(ground, BODY, what, rear, front, *at, 0.01, 1e-3, -0.03, 0.0, G, 0.0)
+    assert found == (0, 0.0)
