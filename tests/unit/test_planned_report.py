@@ -35,14 +35,14 @@ def test_its_parts_are_one_path(found):
     assert found.event_log[-1].kind == "arrives"
     paths = [each.path_m for each in found.event_log]
     assert paths == sorted(paths)
-    # the robot stands where it stood: the centroid moves with the flippers alone
+    # the robot stands where it stood, or behind: the centroid moves with the flippers besides
     for move in found.moves:
         before, after = move.row, move.row + 1
         assert abs(poses.x_m[after] - poses.x_m[before]) < 0.1
         assert move.poses[0].placement.x_m == pytest.approx(poses.x_m[before], abs=1e-9)
-        assert move.poses[-1].placement.inclination_deg == pytest.approx(
-            poses.inclination_deg[after], abs=1e-6
-        )
+        ended = move.poses[-1].placement
+        assert 0.01 - 1e-9 <= ended.x_m - poses.x_m[after] < 0.1
+        assert ended.inclination_deg == pytest.approx(poses.inclination_deg[after], abs=2.0)
 
 
 def test_a_change_is_an_event_with_time_and_torque(found):

@@ -68,49 +68,6 @@ def tip_tilt(*, theta: Number, h: Number, r: Number, curvature: Number = 0.0) ->
     return np.maximum(theta - reach, 0.0)
 
 
-def height_behind(*, theta: Number, h: Number, s: Number, r: Number) -> Number:
-    """Height of a grouser over a nosing, where the one before it keeps the belt off the riser.
-
-    ``h - sin(theta) [h sin(theta) + r (1 - sin(theta)) - s cos(theta)]+``
-
-    As a tip comes to the nosing the one before it is a spacing farther down the belt. A belt that
-    is nearly as steep as the riser's face recedes from it by less than h there, so the tip rests
-    against the face and pushes the belt off.
-
-    Assumptions: rigid grousers; straight belt; an upright face, at least a spacing high.
-
-    Parameters
-    ----------
-    theta : float or array
-        Tilt of the belt's normal from the tread's [rad], 0 to pi/2.
-    h : float or array
-        Height of the grousers under load [m].
-    s : float or array
-        Spacing of the grousers along the belt [m].
-    r : float or array
-        Radius of the nosing [m].
-
-    Returns
-    -------
-    float or array
-        [m]: h up to tan(theta) = s / h where r is 0, and zero where the belt is upright.
-
-    Examples
-    --------
-    >>> print(round(height_behind(theta=np.radians(45), h=0.010, s=0.040, r=0.0), 9))
-    0.01
-    >>> print(round(height_behind(theta=np.radians(86.6), h=0.0175, s=0.0394, r=0.0), 4))
-    0.0024
-
-    References
-    ----------
-    Derived: docs/theory/grousers.md.
-    """
-    lean = np.sin(theta)
-    pressed = np.maximum(h * lean + r * (1.0 - lean) - s * np.cos(theta), 0.0)
-    return np.maximum(h - lean * pressed, 0.0)
-
-
 def roll_off_length(*, theta: Number, h: Number, r: Number) -> Number:
     """Length along the belt over which a grouser that has passed a nosing rolls off it.
 
@@ -150,14 +107,13 @@ def roll_off_length(*, theta: Number, h: Number, r: Number) -> Number:
     return np.where(h > r * (1.0 - np.sin(theta)), r * np.cos(theta), round_)
 
 
-def standing_run(*, theta: Number, h: Number, s: Number, r: Number, w: Number) -> Number:
+def standing_run(*, theta: Number, h: Number, r: Number) -> Number:
     """Length along the belt over which a grouser stands on the tread behind a nosing.
 
-    ``l = min([h - r (1 - cos(theta))]+ / tan(theta), s - w - l_off - r sin(theta - beta))``
+    ``l = [h - r (1 - cos(theta))]+ / tan(theta)``
 
-    A tip comes to the tread, climbs the round over r sin(theta - beta), passes it with its width w
-    and rolls off over l_off. Where that takes longer than the spacing, the next tip stands only
-    when the one before has rolled off.
+    A tip comes to the tread, and then climbs the round. Of rigid grousers so close that the one
+    before is not yet clear, h is `height_behind`.
 
     Assumptions: rigid grousers with sharp edges; straight belt.
 
@@ -167,39 +123,30 @@ def standing_run(*, theta: Number, h: Number, s: Number, r: Number, w: Number) -
         Slope of the belt above the tread [rad].
     h : float or array
         Height of the grousers under load [m].
-    s : float or array
-        Spacing of the grousers along the belt [m].
     r : float or array
         Radius of the nosing [m].
-    w : float or array
-        Width of the tips along the belt [m].
 
     Returns
     -------
     float or array
-        l [m]; negative by as much of the round as the next tip misses.
+        l [m].
 
     Examples
     --------
-    >>> print(round(standing_run(theta=np.pi / 4, h=0.012, s=0.040, r=0.0, w=0.008), 9))
+    >>> print(round(standing_run(theta=np.pi / 4, h=0.012, r=0.0), 9))
     0.012
-    >>> print(round(standing_run(theta=np.pi / 4, h=0.012, s=0.015, r=0.0, w=0.008), 9))
-    0.007
 
     References
     ----------
     Derived: docs/theory/grousers.md.
     """
-    on_tread = np.maximum(h - r * (1.0 - np.cos(theta)), 0.0) / np.tan(theta)
-    climb = r * np.sin(theta - tip_tilt(theta=theta, h=h, r=r))
-    room = s - w - roll_off_length(theta=theta, h=h, r=r) - climb
-    return np.minimum(on_tread, room)
+    return np.maximum(h - r * (1.0 - np.cos(theta)), 0.0) / np.tan(theta)
 
 
 def roll_off_sine(*, run: Number, off: Number, r: Number) -> Number:
     """Sine of the tilt that a grouser loses while another one rolls off its nosing.
 
-    ``gamma = max(0, l_off - max(l, 0)) / (2 r)``
+    ``gamma = max(0, l_off - l) / (2 r)``
 
     While one tip rolls off its nosing over l_off, a tip that stands at another has l on the tread
     and then climbs the round, where the sine of theta - beta falls by 1 / r a metre. Whenever the
@@ -212,7 +159,7 @@ def roll_off_sine(*, run: Number, off: Number, r: Number) -> Number:
     Parameters
     ----------
     run, off : float or array
-        l and l_off, see `standing_run` and `roll_off_length` [m].
+        l of the one and l_off of the other, see `standing_run` and `roll_off_length` [m].
     r : float or array
         Radius of the nosings [m], more than zero.
 
@@ -230,7 +177,7 @@ def roll_off_sine(*, run: Number, off: Number, r: Number) -> Number:
     ----------
     Derived: docs/theory/grousers.md.
     """
-    return np.maximum(off - np.maximum(run, 0.0), 0.0) / (2.0 * r)
+    return np.maximum(off - run, 0.0) / (2.0 * r)
 
 
 def standing_friction(*, theta: Number, beta: Number, share: Number) -> Number:

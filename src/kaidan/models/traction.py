@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from kaidan.contact import Grousers
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.grousers import standing_run
+from kaidan.mechanics.grousers_in_turn import height_behind
 from kaidan.mechanics.rubber import height_lost, rubber_modulus
 from kaidan.models.findings import Finding
 from kaidan.models.traction_figures import USUAL, TractionFigures
@@ -55,7 +56,7 @@ class Supply(NamedTuple):
     phase: Phase | None
     step: int | None
     slip: float
-    """How far the robot may slip back before grousers hold it [m]; zero: it does not rely on
+    """How far the robot may slip down before grousers hold it [m]; zero: it does not rely on
     them."""
     heights: dict[Phase, float]
     """Kinetic-energy height of that slip in each phase with one [m]."""
@@ -191,7 +192,7 @@ def supply(
     slipping = rows & (alone <= 0.0) & (held > 0.0)
     slip, heights = 0.0, {}
     if slipping.any():
-        slip = max(each.spacing for each in cases)
+        slip = grip.slip(max(each.spacing for each in cases))
         kinetic = grip.slip_heights(slip, mu_k=SLIDING * min(frictions))
         for each in Phase:
             here = slipping & (found.phase_of_pose == each.value)
@@ -398,10 +399,10 @@ def _standing_phases(question: Question, track: Track) -> tuple[float, float] | 
 
 
 def _share(theta: float, one: Grousers) -> float:
-    run = standing_run(
-        theta=theta, h=one.height, s=one.spacing, r=one.nosing_radius, w=one.tip_width
-    )
-    return max(float(run) / one.spacing, 0.0)
+    h, s, r, w = one.height, one.spacing, one.nosing_radius, one.tip_width
+    if one.rigid:
+        h = float(height_behind(theta=theta, h=h, s=s, r=r, w=w))
+    return min(float(standing_run(theta=theta, h=h, r=r)) / s, 1.0)
 
 
 def together(parts: Sequence[TractionFigures]) -> TractionFigures:

@@ -9,7 +9,8 @@ r"""With how much to spare friction and grousers hold the robot at every pose of
 
 A pose holds by friction alone; or by a grouser that comes to stand on a nosing, or over the edge of
 a riser's face, before the robot has slipped back by a spacing of the grousers. One and the same
-nosing must do at every pose of that slip, or friction (docs/theory/grousers.md).
+nosing must do at every pose of that slip, or friction. Going down the slip leads on, and may pass
+over as much again that nothing holds (docs/theory/grousers.md).
 """
 
 import numpy as np
@@ -89,14 +90,31 @@ class Grip:
         by_friction : ndarray
             What `by_friction` found.
         """
-        return contact.held_while_slipping(
+        way = grousers.spacing + contact.STEP
+        held = contact.held_while_slipping(
             self.path.poses,
             self._points,
             self._standing(phi, grousers),
             by_friction,
-            way=grousers.spacing + contact.STEP,
+            way=way,
             ahead=self.descending,
         )
+        return self._soon_held(held, by_friction, grousers.spacing) if self.descending else held
+
+    def _soon_held(self, held: Array, by_friction: Array, way: float) -> Array:
+        """Of each pose the most of those so little ahead from which one nosing holds [rad].
+
+        Going down a slip leads on: what nothing holds is passed, if it is short.
+        """
+        s, leg = self.path.s, self.path.poses.leg
+        stops = np.where(held > by_friction, held, -np.inf)
+        soon = held.copy()
+        for k in range(1, len(s)):
+            near = (s[k:] - s[:-k] < way) & (leg[k:] == leg[:-k])
+            if not near.any():
+                break
+            soon[:-k] = np.maximum(soon[:-k], np.where(near, stops[k:], -np.inf))
+        return soon
 
     def at_once(
         self, phi: tuple[float, float, float], grousers: Grousers, by_friction: Array
@@ -110,6 +128,10 @@ class Grip:
         """
         standing = np.where(self._points == -1, -np.inf, self._standing(phi, grousers))
         return np.asarray(np.maximum(by_friction, standing.max(axis=1)))
+
+    def slip(self, spacing: float) -> float:
+        """How far the robot may slip before grousers so far apart hold it [m]."""
+        return (2.0 if self.descending else 1.0) * spacing
 
     def slip_heights(self, slip: float, *, mu_k: float) -> Array:
         """Kinetic-energy height that the robot gains as it slips back from each pose [m].

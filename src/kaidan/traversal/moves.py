@@ -24,9 +24,12 @@ from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.modes import Facing, Phase
 from kaidan.outline import Outline
 from kaidan.robot import FlipperPair, Payload, Posture, Robot
+from kaidan.traversal.drift import drift
 
 Array = NDArray[np.float64]
 
+BEHIND = 0.01
+"""How much farther back than meant it may have stopped besides [m]."""
 TURN = math.radians(5.0)
 """Largest turn of a flipper from one pose to the next [rad]."""
 SNAP = 2.0
@@ -146,10 +149,16 @@ class Move:
         ]
         return min(spare, default=math.nan)
 
+    @cached_property
+    def drift(self) -> float:
+        """How far behind the last pose it may stand, as one contact slides or the other [m]."""
+        return drift(self.path, self.outlines)
+
     @property
     def end(self) -> Placement:
-        """Where it ends."""
-        return self.path.poses.placement(-1)
+        """Where it ends, as far back as it may."""
+        drawn = self.path.poses.placement(-1)
+        return drawn._replace(x=drawn.x - self.drift - BEHIND)
 
     def _pose(self, row: int) -> MovePose:
         assert self.path.margins is not None

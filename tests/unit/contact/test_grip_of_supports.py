@@ -17,7 +17,7 @@ from kaidan.contact.kernel.grip import (
     standing_margins,
     tip_at,
 )
-from kaidan.mechanics import grousers, grousers_at_edges
+from kaidan.mechanics import grousers, grousers_at_edges, grousers_in_turn
 
 ROUNDING = 1e-12
 G = 9.8
@@ -96,37 +96,39 @@ def both_ways(row, *how):
 )
 def test_a_tip_stands_behind_its_nosing(lean, curvature, rigid, s, w, r):
     row = support(0.2j, normal=0.1 - lean, tread=0.1, curvature=curvature)
-    stands, tilt, run, gamma, ahead = both_ways(row, H, s, w, r, rigid)
-    one = {"theta": lean, "r": r}
+    stands, tilt, run, off, ahead = both_ways(row, H, s, w, r, rigid)
     h = H
-    if rigid and curvature == 0.0:
-        h = float(grousers.height_behind(h=H, s=s, **one))
-    length = float(grousers.standing_run(h=h, s=s, w=w, **one))
-    # how far up the round, and what is missed of it where a tip comes late
-    climb = math.sin(lean - float(grousers.tip_tilt(h=h, curvature=curvature, **one)))
-    reached = max(climb + (min(length, 0.0) / r if rigid else 0.0), 0.0)
-    beta = lean - math.asin(reached)
-    assert stands == (beta < lean)
-    if not stands:
-        return
+    if rigid:  # the one before it is not yet clear
+        behind = grousers_in_turn.height_behind(theta=lean, h=H, s=s, r=r, w=w, curvature=curvature)
+        h = float(behind)
+    beta = float(grousers.tip_tilt(theta=lean, h=h, r=r, curvature=curvature))
+    length = float(grousers.standing_run(theta=lean, h=h, r=r))
+    assert stands
     assert tilt == pytest.approx(0.1 - beta, abs=ROUNDING)
     assert run == pytest.approx(length, abs=ROUNDING)
-    off = float(grousers.roll_off_length(h=h, **one))
-    assert gamma == pytest.approx(float(grousers.roll_off_sine(run=length, off=off, r=r)))
-    assert ahead == pytest.approx(max(length, 0.0) + r * climb, abs=ROUNDING)
+    rolls = float(grousers.roll_off_length(theta=lean, h=h, r=r))
+    assert off == pytest.approx(rolls, abs=ROUNDING)
+    assert ahead == pytest.approx(length + r * math.sin(lean - beta), abs=ROUNDING)
 
 
 @pytest.mark.parametrize("change", [
     {"is_one": 0.0}, {"point": at.NOWHERE}, {"tread": -0.4}, {"tread": -0.5}, {"tread": math.nan},
 ])  # fmt: skip
 def test_no_tip_stands(change):
+    """But one that runs over a nosing under a belt that does not lean rolls off it."""
     row = support(0.2j, normal=-0.4, **{"tread": 0.2} | change)
-    assert tip_at(row[None], 0, H, S, W, RN, False, 1.0) == (False, 0.0, 0.0, 0.0, 0.0)
+    off = 0.0
+    if change.get("tread", math.nan) <= -0.4:
+        off = float(grousers.roll_off_length(theta=1e-6, h=H, r=RN))
+    found = tip_at(row[None], 0, H, S, W, RN, False, 1.0)
+    assert found == (False, 0.0, 0.0, pytest.approx(off), 0.0)
     whole = support(0.2j, normal=-0.4, tread=0.2)
     assert both_ways(whole, H, S, W, RN, False)[0]
     assert not both_ways(whole, 0.0, S, W, RN, False)[0]
     upright = support(0.2j, normal=-1.6, tread=0.2)  # leans by more than a quarter of a turn
-    assert tip_at(upright[None], 0, H, S, W, RN, False, 1.0) == (False, 0.0, 0.0, 0.0, 0.0)
+    assert not tip_at(upright[None], 0, H, S, W, RN, False, 1.0)[0]
+    at_face = support(0.2j, normal=0.3, tread=0.1, curvature=10.0, lift=0.0)
+    assert tip_at(at_face[None], 0, H, S, W, RN, True, 1.0) == (False, 0.0, 0.0, 0.0, 0.0)
 
 
 @pytest.mark.parametrize("lift", [-0.06, -0.02, 0.0, 0.03])
@@ -150,12 +152,14 @@ ONE, OTHER = 0.25 - 0.05j, -0.2 - 0.3j
 TIP = (True, -0.15, 0.006, 0.08, 0.011)
 
 
-def held(one, other, tip, *, rigid, place=at.NOSING, point=3, side=1.0):
+def held(one, other, tip, *, rigid, place=at.NOSING, point=3, side=1.0, gamma=0.0):
     rows = np.array([support(one), support(other, place=place, point=point, curvature=9.0)])
     if side < 0:
         rows[:, [at.SUPPORT_X, at.SUPPORT_NORMAL]] *= -1.0
         tip = (tip[0], -tip[1], *tip[2:])
-    return margin_standing(rows, 0, 1, loads(), 0, tip, NOSINGS, TREADS, FACES, H, rigid, side)
+    rolls = (False, 0.0, 0.0, tip[2] + 2 * RN * gamma, 0.0)
+    how = (NOSINGS, TREADS, FACES, H, RN, rigid, side)
+    return margin_standing(rows, 0, 1, loads(), 0, tip, rolls, *how)
 
 
 def cones(one, tilt, phi_one, other, axis, phi):
@@ -182,24 +186,28 @@ def test_a_soft_tip_tilts_the_cone_of_its_support(one, other, place, side):
 def test_a_rigid_tip_stands_ahead_and_the_other_support_rolls(
     one, other, place, point, gamma, side
 ):
-    """The worse of two times: the other nosing's tip rolls off, or the own one has yet to rise."""
-    tip = (*TIP[:3], gamma, TIP[4])
+    """The worse of two times, as the other nosing's tip rolls off or the own one has climbed.
+
+    Whichever part of the way is the other's: the best of three.
+    """
     belt = np.exp(1j * SLOPE)  # uphill, along the belt
     stands = one + (TIP[4] * belt if one == ONE else 0.0)
     phi = FACES if place == at.FACE else NOSINGS
-    found = held(one, other, tip, rigid=True, place=place, point=point, side=side)
+    found = held(one, other, TIP, rigid=True, place=place, point=point, side=side, gamma=gamma)
     if place != at.NOSING or point == at.NOWHERE:  # nothing there to roll off
         expected = cones(stands, TIP[1], TREADS, other, -SLOPE, phi)
         assert found == pytest.approx(expected, abs=1e-9)
         return
     axis = -SLOPE - H / abs(one - other)  # the belt rests on a tip there, and is turned by it
-    rolled = axis - math.asin(min(gamma, 1.0))
-    first = cones(stands, TIP[1], TREADS, other, rolled, phi)
-    later = -SLOPE + math.asin(max(math.sin(TIP[1] + SLOPE) - gamma, 0.0))
-    # the tip has so much less to lean: that of its support at least
-    then = cones(stands, later, TREADS, other, axis, phi)
-    expected = min(first, then) if gamma > 0.0 else first
-    assert found == pytest.approx(expected, abs=1e-9)
+    either = []
+    for share in (0.0, 1.0, 2.0):  # what the other has rolled off; the own one climbs the rest
+        upright = math.pi / 2 + axis  # no farther than onto the face
+        rolled = axis - min(math.asin(min(share * gamma, 1.0)), upright)
+        left = math.sin(TIP[1] + SLOPE) - (2.0 - share) * gamma
+        later = -SLOPE + math.asin(max(left, 0.0))
+        first = cones(stands, TIP[1], TREADS, other, rolled, phi)
+        either.append(min(first, cones(stands, later, TREADS, other, axis, phi)))
+    assert found == pytest.approx(max(either), abs=1e-9)
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
@@ -285,7 +293,8 @@ def test_of_all_pairs_that_carry_the_least_counts(rigid):
         assert (1, 2) in pairs
         with_tip = {
             (one, other): margin_standing(
-                rows, first + one, first + other, load, 0, tips[one], phi, phi, phi, H, rigid, 1.0
+                rows, first + one, first + other, load, 0, tips[one], tips[other], phi, phi, phi,
+                H, RN, rigid, 1.0,
             )
             for pair in pairs for one, other in (pair, pair[::-1])
         }  # fmt: skip

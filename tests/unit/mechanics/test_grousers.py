@@ -5,7 +5,6 @@ from scipy.optimize import brentq, linprog
 from kaidan.mechanics.cones import cone_margin
 from kaidan.mechanics.grousers import (
     face_friction,
-    height_behind,
     phases_friction,
     roll_off_length,
     roll_off_sine,
@@ -15,6 +14,7 @@ from kaidan.mechanics.grousers import (
     tip_tilt,
 )
 from kaidan.mechanics.grousers_at_edges import edge_tilt, reach_over_edge, tip_overlap
+from kaidan.mechanics.grousers_in_turn import height_behind, reach_beside
 from kaidan.mechanics.rubber import height_lost, rubber_modulus
 
 SLOPES = np.radians([25.0, 32.5, 45.0, 60.0])
@@ -35,22 +35,63 @@ def test_tip_tilt_by_coordinates(theta, curvature):
     assert tip_tilt(theta=theta, h=h, r=r, curvature=curvature) == pytest.approx(beta, abs=1e-9)
 
 
-@pytest.mark.parametrize("theta", np.radians([55.0, 70.0, 80.0, 86.6, 89.9]))
-@pytest.mark.parametrize("r", [0.0, 0.02])
-def test_the_grouser_before_keeps_the_belt_off_the_riser_by_coordinates(theta, r):
-    # oracle: the belt moved off level until the tip a spacing down it lies in the face, x = 0
-    h, s = 0.018, 0.030
-    along = np.array([np.cos(theta), np.sin(theta)])
-    into = np.array([np.sin(theta), -np.cos(theta)])
-    nosing = np.array([r, -r]) - r * into
+def above(x, z, r):
+    """Distance of a point from a step: the tread z = 0, the face x = 0 and the round between."""
+    if x >= r:
+        return z
+    return -x if z <= -r else np.hypot(x - r, z + r) - r
 
-    def tip(off):
-        return nosing - [off, 0.0] - s * along + h * into
 
-    off = brentq(lambda off: tip(off)[0], 0.0, 1.0) if tip(0.0)[0] > 0.0 else 0.0
-    expected = h - into @ [off, 0.0]  # of the belt above the nosing, along its normal
-    assert height_behind(theta=theta, h=h, s=s, r=r) == pytest.approx(expected, abs=1e-12)
-    assert (off > 0.0) == (h * np.sin(theta) + r * (1 - np.sin(theta)) > s * np.cos(theta))
+def apart(theta, h, r, R, off):
+    """How far apart two tips are that touch the step, of a belt so far off its nosing [m]."""
+    n, t = np.array([-np.sin(theta), np.cos(theta)]), np.array([np.cos(theta), np.sin(theta)])
+    centre = np.array([r, -r])
+
+    def gap(along, side):
+        if R is None:
+            return above(*(centre + (r + off - h) * n + side * along * t), r)
+        turn = side * along / R
+        radial = -np.cos(turn) * n + np.sin(turn) * t
+        return above(*(centre + (R + r + off) * n + (R + h) * radial), r)
+
+    most = 0.5 if R is None else 1.5 * R
+    return sum(brentq(gap, 0.0, most, args=(side,)) for side in (1, -1))
+
+
+@pytest.mark.parametrize("theta", np.radians([20.0, 37.8, 55.0, 71.0, 86.6]))
+@pytest.mark.parametrize(("h", "s", "w"), [(0.010, 0.035, 0.0105), (0.018, 0.030, 0.004)])
+@pytest.mark.parametrize("r", [0.0, 0.002, 0.0217])
+def test_a_grouser_lands_where_the_one_before_it_still_lies_by_coordinates(theta, h, s, w, r):
+    # oracle: of a belt so far off that one tip lands, both touch a tread, a face or a round
+    height = float(height_behind(theta=theta, h=h, s=s, r=r, w=w))
+    at_once = apart(theta, h, r, None, 0.0)
+    if at_once <= s - w:
+        assert height == h
+    else:
+        assert apart(theta, h, r, None, h - height) == pytest.approx(s - w, abs=1e-7)
+
+
+@pytest.mark.parametrize("theta", np.radians([20.0, 37.8, 71.0, 86.6]))
+@pytest.mark.parametrize("R", [0.03, 0.09, 1000.0])
+def test_round_an_end_a_grouser_stands_no_higher_than_by_coordinates(theta, R):
+    # oracle: the axle farther off the nosing by what the one before keeps it off
+    h, s, r, w = 0.012, 0.030, 0.02, 0.004
+    height = float(height_behind(theta=theta, h=h, s=s, r=r, w=w, curvature=1 / R))
+    off = 0.0
+    if apart(theta, h, r, R, 0.0) > s - w:
+        off = brentq(lambda off: apart(theta, h, r, R, off) - (s - w), 0.0, h - 1e-9)
+    assert height <= h - off + 1e-7
+    if R == 1000.0:
+        straight = height_behind(theta=theta, h=h, s=s, r=r, w=w)
+        assert height == pytest.approx(float(straight), abs=1e-5)
+
+
+def test_a_tip_lies_beside_its_nosing_by_hand():
+    # hand: 3-4-5; the plane beyond the round; a circle of 50 about an axle 60 over one of 10
+    assert reach_beside(b=0.002, r=0.010, lean=1.2) == pytest.approx(0.006)
+    assert reach_beside(b=0.003, r=0.0, lean=np.arctan(0.75)) == pytest.approx(0.004)
+    at_end = reach_beside(b=0.0, r=0.010, lean=1.0, curvature=20.0)
+    assert at_end == pytest.approx(0.0, abs=1e-9)
 
 
 @pytest.mark.parametrize("theta", SLOPES)
@@ -90,9 +131,9 @@ def test_roll_off_ends_where_the_belt_touches_or_on_the_face(theta, h):
 
 
 def test_a_run_is_what_the_spacing_leaves():
-    # hand: reach 0.012, width 0.004 and nothing of a sharp nosing
-    run = standing_run(theta=np.pi / 4, h=0.012, s=np.array([0.040, 0.014]), r=0.0, w=0.004)
-    assert run == pytest.approx([0.012, 0.010])
+    # hand: reach 0.012 on a sharp nosing, and 0.010 / 2 where that is all that the spacing leaves
+    h = height_behind(theta=np.pi / 4, h=0.012, s=np.array([0.040, 0.014]), r=0.0, w=0.004)
+    assert standing_run(theta=np.pi / 4, h=h, r=0.0) == pytest.approx([0.012, 0.005])
     assert roll_off_sine(run=0.004, off=0.010, r=0.010) == pytest.approx(0.3)
     assert roll_off_sine(run=0.012, off=0.010, r=0.010) == 0.0
 

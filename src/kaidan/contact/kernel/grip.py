@@ -165,17 +165,19 @@ def tip_at(
     Returns
     -------
     Whether one can; tilt of the normal under it [rad]; length along the belt over which it stands
-    on the tread [m]; sine of the tilt that it loses while another rolls off its nosing [1]; how far
-    it stands ahead of the nosing, along the belt [m].
+    on the tread, and over which one that has passed the nosing rolls off it [m]; how far it stands
+    ahead of the nosing, along the belt [m].
     """
     tread = supports[at, SUPPORT_TREAD]
     leans = side * (tread - supports[at, SUPPORT_NORMAL])
     if not (supports[at, SUPPORT_IS_ONE] == 1.0 and supports[at, SUPPORT_POINT] != NOWHERE):
         return False, 0.0, 0.0, 0.0, 0.0
-    if not (h > 0.0 and leans > 0.0):
+    if not h > 0.0 or math.isnan(leans):
         return False, 0.0, 0.0, 0.0, 0.0
     curvature = supports[at, SUPPORT_CURVATURE]
     if not math.isnan(supports[at, SUPPORT_LIFT]):
+        if leans <= 0.0:
+            return False, 0.0, 0.0, 0.0, 0.0
         radius = 1.0 / curvature
         # the robot stands on its grousers, so the axle is higher by one
         lift = supports[at, SUPPORT_LIFT] - h
@@ -184,27 +186,26 @@ def tip_at(
         over = edge_tilt(tip_overlap(radius, h, s, lift), r)
         return True, tread - side * over, 0.0, 0.0, 0.0
     theta = min(max(leans, 1e-6), 0.5 * math.pi - 1e-6)
-    if rigid and curvature == 0.0:
-        h = height_behind(theta, h, s, r)
-    run = standing_run(theta, h, s, r, w)
-    climb = math.sin(theta - tip_tilt(theta, h, r, curvature))
-    missed = min(run, 0.0) / max(r, SHARP) if rigid else 0.0
-    beta = theta - math.asin(max(climb + missed, 0.0))
-    if not (leans < 0.5 * math.pi and beta < theta):
-        return False, 0.0, 0.0, 0.0, 0.0
-    gamma = roll_off_sine(run, roll_off_length(theta, h, r), max(r, SHARP))
-    return True, tread - side * beta, run, gamma, max(run, 0.0) + r * climb
+    behind = height_behind(theta, h, s, r, w, curvature) if rigid else h
+    beta = tip_tilt(theta, behind, r, curvature)
+    run = standing_run(theta, behind, r)
+    off = roll_off_length(theta, behind, r)
+    if not (leans > 0.0 and leans < 0.5 * math.pi and beta < theta):
+        return False, 0.0, 0.0, off, 0.0
+    return True, tread - side * beta, run, off, run + r * math.sin(theta - beta)
 
 
 def margin_standing(
     supports: SupportTable, one: int, other: int, loads: LoadTable, row: int, tip: Tip,
-    nosings: float, treads: float, faces: float, h: float, rigid: bool, side: float,
+    rolls: Tip, nosings: float, treads: float, faces: float, h: float, r: float, rigid: bool,
+    side: float,
 ) -> float:  # fmt: skip
     """Margin of two supports, a grouser standing at the first [rad]; minus infinity: none can.
 
     A rigid one stands farther uphill than its nosing, so it bears less of the load if it is the
-    upper support. The other support may be a grouser's top, or roll off a nosing with its edge:
-    then the worse of two times counts, see `kaidan.mechanics.grousers.roll_off_sine`.
+    upper support. The other support may be a grouser's top, or roll off a nosing with its edge, no
+    farther than onto the face: then the worse of two times counts, see
+    `kaidan.mechanics.grousers.roll_off_sine`, of the best part in which the other is taken to roll.
     """
     if not tip[0]:
         return -math.inf
@@ -219,15 +220,24 @@ def margin_standing(
     gamma = 0.0
     if supports[other, SUPPORT_PLACE] == NOSING and supports[other, SUPPORT_POINT] != NOWHERE:
         axis -= side * (h / max(math.sqrt(d_x * d_x + d_z * d_z), APART))
-        gamma = tip[3]
-    rolled = axis - side * math.asin(min(gamma, 1.0))
-    margin = margin_of(supports, one, tilt, treads, ahead, other, rolled, phi, loads, row)
+        gamma = roll_off_sine(tip[2], rolls[3], max(r, SHARP))
     if gamma <= 0.0:
-        return margin
+        return margin_of(supports, one, tilt, treads, ahead, other, axis, phi, loads, row)
     lean = side * (tilt - supports[one, SUPPORT_NORMAL])
-    later = tilt - side * (lean - math.asin(max(math.sin(lean) - gamma, 0.0)))
-    then = margin_of(supports, one, later, treads, ahead, other, axis, phi, loads, row)
-    return smaller(margin, then)
+    upright = 0.5 * math.pi - side * (supports[other, SUPPORT_TREAD] - axis)
+    most = -math.inf
+    for half in range(3):
+        # the other has rolled off by so much at most, or the own one has climbed by the rest
+        turned = min(math.asin(min(half * gamma, 1.0)), max(upright, 0.0))
+        left = math.asin(max(math.sin(lean) - (2 - half) * gamma, 0.0))
+        first = margin_of(
+            supports, one, tilt, treads, ahead, other, axis - side * turned, phi, loads, row
+        )
+        then = margin_of(
+            supports, one, tilt - side * (lean - left), treads, ahead, other, axis, phi, loads, row
+        )
+        most = larger(most, smaller(first, then))
+    return most
 
 
 def margin_of_several(
@@ -297,12 +307,12 @@ def standing_margins(
                     continue
                 of_i = tip_at(supports, first + i, h, s, w, r, rigid, side)
                 one = margin_standing(
-                    supports, first + i, first + j, loads, row, of_i, nosings, treads, faces, h,
-                    rigid, side,
+                    supports, first + i, first + j, loads, row, of_i, of_j, nosings, treads,
+                    faces, h, r, rigid, side,
                 )  # fmt: skip
                 other = margin_standing(
-                    supports, first + j, first + i, loads, row, of_j, nosings, treads, faces, h,
-                    rigid, side,
+                    supports, first + j, first + i, loads, row, of_j, of_i, nosings, treads,
+                    faces, h, r, rigid, side,
                 )  # fmt: skip
                 for slot in range(slots):
                     own = larger(one, other)

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 
+#: Halvings of the height of a grouser: to a nanometre.
+HALVINGS = 24
+
 
 def tip_tilt(theta: float, h: float, r: float, curvature: float) -> float:
     """Tilt of the normal where the tip of a grouser stands deepest behind a nosing [rad]."""
@@ -13,11 +16,44 @@ def tip_tilt(theta: float, h: float, r: float, curvature: float) -> float:
     return max(theta - reach, 0.0)
 
 
-def height_behind(theta: float, h: float, s: float, r: float) -> float:
-    """Height of a grouser over a nosing, the one before it against the riser's face [m]."""
-    lean = math.sin(theta)
-    pressed = max(h * lean + r * (1.0 - lean) - s * math.cos(theta), 0.0)
-    return max(h - lean * pressed, 0.0)
+def reach_beside(b: float, r: float, lean: float, curvature: float) -> float:
+    """Length along the belt between its contact and a tip so far below it that touches beside [m].
+
+    ``b`` is how deep the tip lies below the belt, ``lean`` the angle through which the round turns
+    on that side before the tread, or the face, goes on straight.
+    """
+    near = r * (1.0 - math.cos(lean))
+    if curvature <= 0.0:
+        if b <= near:
+            return math.sqrt(max(b * (2.0 * r - b), 0.0))
+        return r * math.sin(lean) + (b - near) / math.tan(lean)
+    radius = 1.0 / curvature
+    tip = radius + b
+    off = radius + r
+    straight = math.acos(max((off * math.cos(lean) - r) / tip, -1.0))
+    if tip * math.sin(straight) >= off * math.sin(lean):
+        return radius * (straight - lean)
+    turn = math.acos(min((off * off + tip * tip - r * r) / (2.0 * off * tip), 1.0))
+    return radius * turn
+
+
+def height_behind(theta: float, h: float, s: float, r: float, w: float, curvature: float) -> float:
+    """Height of a grouser over a nosing as it comes to stand, one before it not yet clear [m]."""
+    steep = 0.5 * math.pi - theta
+    most = h
+    least = 0.0
+    if reach_beside(h, r, theta, curvature) + reach_beside(h, r, steep, curvature) <= s - w:
+        least = h
+    for _ in range(HALVINGS):
+        if least >= most:
+            break
+        middle = 0.5 * (least + most)
+        both = reach_beside(middle, r, theta, curvature) + reach_beside(middle, r, steep, curvature)
+        if both <= s - w:
+            least = middle
+        else:
+            most = middle
+    return least
 
 
 def roll_off_length(theta: float, h: float, r: float) -> float:
@@ -27,17 +63,14 @@ def roll_off_length(theta: float, h: float, r: float) -> float:
     return math.sqrt(max(h * (2.0 * r - h), 0.0))
 
 
-def standing_run(theta: float, h: float, s: float, r: float, w: float) -> float:
+def standing_run(theta: float, h: float, r: float) -> float:
     """Length along the belt over which a grouser stands on the tread behind a nosing [m]."""
-    on_tread = max(h - r * (1.0 - math.cos(theta)), 0.0) / math.tan(theta)
-    climb = r * math.sin(theta - tip_tilt(theta, h, r, 0.0))
-    room = s - w - roll_off_length(theta, h, r) - climb
-    return min(on_tread, room)
+    return max(h - r * (1.0 - math.cos(theta)), 0.0) / math.tan(theta)
 
 
 def roll_off_sine(run: float, off: float, r: float) -> float:
     """Sine of the tilt that a grouser loses while another one rolls off its nosing [1]."""
-    return max(off - max(run, 0.0), 0.0) / (2.0 * r)
+    return max(off - run, 0.0) / (2.0 * r)
 
 
 def standing_friction(theta: float, beta: float, share: float) -> float:

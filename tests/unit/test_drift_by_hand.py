@@ -1,0 +1,79 @@
+"""How far back a robot may stand after its flippers moved: which contact slid, by hand."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from kaidan import Robot
+from kaidan.contact import Placement
+from kaidan.modes import Phase
+from kaidan.robot import Posture
+from kaidan.traversal.drift import _slides, drift
+from kaidan.traversal.moves import BEHIND, move
+
+ABSOLEM = Robot.named("absolem")
+FLOOR = [[-5.0, 0.0], [5.0, 0.0]]
+TURN = math.radians(40.0)
+R, L, SMALL = 0.1, 0.4, 1e-3
+
+
+def moved(one, two):
+    return move(ABSOLEM, one, two, before=Phase.LAND, start=Placement(0.0, 0.0, 0.0), ground=FLOOR)
+
+
+def slid(ahead, up, turn, normal=(0.0, 1.0), second=True):
+    """Of a part whose first disc stands on the floor, moved and turned about that disc's axle."""
+    before = SimpleNamespace(parts=np.array([[0.0, 0.0, R, L * second, 0.0, R]]))
+    held = SimpleNamespace(point=(2.0, 0.0), normal=normal, feature=0)
+    was, new = Placement(2.0, R, 0.0), Placement(2.0 + ahead, R + up, turn)
+    return _slides(held, before, was, before, new)
+
+
+@pytest.mark.parametrize("second", [True, False])
+def test_what_is_pushed_slides_and_what_rolls_does_not(second):
+    # hand: a wheel that turns nose up rolls back
+    assert slid(0.03, 0.0, 0.0, second=second) == pytest.approx(0.03)
+    assert slid(-0.03, 0.01, 0.0, second=second) == pytest.approx(-0.03)
+    assert slid(0.0, 0.0, SMALL, second=second) == pytest.approx(R * SMALL, abs=1e-9)
+    assert slid(-R * SMALL, 0.0, SMALL, second=second) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_what_leans_by_more_than_45_degrees_holds_no_robot():
+    lean = math.radians(44.0)
+    assert slid(0.03, 0.0, 0.0, (-math.sin(lean), math.cos(lean))) == pytest.approx(
+        0.03 * math.cos(lean)
+    )
+    lean = math.radians(46.0)
+    assert slid(0.03, 0.0, 0.0, (-math.sin(lean), math.cos(lean))) == 0.0
+
+
+def test_a_part_that_turns_within_the_robot_takes_its_contact_along():
+    """A flipper of which the axle stays: its tip, L below it, runs by L for each radian."""
+    parts = [np.array([[0.0, 0.0, R, -L * math.sin(a), -L * math.cos(a), R]]) for a in (0, SMALL)]
+    held = SimpleNamespace(point=(2.0, 0.0), normal=(0.0, 1.0), feature=0)
+    place = Placement(2.0, L, 0.0)
+    one, two = (SimpleNamespace(parts=each) for each in parts)
+    assert _slides(held, one, place, two, place) == pytest.approx(-L * SMALL, abs=1e-9)
+    assert _slides(held, two, place, one, place) == pytest.approx(L * SMALL, abs=1e-6)
+
+
+def test_the_contact_that_slid_ahead_by_more_may_have_stayed():
+    found = moved(Posture(front=-0.3 - TURN, rear=0.5), Posture(front=-0.3, rear=0.5))
+    poses, each = found.path.poses, np.zeros(2)
+    for row in range(len(poses) - 1):
+        places = poses.placement(row), poses.placement(row + 1)
+        for k, held in enumerate(found.path.carrying(row)):
+            outlines = found.outlines[row : row + 2]
+            each[k] += _slides(held, outlines[0], places[0], outlines[1], places[1])
+    assert each[1] > 0.05 > each[0]  # the tip slides ahead as the flipper turns up
+    assert found.drift == drift(found.path, found.outlines) == pytest.approx(each[1])
+    drawn = poses.placement(-1)
+    assert found.end == drawn._replace(x=drawn.x - found.drift - BEHIND)
+
+
+def test_flippers_that_touch_nothing_leave_the_robot_where_it_is():
+    # limit
+    found = moved(Posture(front=0.2, rear=0.2), Posture(front=0.9, rear=0.9))
+    assert found.drift == pytest.approx(0.0, abs=1e-9)
