@@ -3,6 +3,7 @@
 import math
 from io import BytesIO
 from pathlib import Path
+from types import SimpleNamespace
 
 import jsonschema
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 import kaidan
 from kaidan import films
+from kaidan.contact import Contact, PartKind, Placement
 from kaidan.errors import InputError, MissingExtraError
 from kaidan.figures import animation, saving
 from kaidan.figures.pose_map_figure import pose_map_figure
@@ -61,6 +63,24 @@ def test_forces_balance_the_weight(who, passages):
             for f in forces
         )
         assert moment == pytest.approx(0.0, abs=1e-6)
+
+
+def test_two_contacts_on_a_plane_do_not_pull_against_each_other():
+    """Where one of them bears next to nothing, any force along the plane would do."""
+    plane, place = (-math.sin(0.3), math.cos(0.3)), Placement(0.0, 0.1, 0.3)
+    # gravity's line meets the plane a hundredth of a millimetre ahead of the front one
+    touched = [
+        Contact((x, x * math.tan(0.3)), plane, 0, 0.0, PartKind.TRACK) for x in (-0.3, -1e-5)
+    ]
+    path = SimpleNamespace(
+        margins=SimpleNamespace(tilt=[0.0], required_friction=[math.tan(0.3)]),
+        poses=SimpleNamespace(placement=lambda row: place, path_direction=[0.3]),
+        contacts_at=lambda place: touched, carrying=lambda row: touched,
+    )  # fmt: skip
+    rear, front = contact_forces(SimpleNamespace(path=path, descending=False), 0, 0.0)
+    assert rear.vector == pytest.approx((0.0, -9.80665 * 1e-5 / 0.3), abs=1e-7)
+    assert front.vector == pytest.approx((0.0, 9.80665), abs=1e-3)
+    assert front.traction / front.load == pytest.approx(math.tan(0.3), abs=1e-6)
 
 
 def test_more_than_two_contacts_on_a_plane_are_equal_springs():

@@ -39,8 +39,8 @@ class Force:
 def contact_forces(traverse: Traverse, row: int, acceleration: float) -> tuple[Force, ...]:
     """Contacts of a pose and their forces.
 
-    Two in closed form, with the least friction. More than two that press on one plane as equal
-    springs; otherwise the pair that needs the least friction, and the rest idle.
+    Those that press on one plane as equal springs: along it two may pull against each other with
+    any force. Otherwise the pair that needs the least friction, in closed form, and the rest idle.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def contact_forces(traverse: Traverse, row: int, acceleration: float) -> tuple[F
         STANDARD_GRAVITY**2 + along**2 + 2 * STANDARD_GRAVITY * along * math.sin(psi)
     )
     touched = path.contacts_at(place)
-    if len(touched) > 2 and np.ptp([each.normal[0] for each in touched]) < _ONE_PLANE:
+    if len(touched) > 1 and np.ptp([each.normal[0] for each in touched]) < _ONE_PLANE:
         return _sprung(touched, com, kappa, gravity)
     pull = (gravity * kappa / math.hypot(1, kappa), gravity / math.hypot(1, kappa))
     pairs = [path.carrying(row)] + [
