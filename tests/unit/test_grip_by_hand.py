@@ -116,24 +116,12 @@ def test_the_load_is_gravity_and_the_acceleration_along_the_path(a, monkeypatch)
 
 @pytest.mark.parametrize("descending", [True, False])
 def test_it_slips_by_a_spacing_of_the_grousers_and_a_step(monkeypatch, descending):
-    asked = {}
     grip = SimpleNamespace(
         path=SimpleNamespace(poses=None), _points=None, descending=descending,
-        _standing=lambda *_: None, _soon_held=lambda held, alone, way: (held, alone, way),
+        _standing=lambda *_: None,
     )  # fmt: skip
-    monkeypatch.setattr(contact, "held_while_slipping", lambda *_, **words: asked.update(words))
-    found = Grip.with_grousers(grip, (0.5, 0.5, 0.5), SimpleNamespace(spacing=0.04), "alone")
-    assert asked == {"way": pytest.approx(0.04 + contact.STEP), "ahead": descending}
-    assert found == ((None, "alone", 0.04) if descending else None)
+    monkeypatch.setattr(contact, "held_while_slipping", lambda *_, **words: words)
+    found = Grip.with_grousers(grip, (0.5, 0.5, 0.5), SimpleNamespace(spacing=0.04), None)
+    way = pytest.approx(0.04 + contact.STEP)
+    assert found == {"way": way, "over": 0.04, "ahead": descending}
     assert Grip.slip(grip, 0.04) == (0.08 if descending else 0.04)
-
-
-def test_going_down_it_passes_over_less_than_a_spacing_that_nothing_holds():
-    """Until one nosing holds for a spacing; friction alone at one pose does not stop it."""
-    poses = SimpleNamespace(leg=np.array([0, 0, 0, 0, 0, 1, 1]))
-    grip = SimpleNamespace(path=SimpleNamespace(s=0.01 * np.arange(7), poses=poses))
-    alone = np.array([-0.3, -0.3, 0.2, -0.3, -0.3, -0.3, -0.3])
-    held = np.array([-0.1, -0.3, 0.2, 0.1, -0.2, 0.4, -0.3])
-    found = Grip._soon_held(grip, held, alone, 0.025)
-    # not the third's own friction, no pose of the next leg, and none farther than two ahead
-    assert found.tolist() == [-0.1, 0.1, 0.2, 0.1, -0.2, 0.4, -0.3]

@@ -11,7 +11,7 @@ from kaidan.contact.tables import FloatArray, IntArray
 
 def held_while_slipping(
     poses: Poses, points: IntArray, standing: FloatArray, friction: FloatArray, *, way: float,
-    ahead: bool,
+    over: float, ahead: bool,
 ) -> FloatArray:  # fmt: skip
     """With how much to spare each pose holds before the robot slips for good [rad].
 
@@ -27,6 +27,8 @@ def held_while_slipping(
         Shape (n,): margin by friction alone [rad].
     way
         Arclength of the slip [m].
+    over
+        Arclength that nothing holds and that a slip ahead passes over [m].
     ahead
         Whether it slips towards the end of the path, else back.
 
@@ -37,6 +39,6 @@ def held_while_slipping(
     found = np.empty(len(poses))
     kernel().held_while_slipping(
         poses.table, points.ravel(), standing.ravel(), np.ascontiguousarray(friction),
-        points.shape[1], 1 if ahead else -1, way, found,
+        points.shape[1], 1 if ahead else -1, way, over, found,
     )  # fmt: skip
     return found

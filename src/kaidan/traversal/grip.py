@@ -90,31 +90,15 @@ class Grip:
         by_friction : ndarray
             What `by_friction` found.
         """
-        way = grousers.spacing + contact.STEP
-        held = contact.held_while_slipping(
+        return contact.held_while_slipping(
             self.path.poses,
             self._points,
             self._standing(phi, grousers),
             by_friction,
-            way=way,
+            way=grousers.spacing + contact.STEP,
+            over=grousers.spacing,
             ahead=self.descending,
         )
-        return self._soon_held(held, by_friction, grousers.spacing) if self.descending else held
-
-    def _soon_held(self, held: Array, by_friction: Array, way: float) -> Array:
-        """Of each pose the most of those so little ahead from which one nosing holds [rad].
-
-        Going down a slip leads on: what nothing holds is passed, if it is short.
-        """
-        s, leg = self.path.s, self.path.poses.leg
-        stops = np.where(held > by_friction, held, -np.inf)
-        soon = held.copy()
-        for k in range(1, len(s)):
-            near = (s[k:] - s[:-k] < way) & (leg[k:] == leg[:-k])
-            if not near.any():
-                break
-            soon[:-k] = np.maximum(soon[:-k], np.where(near, stops[k:], -np.inf))
-        return soon
 
     def at_once(
         self, phi: tuple[float, float, float], grousers: Grousers, by_friction: Array

@@ -106,7 +106,7 @@ def test_one_nosing_has_to_do_at_every_pose_of_a_slip(path, kernel, ahead):
     standing[rng.random((count, 3)) < 0.1] = -np.inf
     with using_kernel(kernel):
         found = contact.held_while_slipping(
-            path.poses, points, standing, friction, way=0.06, ahead=ahead
+            path.poses, points, standing, friction, way=0.06, over=0.0, ahead=ahead
         )
     expected = slip(path, points, standing, friction, 0.06, 1 if ahead else -1)
     np.testing.assert_array_equal(found, expected)

@@ -46,6 +46,25 @@ def test_the_best_contact_by_its_worst_pose(sense):
         poses[:, POSE_S], poses[:, POSE_LEG] = s, legs
         found = np.full(count, np.nan)
         held_while_slipping(
-            poses, points.ravel(), standing.ravel(), friction, SLOTS, sense, way, found
+            poses, points.ravel(), standing.ravel(), friction, SLOTS, sense, way, 0.0, found
         )
         assert found.tolist() == by_all_poses(s, legs, points, standing, friction, sense, way)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_towards_the_end_it_passes_over_what_nothing_holds(sense):
+    """Up to poses, in the same leg and less than so far ahead, that one nosing holds all along."""
+    poses = np.zeros((7, POSE_COLUMNS))
+    poses[:, POSE_S], poses[:, POSE_LEG] = 0.01 * np.arange(7), [0, 0, 0, 0, 0, 1, 1]
+    friction = np.array([-0.3, -0.3, 0.2, -0.3, -0.3, -0.3, -0.3])
+    standing = np.full((7, SLOTS), -np.inf)
+    standing[:, 0] = [-0.1, -0.3, 0.1, 0.1, -0.2, 0.4, -0.3]
+    points = np.zeros((7, SLOTS), dtype=np.int64)
+    found = np.full(7, np.nan)
+    # no slip beyond the pose itself
+    held_while_slipping(
+        poses, points.ravel(), standing.ravel(), friction, SLOTS, sense, 1e-9, 0.025, found
+    )
+    at_once = [-0.1, -0.3, 0.2, 0.1, -0.2, 0.4, -0.3]
+    # not the third's own friction, no pose of the next leg, and none farther than two ahead
+    assert found.tolist() == ([-0.1, 0.1, 0.2, 0.1, -0.2, 0.4, -0.3] if sense > 0 else at_once)

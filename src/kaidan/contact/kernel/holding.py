@@ -181,7 +181,7 @@ def least_held(
         )  # fmt: skip
         held_while_slipping(
             driven, points, standing, friction, slots, -1 if climbs else 1,
-            grousers[case, GROUSER_SPACING] + slip, held,
+            grousers[case, GROUSER_SPACING] + slip, grousers[case, GROUSER_SPACING], held,
         )  # fmt: skip
         for row in range(n_pose):
             if counts[row] == 1 and not is_passing(poses, n_pose, row) and held[row] < least:

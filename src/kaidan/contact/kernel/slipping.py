@@ -35,7 +35,7 @@ def held_by(
 @entry
 def held_while_slipping(
     poses: PoseTable, points: IntArray, standing: FloatRow, friction: FloatRow, slots: int,
-    sense: int, way: float, found: FloatRow,
+    sense: int, way: float, over: float, found: FloatRow,
 ) -> None:  # fmt: skip
     """Work out with how much to spare each pose holds before the robot slips for good.
 
@@ -55,6 +55,9 @@ def held_while_slipping(
         +1 where the robot slips towards the end of the path, -1 towards its beginning.
     way
         Arclength of the slip [m].
+    over
+        Arclength that nothing holds and that a slip towards the end passes over, before poses from
+        which one nosing holds all along that way [m].
     found
         To be filled [rad].
     """
@@ -82,3 +85,13 @@ def held_while_slipping(
             if least > most:
                 most = least
         found[row] = most
+    if sense > 0:
+        for row in range(count):
+            there = row + 1
+            while there < count and poses[there, POSE_LEG] == poses[row, POSE_LEG]:
+                if poses[there, POSE_S] - poses[row, POSE_S] >= over:
+                    break
+                # friction at one pose does not stop what slides
+                if found[there] > friction[there] and found[there] > found[row]:
+                    found[row] = found[there]
+                there += 1
