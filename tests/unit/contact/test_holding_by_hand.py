@@ -16,8 +16,8 @@ def least(monkeypatch):
     def of(*each, counts=(1, 1, 1), places=(0.0, 0.1, 0.2), climbs=True, best=False):
         called, left = [], [margins for is_best, margins in each if is_best is best]
 
-        def slip(poses, points, standing, friction, slots, sense, way, held):
-            called.append((sense, way, slots))
+        def slip(poses, points, standing, friction, slots, sense, way, over, held):
+            called.append((sense, way, over, slots))
             held[:] = left.pop(0)
 
         monkeypatch.setattr(holding, "held_while_slipping", slip)
@@ -61,7 +61,7 @@ def test_a_slip_leads_down_by_a_spacing_and_a_step(least):
     _, called = least((False, [0.0] * 3), (False, [0.0] * 3))
     assert called[:2] == [(*friction, 0.01), (*friction, *figures, True, 1.0)]
     assert called[3:5] == [(*friction, 0.0), (*friction, *figures, False, 1.0)]
-    assert called[2] == called[5] == (-1, pytest.approx(0.054), 4)
+    assert called[2] == called[5] == (-1, pytest.approx(0.054), 0.05, 4)
     _, called = least((False, [0.0] * 3), climbs=False)
     assert called[1][-1] == -1.0
-    assert called[2] == (1, pytest.approx(0.054), 4)
+    assert called[2] == (1, pytest.approx(0.054), 0.05, 4)
