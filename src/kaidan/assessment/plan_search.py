@@ -170,7 +170,10 @@ def _sturdiest(
     for each in _candidates(search):
         (holding if search.may_hold(each.plan) else others).append(each)
     best, first = _best_of(holding, search, None, beaten, drives, stated)
-    plan = _to_steady(search, first, others)
+    if first is None and others:
+        at_them = (_judged(each.plan.question(search.question), drives) for each in others)
+        first = max(at_them, key=lambda one: one.merit)
+    plan = _to_steady(search, first)
     if plan is not None and not (best is not None and best.worst[0] == -Verdict.GO.rank):
         steadied = _steadied(search, plan, _better(beaten, best), drives)
         best = max((each for each in (best, steadied) if each), key=_worst, default=None)
@@ -208,7 +211,7 @@ def _best_of(
     return best, first
 
 
-def _to_steady(search: Search, first: Judged | None, others: Sequence[_Candidate]) -> Plan | None:
+def _to_steady(search: Search, first: Judged | None) -> Plan | None:
     """Plan about which others are sought that hold off their angles; None: none will.
 
     Parameters
@@ -216,11 +219,9 @@ def _to_steady(search: Search, first: Judged | None, others: Sequence[_Candidate
     search : Search
     first : Judged, optional
         The best that was judged, at its angles.
-    others : sequence of _Candidate
-        Plans that were not judged, as their grousers do not hold off their angles.
     """
     if first is None:
-        return others[0].plan if others else None
+        return None
     known = search.question.surface is not None  # else no plan is a GO
     grips = known and search.question.robot.track.has_grousers
     hoped = first.conclusion.verdict
