@@ -103,6 +103,12 @@ def test_grousers_faster_than_they_were_tried_are_no_go(direction):
     assert "grouser_speed" not in smooth.findings
 
 
+def test_going_down_it_slips_on():
+    answer = assess(robot(**GROUSERS, **HARD), FLIGHT, friction=0.6, direction="down")
+    assert answer.verdict == "go"
+    assert f"may slip on up to {answer.traction.slip_mm:.0f} mm" in str(answer)
+
+
 def test_grousers_hold_where_friction_does_not():
     smooth, answer = asked(), asked(**GROUSERS, **HARD)
     assert smooth.findings["slides_down"].holds is False

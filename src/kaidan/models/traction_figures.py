@@ -25,7 +25,7 @@ class TractionFigures(Part):
     step: int | None
     """Nosing at which, counted from the bottom."""
     slip_mm: float | None
-    """How far the robot may slip back before grousers hold it, in the worst case [mm]; null: it
+    """How far the robot may slip before grousers hold it, in the worst case [mm]; null: it
     does not rely on them."""
     slip_heights_mm: dict[str, float]
     """Kinetic-energy height of that slip in each phase with one, which adds to the energy threshold

@@ -51,7 +51,7 @@ def text(answer: "Assessment") -> str:
     if answer.verdict != "outside-model":
         lines.append(_row("margin", f"{margin_line(answer)}, on {stairs_line(answer)}"))
     lines.append(_row("friction", friction_line(answer)))
-    slip = None if answer.traction is None else traction.slip(answer.traction)
+    slip = None if answer.traction is None else traction.slip(answer.question, answer.traction)
     if slip is not None:
         lines.append(_row("grousers", slip))
     if answer.question.uncertain and _to_measure(answer):
@@ -150,7 +150,7 @@ def details(answer: "Assessment") -> str:
         lines.append(_row("measure", measuring.first(answer.to_measure)))
     lines.append(_row("allowances", _allowances(answer)))
     lines.append(_row("friction", friction_line(answer)))
-    slip = None if answer.traction is None else traction.slip(answer.traction)
+    slip = None if answer.traction is None else traction.slip(answer.question, answer.traction)
     if slip is not None:
         lines.append(_row("grousers", slip))
     for key, one in answer.findings.items():

@@ -31,18 +31,19 @@ def required(found: "TractionFigures", smooth: str) -> str:
     return smooth
 
 
-def slip(found: "TractionFigures") -> str | None:
-    """How far it may slip back before grousers hold it; None: it does not rely on them."""
+def slip(question: "Question", found: "TractionFigures") -> str | None:
+    """How far it may slip before grousers hold it; None: it does not rely on them."""
     if found.slip_mm is None:
         return None
-    return f"holds on its grousers, may slip back up to {found.slip_mm:.0f} mm"
+    way = "on" if question.direction == "down" else "back"
+    return f"holds on its grousers, may slip {way} up to {found.slip_mm:.0f} mm"
 
 
 def notes(question: "Question", found: "TractionFigures") -> tuple[str, ...]:
     """What the reader must know of friction and grousers."""
     each = []
     track = question.robot.track
-    slips = slip(found)
+    slips = slip(question, found)
     if slips is not None:
         each.append(
             f"Where friction alone does not hold it, it {slips}: a tip stands on the tread behind "

@@ -214,7 +214,7 @@ def _energy(
     slip = 0.0 if finding.phase is None else slips.get(finding.phase.value, 0.0)
     height, steady = (1e3 * question.energy_threshold(1e-3 * each) for each in (slip, 0.0))
     margin = 1e3 * finding.margin(question.risk) + height
-    of_slip = f", {height - steady:.2f} mm of it of a slip back onto its grousers" if slip else ""
+    of_slip = f", {height - steady:.2f} mm of it of a slip onto its grousers" if slip else ""
     return (
         f"The energy margin of {margin:.2f} mm is below the {height:.2f} mm of a sudden stop or "
         f"start{of_slip}: the robot may rock{_place(conclusion)}."
