@@ -166,8 +166,7 @@ def test_share_of_the_phases_in_which_a_grouser_stands():
     question = asked(**KNOWN)
     found = figures_of(question, SimpleNamespace(phases=()), 0.5, held(), None)
     worst, best = (
-        float(standing_run(theta=FLIGHT.angle, h=0.012, s=0.04, r=r, w=0.006)) / 0.04
-        for r in (RADII[1], RADII[0])
+        float(standing_run(theta=FLIGHT.angle, h=0.012, r=r)) / 0.04 for r in (RADII[1], RADII[0])
     )
     assert 0.0 < worst < best < 1.0
     assert found.standing_phases == pytest.approx((worst, best))

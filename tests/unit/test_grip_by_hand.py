@@ -121,7 +121,8 @@ def test_it_slips_by_a_spacing_of_the_grousers_and_a_step(monkeypatch, descendin
         _standing=lambda *_: None,
     )  # fmt: skip
     monkeypatch.setattr(contact, "held_while_slipping", lambda *_, **words: words)
-    found = Grip.with_grousers(grip, (0.5, 0.5, 0.5), SimpleNamespace(spacing=0.04), None)
+    asked = grip, (0.5, 0.5, 0.5), SimpleNamespace(spacing=0.04), None
     way = pytest.approx(0.04 + contact.STEP)
-    assert found == {"way": way, "over": 0.04, "ahead": descending}
-    assert Grip.slip(grip, 0.04) == (0.08 if descending else 0.04)
+    assert Grip.with_grousers(*asked) == {"way": way, "over": 0.04, "ahead": descending}
+    strict = Grip.with_grousers(*asked, passing=False)
+    assert strict == {"way": way, "over": 0.0, "ahead": descending}

@@ -53,26 +53,24 @@ def asked(of=None, *, stated=True, yaw=0.0, **belt):
 class Holding:
     """What a path's contacts hold, of any friction the same; it writes down what it is asked."""
 
-    def __init__(self, alone=ALONE):
+    def __init__(self, alone=ALONE, passed=0.0):
         self.alone, self.asked = alone, []
+        self.passed = passed  # what it holds less, going down, where a slip passes over nothing
 
     def by_friction(self, phi, height=0.0):
         self.asked.append(tuple(math.tan(each) for each in phi))
         return self.alone + (0.01 if height else 0.0)
 
-    def with_grousers(self, phi, each, alone):
+    def with_grousers(self, phi, each, alone, *, passing=True):
         smooth = alone - (0.01 if each.rigid else 0.0)  # as high as they are rigid
         assert smooth.tolist() == pytest.approx(self.alone.tolist(), nan_ok=True)
-        return HELD[each.spacing]
+        return HELD[each.spacing] - (0.0 if passing else self.passed)
 
     at_once = with_grousers
 
-    def slip(self, spacing):
-        return spacing
-
     def slip_heights(self, slip, mu_k):
         self.asked.append((slip, mu_k))
-        return SLIP
+        return SLIP * slip / 0.06
 
 
 def driven(grip=None, tractions=(0.5, 1.5)):
@@ -107,6 +105,19 @@ def test_grousers_hold_in_the_worst_of_cases_after_a_slip():
     best = supply(asked(), driven(grip), track(), best=True)
     assert grip.asked[3] == pytest.approx((0.8, 1.0, 0.9))
     assert best.required == pytest.approx(0.8)
+
+
+@pytest.mark.parametrize(
+    ("passed", "slip", "height"), [(0.01, 0.06, 2e-3), (0.04, 0.12, 2e-3), (0.25, 0.12, 4e-3)]
+)
+def test_going_down_a_slip_that_passes_over_what_nothing_holds_is_longer(passed, slip, height):
+    """It slips at the second pose, where grousers hold 0.02 and the slip gives 1 mm, and at the
+    third with 0.2 and 2 mm; where what is passed over is worth more than that, it slips farther."""
+    down = driven(Holding(passed=passed))
+    down.descending = True
+    found = supply(asked(), down, track())
+    assert found.slip == pytest.approx(slip)
+    assert found.heights == {Phase.TRAVERSE: pytest.approx(height)}
 
 
 def test_of_a_phase_alone():

@@ -192,8 +192,14 @@ def supply(
     slipping = rows & (alone <= 0.0) & (held > 0.0)
     slip, heights = 0.0, {}
     if slipping.any():
-        slip = grip.slip(max(each.spacing for each in cases))
+        slip = max(each.spacing for each in cases)
         kinetic = grip.slip_heights(slip, mu_k=SLIDING * min(frictions))
+        if found.descending:
+            passes = slipping & (_held(grip, phi, cases, passing=False)[0] <= 0.0)
+            if passes.any():
+                slip *= 2.0
+                farther = grip.slip_heights(slip, mu_k=SLIDING * min(frictions))
+                kinetic = np.where(passes, farther, kinetic)
         for each in Phase:
             here = slipping & (found.phase_of_pose == each.value)
             if here.any():
@@ -232,7 +238,11 @@ def gripping(question: Question) -> Gripping | None:
 
 
 def _held(
-    grip: Grip, phi: tuple[float, float, float], cases: tuple[Grousers, ...]
+    grip: Grip,
+    phi: tuple[float, float, float],
+    cases: tuple[Grousers, ...],
+    *,
+    passing: bool = True,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """What each pose has to spare with its grousers, in the worst case, and without [rad]."""
     if not cases:
@@ -240,7 +250,7 @@ def _held(
         return alone, alone
     by_friction = _by_friction(grip, phi, cases)
     pairs = zip(cases, by_friction, strict=True)
-    held = [grip.with_grousers(phi, one, own) for one, own in pairs]
+    held = [grip.with_grousers(phi, one, own, passing=passing) for one, own in pairs]
     return np.minimum.reduce(held), np.minimum.reduce(by_friction)
 
 

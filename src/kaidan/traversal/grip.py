@@ -77,7 +77,12 @@ class Grip:
         return self._supports.belt_margins(phi, height)
 
     def with_grousers(
-        self, phi: tuple[float, float, float], grousers: Grousers, by_friction: Array
+        self,
+        phi: tuple[float, float, float],
+        grousers: Grousers,
+        by_friction: Array,
+        *,
+        passing: bool = True,
     ) -> Array:
         """Angle by which the cones may shrink before the robot slips for good [rad].
 
@@ -89,6 +94,9 @@ class Grip:
             On the belts.
         by_friction : ndarray
             What `by_friction` found.
+        passing : bool
+            Whether a slip down the stairs, going down, may pass over what nothing holds: it is
+            two spacings long at most then, else one.
         """
         return contact.held_while_slipping(
             self.path.poses,
@@ -96,7 +104,7 @@ class Grip:
             self._standing(phi, grousers),
             by_friction,
             way=grousers.spacing + contact.STEP,
-            over=grousers.spacing,
+            over=grousers.spacing if passing else 0.0,
             ahead=self.descending,
         )
 
@@ -112,10 +120,6 @@ class Grip:
         """
         standing = np.where(self._points == -1, -np.inf, self._standing(phi, grousers))
         return np.asarray(np.maximum(by_friction, standing.max(axis=1)))
-
-    def slip(self, spacing: float) -> float:
-        """How far the robot may slip before grousers so far apart hold it [m]."""
-        return (2.0 if self.descending else 1.0) * spacing
 
     def slip_heights(self, slip: float, *, mu_k: float) -> Array:
         """Kinetic-energy height that the robot gains as it slips back from each pose [m].
