@@ -323,9 +323,10 @@ def judged(rank, name="plan"):
 def sturdiest(monkeypatch):
     """The best of candidates: of each its rank, the worst off its angles, whether it is tried."""
 
-    def of(*each, grousers=False, doubtful=(), sturdier=None, beaten=None):
+    def of(*each, grousers=False, doubtful=(), sturdier=None, beaten=None, most=None):
         search = SimpleNamespace(
             may_hold=lambda plan: plan.question(None) not in doubtful,
+            most_without_friction=lambda plan: (most or {}).get(plan.question(None), ENOUGH),
             question=SimpleNamespace(
                 robot=SimpleNamespace(track=SimpleNamespace(has_grousers=grousers)), surface="known"
             ),
@@ -390,6 +391,10 @@ def test_the_sturdiest_of_candidates(sturdiest):
     assert [bar[0] for bar in bars] == [CAUTION, CAUTION]
     assert promised[-1] == "0"
     assert sturdiest((GO, CAUTION, True), (GO, GO, True))[2] == [None]
+    # of two alike (5.7 deg) the one that needs less friction off its angles, where none is stated
+    alike = (CAUTION, CAUTION, True), (CAUTION, CAUTION, True)
+    assert sturdiest(*alike, most={"0": 2.0, "1": 9.0})[0] == "1"
+    assert sturdiest(*alike, most={"0": 2.0, "1": 1.0})[0] == "0"
 
 
 def test_a_plan_that_is_go_at_its_angles_alone_is_made_sturdier(sturdiest):

@@ -280,24 +280,20 @@ def test_what_is_no_failure_may_still_be_less_than_go(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("rank", "surface", "needed", "told"),
+    ("surface", "belt", "most"),
     [
-        (GO, None, 0.9, math.degrees(math.atan(1.0) - math.atan(0.9))),
-        (GO, None, 0.1, 5.0),  # what it has to spare at its angles is less
-        (CAUTION, None, 0.9, 5.0),  # its verdict does not hold: nothing else counts
-        (GO, Surface.of_friction(1.0), 0.9, 5.0),
+        (None, "smooth", 2.0),
+        (Surface.of_friction(1.0), "smooth", ENOUGH),
+        (None, "grousers", ENOUGH),  # they may hold without friction
     ],
 )
-def test_where_no_friction_is_stated_what_is_required_off_the_angles_counts(
-    rank, surface, needed, told, monkeypatch
-):
-    monkeypatch.setattr(module, "off_angles", lambda question: range(2))
-    monkeypatch.setattr(module, "friction_off_its_angles", lambda question, drives: needed)
-    monkeypatch.setattr(Judged, "merit", property(lambda self: (GO, True, -1, 5.0)))
-    question = Question.in_one_posture(ABSOLEM, STAIRS, friction=1.0).changed(surface=surface)
-    drives = SimpleNamespace(rank=lambda k: rank, is_no_failure=lambda k: False)
-    found = module._judged_off(judged(question=question), None, drives)
-    assert found.worst == (rank, True, -1, pytest.approx(told))
+def test_where_no_friction_is_stated_what_is_left_of_it_off_the_angles_counts(surface, belt, most):
+    track = ABSOLEM.track.model_copy(update={"belt": belt})
+    search = searching({ENTER: {4: 9.0}, LAND: {6: 2.0}})
+    robot = ABSOLEM.model_copy(update={"track": track})
+    search.question = search.question.changed(surface=surface, robot=robot)
+    plan = SimpleNamespace(postures=tuple(zip((ENTER, LAND), degrees(4.0, 6.0), strict=True)))
+    assert search.most_without_friction(plan) == most
 
 
 @pytest.mark.parametrize("model", ["contact", "physics"])

@@ -14,7 +14,6 @@ from kaidan.assessment.plan_drives import Drives
 from kaidan.assessment.plan_hopes import LIMITS as LIMITS
 from kaidan.assessment.plan_hopes import Hope, Merit, Search
 from kaidan.assessment.plan_judged import Judged, Standing, judged_of, shortened
-from kaidan.assessment.plan_scores import UNKNOWN
 from kaidan.assessment.plan_sturdy import Sturdier
 from kaidan.assessment.plans import Plan, words
 from kaidan.assessment.plans import off_angles as off_angles
@@ -202,6 +201,7 @@ def _best_of(
         if bar is not None and not _may_be_better(search, each, bar, of_best, drives):
             continue
         judged = _judged_at(each, search, drives, stated if bar is None else None)
+        judged = judged._replace(most=search.most_without_friction(each.plan))
         first = max(first or judged, judged, key=lambda one: one.merit)
         found = _judged_off(judged, bar, drives, search)
         if best is None or found.worst > best.worst:
@@ -382,10 +382,6 @@ def _judged_off(
         worst = (min(worst[0], drives.rank(off)), *worst[1:])
         if worst[0] <= -Verdict.NO_GO.rank:
             break
-    if plan.question.surface is None and worst[0] == plan.merit[0]:
-        needed = friction_off_its_angles(plan.question, drives)
-        spare = math.degrees(math.atan(UNKNOWN) - math.atan(needed))
-        worst = (*worst[:3], min(worst[3], spare))  # of two, the one that needs less friction
     return _Off(plan, worst, tested=True)
 
 
