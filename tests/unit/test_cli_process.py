@@ -7,6 +7,7 @@ import sys
 import time
 
 import pytest
+from pydantic_core import SchemaError
 
 from kaidan import __version__
 from kaidan.cli import INTERNAL, run
@@ -94,9 +95,15 @@ def test_a_fault_of_kaidan_is_one_line_and_70(monkeypatch, capsys):
     assert err.count("kaidan: a fault of kaidan itself") == 1
 
 
-def test_ctrl_c_while_it_works(monkeypatch, capsys):
+@pytest.mark.parametrize(
+    "error",
+    [KeyboardInterrupt(), SchemaError("Error building a validator:\n  KeyboardInterrupt: ")],
+)
+def test_ctrl_c_while_it_works(error, monkeypatch, capsys):
+    """Or while pydantic builds a class, which tells of it by an error of its own."""
+
     def interrupted(_name):
-        raise KeyboardInterrupt
+        raise error
 
     monkeypatch.setattr(Robot, "named", interrupted)
     assert run(["robots", "kenaf"]) == 130

@@ -161,6 +161,8 @@ def run(words: Sequence[str]) -> int:
         if isinstance(error, OSError) and error.errno in _CANNOT_BE_WRITTEN:
             _read_by_nobody(sys.stdout)
             return _complain(f"the answer cannot be written: {error.strerror}")
+        if type(error).__name__ == "SchemaError" and "KeyboardInterrupt" in str(error):
+            return _complain("interrupted", 130)  # of pydantic, as it built a class
         if os.environ.get("KAIDAN_DEBUG"):
             print_exc()
         return _complain(_fault(error), INTERNAL)
