@@ -1,6 +1,7 @@
-"""What a question states: its fields, each with its bounds, unit and meaning."""
+"""What a question states: its fields, each with its bounds, unit and meaning; its terrain."""
 
 from collections.abc import Mapping
+from functools import cached_property
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Discriminator, Field, Tag, field_validator
@@ -10,8 +11,9 @@ from kaidan.errors import InputError
 from kaidan.modes import CONTACT, Acceptance, Direction, Facing
 from kaidan.robot import Payload, Posture, PostureChange, Robot
 from kaidan.sheet import Sheet, quantity
-from kaidan.spelling import Terrain
+from kaidan.spelling import JOINT, Terrain
 from kaidan.surface import Surface
+from kaidan.terrain.landings import Landing, landings_of
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 
@@ -118,3 +120,67 @@ class QuestionFields(Sheet):
         if terrain == ():
             raise InputError("question: terrain: no flight was given")
         return terrain[0] if isinstance(terrain, tuple) and len(terrain) == 1 else terrain
+
+    @cached_property
+    def profile(self) -> Profile:
+        """Terrain as a line, from the lower landing to the upper one.
+
+        Of a profile that falls from left to right, for a robot that goes down: seen from the other
+        side.
+        """
+        if isinstance(self.terrain, Profile):
+            return self.terrain.upward(descending=self.direction == "down")
+        flights = [self.terrain] if isinstance(self.terrain, Stairs) else self.terrain
+        return Profile.of_flights(flights)
+
+    @cached_property
+    def flight(self) -> Stairs | None:
+        """Steps of the terrain as one flight, measured where it is no sheet; None: it has none."""
+        if isinstance(self.terrain, Stairs):
+            return self.terrain
+        return self.profile.as_stairs(self.terrain_name)
+
+    @property
+    def flights(self) -> tuple[Stairs, ...]:
+        """Sheets of its flights from bottom to top; none of a profile."""
+        flights = self.terrain if isinstance(self.terrain, tuple) else (self.terrain,)
+        return tuple(each for each in flights if isinstance(each, Stairs))
+
+    @property
+    def steepest_flight(self) -> Stairs | None:
+        """Steepest of its flights, landings left out; of a profile: `flight`."""
+        return max(self.flights, key=lambda each: each.angle, default=self.flight)
+
+    @property
+    def room(self) -> tuple[float | None, float | None] | None:
+        """Least clear width and headroom of its flights [m]; None: neither is stated."""
+        widths = [each.width for each in self.flights if each.width is not None]
+        heights = [each.headroom for each in self.flights if each.headroom is not None]
+        if not widths and not heights:
+            return None
+        return min(widths, default=None), min(heights, default=None)
+
+    @property
+    def leaves(self) -> tuple[float, float]:
+        """Leaves of doors that open onto the lower and onto the upper landing [m]; zero: none."""
+        flights = self.flights
+        return (flights[0].lower_leaf, flights[-1].upper_leaf) if flights else (0.0, 0.0)
+
+    @property
+    def landings(self) -> tuple[Landing, ...]:
+        """Landings on which the way turns, from bottom to top; none of a profile."""
+        return landings_of(self.flights)
+
+    @property
+    def uneven_across(self) -> bool:
+        """Whether the two tracks meet other steps, so that the flight is judged under both."""
+        return any(
+            each.twisted or (self.yaw != 0.0 and each.rises is not None) for each in self.flights
+        )
+
+    @property
+    def terrain_name(self) -> str:
+        """What people call the terrain."""
+        if isinstance(self.terrain, tuple):
+            return f" {JOINT} ".join(flight.name for flight in self.terrain)
+        return self.terrain.name
