@@ -12,7 +12,8 @@ REFUSALS: Mapping[str, str] = {
     "ladder": "It is a ladder of {angle_deg:.0f} deg; tracks take up to 60 deg.",
     "flat": "It is level: its heights differ by {height_mm:.0f} mm.",
     "none": "No stairs are in it.",
-    "too-few": "Only {steps} steps are seen; at least {needed} are needed.",
+    "too-few": "Only {steps} steps are seen; at least {needed} are needed: scan from where more of "
+    "them are in view.",
     "irregular": "Its steps are too irregular for stairs: they differ by {spread_mm:.0f} mm.",
     "ramp-after-steps": "The steps go over into a plane at {range_m:.1f} m: scan closer.",
     "noisy": "Its scatter of {residual_mm:.0f} mm hides the steps: scan closer or slower.",

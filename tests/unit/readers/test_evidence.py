@@ -1,5 +1,7 @@
 """What tells stairs from ramps, and ends of elements from what goes on."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -75,6 +77,10 @@ def test_seats_of_twice_the_size_leave_every_second_step_empty():
     assert evenness(LINE, assigned(LINE, far, 0 * far, treads(far), 0.02)) == pytest.approx(
         1.0, abs=0.1
     )
+    # of the last of three treads the front alone: the second one has no more than the first
+    part = np.repeat(0.15 + 0.3 * np.arange(3), [600, 600, 20])
+    three = replace(LINE, last=LINE.first + 2)
+    assert evenness(three, assigned(three, part, 0 * part, treads(part), 0.02)) == 1.0
 
 
 def test_what_goes_on_has_no_end():

@@ -132,6 +132,23 @@ def _is_face(ahead: Array, over: Array, line: StairLine, tight: float, before: i
     return alone or _span(over[face], 0.1) > FACE_SEEN * r
 
 
+def with_odd_last(line: StairLine, s: Array, t: Array, z: Array, tight: float) -> StairLine:
+    """Line with the nosing behind its last one, if the face of its riser is seen and ends there.
+
+    The level of another riser is not that of the line, so that nothing on it counts as a step.
+    """
+    g, r = line.going, line.rise
+    s1, z1 = line.at(np.array([line.last]))[0]
+    ahead, over = s - line.skew * t - s1 - g, z - z1
+    about = np.abs(ahead) < tight
+    face = about & (over > 0.15 * r) & (over < (1.0 - ODD_UNSEEN) * r)
+    beyond = about & (over > HIGHEST_LAST * r) & (over < 2.0 * r)
+    if face.sum() < FEWEST_POINTS or _narrow(t, face) or beyond.sum() > 0.1 * face.sum():
+        return line
+    stands = _span(over[face], 0.1) > FACE_SEEN * r
+    return replace(line, last=line.last + 1) if stands else line
+
+
 def floor_before(
     line: StairLine, first: Array, s: Array, t: Array, z: Array, tight: float
 ) -> tuple[float, float, float, Array]:

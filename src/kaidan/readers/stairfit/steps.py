@@ -24,6 +24,7 @@ from kaidan.readers.stairfit.flight_ends import (
     from_the_first,
     last_riser,
     trimmed,
+    with_odd_last,
 )
 from kaidan.readers.stairfit.gravity import OUT_OF_TRUE
 from kaidan.readers.stairfit.quantiles import median, quantile
@@ -129,6 +130,8 @@ def steps_of(
     line = fitted(line, s, t, z, tolerances=(1.5 * tight, tight, tight))
     whole = trimmed(line, s, t, z, tight)
     line = from_the_first(whole, s, t, z, tight)
+    if line.last - line.first == 1:
+        line = with_odd_last(line, s, t, z, tight)
     if line.last - line.first < 2:
         return None
     if line.first > whole.first:  # the floor may lie elsewhere than a tread would
@@ -287,7 +290,7 @@ def _without_odd(line: StairLine, s: Array, t: Array, z: Array, tight: float) ->
     if line.last - line.first < 2:
         return line
     inner = replace(line, last=line.last - 1)
-    return replace(fitted(inner, s, t, z, tolerances=(tight, tight)), last=line.last)
+    return replace(fitted(inner, s, t, z, tolerances=(2 * tight, tight)), last=line.last)
 
 
 def _width(step: Indices, t: Array, line: StairLine) -> tuple[float, float]:
