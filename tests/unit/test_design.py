@@ -15,6 +15,7 @@ from kaidan.mechanics.margin import theta_s_inf, theta_s_sup
 from kaidan.modes import Verdict
 from kaidan.sweeps.parameters import question_of
 from kaidan.verbs.design.answer import Design
+from kaidan.verbs.design.postures import planned
 from kaidan.verbs.design.problem import Free, Problem, free_of
 from kaidan.verbs.design.search import best_of, loss_of, optimised
 
@@ -143,6 +144,31 @@ def test_the_front_gains_with_every_change():
     assert margins == sorted(margins)
     assert costs[0] == 0.0
     assert found.front[-1].margin_deg == found.margin_deg
+
+
+def test_without_flippers_designs_are_judged_in_the_plan_that_assess_finds():
+    """Stowed Absolem falls on these stairs; in its plan it is a GO, and off the angles too."""
+    asked = {"robot": "absolem", "stairs": "ibc", "friction": 1.0}
+    now = assess(question_of(asked))
+    found = design(**asked, free={"com_height": (0.1, 0.3)}, grid=0, tries=2)
+    (on,) = found.on_stairs
+    assert (found.verdict_now, found.margin_now_deg) == (now.verdict, now.margin_deg)
+    assert (on.facing, on.flippers) == (now.plan.facing, now.question.flippers)
+    assert found.margin_deg >= now.margin_deg
+    assert f"{on.facing.replace('-', ' ')}; {on.flippers}" in str(found)
+
+
+def test_a_better_plan_of_the_design_is_taken_over():
+    """By the closed form at hand: the longer flat underside of a top-heavy robot is the better."""
+    free = free_of({"robot": Robot.named("absolem"), "stairs": LOW}, {"com_height": (0.1, 0.3)}, {})
+    values = {"robot": Robot.named("absolem"), "model": "closed-form", "friction": 1.5}
+    stowed = Problem(values, [LOW, STEEP], free, plans=[{"flippers": "stowed"}] * 2)
+    found = planned(stowed, [0.3])
+    assert [len(found.plans), found.tried] == [2, {}]
+    for plan, stairs in zip(found.plans, (LOW, STEEP), strict=True):
+        best = assess(question_of({**values, "com_height": 0.3, "stairs": stairs}))
+        assert plan["flippers"][0] == best.question.posture
+    assert found.at([0.3]).merit >= stowed.at([0.3]).merit
 
 
 def test_a_better_place_of_the_map_is_taken_over():

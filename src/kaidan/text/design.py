@@ -18,6 +18,9 @@ def text(found: "Design") -> str:
     if found.cost == 0 and found.verdict_now is not None:
         lines.append("  It stays as it is.")
     lines += [f"  {each.name:<22}{_change(each)}" for each in found.free]
+    plans = [f"{each.facing.replace('-', ' ')}; {each.flippers}" for each in found.on_stairs]
+    if len(set(plans)) == 1 and found.on_stairs[0].flippers:
+        lines.append(f"  {'posture':<22}{plans[0]}")
     if len(found.on_stairs) > 1:
         rows = [
             {
@@ -25,11 +28,13 @@ def text(found: "Design") -> str:
                 "verdict": each.verdict,
                 "governs": each.governs.replace("_", " "),
                 "margin": _number(each.margin_deg),
+                "plan": plan,
             }
-            for each in found.on_stairs
+            for each, plan in zip(found.on_stairs, plans, strict=True)
         ]
         heads = {"stairs": "stairs", "verdict": "verdict", "governs": "decides"}
-        lines += ["", table(rows, heads | {"margin": "margin [deg]"})]
+        own = {"plan": "posture"} if len(set(plans)) > 1 else {}
+        lines += ["", table(rows, heads | {"margin": "margin [deg]"} | own)]
     if found.front:
         rows = [
             {

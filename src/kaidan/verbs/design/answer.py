@@ -35,6 +35,10 @@ class OnStairs(Part):
     """What decides."""
     margin_deg: float | None
     """Smallest margin of slope in the worst case, at the accepted risk [deg]."""
+    facing: str
+    """Which end leads."""
+    flippers: str
+    """Postures of its plan, as the option is written."""
 
 
 class DesignMap(Part):

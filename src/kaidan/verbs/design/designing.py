@@ -9,10 +9,11 @@ import numpy as np
 from kaidan.errors import InputError, shown
 from kaidan.modes import CONTACT, Verdict
 from kaidan.sweeps.parameters import question_of, settled
-from kaidan.sweeps.plan import Plan
+from kaidan.sweeps.plan import Along, Plan
 from kaidan.sweeps.running import carried_out
 from kaidan.sweeps.swept import Swept
 from kaidan.verbs.design.answer import Design, DesignMap, FreeFigure, FrontPoint, OnStairs
+from kaidan.verbs.design.postures import planned
 from kaidan.verbs.design.problem import Problem, Tried, cell_of, free_of, terrain_name
 from kaidan.verbs.design.search import GOALS, Goal, best_of, optimised
 
@@ -64,8 +65,10 @@ def design(
     scheduler, workers, progress
         Of the map, see `kaidan.sweep`.
     **manner
-        Everything else of a question, see `kaidan.Question.of`; the flippers are stowed unless
-        stated.
+        Everything else of a question, see `kaidan.Question.of`. Without `flippers` all designs are
+        judged in the plan that `kaidan.assess` finds for the robot as it stands, off its angles
+        too; where the design found has a better plan the search begins anew in it. With "best"
+        every design has a search of its own, which takes long.
 
     Returns
     -------
@@ -88,31 +91,52 @@ def design(
     """
     if goal not in GOALS:
         raise InputError(f"goal = {shown(goal)} is not known; known: {', '.join(GOALS)}")
-    values = {"robot": settled("robot", robot), "flippers": "stowed", **manner}
+    values = {"robot": settled("robot", robot), **manner}
     if manner.get("payload") is not None:
         values["payload"] = settled("payload", manner["payload"])
     each = stairs if isinstance(stairs, list) else [stairs]
     terrains = [settled("stairs", one) for one in each]
     chosen = free_of(values | {"stairs": terrains[0]}, free, weights or {})
-    problem = Problem(values, terrains, chosen)
     places = (21 if len(chosen) > 1 else 0) if grid is None else grid
     if places and not 2 <= places <= MOST_GRID:
         raise InputError(f"grid = {places} is not within 2 to {MOST_GRID} places")
+    how = {"scheduler": scheduler, "workers": workers, "progress": progress}
+
+    def sought(problem: Problem) -> tuple[Problem, Tried, Swept | None]:
+        best, found = _sought(problem, goal, places if len(chosen) > 1 else 0, tries, seed, how)
+        return problem, best, found
+
+    problem = Problem(values, terrains, chosen)
+    stated = manner.get("flippers") is not None
+    if not stated:
+        stands = [(at.low + at.high) / 2 if at.now is None else at.now for at in chosen]
+        problem = planned(problem, stands)
+    now = problem.now()
+    problem, best, found = sought(problem)
+    if not stated and not (goal == "go" and best.goes):
+        other = planned(problem, best.values)
+        if other.at(best.values).merit > best.merit:
+            problem, best, found = sought(other)
+    points = _front(problem, front, tries, seed)
+    return _answer(problem, goal, now, best, found, points, manner.get("model", CONTACT.name))
+
+
+def _sought(
+    problem: Problem, goal: Goal, places: int, tries: int, seed: int, how: dict[str, Any]
+) -> tuple[Tried, Swept | None]:
+    """Best design, and the map around it, of which no place is better."""
     best = optimised(problem, goal, tries=tries, seed=seed)
     if best.worst.governs == "refused":
-        question_of({**values, "stairs": terrains[0]} | _named(problem, best))
-    found: Swept | None = None
-    if places and len(chosen) > 1:
-        how = {"scheduler": scheduler, "workers": workers, "progress": progress}
-        for _ in range(_MORE):
-            found = _mapped(problem, best, places, how)
-            better = _better_on(problem, found, goal)
-            if better == best:
-                break
-            best = optimised(problem, goal, tries=tries // 4, seed=seed)
-    points = _front(problem, front, tries, seed)
-    now = problem.now()
-    return _answer(problem, goal, best, now, found, points, manner.get("model", CONTACT.name))
+        question_of({**problem.values, **problem.ways[0], **_named(problem, best)})
+    if not places:
+        return best, None
+    for _ in range(_MORE):
+        found = _mapped(problem, best, places, how)
+        better = _better_on(problem, found, goal)
+        if better == best:
+            break
+        best = optimised(problem, goal, tries=tries // 4, seed=seed)
+    return best, found
 
 
 def _named(problem: Problem, tried: Tried) -> dict[str, float]:
@@ -128,10 +152,10 @@ def _mapped(problem: Problem, best: Tried, places: int, how: dict[str, Any]) -> 
         )
         for each in (y, x)
     }
+    first, *_ = ways = problem.ways
+    along = {name: Along("stairs", [way[name] for way in ways]) for name in first}
     values = {**problem.values, **_named(problem, best), **lines}
-    if problem.stairs != [None]:
-        values["stairs"] = list(problem.stairs)
-    return carried_out(Plan.of(values), **how)
+    return carried_out(Plan.of(values | (along if len(ways) > 1 else first)), **how)
 
 
 def _by_place(problem: Problem, found: Swept) -> Any:
@@ -153,7 +177,7 @@ def _better_on(problem: Problem, found: Swept, goal: Goal) -> Tried:
     x, y, *_ = problem.free
     arrays = {name: of(name) for name in found.variables}
     rest = {name: value for name, value in found.plan.base.items() if name in _names(problem)}
-    names = [terrain_name(each) if each is not None else "" for each in problem.stairs]
+    names = [terrain_name(each) for each in problem.stairs]
     for j, at_y in enumerate(found.plan.labels[y.name]):
         for i, at_x in enumerate(found.plan.labels[x.name]):
             place = rest | {x.name: at_x, y.name: at_y}
@@ -190,8 +214,8 @@ def _front(problem: Problem, count: int, tries: int, seed: int) -> list[Tried]:
 def _answer(
     problem: Problem,
     goal: Goal,
-    best: Tried,
     now: Tried | None,
+    best: Tried,
     found: Swept | None,
     front: list[Tried],
     model: str,
@@ -219,6 +243,8 @@ def _answer(
                 verdict=each.verdict.value,
                 governs=each.governs,
                 margin_deg=each.margin,
+                facing=each.facing,
+                flippers=each.flippers,
             )
             for each in best.cells
         ],

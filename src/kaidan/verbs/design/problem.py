@@ -61,6 +61,8 @@ class Cell(NamedTuple):
     """[deg]; NaN: not known."""
     merit: float
     """Order: verdict, number of failing modes, margin; larger is better."""
+    facing: str = ""
+    flippers: str = ""
 
 
 class Tried(NamedTuple):
@@ -94,7 +96,16 @@ class Problem:
     """Question without stairs, as `kaidan.sweeps.parameters.question_of` takes it."""
     stairs: Sequence[Any]
     free: tuple[Free, ...]
+    plans: Sequence[Mapping[str, Any]] = ()
+    """Postures and facing on each of the stairs, where they are not among the values."""
     tried: dict[tuple[float, ...], Tried] = field(default_factory=dict)
+
+    @property
+    def ways(self) -> list[dict[str, Any]]:
+        """Each of the stairs, with the plan on it, by the names of parameters."""
+        known = [{} if each is None else {"stairs": each} for each in self.stairs]
+        plans = self.plans or [{}] * len(known)
+        return [{**stairs, **plan} for stairs, plan in zip(known, plans, strict=True)]
 
     def at(self, point: Sequence[float]) -> Tried:
         """Design at a point, rounded and judged."""
@@ -103,7 +114,7 @@ class Problem:
         )
         if values not in self.tried:
             cost = sum(each.cost(value) for each, value in zip(self.free, values, strict=True))
-            cells = tuple(self._cell(values, each) for each in self.stairs)
+            cells = tuple(self._cell(values, each) for each in self.ways)
             self.tried[values] = Tried(values, cost, cells)
         return self.tried[values]
 
@@ -113,14 +124,13 @@ class Problem:
         known = [value for value in values if value is not None]
         if len(known) < len(values):
             return None
-        return Tried(tuple(known), 0.0, tuple(self._cell(known, each) for each in self.stairs))
+        return Tried(tuple(known), 0.0, tuple(self._cell(known, each) for each in self.ways))
 
-    def _cell(self, point: Sequence[float], stairs: Any) -> Cell:
-        name = "" if stairs is None else terrain_name(stairs)
+    def _cell(self, point: Sequence[float], way: Mapping[str, Any]) -> Cell:
+        name = terrain_name(way.get("stairs"))
         own = {each.name: value for each, value in zip(self.free, point, strict=True)}
-        known = {} if stairs is None else {"stairs": stairs}
         try:
-            row, _ = judged_row(question_of({**self.values, **known, **own}))
+            row, _ = judged_row(question_of({**self.values, **way, **own}))
         except InputError:
             return Cell(name, Verdict.OUTSIDE_MODEL, REFUSED, math.nan, -10 * _RANK)
         return cell_of(name, row)
@@ -134,13 +144,14 @@ def cell_of(name: str, row: Mapping[str, Any]) -> Cell:
     fails = sum(row[column] <= 0 for column in MODES.values())  # NaN is not known, and no failure
     margin = row["margin_deg"]
     height = -_MOST if math.isnan(margin) else float(np.clip(margin, -_MOST, _MOST))
-    return Cell(
-        name, verdict, row["governs"], margin, height - _RANK * verdict.rank - _FAILS * fails
-    )
+    merit = height - _RANK * verdict.rank - _FAILS * fails
+    return Cell(name, verdict, row["governs"], margin, merit, row["facing"], row["flippers"])
 
 
 def terrain_name(stairs: Any) -> str:
-    """What people call a terrain."""
+    """What people call a terrain; nothing where its shape is given figure by figure."""
+    if stairs is None:
+        return ""
     if isinstance(stairs, tuple):
         return " + ".join(each.name for each in stairs)
     return str(stairs.name)
