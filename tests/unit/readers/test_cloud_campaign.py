@@ -72,7 +72,9 @@ def test_what_lies_on_the_floor_is_no_floor(number):
     assert not flight.begins or flight.line()[0, 1] == pytest.approx(made.nosings[0, 1], abs=0.01)
 
 
-@pytest.mark.parametrize("number", [*range(13), 20_030, 20_143, 600_190, 720_460, 780_251, 900_205])
+@pytest.mark.parametrize(
+    "number", [*range(13), 20_030, 20_143, 600_190, 720_460, 780_251, 900_205, 961_016]
+)
 # ends of ramps passed for three steps, a whole one with battens for nine, boards of shelves and
 # seats of a grandstand for four and five, a stack of pallets for three
 def test_a_lookalike_is_no_staircase(number):

@@ -45,7 +45,7 @@ COARSE = 0.03
 """Side of the cubes of which one point is enough to find stairs [m]."""
 MOST_FLIGHTS = 8
 """Flights that are looked for in one cloud."""
-MOST_PATCHED = 60_000
+MOST_PATCHED = 40_000
 """Points from which patches are made."""
 MANY_LEFT = 400
 """Points of the thinned cloud from which another flight is looked for."""
@@ -114,7 +114,7 @@ def found(points: Points, hints: Hints) -> Found:
     -------
     Found
     """
-    xyz = _those(np.ascontiguousarray(points.xyz.T).T, np.isfinite(points.xyz[:, 0]))
+    xyz = _those(points.xyz, np.isfinite(points.xyz[:, 0]))
     best: _Try | None = None
     for unit in _units(points, xyz):
         metres = METRES[unit.value]
@@ -165,7 +165,7 @@ def _with_unit(points: Points, xyz: Array, unit: Known, metres: float, hints: Hi
         sensor = np.zeros(3)
     patches = patches_of(rastered(some, WIDE) if noise > NOISY else joined(small), sensor)
     rows = thinned(some, COARSE)
-    thin, of_thin = some[rows], patches.of_point[rows]
+    thin, of_thin = some.T.take(rows, axis=1).T, patches.of_point[rows]
     cloud = _Cloud(replace(points.provenance, unit=unit), xyz, thin, of_thin, patches, noise, eye)
     ups = _ups(points.provenance.up, patches, oriented=sensor is not None)
     best = _first_up(cloud, ups, hints)
@@ -202,7 +202,9 @@ def _some(xyz: Array) -> Array:
 
 def _those(xyz: Array, which: NDArray[np.bool_]) -> Array:
     """Some of the points, each coordinate in one piece of memory: they are read one by one."""
-    return xyz if which.all() else xyz.T.compress(which, axis=1).T
+    if which.all():
+        return np.ascontiguousarray(xyz.T).T
+    return np.array([each[which] for each in xyz.T]).T
 
 
 def _ups(stated: Known | None, patches: Patches, *, oriented: bool) -> list[tuple[Array, Known]]:
@@ -250,7 +252,7 @@ def _along(seen: _Cloud, upward: Upward, side: Array, provenance: Provenance, er
     turn, upright_turn = frame(upward.built, side), frame(upward.up, side)
     against = turn @ upward.against @ turn.T
     level = replace(patches, middle=patches.middle @ turn.T, normal=patches.normal @ turn.T)
-    thin = seen.thin @ turn.T
+    thin = (turn @ seen.thin.T).T  # each coordinate in one piece of memory
     along = Views(thin, level, seen.of_thin)
     eye = np.zeros(3) if seen.eye is None else seen.eye
     tolerance = min(max(3 * noise, 0.012), 0.04)

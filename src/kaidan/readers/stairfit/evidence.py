@@ -95,16 +95,16 @@ def _slope(step: Indices, x: Array, y: Array) -> float:
 def evenness(line: StairLine, at: Assigned) -> float:
     """Points of every second step as a share of those of the steps beside them.
 
-    Near 0 where the steps are twice as long and as high as the line has them. Each counts by how
-    far its points lie outside those of the steps before and behind it: it does not matter how far
-    away they are, nor that one at an end is seen in part.
+    Near 0 where the steps are twice as long and as high as the line has them. Each is held against
+    the geometric mean of those before and behind it: it does not matter how far away they are. Of
+    three steps one at an end may be seen in part: that between them is held against the nearer.
     """
     on = (at.tread | at.riser) & (at.step >= line.first) & (at.step <= line.last)
     count = np.bincount(at.step[on] - line.first, minlength=line.last - line.first + 1)
     size = np.log(1.0 + count)
-    before, behind = size[:-2], size[2:]
-    beyond = size[1:-1] - np.clip(
-        size[1:-1], np.minimum(before, behind), np.maximum(before, behind)
-    )
-    other = beyond * np.where(np.arange(len(beyond)) % 2, 1.0, -1.0)
+    before, own, behind = size[:-2], size[1:-1], size[2:]
+    usual = (before + behind) / 2
+    if len(own) == 1:
+        usual = np.clip(own, np.minimum(before, behind), np.maximum(before, behind))
+    other = (own - usual) * np.where(np.arange(len(own)) % 2, 1.0, -1.0)
     return math.exp(-abs(float(other.mean()))) if len(other) else 1.0

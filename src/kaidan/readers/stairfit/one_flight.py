@@ -10,7 +10,7 @@ from kaidan.readers.kinds import Array
 from kaidan.readers.stairfit.corridor import Lane
 from kaidan.readers.stairfit.landing_end import landing_end
 from kaidan.readers.stairfit.quantiles import quantile
-from kaidan.readers.stairfit.steps import Steps, steps_of
+from kaidan.readers.stairfit.steps import MOST_MEASURED, Steps, evenly, steps_of
 from kaidan.readers.stairfit.views import rotated
 from kaidan.text import scans as text
 
@@ -65,6 +65,7 @@ def estimate(
         return np.column_stack([along * c - t * s, along * s + t * c, steps.at[:, 1]])
 
     low, high = steps.width
+    cloud = evenly(MOST_MEASURED, *cloud)
     before, behind = _room(steps, *cloud)
     return FlightEstimate(
         left=placed(high),

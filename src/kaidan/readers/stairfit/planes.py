@@ -166,8 +166,8 @@ def _plane(patches: Patches, rows: Indices, middle: Array, normal: Array, across
     for turn in range(8):
         if on.sum() < FEWEST:
             break
-        weighted = columns[on] * weight[on, None]
-        fit = np.linalg.solve(columns[on].T @ weighted + 1e-9 * np.eye(3), weighted.T @ height[on])
+        weighted = columns.T * (weight * on)
+        fit = np.linalg.solve(weighted @ columns + 1e-9 * np.eye(3), weighted @ height)
         off = np.abs(height - columns @ fit)
         scatter = 1.5 * median(off[on])
         before, on = on, off < (max(2.7 * scatter, THINNEST) if turn > 2 else LAYER)

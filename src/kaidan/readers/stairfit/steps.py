@@ -45,9 +45,9 @@ LANES = (0.05, 0.2)
 LAST_UNSEEN = 2 * LAST_SPREAD
 """Standard uncertainty of the last level where nothing of it was seen [m]: what last rises are like
 says more."""
-MOST_FITTED, MOST_MEASURED = 8_000, 40_000
-"""Points of a lane to which the line is fitted, and of which single steps are the means: 1,000 of a
-tread with 10 mm of noise say its level to 0.3 mm, and the range errs by more. Ends are sought in
+MOST_FITTED, MOST_MEASURED = 8_000, 25_000
+"""Points of a lane to which the line is fitted, and of which single steps are the means: 600 of a
+tread with 10 mm of noise say its level to 0.4 mm, and the range errs by more. Ends are sought in
 all of them."""
 
 
@@ -126,7 +126,7 @@ def steps_of(
     """
     tight = min(max(3.0 * noise, 0.008), 0.35 * line.rise)
     every = s, t, z
-    s, t, z = _some(MOST_FITTED, s, t, z)
+    s, t, z = evenly(MOST_FITTED, s, t, z)
     line = fitted(line, s, t, z, tolerances=(1.5 * tight, tight, tight))
     whole = trimmed(line, s, t, z, tight)
     line = from_the_first(whole, s, t, z, tight)
@@ -187,14 +187,14 @@ def steps_of(
         level=level_share(line, at, s, t, z), slant=slant(line, s, t, z),
         evenness=evenness(line, at),
         lean=tread_lean(
-            line, found[:, 1], *_some(MOST_MEASURED, *every),
+            line, found[:, 1], *evenly(MOST_MEASURED, *every),
             eye=eye, width=2 * tight, range_error=range_error, out_of_true=OUT_OF_TRUE,
         ),
         width=width, angles=angles,
     )  # fmt: skip
 
 
-def _some(most: int, s: Array, t: Array, z: Array) -> tuple[Array, Array, Array]:
+def evenly(most: int, s: Array, t: Array, z: Array) -> tuple[Array, Array, Array]:
     """Every so many-th of the points, so that about as many are left."""
     thin = max(1, len(s) // most)
     return s[::thin], t[::thin], z[::thin]
@@ -208,7 +208,7 @@ def _alone(
     NaN: neither face nor end; the places are those of `place_of`, shape (m, 2, 2, 3), NaN of ends.
     """
     every = s, t, z
-    s, t, z = _some(MOST_MEASURED, s, t, z)
+    s, t, z = evenly(MOST_MEASURED, s, t, z)
     at = assigned(line, s, t, z, tight)
     number = np.arange(line.first, line.last + 1)
     regular = line.at(number)

@@ -6,6 +6,7 @@ median of its points says where it is; the median of the slopes between strips s
 """
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -66,12 +67,18 @@ def nosing_angles(
         x, y = (_medians(strip, each[here]) for each in (t, s))
         if len(x) < FEWEST_STRIPS:
             continue
-        i, j = np.triu_indices(len(x), 2)  # neighbours say little
+        i, j = _pairs(len(x), 2)  # neighbours say little
         slope = median((y[j] - y[i]) / (x[j] - x[i]))
         off = y - slope * x
         if median(np.abs(off - median(off))) < STRAIGHT:
             found[row] = np.arctan(slope)
     return found
+
+
+@lru_cache(maxsize=256)
+def _pairs(count: int, apart: int) -> tuple[Indices, Indices]:
+    """Pairs of so many numbers that lie so far apart or farther."""
+    return np.triu_indices(count, apart)
 
 
 def _medians(strip: Indices, value: Array) -> Array:
@@ -100,7 +107,7 @@ def turn_of(angles: Array) -> tuple[str, float]:
     if len(number) < 3:
         return "", 0.0
     seen = angles[number]
-    i, j = np.triu_indices(len(number), 1)
+    i, j = _pairs(len(number), 1)
     slope = median((seen[j] - seen[i]) / (number[j] - number[i]))
     turn = slope * (len(angles) - 1)
     if abs(turn) > CURVED:

@@ -126,7 +126,7 @@ class Views:
             across = np.abs(normal[:, 1] * math.cos(axis) - normal[:, 0] * math.sin(axis))
             # side walls say nothing and cover everything
             rows = np.flatnonzero((across < 0.85) & self._low)
-            s, t, z = rotated(self.xyz[rows], axis)
+            s, t, z = rotated(self.xyz.T.take(rows, axis=1).T, axis)
             self._made[number] = View(axis, rows, s, t, z, floors(s, z))
         return self._made[number]
 
