@@ -23,6 +23,7 @@ from ifc_cases import (
 )
 from kaidan import InputError, Stairs
 from kaidan.cli import app
+from kaidan.text.building import in_words, posture_for
 from kaidan.text.building_page import page
 from kaidan.verbs.building import building
 from kaidan.verbs.building.answer import BuildingAnswer
@@ -67,9 +68,11 @@ def way(answer, robot, storey):
 def test_every_pair_has_the_verdict_of_assess(answer):
     """The same flight entered by hand: 150 by 300 mm, a landing of 1.2 m, 1.0 m wide."""
     sheet = Stairs(rise=0.15, going=0.3, steps=10, width=1.0, lower_landing=2.0, upper_landing=1.2)
-    by_hand = kaidan.assess("absolem", sheet, flippers="flat", friction=1.0)
+    by_hand = kaidan.assess("absolem", sheet, friction=1.0)
     found = cell(answer, "absolem", "A1")
     assert (found.verdict, found.governs) == (by_hand.verdict, by_hand.governs)
+    assert (found.facing, found.flippers) == (by_hand.plan.facing, by_hand.question.flippers)
+    assert f"absolem on A1, A2: nose first; {in_words(found.flippers)}" in str(answer)
     assert found.margin_deg == pytest.approx(by_hand.margin_deg, abs=1e-3)
     assert [each.name for each in answer.flights] == ["A1", "A2", "B"]
     assert [each.steps for each in answer.flights] == [10, 10, 15]
@@ -90,12 +93,30 @@ def test_absolem_raises_its_flippers_to_turn_on_a_landing_of_1_2_m(answer):
     assert (turn.way, turn.flippers, turn.changed) == ("spin", "stowed", True)
     assert turn.circle_m == pytest.approx(0.9014, abs=0.001)
     assert turn.room_m == pytest.approx(1.2, abs=0.02)
+    plan = in_words(cell(answer, "absolem", "A1").flippers)
     assert way(answer, "absolem", "First").postures == (
-        "Before A1 set the flippers to flat.",
+        f"Before A1 set the flippers to {plan}.",
         "On the landing at 1.50 m change the flippers to stowed and turn by 180 deg: it sweeps "
         "0.90 m of 1.20 m.",
-        "Before A2 set the flippers to flat.",
+        f"Before A2 set the flippers to {plan}.",
     )
+
+
+@pytest.mark.parametrize(
+    ("flippers", "facing", "said"),
+    [
+        ("flat", "", "Before A1 set the flippers to flat."),
+        ("", "tail-first", "Before A1 turn to go tail first."),
+        (
+            "flat/traverse:9deg,flat/land:stowed",
+            "nose-first",
+            "Before A1 turn to go nose first and set the flippers to flat; to traverse 9deg,flat; "
+            "to land stowed.",
+        ),
+    ],
+)
+def test_what_to_do_before_a_flight(flippers, facing, said):
+    assert posture_for("A1", flippers, facing) == said
 
 
 def test_flights_of_a_staircase_are_judged_with_the_landing_between(house):
@@ -127,7 +148,7 @@ def test_ozbot_does_not_turn_there_and_that_binds(answer):
 def test_the_landing_decides_how_absolem_turns(folder, landing, width, way_, changed):
     """Flat it sweeps 1.41 m with 30 mm all round, so that it needs half of that from each wall."""
     path = half_turn_house(landing, width=width).write(folder / f"landing{landing}.ifc")
-    found = building(path, ["absolem"], friction=1.0)
+    found = building(path, ["absolem"], flippers="flat", friction=1.0)
     (turn,) = found.turns
     assert (turn.way, turn.changed) == (way_, changed)
 
@@ -139,14 +160,16 @@ def test_a_door_that_opens_onto_a_landing_is_in_the_way_of_a_turn(folder, degree
     leaf = h.slab([(-0.45, -0.025), (0.45, -0.025), (0.45, 0.025), (-0.45, 0.025)], 2.1, 2.1)
     h.add("IfcDoor", "L", [leaf], at=(3.9, 0, 1.5), degrees=degrees, OverallWidth=900.0,
           OverallHeight=2100.0, OperationType="SINGLE_SWING_LEFT")  # fmt: skip
-    (turn,) = building(h.write(folder / f"door{degrees}.ifc"), ["absolem"], friction=1.0).turns
+    (turn,) = building(
+        h.write(folder / f"door{degrees}.ifc"), ["absolem"], flippers="flat", friction=1.0
+    ).turns
     assert turn.way == way_
 
 
 def test_a_door_that_is_too_narrow_binds(folder):
     """0.55 m less 0.1 m for frame and leaf: 0.45 m, Absolem has 0.594 m."""
     path = half_turn_house(door=0.55).write(folder / "door.ifc")
-    found = building(path, ["absolem"], friction=1.0)
+    found = building(path, ["absolem"], flippers="flat", friction=1.0)
     assert way(found, "absolem", "First").binds == "doors"
     assert way(found, "absolem", "First").verdict == "no-go"
     assert "The widest door there leaves 450 by 2100 mm" in way(found, "absolem", "First").reason
@@ -183,7 +206,7 @@ def test_a_door_that_opens_to_the_flight_takes_its_leaf(
 
 def test_a_ceiling_that_is_too_low_binds(folder):
     path = half_turn_house(ceiling=0.6).write(folder / "ceiling.ifc")
-    found = building(path, ["absolem"], friction=1.0)
+    found = building(path, ["absolem"], flippers="flat", friction=1.0)
     assert cell(found, "absolem", "A1").binds == "headroom"
     assert cell(found, "absolem", "A1").verdict == "no-go"
 
@@ -195,7 +218,7 @@ def test_friction_that_nobody_stated_binds(house):
 
 
 def test_ways_may_begin_on_any_storey_and_lead_down(house):
-    found = building(house, ["absolem"], friction=1.0, start="first")
+    found = building(house, ["absolem"], flippers="flat", friction=1.0, start="first")
     assert [each.storey for each in found.ways] == ["Ground", "Attic"]
     assert len(way(found, "absolem", "Ground").flights) == 2
     with pytest.raises(InputError, match=r"no storey is called 'cellar'; known: Ground, First"):
@@ -229,7 +252,7 @@ def test_a_page_that_fetches_nothing(answer):
     assert text.count("<svg") == 1
     assert "<script" not in text
     assert 'src="' not in text
-    assert "Before A1 set the flippers to flat." in text
+    assert f"Before A1 set the flippers to {in_words(answer.cells[0].flippers)}." in text
     evil = answer.model_copy(update={"notes": ("<img src=x>",)})
     assert "<img" not in page(evil, "")
 

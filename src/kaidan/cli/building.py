@@ -40,7 +40,7 @@ def building(
     robots: RobotNames,
     surface: options.SurfaceName = None,
     friction: options.Friction = None,
-    flippers: FlippersThere = "flat",
+    flippers: FlippersThere = "best",
     direction: WayDirection = "up",
     start: StartStorey = None,
     speed: options.Speed = None,

@@ -2,9 +2,10 @@
 
 from typing import TYPE_CHECKING, Any
 
-from kaidan.modes import Verdict
+from kaidan.modes import Phase, Verdict
 from kaidan.text.comparison import SIGNS, short
 from kaidan.text.tables import table
+from kaidan.text.words import end_first
 
 if TYPE_CHECKING:
     from kaidan.readers.solids.stated import Stated
@@ -32,7 +33,7 @@ def text(found: "BuildingAnswer") -> str:
     """The flights and their verdicts as a table, then the ways to each storey."""
     lines = [heading(found)]
     if found.flights:
-        lines += ["", _table(found), "", key()]
+        lines += ["", _table(found), "", key(), *(f"  {each}" for each in plans(found))]
     for each in found.flights:
         lines += [f"  {each.name}: {note}." for note in each.notes]
     if found.ways:
@@ -62,6 +63,26 @@ def key() -> str:
     """What the signs of the table mean."""
     signs = ", ".join(f"{sign} {short(verdict)}" for verdict, sign in SIGNS.items())
     return f"{signs} the model. Lengths in mm; number: smallest margin [deg], in the worst case."
+
+
+def plans(found: "BuildingAnswer") -> list[str]:
+    """Plans by phase, or with the tail first, one line for all flights that a robot takes so."""
+    names = {each.identity: each.name for each in found.flights}
+    groups: dict[tuple[str, str, str], list[str]] = {}
+    for cell in found.cells:
+        if not _plain(cell):
+            plan = (cell.robot, cell.facing, cell.flippers)
+            groups.setdefault(plan, []).append(names[cell.flight])
+    return [
+        f"{robot} on {', '.join(flights)}: "
+        f"{'; '.join(filter(None, (end_first(facing), in_words(flippers))))}"
+        for (robot, facing, flippers), flights in groups.items()
+    ]
+
+
+def _plain(cell: "CellShown") -> bool:
+    """Whether a column's head tells the posture."""
+    return "/" not in cell.flippers and cell.facing == "nose-first"
 
 
 def way_lines(found: "BuildingAnswer", way: "WayShown") -> list[str]:
@@ -117,9 +138,18 @@ def no_way(start: str) -> str:
     return f"no straight flights lead there from {start}."
 
 
-def posture_for(flippers: str, flight: str) -> str:
-    """Posture to take up before a flight."""
-    return f"Before {flight} set the flippers to {flippers}."
+def posture_for(flight: str, flippers: str, facing: str) -> str:
+    """What to do before a flight: flippers, leading end, or both; empty what stays as it is."""
+    said = [f"turn to go {end_first(facing)}"] if facing else []
+    said += [f"set the flippers to {in_words(flippers)}"] if flippers else []
+    return f"Before {flight} {' and '.join(said)}."
+
+
+def in_words(flippers: str) -> str:
+    """Postures by phase, as an option writes them, in a few words."""
+    for phase, when in ((Phase.TRAVERSE, "to traverse"), (Phase.LAND, "to land")):
+        flippers = flippers.replace(f"/{phase}:", f"; {when} ")
+    return flippers
 
 
 def door(best: "DoorShown", straight: float, needed: float) -> str:
@@ -143,8 +173,9 @@ def _table(found: "BuildingAnswer") -> str:
         row |= {name: getattr(flight, name) for name in list(_HEADS)[1:]}
         cells = found.cells[number * wide : (number + 1) * wide]
         rows.append(row | {cell.robot: cell_text(cell) for cell in cells})
-    flippers = {cell.robot: cell.flippers for cell in found.cells}
-    heads = {
-        name: f"{name} ({flippers[name]})" if flippers.get(name) else name for name in found.robots
-    }
+    heads = {}
+    for name in found.robots:
+        of_robot = [cell for cell in found.cells if cell.robot == name]
+        one, *others = {cell.flippers if _plain(cell) else "" for cell in of_robot}
+        heads[name] = f"{name} ({one})" if one and not others else name
     return table(rows, _HEADS | heads)

@@ -3,7 +3,7 @@
 from html import escape
 from typing import TYPE_CHECKING
 
-from kaidan.text.building import cell_text, heading, key, steps_of
+from kaidan.text.building import cell_text, heading, key, plans, steps_of
 
 if TYPE_CHECKING:
     from kaidan.verbs.building.answer import BuildingAnswer
@@ -38,6 +38,7 @@ def page(found: "BuildingAnswer", plan: str) -> str:
         "<h2>Flights</h2>",
         _flights(found),
         f"<p>{escape(key())}</p>",
+        _list("Postures", plans(found)),
         f"<h2>Ways from {escape(found.start)}</h2>" if found.ways else "",
         _ways(found),
         "<h2>Plan</h2>" + plan[plan.find("<svg") :] if plan else "",

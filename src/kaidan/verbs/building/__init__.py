@@ -20,6 +20,7 @@ from kaidan.readers.hints import Hints
 from kaidan.readers.opening import Source
 from kaidan.readers.recognition import recognised
 from kaidan.robot import Robot
+from kaidan.spelling import BEST
 from kaidan.terrain.stairs import Stairs
 from kaidan.text.building import disagreement, hooking
 from kaidan.verbs.building.answer import (
@@ -43,7 +44,7 @@ def building(
     file: Any,
     robots: Sequence[Any],
     *,
-    flippers: Any = "flat",
+    flippers: Any = BEST,
     direction: str = "up",
     start: str | None = None,
     **manner: Any,
@@ -57,8 +58,9 @@ def building(
     robots : sequence of Robot, str or path
         Robots.
     flippers : Posture or {"flat", "stowed", "best"}
-        Posture on the flights; flat lays the flippers in line with the track where there are some;
-        best finds a plan for each pair. On landings a robot may raise them.
+        Posture on the flights, as in `kaidan.assess`: best finds a plan for each pair; flat lays
+        the flippers in line with the track where there are some. On landings a robot may raise
+        them.
     direction : {"up", "down"}
         In which the table of all flights is judged. Ways lead up and down as they must.
     start : str, optional

@@ -231,9 +231,9 @@ def _postures(
 ) -> Iterator[str]:
     """What to do with the flippers on the way."""
     before: Leg | None = None
-    at = "stowed"
+    at, lead = "stowed", "nose-first"
     for leg in legs:
-        climbing = cell(leg.flight, leg.up).flippers
+        judged = cell(leg.flight, leg.up)
         if before is not None and before.up == leg.up:
             floor = building.floors[leg.ends[0]]
             lower, upper = (before, leg) if leg.up else (leg, before)
@@ -243,7 +243,9 @@ def _postures(
                 if shown.way in TURNED:
                     yield turning.turned(shown, place)
                     at = shown.flippers if shown.changed else at
-        if climbing and climbing != at:
-            yield text.posture_for(climbing, leg.flight.name)
-            at = climbing.rpartition("/")[2].rpartition(":")[2]
+        flippers = "" if judged.flippers == at else judged.flippers
+        facing = "" if judged.facing == lead else judged.facing
+        if flippers or facing:
+            yield text.posture_for(leg.flight.name, flippers, facing)
+            at, lead = judged.flippers.rpartition("/")[2].rpartition(":")[2], judged.facing
         before = leg
