@@ -6,13 +6,12 @@ import math
 import numpy as np
 import pytest
 
-from kaidan import InputError, Question, Robot, Stairs
+from kaidan import InputError, Question, Robot, Stairs, assess
 from kaidan.assessment.verdict import conclude
 from kaidan.models import judge
 from kaidan.studies.stock.answer import StockStudy
 from kaidan.studies.stock.flights import Stock
 from kaidan.studies.stock.study import longest, stock_study
-from one_posture import assess
 
 CLOSED = {"model": "closed-form", "friction": (0.8, 1.0)}
 
@@ -180,8 +179,7 @@ def test_shares_are_those_of_single_answers():
     best = np.zeros(3, dtype=bool)
     for each in found.robots:
         answers = [
-            assess(each.robot, Stairs(rise=r, going=g, steps=14),
-                   flippers="flat" if each.robot == "absolem" else "stowed", **CLOSED)
+            assess(each.robot, Stairs(rise=r, going=g, steps=14), **CLOSED)
             for r, g in zip(rise, going, strict=True)
         ]  # fmt: skip
         for verdict, share in {"go": each.go, "caution": each.caution, "no-go": each.no_go,

@@ -63,7 +63,7 @@ def manner_of(**values: Any) -> dict[str, Any]:
 
 
 @group.command("stock")
-@shared((question_options,), manner_of, without=_NOT_OPTIONS, flippers="flat")
+@shared((question_options,), manner_of, without=_NOT_OPTIONS)
 def stock(
     manner: dict[str, Any],
     robots: Robots,

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from kaidan.errors import InputError
 from kaidan.modes import CONTACT, Verdict
 from kaidan.robot import Robot
+from kaidan.spelling import BEST
 from kaidan.studies.stock.answer import RobotOnStock, StockStudy
 from kaidan.studies.stock.flights import Stock
 from kaidan.sweeps.cells import NOT_GO, VERDICTS
@@ -25,7 +26,7 @@ def stock_study(
     robots: Sequence[Any],
     stock: Stock,
     *,
-    flippers: Any = "flat",
+    flippers: Any = BEST,
     go_only: bool = False,
     scheduler: str = "threads",
     workers: int | None = None,
@@ -42,8 +43,8 @@ def stock_study(
     stock : Stock
         Flights.
     flippers : Posture or str
-        Posture of all robots; flat lays flippers in line with the track where there are some, best
-        searches one for each pair.
+        As in `kaidan.assess`: best finds a plan for each pair; flat lays the flippers of all in
+        line with the track where there are some.
     go_only : bool
         Whether to spare the contact model flights of which the closed form alone says that they are
         no GO; see `kaidan.sweep`.

@@ -17,6 +17,7 @@ from kaidan.robot import Robot
 from kaidan.terrain.stairs import Stairs
 from kaidan.text import verdicts
 from kaidan.verbs.building.answer import Binding, CellShown
+from kaidan.verbs.comparison import laid
 
 DEEPEST = 5.0
 """Length of a landing beyond which it makes no difference [m]."""
@@ -87,8 +88,7 @@ class Judge:
         return found.model_copy(update={"flight": flight.identity})
 
     def _judged(self, robot: Robot, sheet: Stairs, direction: str) -> CellShown:
-        bare = not robot.flippers()
-        flippers = "stowed" if bare and self.flippers == "flat" else self.flippers
+        flippers = laid(robot, self.flippers)
         question, findings, _ = with_plan(
             Question.of(robot, sheet, flippers=flippers, direction=direction, **self.manner)
         )
@@ -99,7 +99,7 @@ class Judge:
             flight=sheet.name,
             direction=question.direction,
             facing=question.facing,
-            flippers="" if bare else question.flippers,
+            flippers=question.flippers if robot.flippers() else "",
             verdict=conclusion.verdict,
             governs=governs,
             binds=binds(governs, conclusion.verdict),
