@@ -5,6 +5,7 @@ within bounds of time and memory, and says what it found on its output: one line
 arrays. It imports nothing of kaidan, so that it starts quickly.
 """
 
+import gc
 import json
 import os
 import re
@@ -235,6 +236,7 @@ def _write(found: dict[str, Any], arrays: list[Any]) -> None:
 
 
 if __name__ == "__main__":
+    gc.disable()  # it ends soon, and what it makes holds on to itself nowhere
     try:
         main(sys.argv[1], sys.argv[2] == "around")
     except ImportError:

@@ -116,7 +116,9 @@ def free_outline(shape: Any, walls: Array, points: Array) -> Any:
     near = shapely.intersection(shape, shapely.box(*low, *high))
     if len(walls):
         lines = shapely.linestrings(walls.reshape(-1, 2, 2))
-        near = shapely.difference(near, shapely.buffer(shapely.union_all(lines), _THIN))
+        near = shapely.difference(
+            near, shapely.buffer(shapely.union_all(lines), _THIN, quad_segs=1)
+        )
     parts = [each for each in shapely.get_parts(near) if shapely.get_type_id(each) == 3]
     if not parts:
         return shape

@@ -138,10 +138,10 @@ def _cut(
     """Straight flights of a chain, and what turns between them."""
     steps = chain if above is None else [*chain, above]
     lower = [below, *chain]
-    edges = [
-        None if low is None else _front_edge(plates[high], reach[low])
-        for low, high in zip(lower, steps, strict=False)
-    ]
+    pairs = list(zip(lower, steps, strict=False))
+    seen = [(low, high) for low, high in pairs if low is not None]
+    found = iter(_front_edges([plates[high] for _, high in seen], reach[[low for low, _ in seen]]))
+    edges = [None if low is None else next(found) for low, _ in pairs]
     if edges[0] is None:  # no floor below: the first nosing is taken as parallel to the second
         second = edges[1] if len(edges) > 1 else None
         direction = math.nan if second is None else second.direction
@@ -187,17 +187,21 @@ def _between(one: float, two: float) -> float:
     return (two - one + math.pi / 2) % math.pi - math.pi / 2
 
 
-def _front_edge(upper: Plate, reach: Any) -> Edge:
-    """Edge of a surface along the one below it, whose reach that is."""
+def _front_edges(upper: Sequence[Plate], reach: Any) -> list[Edge]:
+    """Edge of each surface along the one below it, whose reaches those are."""
     import shapely
 
-    along = shapely.intersection(shapely.boundary(upper.shape), reach)
-    lines = [
-        shapely.get_coordinates(each)
-        for each in shapely.get_parts(along)
-        if shapely.get_type_id(each) == 1
-    ]
-    pieces = np.vstack([np.hstack([line[:-1], line[1:]]) for line in lines] or [np.zeros((0, 4))])
+    along = shapely.intersection(shapely.boundary([each.shape for each in upper]), reach)
+    parts, of = shapely.get_parts(along, return_index=True)
+    lines = shapely.get_type_id(parts) == 1
+    points, line = shapely.get_coordinates(parts[lines], return_index=True)
+    pieces, within = np.hstack([points[:-1], points[1:]]), line[:-1] == line[1:]
+    pieces, owner = pieces[within], of[lines][line[:-1][within]]
+    return [_edge(pieces[owner == k], each) for k, each in enumerate(upper)]
+
+
+def _edge(pieces: Array, upper: Plate) -> Edge:
+    """Edge of a surface of pieces of its boundary, x, y of both ends, shape (n, 4)."""
     if len(pieces) == 0:
         return Edge(math.nan, upper.middle)
     ahead = pieces[:, 2:] - pieces[:, :2]

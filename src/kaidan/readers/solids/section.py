@@ -164,9 +164,10 @@ def _cut(solids: Triangles, frame: Frame, t: float) -> Array:
     return np.asarray(two.reshape(-1, 4))
 
 
-def _clipped(segments: Array, low: float, high: float) -> Array:
-    """Both ends in s of segments within a range of z, shape (n, 2)."""
+def _least(segments: Array, low: Array, high: Array) -> Array:
+    """Least s of segments within ranges of z, shape (m, n); infinite where one is outside."""
     s0, z0, s1, z1 = segments.T
+    low, high = low[:, None], high[:, None]
     level = np.abs(z1 - z0) < 1e-9
     rise = np.where(level, 1.0, z1 - z0)
     a, b = (np.clip((each - z0) / rise, 0.0, 1.0) for each in (low, high))
@@ -174,7 +175,7 @@ def _clipped(segments: Array, low: float, high: float) -> Array:
     inside = np.where(
         level, (z0 >= low) & (z0 <= high), (np.maximum(z0, z1) > low) & (np.minimum(z0, z1) < high)
     )
-    return np.asarray(np.column_stack([s0 + a * (s1 - s0), s0 + b * (s1 - s0)])[inside])
+    return np.where(inside, s0 + np.minimum(a * (s1 - s0), b * (s1 - s0)), np.inf)
 
 
 def _at_nosings(segments: Array, fronts: Array, levels: Array) -> Array:
@@ -190,21 +191,20 @@ def _at_nosings(segments: Array, fronts: Array, levels: Array) -> Array:
 
 def _noses(segments: Array, fronts: Array, levels: Array) -> tuple[Array, float, bool]:
     """How far each nosing reaches beyond its surface; the largest overhang; open risers."""
-    reach = np.zeros(len(fronts))
-    overhang, is_open = 0.0, False
     going = float(np.diff(fronts).mean()) if len(fronts) > 1 else 0.25
-    for k in range(len(fronts)):
-        s = _clipped(segments, levels[k] - NOSE, levels[k] - 1e-6).min(axis=1, initial=np.inf)
-        near = s[(s > fronts[k] - REACHING) & (s < fronts[k] + 1e-6)]
-        reach[k] = max(0.0, fronts[k] - float(near.min())) if len(near) else 0.0
-        if k == 0:
-            continue
-        tip = fronts[k] - reach[k]
-        low, high = levels[k - 1] + 0.02, levels[k] - NOSE - 0.02
-        face = _clipped(segments, low, max(high, low + 1e-3)).min(axis=1, initial=np.inf)
-        face = face[(face > tip - SEEN) & (face < tip + 0.9 * going)]
-        if len(face):
-            overhang = max(overhang, float(face.min()) - tip)
-        else:
-            is_open = True
-    return reach, overhang if overhang > SEEN else 0.0, is_open
+    s = _least(segments, levels - NOSE, levels - 1e-6)
+    near = _first(s, fronts - REACHING, fronts + 1e-6)
+    reach = np.where(np.isfinite(near), np.maximum(fronts - near, 0.0), 0.0)
+    tip = (fronts - reach)[1:]
+    low = levels[:-1] + 0.02
+    face = _least(segments, low, np.maximum(levels[1:] - NOSE - 0.02, low + 1e-3))
+    face = _first(face, tip - SEEN, tip + 0.9 * going)
+    seen = np.isfinite(face)
+    overhang = float((face - tip)[seen].max(initial=0.0))
+    return reach, overhang if overhang > SEEN else 0.0, not seen.all()
+
+
+def _first(s: Array, low: Array, high: Array) -> Array:
+    """Least s of each row between two bounds; infinite: there is none."""
+    between = (s > low[:, None]) & (s < high[:, None])
+    return np.asarray(np.where(between, s, np.inf).min(axis=1, initial=np.inf))
