@@ -9,7 +9,6 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from functools import cache
-from html import escape
 from importlib import import_module
 from itertools import pairwise
 from typing import Any, ClassVar, Self
@@ -125,6 +124,8 @@ class Answer(Part):
         return f"<{type(self).__name__}: {str(self).splitlines()[0]}>"
 
     def _repr_html_(self) -> str:
+        from html import escape
+
         rows = "".join(
             f"<tr><td>{escape(name)}</td><td>{escape(value)}</td><td>{escape(unit)}</td></tr>"
             for name, value, unit in _rows(self, "")

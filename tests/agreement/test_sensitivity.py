@@ -13,7 +13,7 @@ import pytest
 pytest.importorskip("SALib")
 
 from kaidan import InputError, Question, Stairs, assess, sensitivity
-from kaidan.assessment.measuring import first_order, to_measure
+from kaidan.assessment.measuring import Drawn, first_order, to_measure
 from kaidan.assessment.uncertain_inputs import doubts_of, without
 from kaidan.models import judge
 from kaidan.studies.sensitivity import Sensitivity
@@ -30,7 +30,7 @@ def test_first_order_indices_of_the_ishigami_function():
     draw = np.random.default_rng(0)
     x = draw.uniform(-math.pi, math.pi, (3, 16384))
     y = np.sin(x[0]) + 7 * np.sin(x[1]) ** 2 + 0.1 * x[2] ** 4 * np.sin(x[0])
-    found = [first_order(each, y) for each in x]
+    found = [first_order(Drawn.of(each), y) for each in x]
     assert found == pytest.approx([0.3139, 0.4424, 0.0], abs=0.02)
 
 
@@ -38,8 +38,10 @@ def test_of_a_sum_each_input_has_its_variance():
     """By hand: Y = 3 X1 + 2 X2 + X3 has shares of 9, 4 and 1 of 14."""
     x = np.random.default_rng(1).normal(size=(3, 8192))
     y = 3 * x[0] + 2 * x[1] + x[2]
-    assert [first_order(each, y) for each in x] == pytest.approx([9 / 14, 4 / 14, 1 / 14], abs=0.02)
-    assert first_order(x[0], np.ones(8192)) == 0.0
+    assert [first_order(Drawn.of(each), y) for each in x] == pytest.approx(
+        [9 / 14, 4 / 14, 1 / 14], abs=0.02
+    )
+    assert first_order(Drawn.of(x[0]), np.ones(8192)) == 0.0
 
 
 ASKED = {

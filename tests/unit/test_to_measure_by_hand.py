@@ -8,7 +8,7 @@ import pytest
 
 from kaidan.allowance import Allowance
 from kaidan.assessment import measuring as module
-from kaidan.assessment.measuring import draws_of, first_order, margins_of, to_measure
+from kaidan.assessment.measuring import Drawn, draws_of, first_order, margins_of, to_measure
 from kaidan.assessment.uncertain_inputs import SAMPLED, STEPS, Doubt
 from kaidan.models.findings import Finding, Findings
 from kaidan.models.samples import unit_draws
@@ -32,7 +32,7 @@ def margins(monkeypatch):
     monkeypatch.setattr(module, "sample_count", lambda question: 3)
 
     def of(*each, **draws):
-        arrays = {name: np.array(values) for name, values in draws.items()}
+        arrays = {name: Drawn.of(np.array(values)) for name, values in draws.items()}
         found = margins_of(ASKED, Findings(model="", each=each), arrays)
         return None if found is None else found.tolist()
 
@@ -79,7 +79,7 @@ def test_a_first_order_index_of_seven_draws(monkeypatch):
     chance makes 18/49; the whole is 6/7 + 220/49 = 262/49.
     """
     monkeypatch.setattr(module, "SLICES", 3)
-    drawn = np.array([0.9, 0.1, 0.5, 0.2, 0.8, 0.3, 0.6])
+    drawn = Drawn.of(np.array([0.9, 0.1, 0.5, 0.2, 0.8, 0.3, 0.6]))
     values = np.array([7.0, 0.0, 1.0, 1.0, 5.0, 2.0, 3.0])
     for unit in (1.0, 0.01):
         assert first_order(drawn, unit * values) == pytest.approx((220 - 18) / 262)
@@ -92,9 +92,21 @@ def test_draws_of_ranges_are_even_and_of_sheets_the_answers(monkeypatch):
     monkeypatch.setattr(module, "sample_count", lambda question: 4)
     found = draws_of(ASKED, (HEIGHT, FRICTION, D, Doubt(STEPS, math.nan, None)))
     assert list(found) == ["com_height", "friction", "theta_d"]
-    np.testing.assert_array_equal(found["com_height"], unit_draws(4)[SAMPLED.index("com_height")])
+    of_the_answer = unit_draws(4)[SAMPLED.index("com_height")]
+    np.testing.assert_array_equal(found["com_height"].draws, of_the_answer)
     for name in ("friction", "theta_d"):
-        assert sorted(found[name]) == [0.125, 0.375, 0.625, 0.875]
+        assert sorted(found[name].draws) == [0.125, 0.375, 0.625, 0.875]
+    for drawn in found.values():
+        assert sorted(drawn.draws) == drawn.draws[drawn.order].tolist()
+    assert found["friction"].draws.tolist() != found["theta_d"].draws.tolist()
+
+
+def test_numbers_scrambled_as_published():
+    """The first two of SplitMix64 from seed 1234567, as its authors' program prints them."""
+    seed, golden = 1234567, 0x9E3779B97F4A7C15
+    counted = np.array([1, 2], dtype=np.uint64)
+    begun = counted + np.uint64(seed * pow(golden, -1, 2**64) % 2**64)
+    assert module._scrambled(begun).tolist() == [6457827717110365317, 3203168211198807973]
 
 
 @pytest.fixture
@@ -106,11 +118,11 @@ def measured(monkeypatch):
                  "com_from_front": Doubt("com_from_front", 0.01, None)}  # fmt: skip
         each = tuple(names[name] for name in indices) if doubts is None else doubts
         values = None if margin is None else np.array(margin)
-        draws = {name: np.array([index]) for name, index in indices.items()}
+        draws = {name: Drawn(np.array([index]), None) for name, index in indices.items()}
         monkeypatch.setattr(module, "doubts_of", lambda question: each)
         monkeypatch.setattr(module, "draws_of", lambda question, doubts: draws)
         monkeypatch.setattr(module, "margins_of", lambda question, found, draws: values)
-        monkeypatch.setattr(module, "first_order", lambda drawn, margin: float(drawn[0]))
+        monkeypatch.setattr(module, "first_order", lambda drawn, margin: float(drawn.draws[0]))
         question = SimpleNamespace(robot=SimpleNamespace(com_range=com_range))
         found = to_measure(question, Findings(model="", outside=outside))
         return [(one.what, one.inputs, one.share, one.deviation_deg) for one in found]

@@ -9,8 +9,10 @@ that it belongs to evenly between their worst and best cases; its draws are even
 import math
 from collections.abc import Mapping
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kaidan.answer import Part
 from kaidan.assessment.uncertain_inputs import GROUPS, SAMPLED, STEPS, Doubt, doubts_of
@@ -18,6 +20,8 @@ from kaidan.models.findings import ROUNDING, Array, Finding, Findings
 from kaidan.models.samples import sample_count, unit_draws
 from kaidan.modes import FALLS, SLIDES_DOWN, SLIDES_UP, TIP_DOWNHILL, TIP_UPHILL
 from kaidan.question import Question
+
+Rows = NDArray[np.int64]
 
 SLICES = 32
 """Slices of the draws of an input: 64 samples in each."""
@@ -97,23 +101,54 @@ def _grouped(
     return found
 
 
-def draws_of(question: Question, doubts: tuple[Doubt, ...]) -> dict[str, Array]:
+class Drawn(NamedTuple):
+    """Draws of an input; not to be written to."""
+
+    draws: Array
+    order: Rows
+    """What puts them in ascending order."""
+
+    @classmethod
+    def of(cls, draws: Array) -> "Drawn":
+        """Draws in any order."""
+        return cls(draws, np.argsort(draws))
+
+
+def draws_of(question: Question, doubts: tuple[Doubt, ...]) -> dict[str, Drawn]:
     """Draws of each input: normal ones as the answer has them, of a range from 0, worst, to 1."""
     count = sample_count(question)
     sampled = [each.name for each in doubts if each.name in SAMPLED]
-    found = {name: unit_draws(count)[SAMPLED.index(name)] for name in sampled}
+    found = {name: _normal_draws(count, SAMPLED.index(name)) for name in sampled}
     ranged = [each.name for each in doubts if each.ends is not None]
-    return found | dict(zip(ranged, _even_draws(count, len(ranged)), strict=True))
+    return found | {name: _even_draws(count, row) for row, name in enumerate(ranged)}
 
 
 @cache
-def _even_draws(count: int, rows: int) -> list[Array]:
-    """Evenly distributed draws from 0 to 1, each in an order of its own; not to be written to."""
-    shuffle = np.random.default_rng(1947)
-    return [shuffle.permutation((np.arange(count) + 0.5) / count) for _ in range(rows)]
+def _normal_draws(count: int, row: int) -> Drawn:
+    return Drawn.of(unit_draws(count)[row])
 
 
-def margins_of(question: Question, found: Findings, draws: Mapping[str, Array]) -> Array | None:
+@cache
+def _even_draws(count: int, row: int) -> Drawn:
+    """Evenly distributed draws from 0 to 1, the rows in orders of their own."""
+    place = np.argsort(_scrambled(np.arange(count, dtype=np.uint64) + np.uint64(row * count)))
+    return Drawn.of((place + 0.5) / count)
+
+
+def _scrambled(numbers: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """SplitMix64 of numbers: to others as if at random, without `numpy.random`, which loads slowly.
+
+    References
+    ----------
+    Steele, Lea & Flood 2014, doi:10.1145/2660193.2660195, figure 17.
+    """
+    z = numbers * np.uint64(0x9E3779B97F4A7C15)
+    z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return z ^ (z >> np.uint64(31))
+
+
+def margins_of(question: Question, found: Findings, draws: Mapping[str, Drawn]) -> Array | None:
     """Smallest margin of slope of each sample, ranges drawn; None: none is known [rad]."""
     slopes = [
         one
@@ -135,7 +170,7 @@ def _certain(one: Finding) -> bool:
     return len(one.worst) == 1 and one.mode.key not in _DRIVEN_BY
 
 
-def _moved(question: Question, one: Finding, draws: Mapping[str, Array], count: int) -> Array:
+def _moved(question: Question, one: Finding, draws: Mapping[str, Drawn], count: int) -> Array:
     """Margin of each sample, between its worst and its best case as the ranges are drawn."""
     worst, best = (np.broadcast_to(each, (count,)) for each in (one.worst, one.best))
     widths = {
@@ -149,11 +184,11 @@ def _moved(question: Question, one: Finding, draws: Mapping[str, Array], count: 
         return np.array(worst)
     part = np.zeros(count)
     for name in by:
-        part = part + widths[name] / whole * draws[name]
+        part = part + widths[name] / whole * draws[name].draws
     return np.asarray(worst + part * (best - worst))
 
 
-def first_order(drawn: Array, values: Array) -> float:
+def first_order(drawn: Drawn, values: Array) -> float:
     """First-order Sobol index of an input, from draws and the values that they led to.
 
     The variance of the means within slices of equally many draws, less what chance alone would
@@ -161,8 +196,8 @@ def first_order(drawn: Array, values: Array) -> float:
 
     Parameters
     ----------
-    drawn : array, shape (samples,)
-        Draws of the input.
+    drawn : Drawn
+        The input, one draw a sample.
     values : array, shape (samples,)
         What came of them.
 
@@ -174,7 +209,7 @@ def first_order(drawn: Array, values: Array) -> float:
     Examples
     --------
     >>> x, y = np.random.default_rng(0).normal(size=(2, 4096))
-    >>> round(first_order(x, 3 * x + y), 1), round(first_order(y, x), 1)
+    >>> round(first_order(Drawn.of(x), 3 * x + y), 1), round(first_order(Drawn.of(y), x), 1)
     (0.9, 0.0)
 
     References
@@ -184,7 +219,7 @@ def first_order(drawn: Array, values: Array) -> float:
     variance = float(np.var(values))
     if not variance > 0:
         return 0.0
-    ordered = values[np.argsort(drawn)]
+    ordered = values[drawn.order]
     size, longer = divmod(len(values), SLICES)
     ends = longer * (size + 1)
     slices = [ordered[ends:].reshape(-1, size)]
