@@ -134,6 +134,20 @@ def test_the_same_from_python_and_read_back():
     jsonschema.validate(found.to_dict(), Comparison.json_schema())
 
 
+def test_where_friction_decides_belts_that_no_sheet_describes_are_named():
+    asked = {"robots": ["absolem", "kenaf"], "stairs": ["ada"], "flippers": "flat"}
+    low = compare(**asked, friction=0.2, model="closed-form")
+    assert low.belts_open == ("absolem", "kenaf")
+    decides = {cell.robot: cell.governs for cell in low.cells}
+    named = [name for name, governs in decides.items() if governs == "slides_down"]
+    assert named == ["absolem"]
+    assert "friction decides for absolem: if they have grousers, --override track.belt" in str(low)
+    stated = compare(**asked, friction=0.2, model="closed-form", override="track.belt=grousers")
+    assert stated.belts_open == ()
+    for found in (stated, compare(**asked, friction=3.0, model="closed-form")):
+        assert "grousers" not in str(found)
+
+
 def test_flippers_may_stay_stowed():
     found = json.loads(run("absolem", "--stairs", "ibc", "--flippers", "stowed", "--json").stdout)
     assert found["model"] == "contact"  # as assess

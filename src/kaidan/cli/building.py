@@ -46,6 +46,7 @@ def building(
     speed: options.Speed = None,
     theta_d: options.ThetaD = None,
     theta_m: options.ThetaM = None,
+    override: options.Override = None,
     risk: options.Risk = 0.01,
     model: options.Model = "contact",
     figure: output.FigureFiles = None,
@@ -69,6 +70,7 @@ def building(
         speed=speed,
         theta_d=theta_d,
         theta_M=theta_m,
+        override=override or (),
         risk=risk,
         model=model,
     )

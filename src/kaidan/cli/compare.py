@@ -42,6 +42,7 @@ def compare(
     flippers: FlippersWhere = None,
     theta_d: options.ThetaD = None,
     theta_m: options.ThetaM = None,
+    override: options.Override = None,
     risk: options.Risk = 0.01,
     model: options.Model = "contact",
     workers: Workers = None,
@@ -67,6 +68,7 @@ def compare(
         workers=workers,
         theta_d=theta_d,
         theta_M=theta_m,
+        override=override or (),
         risk=risk,
         model=model,
     )

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-from kaidan.modes import CONTACT, FAILURE_MODES, Undecided, Verdict
+from kaidan.modes import CONTACT, FAILURE_MODES, SUPPLIES, Undecided, Verdict
 from kaidan.text.tables import screen_width, table
 from kaidan.text.words import heading_of
 
@@ -29,7 +29,7 @@ def text(found: "Comparison") -> str:
         lines += ["", _table(found, range(first, min(first + at_once, len(found.robots))))]
     key = ", ".join(f"{sign} {short(verdict)}" for verdict, sign in SIGNS.items())
     lines += ["", f"{key} the model. Number: smallest margin [deg], in the worst case."]
-    lines += beside_the_slope(found)
+    lines += [*beside_the_slope(found), *belts(found)]
     if found.without_centroid:
         lines.append("No centroid is published of these, so no margin can be computed:")
     lines += [f"  {each.name}: {each.title}, {each.figures}" for each in found.without_centroid]
@@ -67,6 +67,19 @@ def beside_the_slope(found: "Comparison") -> list[str]:
     labels = [mode.label for key, mode in FAILURE_MODES.items() if key in decides]
     labels += ["friction not stated"] if Undecided.FRICTION_UNKNOWN in decides else []
     return [f"Where the margin is positive and it is no GO, this decides: {'; '.join(labels)}."]
+
+
+def belts(found: "Comparison") -> list[str]:
+    """What grousers that no sheet mentions would change, where friction decides."""
+    supplies = {mode.key for mode in SUPPLIES} | {Undecided.FRICTION_UNKNOWN.value}
+    lacks = {cell.robot for cell in found.cells if cell.governs in supplies}
+    open_ = [name for name in found.robots if name in lacks and name in found.belts_open]
+    if not open_:
+        return []
+    return [
+        f"Where a sheet does not say what belts there are, they count as smooth, and friction "
+        f"decides for {', '.join(open_)}: if they have grousers, --override track.belt=grousers."
+    ]
 
 
 def short(verdict: Verdict) -> str:

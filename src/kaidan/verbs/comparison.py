@@ -81,6 +81,8 @@ class Comparison(Answer):
     """Row by row."""
     without_centroid: tuple[NoCentroid, ...]
     """Robots that cannot be judged."""
+    belts_open: tuple[str, ...]
+    """Robots of which no sheet says whether their belts have grousers: they count as smooth."""
 
     @property
     def rows(self) -> tuple[tuple[Cell, ...], ...]:
@@ -172,6 +174,11 @@ def compare(
         stairs=[flight.name for flight in flights],
         cells=cells,
         without_centroid=[_no_centroid(name.strip().lower()) for name in apart],
+        belts_open=[
+            each.robot.name
+            for each in questions[: len(known)]
+            if each.robot.track.belt is None and not each.robot.track.has_grousers
+        ],
     )
 
 
