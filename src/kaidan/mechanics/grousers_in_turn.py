@@ -17,8 +17,8 @@ from kaidan.mechanics import Number
 
 STRAIGHT = 1e-6
 """Curvature below which a belt is taken as straight [1/m]."""
-HALVINGS = 24
-"""Halvings of the height of a grouser: to a nanometre."""
+HALVINGS = 50
+"""Halvings of the height of a grouser: to rounding."""
 
 
 def reach_beside(*, b: Number, r: Number, lean: Number, curvature: Number = 0.0) -> Number:

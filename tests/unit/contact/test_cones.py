@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from kaidan.contact import using_kernel
-from kaidan.contact.kernel.cones import cones_hold, narrowed
+from kaidan.contact.kernel.cones import BELOW, held_below, narrowed, root_below
 from kaidan.contact.switch import kernel
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.cones import cone_margin
@@ -65,8 +65,42 @@ def test_a_bound_of_the_inner_force(t):
 
 @pytest.mark.parametrize("order", [(0, 1, 2, 3), (2, 0, 1, 3), (2, 3, 0, 1)])
 def test_one_inner_force_is_enough(order):
-    """l >= 1 and l <= 1, and two bounds that hold; none is left of l >= 1.1."""
+    """l >= 1 and l <= 1, and two bounds that hold; none is left of l >= 1 + t / 2, t = 0.1."""
     bounds = [(-1.0, 0.0, 1.0, 0.0), (1.0, 0.0, -1.0, 0.0), *2 * [(1.0, 0.0, 0.0, 0.0)]]
-    assert cones_hold(*(bounds[k] for k in order), 0.1)
-    bounds[0] = (-1.1, 0.0, 1.0, 0.0)
-    assert not cones_hold(*(bounds[k] for k in order), 0.1)
+    assert held_below(*(bounds[k] for k in order), 0.1) == 0.1
+    bounds[0] = (-1.0, 0.5, 1.0, 0.0)
+    below = held_below(*(bounds[k] for k in order), 0.1)
+    assert below == pytest.approx(0.0, abs=2 * BELOW)
+    assert held_below(*(bounds[k] for k in order), below) == below < 0.0
+
+
+def test_a_level_bound_that_fails_does_so_there_alone():
+    """(t - 0.2) l >= 0.1: at t = 0.2 there is none, below it l is negative."""
+    level, others = (-0.1, 0.0, -0.2, -1.0), 3 * [(1.0, 0.0, 0.0, 0.0)]
+    assert held_below(level, *others, 0.2) == pytest.approx(0.2 - BELOW * 1.04, abs=1e-15)
+    assert held_below(*others, level, 0.2) < 0.2
+    assert held_below(level, *others, 0.1) == 0.1
+
+
+def test_a_bound_that_turns_round_is_looked_at_there():
+    """l >= 5 and 0.1 + (t - 0.2) l <= 0: the two meet at 0.18, but from 0.2 down both are lower."""
+    low, high = (-5.0, 0.0, 1.0, 0.0), (-0.1, 0.0, 0.2, 1.0)
+    found = held_below(low, high, *2 * [(1.0, 0.0, 0.0, 0.0)], 0.5)
+    assert found == pytest.approx(0.2, abs=2 * BELOW)
+
+
+@pytest.mark.parametrize(
+    ("square", "line", "constant", "below", "root"),
+    [(1.0, -3.0, 2.0, 5.0, 2.0), (1.0, -3.0, 2.0, 2.0, 1.0), (1.0, -3.0, 2.0, 1.0, -math.inf),
+     (-1.0, 3.0, -2.0, 5.0, 2.0), (0.0, 2.0, -1.0, 5.0, 0.5), (0.0, 0.0, 1.0, 5.0, -math.inf),
+     (1.0, 0.0, 1.0, 5.0, -math.inf), (1.0, 3.0, 0.0, 5.0, 0.0), (1.0, 3.0, 0.0, 0.0, -3.0)],
+)  # fmt: skip
+def test_the_largest_root_below_a_number(square, line, constant, below, root):
+    assert root_below(square, line, constant, below) == pytest.approx(root)
+
+
+def test_a_cone_that_is_a_ray_does_not_pull():
+    """The narrower cone's axis is level with the line of the contacts, its force would pull."""
+    one = [-0.3943674343550716, -0.2962683287614987, 0.8001491339634064, 1.1128559724051361]
+    other = [0.44247560146005244, 0.05563385325678011, 1.5903982987795184, 0.15354626268181581]
+    assert cone_margins([*one, *other, [0.29897012596605993], 11.663551185556775]) == -math.inf

@@ -4,7 +4,9 @@ r"""Two contacts with a friction cone each: how much narrower the cones may be.
 
     edge of a cone narrower by e:  a - b tan(e) + (c - d tan(e)) l >= 0,    l = inner force
 
-The four edges leave an interval of l, or none.
+The four edges leave an interval of l, or none. Cones that shrink hold ever less. So where a lower
+and an upper bound leave none, the next angle to look at is the largest at which the two meet, or at
+which one of them turns round; at most each two meet twice.
 """
 
 from __future__ import annotations
@@ -14,8 +16,12 @@ import math
 from kaidan.contact.entries import entry
 from kaidan.contact.tables import Four
 
-#: Halvings: of less than half a turn down to 1e-5 rad.
-HALVINGS = 18
+#: Angle below a place where two bounds meet at which none of them is lost to rounding [rad].
+BELOW = 1e-8
+#: Half-angle of the narrowest cone, and of one in which no force that counts as none pulls [rad]:
+#: a ray would hold what pulls as well as what pushes.
+NARROWEST = 1e-5
+NARROW = 1e-2
 #: Share of the force that counts as none [1].
 NO_FORCE = 1e-7
 #: Slope of a bound that is level.
@@ -49,17 +55,66 @@ def narrowed(bound: Four, t: float, least: float, most: float) -> tuple[float, f
     return least, min(most, -constant / slope)
 
 
-def cones_hold(one: Four, two: Four, three: Four, four: Four, t: float) -> bool:
-    """Whether some inner force keeps both forces within cones narrower by arctan(t)."""
+def root_below(a: float, b: float, c: float, t: float) -> float:
+    """Largest root of a x^2 + b x + c below t; minus infinity: there is none."""
+    square = b * b - 4.0 * a * c
+    root = -math.inf
+    if square < 0.0:
+        return root
+    half = -0.5 * (b + math.copysign(math.sqrt(square), b))
+    if a != 0.0 and half / a < t:
+        root = half / a
+    if half != 0.0 and root < c / half and c / half < t:
+        root = c / half
+    return root
+
+
+def level_below(bound: Four, t: float) -> float:
+    """Where an edge is level, if that is below t; minus infinity: it is not."""
+    if bound[3] != 0.0 and bound[2] / bound[3] < t:
+        return bound[2] / bound[3]
+    return -math.inf
+
+
+def meet_below(low: Four, high: Four, t: float) -> float:
+    """Largest number below t at which a lower and an upper bound meet, or one turns round."""
+    meet = root_below(
+        high[1] * low[3] - low[1] * high[3],
+        low[0] * high[3] + low[1] * high[2] - high[0] * low[3] - high[1] * low[2],
+        high[0] * low[2] - low[0] * high[2],
+        t,
+    )
+    return max(meet, level_below(low, t), level_below(high, t))
+
+
+def held_below(one: Four, two: Four, three: Four, four: Four, t: float) -> float:
+    """t, if some inner force keeps both forces within cones narrower by arctan(t).
+
+    Else a smaller number, above which none does; minus infinity: none does at all.
+    """
+    low = one
+    high = one
     least, most = narrowed(one, t, -math.inf, math.inf)
-    least, most = narrowed(two, t, least, most)
-    if least > most:
-        return False
-    least, most = narrowed(three, t, least, most)
-    if least > most:
-        return False
-    least, most = narrowed(four, t, least, most)
-    return least <= most
+    more, less = narrowed(two, t, least, most)
+    if more > least:
+        low = two
+    if less < most:
+        high = two
+    least, most = narrowed(three, t, more, less)
+    if least > more:
+        low = three
+    if most < less:
+        high = three
+    more, less = narrowed(four, t, least, most)
+    if more > least:
+        low = four
+    if less < most:
+        high = four
+    if more <= less:
+        return t
+    # a bound that is level and fails does so there alone
+    meet = t if more == math.inf else meet_below(low, high, t)
+    return meet - BELOW * (1.0 + meet * meet)
 
 
 @entry
@@ -102,14 +157,13 @@ def cone_margin(
     two = edge(f_x, f_z, e_x, e_z, alpha_1 - phi_1, -1.0, size)
     three = edge(h_x, h_z, -e_x, -e_z, alpha_2 + phi_2, 1.0, size)
     four = edge(h_x, h_z, -e_x, -e_z, alpha_2 - phi_2, -1.0, size)
-    high = min(phi_1, phi_2)
-    low = max(phi_1, phi_2) - 0.5 * math.pi + 1e-3
-    if not cones_hold(one, two, three, four, math.tan(low)):
-        return -math.inf
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        if cones_hold(one, two, three, four, math.tan(middle)):
-            low = middle
-        else:
-            high = middle
-    return low
+    t = math.tan(min(phi_1, phi_2) - NARROW)
+    if held_below(one, two, three, four, t) == t:
+        t = math.tan(min(phi_1, phi_2) - NARROWEST)
+    bottom = math.tan(max(phi_1, phi_2) - 0.5 * math.pi + 1e-3)
+    while t >= bottom:
+        below = held_below(one, two, three, four, t)
+        if below == t:
+            return math.atan2(t, 1.0)
+        t = below
+    return -math.inf

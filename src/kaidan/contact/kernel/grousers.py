@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
-#: Halvings of the height of a grouser: to a nanometre.
-HALVINGS = 24
+#: Looks at the height of a grouser at most, and to what it is found [m].
+MOST_LOOKS = 50
+CLOSE = 1e-13
 
 
 def tip_tilt(theta: float, h: float, r: float, curvature: float) -> float:
@@ -38,21 +39,40 @@ def reach_beside(b: float, r: float, lean: float, curvature: float) -> float:
 
 
 def height_behind(theta: float, h: float, s: float, r: float, w: float, curvature: float) -> float:
-    """Height of a grouser over a nosing as it comes to stand, one before it not yet clear [m]."""
+    """Height of a grouser over a nosing as it comes to stand, one before it not yet clear [m].
+
+    Between a height that has room and one that has none by a chord, of which an end that stays
+    counts half.
+    """
     steep = 0.5 * math.pi - theta
-    most = h
+    room = s - w
+    if room <= 0.0:
+        return 0.0
     least = 0.0
-    if reach_beside(h, r, theta, curvature) + reach_beside(h, r, steep, curvature) <= s - w:
-        least = h
-    for _ in range(HALVINGS):
-        if least >= most:
+    short = -room
+    most = h
+    over = reach_beside(h, r, theta, curvature) + reach_beside(h, r, steep, curvature) - room
+    if over <= 0.0:
+        return h
+    before = 0
+    for _ in range(MOST_LOOKS):
+        if most - least < CLOSE or short > -CLOSE:
             break
-        middle = 0.5 * (least + most)
-        both = reach_beside(middle, r, theta, curvature) + reach_beside(middle, r, steep, curvature)
-        if both <= s - w:
-            least = middle
+        height = least - short * (most - least) / (over - short)
+        beyond = reach_beside(height, r, theta, curvature) - room
+        beyond += reach_beside(height, r, steep, curvature)
+        if beyond <= 0.0:
+            least = height
+            short = beyond
+            if before < 0:
+                over *= 0.5
+            before = -1
         else:
-            most = middle
+            most = height
+            over = beyond
+            if before > 0:
+                short *= 0.5
+            before = 1
     return least
 
 
