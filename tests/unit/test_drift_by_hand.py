@@ -10,7 +10,7 @@ from kaidan import Robot
 from kaidan.contact import Placement
 from kaidan.modes import Phase
 from kaidan.robot import Posture
-from kaidan.traversal.drift import _slides, drift
+from kaidan.traversal.drift import drift, slides
 from kaidan.traversal.moves import BEHIND, move
 
 ABSOLEM = Robot.named("absolem")
@@ -23,12 +23,23 @@ def moved(one, two):
     return move(ABSOLEM, one, two, before=Phase.LAND, start=Placement(0.0, 0.0, 0.0), ground=FLOOR)
 
 
+def two_poses(places, normal=(0.0, 1.0)):
+    """Of which both contacts are one, of the first part."""
+    x, z, inclination = np.array(places).T
+    each = {}
+    for end in ("rear", "front"):
+        each |= {end: np.zeros(2, dtype=np.int64), f"{end}_point": np.array([(2.0, 0.0)] * 2)}
+        each[f"{end}_normal"] = np.array([normal] * 2)
+    return SimpleNamespace(x=x, z=z, inclination=inclination, **each)
+
+
 def slid(ahead, up, turn, normal=(0.0, 1.0), second=True):
     """Of a part whose first disc stands on the floor, moved and turned about that disc's axle."""
     before = SimpleNamespace(parts=np.array([[0.0, 0.0, R, L * second, 0.0, R]]))
-    held = SimpleNamespace(point=(2.0, 0.0), normal=normal, feature=0)
-    was, new = Placement(2.0, R, 0.0), Placement(2.0 + ahead, R + up, turn)
-    return _slides(held, before, was, before, new)
+    poses = two_poses([(2.0, R, 0.0), (2.0 + ahead, R + up, turn)], normal)
+    rear, front = slides(poses, [before, before])
+    assert rear == front
+    return float(rear[0])
 
 
 @pytest.mark.parametrize("second", [True, False])
@@ -52,24 +63,18 @@ def test_what_leans_by_more_than_45_degrees_holds_no_robot():
 def test_a_part_that_turns_within_the_robot_takes_its_contact_along():
     """A flipper of which the axle stays: its tip, L below it, runs by L for each radian."""
     parts = [np.array([[0.0, 0.0, R, -L * math.sin(a), -L * math.cos(a), R]]) for a in (0, SMALL)]
-    held = SimpleNamespace(point=(2.0, 0.0), normal=(0.0, 1.0), feature=0)
-    place = Placement(2.0, L, 0.0)
     one, two = (SimpleNamespace(parts=each) for each in parts)
-    assert _slides(held, one, place, two, place) == pytest.approx(-L * SMALL, abs=1e-9)
-    assert _slides(held, two, place, one, place) == pytest.approx(L * SMALL, abs=1e-6)
+    poses = two_poses([(2.0, L, 0.0)] * 2)
+    assert slides(poses, [one, two])[0] == pytest.approx(-L * SMALL, abs=1e-9)
+    assert slides(poses, [two, one])[0] == pytest.approx(L * SMALL, abs=1e-6)
 
 
 def test_the_contact_that_slid_ahead_by_more_may_have_stayed():
     found = moved(Posture(front=-0.3 - TURN, rear=0.5), Posture(front=-0.3, rear=0.5))
-    poses, each = found.path.poses, np.zeros(2)
-    for row in range(len(poses) - 1):
-        places = poses.placement(row), poses.placement(row + 1)
-        for k, held in enumerate(found.path.carrying(row)):
-            outlines = found.outlines[row : row + 2]
-            each[k] += _slides(held, outlines[0], places[0], outlines[1], places[1])
+    each = slides(found.path.poses, found.outlines).sum(axis=1)
     assert each[1] > 0.05 > each[0]  # the tip slides ahead as the flipper turns up
     assert found.drift == drift(found.path, found.outlines) == pytest.approx(each[1])
-    drawn = poses.placement(-1)
+    drawn = found.path.poses.placement(-1)
     assert found.end == drawn._replace(x=drawn.x - found.drift - BEHIND)
 
 

@@ -17,13 +17,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan import contact
-from kaidan.contact import Contact, Feature, Placement
+from kaidan.contact import FeatureTable
 from kaidan.outline import Outline
 
 STEEPEST = 0.5 * np.sqrt(2.0)
 """Upward part of the normal below which a contact holds no robot in its place: 45 degrees [1]."""
 
-Vector = NDArray[np.float64]
+Array = NDArray[np.float64]
+Places = NDArray[np.complex128]
+"""Places as complex numbers, along the ground and up."""
 
 
 def drift(path: contact.Path, outlines: Sequence[Outline]) -> float:
@@ -36,39 +38,44 @@ def drift(path: contact.Path, outlines: Sequence[Outline]) -> float:
     outlines : sequence of Outline
         In each posture, x towards the leading end.
     """
-    poses = path.poses
-    slid = np.zeros(2)
-    for row in range(len(poses) - 1):
-        was, new = poses.placement(row), poses.placement(row + 1)
-        for k, each in enumerate(path.carrying(row)):
-            slid[k] += _slides(each, outlines[row], was, outlines[row + 1], new)
-    return float(max(0.0, *slid))
+    return float(max(0.0, *slides(path.poses, outlines).sum(axis=1)))
+
+
+def slides(poses: contact.Poses, outlines: Sequence[Outline]) -> Array:
+    """Way along the ground by which the belt at a contact moves ahead, from pose to pose [m].
+
+    Parameters
+    ----------
+    poses : contact.Poses
+    outlines : sequence of Outline
+        In each pose.
+
+    Returns
+    -------
+    ndarray (2, poses - 1)
+        At the rear and at the front contact.
+    """
+    turn = np.exp(1j * poses.inclination)
+    parts = np.stack([each.parts for each in outlines[: len(turn)]])
+    # both discs of each part in each pose (2, poses, parts)
+    discs = np.stack([parts[:, :, 0] + 1j * parts[:, :, 1], parts[:, :, 3] + 1j * parts[:, :, 4]])
+    discs = (poses.x + 1j * poses.z)[:, None] + turn[:, None] * discs
+    rear, front = FeatureTable.of(poses.rear).part, FeatureTable.of(poses.front).part
+    return np.stack([
+        _slides(rear, poses.rear_point, poses.rear_normal, discs, turn),
+        _slides(front, poses.front_point, poses.front_normal, discs, turn),
+    ])  # fmt: skip
 
 
 def _slides(
-    held: Contact, before: Outline, was: Placement, after: Outline, new: Placement
-) -> float:
-    """Way along the ground by which the belt at a contact moves ahead [m]."""
-    n_x, n_z = held.normal
-    if n_z < STEEPEST:
-        return 0.0
-    part = Feature.of(held.feature).part
-    one, two = _discs(before, part, was), _discs(after, part, new)
-    turn = _direction(two, new) - _direction(one, was)
-    c, s = np.cos(turn), np.sin(turn)
-    d_x, d_z = np.array(held.point) - one[0]
-    point = two[0] + [c * d_x - s * d_z, s * d_x + c * d_z]
-    return float((point - held.point) @ [n_z, -n_x])
-
-
-def _discs(outline: Outline, part: int, place: Placement) -> Vector:
-    """Centres of both discs of a part (2, 2) [m]."""
-    c, s = np.cos(place.inclination), np.sin(place.inclination)
-    centres = outline.parts[part].reshape(2, 3)[:, :2]
-    return np.asarray(np.array([place.x, place.z]) + centres @ np.array([[c, s], [-s, c]]))
-
-
-def _direction(centres: Vector, place: Placement) -> float:
-    """Inclination of a part; of one that is a disc, the robot's [rad]."""
-    along = centres[1] - centres[0]
-    return float(np.arctan2(along[1], along[0])) if along.any() else place.inclination
+    part: NDArray[np.int64], point: Array, normal: Array, discs: Places, turn: Places
+) -> Array:
+    """The same at one contact of each pose; a part that is a disc turns with the robot."""
+    rows = np.arange(len(part) - 1)
+    one, two = discs[:, rows, part[:-1]], discs[:, rows + 1, part[:-1]]
+    was, new = one[1] - one[0], two[1] - two[0]
+    turned = np.where(was == 0.0, turn[1:] / turn[:-1], new / np.where(was == 0.0, 1.0, was))
+    at = point[:-1, 0] + 1j * point[:-1, 1]
+    along = normal[:-1, 1] - 1j * normal[:-1, 0]
+    slides = ((two[0] + turned / np.abs(turned) * (at - one[0]) - at) * along.conj()).real
+    return np.where(normal[:-1, 1] < STEEPEST, 0.0, slides)
