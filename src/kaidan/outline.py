@@ -8,6 +8,7 @@ the belly (a line).
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 from typing import Self
 
@@ -77,21 +78,21 @@ class Outline:
         gyration, estimated = _gyration(robot, stance, parts)
         return cls(parts, np.array(kinds, dtype=np.int64), stance, gyration, estimated)
 
-    @property
+    @cached_property
     def reach(self) -> tuple[float, float]:
         """Distances from the centroid to the ends of the robot behind it and ahead of it [m]."""
         left = np.minimum(self.parts[:, 0] - self.parts[:, 2], self.parts[:, 3] - self.parts[:, 5])
         right = np.maximum(self.parts[:, 0] + self.parts[:, 2], self.parts[:, 3] + self.parts[:, 5])
         return float(-left.min()), float(right.max())
 
-    @property
+    @cached_property
     def trail(self) -> float:
         """Largest distance of what lies behind the centroid, whatever the inclination [m]."""
         discs = self.parts.reshape(-1, 3)
         behind = discs[discs[:, 0] - discs[:, 2] < 0.0]
         return float((np.hypot(behind[:, 0], behind[:, 1]) + behind[:, 2]).max(initial=0.0))
 
-    @property
+    @cached_property
     def lead(self) -> float:
         """Largest distance ahead of the centroid of what may touch a level floor it stands on [m].
 

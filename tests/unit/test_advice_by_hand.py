@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from kaidan import Payload, Question, Robot, Stairs
-from kaidan.assessment import advice, plan_search, plans, traction_advice
+from kaidan.assessment import advice, plan_off_angles, plan_search, plans, traction_advice
 from kaidan.assessment.advice import (
     WORTH_TELLING,
     _centroid_moved,
@@ -134,7 +134,7 @@ def test_off_the_angles_of_the_flippers_more_may_be_required(off, enough, search
         asked.append(drives)
         return off
 
-    monkeypatch.setattr(plan_search, "friction_off_its_angles", friction_off_its_angles)
+    monkeypatch.setattr(plan_off_angles, "friction_off_its_angles", friction_off_its_angles)
     loose = Question.of(Robot.named("absolem"), KENAF.terrain, friction=1.0).changed(
         best_of=(), posture={"front": 0.1, "rear": 0.1}, flipper_tolerance=0.05
     )
@@ -671,7 +671,7 @@ def test_a_plan_off_its_angles_and_another_one(monkeypatch):
             tolerance=0.05,
         )
         monkeypatch.setattr(plan_search, "better_than", better_than)
-        monkeypatch.setattr(plan_search, "holds_off_its_angles", holds_off)
+        monkeypatch.setattr(plan_off_angles, "holds_off_its_angles", holds_off)
         monkeypatch.setattr(advice, "conclude", lambda question, found: own)
         return advice._planned(question, now, search, anew=anew), asked
 

@@ -9,8 +9,9 @@ from kaidan import Question, Robot, Stairs
 from kaidan.assessment import plan_judged, plan_scores, plan_search
 from kaidan.assessment.plan_hopes import Hope, Search
 from kaidan.assessment.plan_judged import Judged, judged_of, shortened
+from kaidan.assessment.plan_off_angles import OffAngles
 from kaidan.assessment.plan_scores import ENOUGH, ROUNDING, UNKNOWN, Score, Scores
-from kaidan.assessment.plan_search import _Candidate, _candidates, _Off, _sturdiest
+from kaidan.assessment.plan_search import _Candidate, _candidates, _sturdiest
 from kaidan.assessment.plans import Plan
 from kaidan.models.findings import Findings
 from kaidan.models.planned import STAND_OFF
@@ -319,6 +320,12 @@ def judged(rank, name="plan"):
     return Judged(question, None, conclusion(rank), 0.0, True)
 
 
+class Named(SimpleNamespace):
+    """Stands for a plan, and tells it from others."""
+
+    __hash__ = object.__hash__
+
+
 @pytest.fixture
 def sturdiest(monkeypatch):
     """The best of candidates: of each its rank, the worst off its angles, whether it is tried."""
@@ -338,7 +345,7 @@ def sturdiest(monkeypatch):
             ranks["sturdier"] = sturdier
 
         def plan(name):
-            return SimpleNamespace(
+            return Named(
                 question=lambda question: name, facing="tail-first",
                 postures=[(phase, Posture()) for phase in Phase],
             )  # fmt: skip
@@ -355,7 +362,7 @@ def sturdiest(monkeypatch):
 
         def judged_off(one, bar, drives, search=None):
             worst = (ranks[one.question.name][1], *one.merit[1:])
-            return _Off(one, worst, True)
+            return OffAngles(one, worst, True)
 
         class Found:
             def __init__(self, *given):
@@ -371,7 +378,7 @@ def sturdiest(monkeypatch):
         monkeypatch.setattr(
             plan_search, "_judged", lambda name, drives: judged(ranks[name][0], name)
         )
-        monkeypatch.setattr(plan_search, "_judged_off", judged_off)
+        monkeypatch.setattr(plan_search, "judged_off", judged_off)
         monkeypatch.setattr(plan_search, "Sturdier", Found)
         found = _sturdiest(search, beaten, "drives")
         return (None if found is None else found.judged.question.name), bars, promised

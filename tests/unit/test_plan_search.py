@@ -12,12 +12,12 @@ from kaidan.assessment.answer import Assessment
 from kaidan.assessment.plan_drives import Drives
 from kaidan.assessment.plan_hopes import Search
 from kaidan.assessment.plan_judged import shortened
+from kaidan.assessment.plan_off_angles import holds_off_its_angles
 from kaidan.assessment.plan_scores import Score
 from kaidan.assessment.plan_search import (
     LIMITS,
     better_than,
     found_of,
-    holds_off_its_angles,
     off_angles,
 )
 from kaidan.assessment.plan_sturdy import Sturdier

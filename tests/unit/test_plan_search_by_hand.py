@@ -6,10 +6,16 @@ from types import SimpleNamespace
 import pytest
 
 from kaidan import Question, Robot, Stairs
+from kaidan.assessment import plan_off_angles
 from kaidan.assessment import plan_search as module
 from kaidan.assessment.plan_drives import Drives
 from kaidan.assessment.plan_hopes import KEPT, Search
 from kaidan.assessment.plan_judged import Judged
+from kaidan.assessment.plan_off_angles import (
+    friction_off_its_angles,
+    holds_off_its_angles,
+    judged_off,
+)
 from kaidan.assessment.plan_scores import ENOUGH, FAILED, Score
 from kaidan.modes import Phase, Verdict
 from kaidan.robot import Posture
@@ -232,13 +238,15 @@ def test_any_worse_verdict_tells_that_a_plan_does_not_hold(monkeypatch):
         beaten.append(worse)
         return SimpleNamespace(sturdy="sturdy")
 
-    monkeypatch.setattr(module, "_judged", lambda question, drives: judged(Verdict.CAUTION))
-    monkeypatch.setattr(module, "_judged_off", judged_off)
+    monkeypatch.setattr(
+        plan_off_angles, "judged_of", lambda question, found: judged(Verdict.CAUTION)
+    )
+    monkeypatch.setattr(plan_off_angles, "judged_off", judged_off)
     question = Question.in_one_posture(ABSOLEM, STAIRS, friction=1.0)
     plan = SimpleNamespace(robot=SimpleNamespace(middle=ABSOLEM), changed=lambda *, robot: question)
     with monkeypatch.context() as patch:
         patch.setattr(Judged, "merit", property(lambda self: (CAUTION, True, 0, 5.0)))
-        assert module.holds_off_its_angles(plan) == "sturdy"
+        assert holds_off_its_angles(plan, SimpleNamespace(judge=lambda short: None)) == "sturdy"
     (worse,) = beaten
     assert (NO_GO, True, 0, 1e9) <= worse < (CAUTION, False, -9, -90.0)
 
@@ -249,11 +257,11 @@ def test_any_worse_verdict_tells_that_a_plan_does_not_hold(monkeypatch):
 )
 def test_friction_off_the_angles_is_the_most_that_is_known(each, most, monkeypatch):
     question = Question.in_one_posture(ABSOLEM, STAIRS, friction=1.0)
-    monkeypatch.setattr(module, "off_angles", lambda question: each)
+    monkeypatch.setattr(plan_off_angles, "off_angles", lambda question: each)
     monkeypatch.setattr(Drives, "required_friction", lambda self, off: off)
-    assert module.friction_off_its_angles(question) == most
+    assert friction_off_its_angles(question) == most
     other = SimpleNamespace(required_friction=lambda off: 2 * off)
-    found = module.friction_off_its_angles(question, other)
+    found = friction_off_its_angles(question, other)
     assert found == (2 * most if most else 0.0)
 
 
@@ -272,10 +280,10 @@ def test_what_is_no_failure_may_still_be_less_than_go(monkeypatch):
     drives = SimpleNamespace(
         is_no_failure=lambda k: True, rank=lambda k: (asked.append(k), CAUTION)[1]
     )
-    monkeypatch.setattr(module, "off_angles", lambda question: range(3))
+    monkeypatch.setattr(plan_off_angles, "off_angles", lambda question: range(3))
     question = Question.in_one_posture(ABSOLEM, STAIRS, friction=1.0)
     plan = judged(question=question)
-    found = module._judged_off(plan, None, drives)
+    found = judged_off(plan, None, drives)
     assert (found.worst[0], asked) == (CAUTION, [0])
 
 

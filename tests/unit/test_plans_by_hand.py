@@ -7,19 +7,18 @@ import numpy as np
 import pytest
 
 from kaidan import Question
-from kaidan.assessment import plan_search, plan_sturdy
+from kaidan.assessment import plan_off_angles, plan_search, plan_sturdy
 from kaidan.assessment.plan import PlanShown, PlanStep
 from kaidan.assessment.plan import plan_of as plan_of_answer
 from kaidan.assessment.plan_hopes import Hope, Search, _along, _order
 from kaidan.assessment.plan_judged import Judged
+from kaidan.assessment.plan_off_angles import OffAngles, judged_off
 from kaidan.assessment.plan_scores import ENOUGH, FAILED, Score
 from kaidan.assessment.plan_search import (
     _best_off,
     _better,
     _Candidate,
-    _judged_off,
     _may_be_better,
-    _Off,
     _on_the_whole,
     _rank,
 )
@@ -578,16 +577,16 @@ def ways(monkeypatch):
             is_no_failure=lambda k: k in passes,
             rank=lambda k: (looked_at.append(k), ranks[k])[1],
         )
-        monkeypatch.setattr(plan_search, "off_angles", lambda question: range(len(ranks)))
-        return _judged_off(plan, beaten, drives), len(looked_at)
+        monkeypatch.setattr(plan_off_angles, "off_angles", lambda question: range(len(ranks)))
+        return judged_off(plan, beaten, drives), len(looked_at)
 
     return of
 
 
 def test_off_its_angles_the_worst_verdict_counts(ways):
     plan = judged(GO)
-    assert ways([], plan) == (_Off(plan, plan.merit, True), 0)
-    assert ways([GO] * 3, plan) == (_Off(plan, plan.merit, True), 3)
+    assert ways([], plan) == (OffAngles(plan, plan.merit, True), 0)
+    assert ways([GO] * 3, plan) == (OffAngles(plan, plan.merit, True), 3)
     worst = (CAUTION, *plan.merit[1:])
     found, count = ways([GO, CAUTION, GO], plan)
     assert (found.worst, found.tested, found.sturdy, count) == (worst, True, False, 3)
@@ -595,14 +594,14 @@ def test_off_its_angles_the_worst_verdict_counts(ways):
     assert (found.worst[0], found.tested, count) == (NO_GO, True, 2)  # there is nothing worse
     bad = judged(NO_GO)
     # a NO-GO is no worse off its angles
-    assert ways([NO_GO, NO_GO], bad) == (_Off(bad, bad.merit, True), 0)
-    assert _Off(bad, bad.merit, True).sturdy
+    assert ways([NO_GO, NO_GO], bad) == (OffAngles(bad, bad.merit, True), 0)
+    assert OffAngles(bad, bad.merit, True).sturdy
     # where the worst is a CAUTION what is no NO-GO for certain is not judged
     found, count = ways([GO, CAUTION, GO, NO_GO], plan, passes=(0, 2))
     assert (found.worst[0], found.tested, count) == (NO_GO, True, 3)
     # what is no better than what is beaten is judged no farther
-    assert ways([CAUTION, GO, GO], plan, worst) == (_Off(plan, worst, False), 1)
-    assert ways([GO, GO], plan, plan.merit) == (_Off(plan, plan.merit, False), 0)
+    assert ways([CAUTION, GO, GO], plan, worst) == (OffAngles(plan, worst, False), 1)
+    assert ways([GO, GO], plan, plan.merit) == (OffAngles(plan, plan.merit, False), 0)
     less = (GO, True, 0, plan.merit[3] - 0.1)
     assert ways([GO, GO], plan, less)[0].tested
 
@@ -662,7 +661,7 @@ def test_which_plans_may_be_better(monkeypatch):
 
 def test_the_larger_of_two_merits_is_to_be_beaten():
     plan = judged(CAUTION)
-    best = _Off(plan, plan.merit, True)
+    best = OffAngles(plan, plan.merit, True)
     go = judged(GO).merit
     assert _better(None, None) is None
     assert _better(go, None) == go
@@ -696,7 +695,7 @@ def test_the_whole_terrain_decides_among_plans(monkeypatch):
         plans = []
         for k, (short, _) in enumerate(ranks):
             plan = judged(short, question=asked(posture=Posture(front=0.1 * k)))
-            plans.append(_Off(plan, plan.merit, tested))
+            plans.append(OffAngles(plan, plan.merit, tested))
         whole = {0.1 * k: judged(rank) for k, (_, rank) in enumerate(ranks)}
         looked_at = []
 
@@ -706,8 +705,8 @@ def test_the_whole_terrain_decides_among_plans(monkeypatch):
 
         monkeypatch.setattr(plan_search, "judged_of", of_whole)
         monkeypatch.setattr(
-            plan_search, "_judged_off",
-            lambda plan, beaten, drives: _Off(plan, (NO_GO, *plan.merit[1:]), True),
+            plan_search, "judged_off",
+            lambda plan, beaten, drives: OffAngles(plan, (NO_GO, *plan.merit[1:]), True),
         )  # fmt: skip
         found = _on_the_whole(asked(), plans, "drives")
         return round(10 * found.question.posture.front), len(looked_at), found.sturdy

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from kaidan import Question, Robot, Stairs, assessment
-from kaidan.assessment import plan_search
+from kaidan.assessment import plan_off_angles, plan_search
 from kaidan.assessment import unweighed as module
 from kaidan.errors import InputError
 from kaidan.models import unweighed as module_of_range
@@ -295,7 +295,7 @@ def test_what_does_not_hold_off_its_angles_is_a_finding_more(monkeypatch):
         asked.append(question)
         return len(asked) == 1
 
-    monkeypatch.setattr(plan_search, "holds_off_its_angles", holds)
+    monkeypatch.setattr(plan_off_angles, "holds_off_its_angles", holds)
     loose = QUESTION.changed(flipper_tolerance=0.05)
     assert assessment.off_plan(QUESTION.changed(flipper_tolerance=0.0), found) is found
     assert assessment.off_plan(loose, found) is found

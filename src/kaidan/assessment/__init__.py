@@ -136,7 +136,7 @@ def off_plan(question: Question, found: Findings, search: "Found | None" = None)
     """
     if not question.tolerance:
         return found
-    from kaidan.assessment.plan_search import holds_off_its_angles
+    from kaidan.assessment.plan_off_angles import holds_off_its_angles
 
     if holds_off_its_angles(question) if search is None else search.sturdy:
         return found

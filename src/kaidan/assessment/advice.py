@@ -138,7 +138,8 @@ def _planned(
     is_go = then.verdict is Verdict.GO
     if (is_go and not question.tolerance) or not (is_go or (anew and search is not None)):
         return then, False
-    from kaidan.assessment.plan_search import better_than, holds_off_its_angles
+    from kaidan.assessment.plan_off_angles import holds_off_its_angles
+    from kaidan.assessment.plan_search import better_than
 
     drives = None if search is None else search.drives
     if is_go and holds_off_its_angles(question, drives):

@@ -7,13 +7,14 @@ verdict policy, at the angles found and a little off them. A change has to gain 
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from kaidan.assessment.plan_drives import Drives
 from kaidan.assessment.plan_hopes import LIMITS as LIMITS
 from kaidan.assessment.plan_hopes import Hope, Merit, Search
 from kaidan.assessment.plan_judged import Judged, Standing, judged_of, shortened
+from kaidan.assessment.plan_off_angles import OffAngles, judged_off
 from kaidan.assessment.plan_sturdy import Sturdier
 from kaidan.assessment.plans import Plan, words
 from kaidan.assessment.plans import off_angles as off_angles
@@ -93,7 +94,7 @@ def better_than(
         return _fixed(stated, facings, drives)
     short = shortened(stated)
     beaten = None if verdict is None else (-verdict.rank, True, 0, math.inf)
-    plans: list[_Off] = []
+    plans: list[OffAngles] = []
     ends: tuple[Facing, ...] = ()
     tried = 0
     for facing in facings:
@@ -112,11 +113,11 @@ def better_than(
     return _on_the_whole(stated, ranked, drives)._replace(tried=tried, ends=ends)
 
 
-def _on_the_whole(stated: Question, plans: Sequence["_Off"], drives: Drives) -> Found:
+def _on_the_whole(stated: Question, plans: Sequence[OffAngles], drives: Drives) -> Found:
     """First of some plans whose verdict the whole terrain, pose by pose, does not lower."""
     each = []
     for plan in plans:
-        tested = plan if plan.tested else _judged_off(plan.judged, None, drives)
+        tested = plan if plan.tested else judged_off(plan.judged, None, drives)
         each.append((_on_all_of(stated, plan.judged), tested))
         if each[-1][0].merit[0] >= plan.judged.merit[0]:
             break
@@ -132,21 +133,6 @@ def _on_all_of(stated: Question, plan: Judged) -> Judged:
     return judged_of(question, judge(question))
 
 
-class _Off(NamedTuple):
-    """A plan judged at its angles and off them."""
-
-    judged: Judged
-    worst: Standing
-    """Merit with the worst verdict off its angles, or with a better one where it is not tested."""
-    tested: bool
-    """Whether every way off its angles was judged that may be the worst."""
-
-    @property
-    def sturdy(self) -> bool:
-        """Whether its verdict holds off its angles."""
-        return self.worst[0] == self.judged.merit[0]
-
-
 class _Candidate(NamedTuple):
     """A plan that may be the best, and what the scores of its phases let one hope for."""
 
@@ -159,7 +145,7 @@ class _Candidate(NamedTuple):
 
 def _sturdiest(
     search: Search, beaten: Standing | None, drives: Drives, stated: Question | None = None
-) -> _Off | None:
+) -> OffAngles | None:
     """Best plan of a search: the most promising off their angles, judged in one go.
 
     Of plans that are no better than what is beaten it is any; None: no plan promised to be better.
@@ -168,42 +154,51 @@ def _sturdiest(
     others: list[_Candidate] = []
     for each in _candidates(search):
         (holding if search.may_hold(each.plan) else others).append(each)
-    best, first = _best_of(holding, search, None, beaten, drives, stated)
+    at_them: dict[Plan, Judged] = {}
+    best, first = _best_of(holding, search, None, beaten, drives, stated, at_them)
     if first is None and others:
-        at_them = (_judged(each.plan.question(search.question), drives) for each in others)
-        first = max(at_them, key=lambda one: one.merit)
+        at_them = {
+            each.plan: _judged(each.plan.question(search.question), drives) for each in others
+        }
+        first = max(at_them.values(), key=lambda one: one.merit)
     plan = _to_steady(search, first)
     if plan is not None and not (best is not None and best.worst[0] == -Verdict.GO.rank):
         steadied = _steadied(search, plan, _better(beaten, best), drives)
         best = max((each for each in (best, steadied) if each), key=_worst, default=None)
     if best is not None and best.worst[0] == -Verdict.GO.rank:
         return best
-    return _best_of(others, search, best, beaten, drives, stated)[0]
+    return _best_of(others, search, best, beaten, drives, stated, at_them)[0]
 
 
-def _worst(plan: "_Off") -> Standing:
+def _worst(plan: OffAngles) -> Standing:
     return plan.worst
 
 
 def _best_of(
     candidates: Sequence[_Candidate],
     search: Search,
-    best: _Off | None,
+    best: OffAngles | None,
     beaten: Standing | None,
     drives: Drives,
     stated: Question | None,
-) -> tuple[_Off | None, Judged | None]:
-    """The best of some plans and of what is known already, and the best of those judged at them."""
+    known: Mapping[Plan, Judged],
+) -> tuple[OffAngles | None, Judged | None]:
+    """The best of some plans and of what is known already, and the best of those judged at them.
+
+    Of `known` plans it is known what they come to at their angles.
+    """
     first: Judged | None = None
     of_best: _Candidate | None = None
     for each in candidates:
         bar = _better(beaten, best)
         if bar is not None and not _may_be_better(search, each, bar, of_best, drives):
             continue
-        judged = _judged_at(each, search, drives, stated if bar is None else None)
+        judged = known.get(each.plan)
+        if judged is None:
+            judged = _judged_at(each, search, drives, stated if bar is None else None)
         judged = judged._replace(most=search.most_without_friction(each.plan))
         first = max(first or judged, judged, key=lambda one: one.merit)
-        found = _judged_off(judged, bar, drives, search)
+        found = judged_off(judged, bar, drives, search)
         if best is None or found.worst > best.worst:
             best = found
             as_hoped = found.sturdy and -judged.merit[0] == _rank(search, each.off)
@@ -231,12 +226,14 @@ def _to_steady(search: Search, first: Judged | None) -> Plan | None:
     return Plan(search.scores.facing, tuple((phase, at[phase]) for phase in search.scores.phases))
 
 
-def _steadied(search: Search, plan: Plan, beaten: Standing | None, drives: Drives) -> _Off | None:
+def _steadied(
+    search: Search, plan: Plan, beaten: Standing | None, drives: Drives
+) -> OffAngles | None:
     """A plan like another one that holds off its angles; None: none is found."""
     sturdier = Sturdier(search.scores, search.limits, drives).plan(plan)
     if sturdier is None:
         return None
-    return _judged_off(_judged(sturdier.question(search.question), drives), beaten, drives)
+    return judged_off(_judged(sturdier.question(search.question), drives), beaten, drives)
 
 
 def _judged_at(each: _Candidate, search: Search, drives: Drives, stated: Question | None) -> Judged:
@@ -255,7 +252,7 @@ def _judged_at(each: _Candidate, search: Search, drives: Drives, stated: Questio
     return _judged(question, drives)
 
 
-def _better(beaten: Standing | None, best: _Off | None) -> Standing | None:
+def _better(beaten: Standing | None, best: OffAngles | None) -> Standing | None:
     """The larger of two merits to beat."""
     if best is None or beaten is None:
         return beaten if best is None else best.worst
@@ -314,40 +311,6 @@ def _may_be_better(
     return not off or drives.rank(off[0]) >= bar[0]
 
 
-def holds_off_its_angles(question: Question, drives: Drives | None = None) -> bool:
-    """Whether a stated plan has no worse verdict off its angles, judged as the search judges.
-
-    Parameters
-    ----------
-    question : Question
-        Its `tolerance` is how far off they are.
-    drives : Drives, optional
-        Of a similar question.
-    """
-    drives = Drives() if drives is None else drives
-    middle = question.changed(robot=question.robot.middle)
-    judged = _judged(shortened(middle), drives)
-    # any worse verdict tells
-    worse = (judged.merit[0] - 1, True, 0, math.inf)
-    return _judged_off(judged, worse, drives).sturdy
-
-
-def friction_off_its_angles(question: Question, drives: Drives | None = None) -> float:
-    """Friction that a stated plan requires off its angles, judged as the search judges [1].
-
-    Parameters
-    ----------
-    question : Question
-        Its `tolerance` is how far off they are; 0: nothing is required there.
-    drives : Drives, optional
-        Of a similar question.
-    """
-    drives = Drives() if drives is None else drives
-    middle = shortened(question.changed(robot=question.robot.middle))
-    each = (drives.required_friction(off) for off in off_angles(middle))
-    return max((one for one in each if math.isfinite(one)), default=0.0)
-
-
 def _best_off(search: Search, hopes: Sequence[Hope], count: int) -> list[Plan]:
     """Plans of the largest merit off their angles, which is never larger than at them."""
     best: list[tuple[Merit, Merit, Plan]] = []
@@ -361,28 +324,6 @@ def _best_off(search: Search, hopes: Sequence[Hope], count: int) -> list[Plan]:
 
 def _judged(question: Question, drives: Drives) -> Judged:
     return judged_of(question, drives.judge(question))
-
-
-def _judged_off(
-    plan: Judged, beaten: Standing | None, drives: Drives, search: Search | None = None
-) -> _Off:
-    """A plan judged off its angles, as long as its verdict may be better than what is beaten.
-
-    One that is NO-GO at its angles is no worse off them.
-    """
-    worst = plan.merit
-    if worst[0] <= -Verdict.NO_GO.rank:
-        return _Off(plan, worst, tested=True)
-    each = list(off_angles(plan.question))
-    for off in each if search is None else search.weakest_first(each):
-        if beaten is not None and worst <= beaten:
-            return _Off(plan, worst, tested=False)
-        if worst[0] == -Verdict.CAUTION.rank and drives.is_no_failure(off):
-            continue
-        worst = (min(worst[0], drives.rank(off)), *worst[1:])
-        if worst[0] <= -Verdict.NO_GO.rank:
-            break
-    return _Off(plan, worst, tested=True)
 
 
 def _fixed(question: Question, facings: tuple[Facing, ...], drives: Drives) -> Found:

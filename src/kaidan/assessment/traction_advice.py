@@ -46,7 +46,7 @@ def more_friction(
     if not math.isfinite(required):
         return
     if question.tolerance:
-        from kaidan.assessment.plan_search import friction_off_its_angles
+        from kaidan.assessment.plan_off_angles import friction_off_its_angles
 
         drives = None if search is None else search.drives
         required = max(required, friction_off_its_angles(question, drives))

@@ -98,6 +98,7 @@ def _criterion(nosings: bytes, tread: Tread, along: float) -> Criterion:
     return static_criterion(np.frombuffer(nosings).reshape(-1, 2), tread, acceleration=along)
 
 
+@lru_cache(maxsize=ROBOTS)
 def tread_of(body: Outline) -> Tread:
     """Underside of a robot on a flight that rises towards +x."""
     stance = body.stance
@@ -137,6 +138,7 @@ def is_whole(tread: Tread, body: Outline) -> bool:
     return tread.whole and not body.stance.tips_below and not _rocks_onto_flippers(body)
 
 
+@lru_cache(maxsize=ROBOTS)
 def _rocks_onto_flippers(body: Outline) -> bool:
     """Whether by rocking about an end of the flat the robot may come to stand on a flipper.
 
