@@ -153,7 +153,7 @@ def test_of_a_plan_the_largest_of_its_postures_counts(monkeypatch):
     )
     monkeypatch.setattr(clearance, "height_of", lambda robot, one: of[id(one)][2])
     question = SimpleNamespace(
-        robot=None, payload=(), flight=None, postures=dict(zip(Phase, shapes, strict=True))
+        robot=None, payload=(), steepest_flight=None, postures=dict(zip(Phase, shapes, strict=True))
     )
     narrow, low = clearance.findings_of(question, (1.0, 2.0), "model")
     needed = 0.5 * math.cos(math.radians(3)) + 1.3 * math.sin(math.radians(3)) + 0.06

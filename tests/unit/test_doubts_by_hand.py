@@ -67,7 +67,7 @@ L, C_N, FRONT, REAR = 0.52, 0.146, 0.08, 0.09
 def beyond(terrain, com_from_front=0.255, *, tips_below=False, facing="nose-first"):
     flight = terrain if isinstance(terrain, Stairs) else None
     question = SimpleNamespace(
-        flight=flight, facing=facing, direction="up",
+        flight=flight, flights=(), facing=facing, direction="up",
         profile=terrain if flight is None else Profile.of_stairs(flight),
         stance=SimpleNamespace(
             flat_length=L, com_from_front=com_from_front, com_height=C_N, tips_below=tips_below

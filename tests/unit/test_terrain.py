@@ -6,12 +6,16 @@ import numpy as np
 import pytest
 
 from kaidan.errors import InputError, KaidanError
+from kaidan.models.clearance import findings_of
 from kaidan.models.quasi_static import traverse_of
 from kaidan.question import Question
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
+from kaidan.terrain.stairs_uncertainty import StairsUncertainty
 from kaidan.text.assessment import stairs_line
 from kaidan.traversal import Phase
+from kaidan.verbs.monitor.live import LiveMonitor
+from kaidan.verbs.monitor.online import Monitor
 from one_posture import assess
 
 LOW = Stairs(name="low", rise=0.10, going=0.25, steps=9, upper_landing=2.0)
@@ -95,6 +99,35 @@ def test_slope_and_spacing_of_several_flights_are_those_of_the_steepest(flights)
     assert answer.angle_deg == pytest.approx(math.degrees(slope), abs=1e-9)
     assert answer.nosing_spacing_m == pytest.approx(math.hypot(steepest.rise, steepest.going))
     assert stairs_line(answer).startswith(f"{math.degrees(slope):.1f} deg, ")
+
+
+def test_several_flights_are_watched_and_need_headroom_as_the_steepest():
+    """Not by the mean over the landing."""
+    one, both = (Question.of("absolem", each, **ASKED) for each in (HIGH, [LOW, HIGH]))
+    assert LiveMonitor(both).slope == pytest.approx(math.atan2(0.12, 0.25), abs=1e-12)
+    assert Monitor.of(both).inside_model
+    low, same = (findings_of(each, (None, 1.0), "contact") for each in (both, one))
+    assert low == same
+
+
+def test_slope_of_several_flights_is_in_doubt_as_that_of_one():
+    """It was exact where a flight is entered: the friction there had no doubt of it."""
+    doubted = [
+        each.model_copy(update={"uncertainty": StairsUncertainty(angle=0.03)})
+        for each in (LOW, HIGH)
+    ]
+    alone, both, exact = (
+        assess("absolem", each, friction=0.9, flippers="flat").findings["slides_down"].margin
+        for each in (doubted[1], doubted, [LOW, HIGH])
+    )
+    assert both == pytest.approx(alone, abs=1e-6)
+    assert both < exact - 0.03
+
+
+def test_the_closed_form_knows_one_flight_alone():
+    answer = assess("absolem", [LOW, HIGH], **ASKED, model="closed-form")
+    assert "the terrain is no single flight of stairs" in str(answer)
+    assert answer.limits == ()
 
 
 def test_a_single_flight_in_a_list_is_that_flight():

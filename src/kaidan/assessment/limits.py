@@ -53,9 +53,10 @@ def limits(question: Question) -> tuple[Limit, ...]:
 
 
 def _limits(question: Question) -> Iterator[Limit]:
-    flight, stance, profile = question.flight, question.stance, question.profile
+    stance, profile = question.stance, question.profile
+    flights = question.flights or ((question.flight,) if question.flight else ())
     L = stance.flat_length
-    p = 0.0 if flight is None else max(math.hypot(*step) for step in flight.regular_steps)
+    p = max((math.hypot(*step) for each in flights for step in each.regular_steps), default=0.0)
     if p > L / 2:
         yield Limit(
             figure="nosing_spacing", has_m=p, takes_m=L / 2, needs="flat_length", needs_m=2 * p

@@ -16,7 +16,7 @@ def shift_of_centroid(question: Question, *, downhill: bool) -> float | None:
     Parameters
     ----------
     question : Question
-        Its terrain needs regular steps.
+        Its terrain needs regular steps; of several flights the steepest counts.
     downhill : bool
         Whether it tips over its downhill end.
 
@@ -26,7 +26,7 @@ def shift_of_centroid(question: Question, *, downhill: bool) -> float | None:
         Shift [m] in the worst case at the risk; None where none is needed, the track is too short
         for any, or the terrain has no regular steps or the robot heads off.
     """
-    flight = question.flight
+    flight = question.steepest_flight
     if flight is None or question.yaw:
         return None
     at = nominal(question, flight)

@@ -56,7 +56,8 @@ def findings_of(
         each.append(_between(NARROW, width - needed, width - w, model))
     if headroom is not None:
         H = max(height_of(question.robot, outline) for outline in outlines)
-        slope = question.flight.angle if question.flight else 0.0
+        flight = question.steepest_flight
+        slope = 0.0 if flight is None else flight.angle
         flat, rearing = (
             float(headroom_needed(height=H, length=length, theta_s=slope, phi=slope + more))
             for more in (0.0, REARING)

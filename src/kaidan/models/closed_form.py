@@ -42,6 +42,8 @@ def judge(question: Question, *, known: Findings | None = None) -> Findings:
     """
     _ = question.robot.weighed
     flight = question.flight
+    if len(question.flights) > 1:
+        return Findings(model=CLOSED_FORM.name, outside="the terrain is no single flight of stairs")
     if flight is None:
         return Findings(model=CLOSED_FORM.name, outside="the terrain is no flight of stairs")
     at = nominal(question, flight)

@@ -86,9 +86,9 @@ def spread(question: Question, traverse: Traverse) -> Spread:
     """
     if not question.uncertain:
         return Spread(*np.zeros((10, 1)))
-    count, flight = sample_count(question), question.flight
+    count, flight = sample_count(question), question.steepest_flight
     drawn = drawn_of_all(question)
-    angle, friction, exact = drawn[3], drawn[5], np.zeros(count)
+    angle, friction, exact = _of_slope(drawn, question), drawn[5], np.zeros(count)
     down = up = exact
     if flight is not None:
         down, up = _by_closed_form(question, flight)
@@ -113,6 +113,17 @@ def spread(question: Question, traverse: Traverse) -> Spread:
         friction=friction,
         over_landing=Phase.ENTER if question.direction == "down" else Phase.LAND,
     )
+
+
+def _of_slope(drawn: Array, question: Question) -> Array:
+    """What the samples change of the slope, shape (samples,) [rad].
+
+    Of several flights the largest doubt: their nosings have it in their covariance, `drawn` not.
+    """
+    if len(question.flights) < 2:
+        return np.asarray(drawn[3])
+    doubt = max(each.uncertainty.angle for each in question.flights)
+    return np.asarray(doubt * unit_draws(drawn.shape[1])[3])
 
 
 def drawn_of_all(question: Question) -> Array:

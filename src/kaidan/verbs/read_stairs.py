@@ -168,15 +168,12 @@ def _flight(
 
 
 def _residuals(flight: FlightEstimate) -> tuple[tuple[float, float], ...]:
-    """Distances of nosings from the regular flight through their weighted middle [m]."""
+    """Distances of nosings from the regular flight through their middle [m]."""
     if len(flight) < 2:
         return ()
     step = np.array([flight.regular.going, flight.regular.rise])
     off = flight.line() - np.arange(len(flight))[:, None] * step
-    every = np.tile(np.eye(2), (len(flight), 1))
-    weighted = flight.weights @ every
-    middle = np.linalg.solve(every.T @ weighted, weighted.T @ off.ravel())
-    return tuple((float(s), float(z)) for s, z in off - middle)
+    return tuple((float(s), float(z)) for s, z in off - off.mean(axis=0))
 
 
 def _cloud(found: StairsEstimate, contents: Any) -> Array | None:

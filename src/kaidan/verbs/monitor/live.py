@@ -47,7 +47,7 @@ class LiveMonitor:
         self.question = question
         self.limits = AlarmLimits() if limits is None else limits
         self._watch = Monitor.of(question, limits=self.limits)
-        flight = question.flight
+        flight = question.steepest_flight
         assert flight is not None  # the monitor refuses a terrain without steps
         self.slope = flight.angle
         self._sign = 1.0 if question.nose_up else -1.0

@@ -117,12 +117,14 @@ class Monitor:
     ) -> Self:
         """Monitor of a question: its robot, stairs, posture, payload and way of facing.
 
+        Of several flights it knows the steepest.
+
         Raises
         ------
         InputError
             A terrain without steps.
         """
-        flight = question.flight
+        flight = question.steepest_flight
         if flight is None:
             raise InputError(f"{question.terrain_name}: the monitor needs the spacing of its steps")
         return cls(
