@@ -27,8 +27,8 @@ def shift(monkeypatch):
         monkeypatch.setattr(centroid, "draws", draws)
         none = SimpleNamespace(high=0.0)
         question = SimpleNamespace(
-            steepest_flight="a flight", yaw=0.0, allowance_d=none, allowance_M=none, acceleration=0.0,
-            risk=risk,
+            steepest_flight="a flight", yaw=0.0, allowance_d=none, allowance_M=none,
+            acceleration=0.0, risk=risk,
         )  # fmt: skip
         return centroid.shift_of_centroid(question, downhill=downhill)
 
