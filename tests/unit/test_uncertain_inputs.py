@@ -1,7 +1,9 @@
 """Samples of the uncertain inputs, and how far they carry the margins, by hand."""
 
 import math
+from dataclasses import replace
 from statistics import NormalDist
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +12,9 @@ from kaidan import Profile, Question, Robot, Stairs, Surface
 from kaidan.models import samples
 from kaidan.models.quasi_static import traverse_of
 from kaidan.models.samples import draws, nominal, sample_count, unit_draws
-from kaidan.models.spread import changed_nosings, spread
+from kaidan.models.spread import changed_nosings, moved_profile, nosings_of, spread
+from kaidan.modes import Phase
+from kaidan.traversal.drawn_criterion import Drawn
 
 L, C_L, C_N = 0.470, 0.196, 0.071
 THETA, P, MU = math.radians(40), 0.150, 1.0
@@ -129,6 +133,9 @@ def test_spread_of_a_flight_is_the_closed_forms(nose_up):
         np.testing.assert_allclose(values, sample - sheet, atol=1e-12)
     np.testing.assert_allclose(found.angle, d[3], atol=1e-15)
     np.testing.assert_allclose(found.friction, d[5], atol=1e-15)
+    assert [each.tolist() for each in (found.rocking, found.rise, found.landing_rise)] == [
+        [0.0]
+    ] * 3
 
 
 def test_spread_of_steps_of_many_kinds_takes_the_worst_step(monkeypatch):
@@ -170,6 +177,8 @@ def test_draws_of_steps_all_alike_are_the_closed_forms(nose_up):
     steps |= {"rises": question.terrain.step_rises, "goings": question.terrain.step_goings}
     listed = question.changed(terrain=Stairs.model_validate(steps))
     found, closed = (spread(each, traverse_of(each)) for each in (listed, question))
+    assert found.over_landing is (Phase.LAND if nose_up else Phase.ENTER)
+    assert len(found.rocking) == 2048
     for values, expected in zip(found[:2], closed[:2], strict=True):
         # rad: nosings summed up from steps, and functions of libm
         np.testing.assert_allclose(values, expected, atol=1e-9)
@@ -187,10 +196,41 @@ def test_where_the_criterion_says_nothing_there_is_no_spread_of_it():
     assert not any(np.any(each) for each in found[:-1])
 
 
+def test_spread_is_less_what_the_sheets_say_where_both_say_something(monkeypatch):
+    drawn = Drawn(*([0.5, math.inf, 0.5, 0.25, 0.5, 0.5, 0.5, -math.inf] * np.ones((2048, 1))).T)
+    nominal_ = Drawn(*np.array([[0.2], [0.1], [math.inf], [0.125], [0.2], [0.3], [0.3], [0.1]]))
+    monkeypatch.setattr("kaidan.models.spread._by_draws", lambda *_: (drawn, nominal_))
+    kerb = Profile.of_points([(-2, 0), (0, 0), (0, 0.1), (2, 0.1)])
+    robot = Robot.model_validate(KENAF | {"uncertainty": {"com_from_front": 0.005}})
+    question = Question.in_one_posture(robot, kerb, friction=1.0)
+    for whole in (True, False):
+        found = spread(question, SimpleNamespace(whole=whole))
+        means = [np.mean(each) for each in found[:-1]]
+        rises = [0.3, 0.2] if whole else [0.0, 0.0]
+        # tips downhill, uphill, landing as downhill; rocking; rises; slope, inclinations, friction
+        assert means == pytest.approx([0.3, 0.0, 0.3, 0.125, *rises, 0.0, 0.2, 0.0, 0.0])
+
+
+def test_nosings_are_drawn_about_those_of_the_draw_of_the_whole():
+    kerbs = [(-2, 0), (0, 0), (0, 0.1), (0.3, 0.1), (0.3, 0.2), (2, 0.2)]
+    profile = Profile.of_points(kerbs)
+    profile = replace(profile, covariance=np.diag([1e-4, 4e-4, 9e-4, 0.0]))
+    single = profile.drawn_nosings(unit_draws(50, 10)[6:])
+    np.testing.assert_array_equal(nosings_of(profile, np.zeros((6, 50))), single)
+
+
+def test_one_nosing_takes_its_riser_along():
+    kerb = Profile.of_points([(-2, 0), (0, 0), (0, 0.1), (2, 0.1)])
+    moved = moved_profile(kerb, np.add(kerb.nosings, [[0.01, 0.02]]))
+    expected = [(-1.99, 0), (0.01, 0), (0.01, 0.12), (2.01, 0.12)]
+    np.testing.assert_allclose(moved.points, expected, atol=1e-12)
+
+
 def test_an_exact_question_has_one_sample():
     question = asked([0.0] * 6)
     found = spread(question, traverse_of(question))
     assert [each.tolist() for each in found[:-1]] == [[0.0]] * 10
+    assert found.over_landing is Phase.LAND
     at = nominal(question, question.flight)
     assert all(each.shape == (1, 1) for each in at)
     assert list(draws(question, at)) == [at]

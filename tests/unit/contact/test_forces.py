@@ -42,6 +42,9 @@ def test_friction_of_one_force():
     # forces of less than 1e-7 of the weight are none
     assert cone_angle(0.5e-6, -0.5e-6, G) == 0.0
     assert cone_angle(2e-6, -2e-6, G) == math.inf
+    assert cone_angle(0.5e-6, 0.0, G) == 0.0
+    # a slope of less than 1e-14 of the weight is rounding
+    assert cone_angle(5e-14, 4.0, G) == 0.0
 
 
 def on_slope(angle, s):
@@ -167,6 +170,57 @@ def test_least_friction_of_two_contacts(seed):
         arms = points - centroid
         moment = sum(a[0] * f[1] - a[1] * f[0] for a, f in zip(arms, each, strict=True))
         assert moment == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_pull_of_less_than_a_share_of_the_weight_is_none():
+    """The centroid beside the outer of two contacts on the level, by so much of their distance."""
+    for beside, expected in ((0.5e-7, 0.0), (2e-7, math.inf)):
+        mu, *_ = two_contact_forces(0, 0, 0, 1, 1, 0, 0, 1, -beside, 0.3, 0, G)
+        assert mu == expected
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_face_and_the_floor_at_one_level(side, swapped):
+    """By hand: a fifth of the weight hangs on the face, which the floor's friction presses."""
+    face, floor = (0.0, 0.0, side, 0.0), (side, 0.0, 0.0, 1.0)
+    both = (floor, face) if swapped else (face, floor)
+    mu, *forces = two_contact_forces(*both[0], *both[1], 0.8 * side, 0.5, 0.0, G)
+    assert mu == pytest.approx(0.5, rel=1e-12)
+    expected = [(0.4 * G, -side * 0.2 * G), (0.8 * G, -side * 0.4 * G)]
+    assert forces == pytest.approx(sum(expected[:: -1 if swapped else 1], ()), rel=1e-12)
+
+
+def test_one_contact_above_the_other_needs_no_friction():
+    """Whatever the share of either."""
+    mu, n_1, t_1, n_2, t_2 = two_contact_forces(0, 0, 0, 1, 0, 1, 0, 1, 0, 0.5, 0, G)
+    assert (mu, t_1, t_2, n_1 + n_2) == (0.0, 0.0, 0.0, G)
+
+
+def test_least_friction_where_directions_are_alike():
+    """Normals and places of a few kinds, against inner forces on a grid: many roots coincide."""
+    rng = np.random.default_rng(7)
+    grid = np.concatenate([-np.geomspace(1e3, 1e-3, 300), [0.0], np.geomspace(1e-3, 1e3, 300)])
+    holds = 0
+    for _ in range(200):
+        points = rng.integers(-2, 3, (2, 2)) / 4
+        if (points[0] == points[1]).all():
+            continue
+        leans = rng.integers(-2, 3, 2) * math.pi / 4
+        normals = np.round(np.stack([np.sin(leans), np.cos(leans)], axis=1), 15)
+        centroid = rng.integers(-3, 4, 2) / 4
+        mu, *_ = two_contact_forces(
+            *points[0], *normals[0], *points[1], *normals[1], *centroid, 0.0, G
+        )
+        (n_1, t_1), (n_2, t_2) = held(points, normals, centroid, np.array([0.0, G]), grid)
+        tried = [
+            max(abs(t_1[i]) / n_1[i], abs(t_2[i]) / n_2[i])
+            for i in np.flatnonzero((n_1 > 1e-9) & (n_2 > 1e-9))
+        ]
+        if tried:
+            assert mu <= min(tried) + 1e-9
+            holds += 1
+    assert holds > 50
 
 
 @pytest.mark.parametrize("lean", [0.9, 1.2])
@@ -303,6 +357,25 @@ def test_contacts_of_a_robot_at_a_riser():
         pytest.approx([-0.08, 0.0, 0.0, 1.0], abs=1e-12),  # under the front disc
         pytest.approx([0.0, 0.08, -1.0, 0.0], abs=1e-12),  # at the face
     ]
+
+
+def test_a_nosing_under_the_middle_of_a_raised_flipper():
+    """The flat leans by 3-4-5; a fin touches it 0.3 m from the centre of its lower end."""
+    body = body_table([[0.0, 0.0, 0.05, 0.4, 0.3, 0.05]])
+    x, z = 0.3 * 0.8 + 0.05 * 0.6, 0.3 * 0.6 - 0.05 * 0.8
+    fin = ground_table([(-9, -1), (x, -1), (x, z), (x + 1e-3, -1), (9, -1)])
+    found = np.zeros((32, CONTACT_COLUMNS))
+    count, _ = contacts_at(fin, body, 0.0, 0.0, 0.0, 1e-9, found, 0)
+    assert count == 1
+    assert found[0, [CONTACT_N_X, CONTACT_N_Z]] == pytest.approx([-0.6, 0.8])
+
+
+def test_two_ends_at_one_face_are_two_contacts():
+    ground = ground_table([(-2, 0), (0, 0), (0, 0.5), (2, 0.5)])
+    ends = [[-0.4, each, 0.02, -0.02, each, 0.02] for each in (0.1, 0.3)]
+    found = np.zeros((32, CONTACT_COLUMNS))
+    count, _ = contacts_at(ground, body_table(ends), 0.0, 0.0, 0.0, 1e-9, found, 0)
+    assert sorted(found[:count, CONTACT_Z]) == pytest.approx([0.1, 0.3])
 
 
 def test_what_lies_behind_a_wall_is_not_touched():

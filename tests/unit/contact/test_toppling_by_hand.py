@@ -38,7 +38,12 @@ def terrain(edges, low):
 
 def fallen(edges, low, beyond, phi, kappa, mirrored):
     """Answer of the kernel with the contacts as points, of the case as it is drawn."""
-    line, parts, sign = terrain(edges, low), PARTS, 1.0
+    return fallen_over(terrain(edges, low), beyond, phi, kappa, mirrored)
+
+
+def fallen_over(line, beyond, phi, kappa, mirrored):
+    """The same over any ground that has the edge A."""
+    parts, sign = PARTS, 1.0
     if mirrored:
         line, parts = mirror(line, parts)
         sign = -1.0
@@ -162,6 +167,26 @@ def test_a_fall_about_two_edges_ends_90_degrees_on(mirrored):
     outcome, _, _, phi, *_, turned = fallen(2, -3.0, 0.2, 0.1, 0.0, mirrored)
     assert outcome == RotationOutcome.PAST_VERTICAL
     assert (phi, turned) == (near(0.1 - math.pi / 2), near(math.pi / 2))
+
+
+def test_past_the_vertical_already_it_turns_no_farther():
+    outcome, _, _, phi, *_, turned = fallen(1, -3.0, 0.1, -1.7, 0.0, False)
+    assert (outcome, phi, turned) == (RotationOutcome.PAST_VERTICAL, -1.7, 0.0)
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_fall_wedges_between_an_edge_and_a_wall(mirrored):
+    """As the nose falls the tail, which hangs below the edge, goes back until it meets the wall."""
+    end, beyond = 0.5, 0.15
+    tail = complex(beyond - HALF, RADIUS)
+    wall = A.real + (tail * cmath.exp(1j * end)).real - RADIUS
+    spike = [(A.real - 0.02, -0.5), (A.real, A.imag), (A.real + 0.02, -0.5)]
+    line = [(-2, 0.9), (wall, 0.9), (wall, -0.5), *spike, (5, -0.5)]
+    outcome, points, place, phi, _, _, turned = fallen_over(line, beyond, 0.7, 0.0, mirrored)
+    assert outcome == RotationOutcome.WEDGED
+    assert points == [near(A)]
+    assert place == near(A + (beyond + 1j * ABOVE) * cmath.exp(1j * end))
+    assert (phi, turned) == (near(end), near(0.2))
 
 
 @pytest.mark.parametrize("off", [(3e-6, -1e-6), (1e-6, -3e-6)])

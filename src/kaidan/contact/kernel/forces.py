@@ -48,7 +48,7 @@ from kaidan.contact.columns import (
 )
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.gaps import gap, pressed_normal
-from kaidan.contact.kernel.nearest_feature import first_index, height_of_ground
+from kaidan.contact.kernel.nearest_feature import first_index
 from kaidan.contact.tables import BodyTable, ContactTable, FloatRow, GroundTable
 
 NEVER = math.inf
@@ -242,10 +242,6 @@ def contacts_at(
                         continue
                     off = ground[k, U_X] * to_z - ground[k, U_Z] * to_x
                     if off - radius > touch:
-                        continue
-                    if off <= 0.0 and to_z + ground[k, Z] >= height_of_ground(
-                        ground, to_x + ground[k, X]
-                    ):
                         continue
                 feature = POINT * k + PART * part + kind
                 g, n_x, n_z, p_x, p_z = gap(ground, body, feature, x, z, c, s)
