@@ -1,5 +1,6 @@
 """How far back a robot may stand after its flippers moved: which contact slid, by hand."""
 
+import cmath
 import math
 from types import SimpleNamespace
 
@@ -49,6 +50,23 @@ def test_what_is_pushed_slides_and_what_rolls_does_not(second):
     assert slid(-0.03, 0.01, 0.0, second=second) == pytest.approx(-0.03)
     assert slid(0.0, 0.0, SMALL, second=second) == pytest.approx(R * SMALL, abs=1e-9)
     assert slid(-R * SMALL, 0.0, SMALL, second=second) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_on_a_slope_what_is_pushed_slides_along_it():
+    """All of it turned by 30 degrees, the axle of the disc 0.2 m before the robot's centroid."""
+    lean = math.radians(30.0)
+    u, axle, arm = cmath.exp(1j * lean), 2 + 1j, 0.2 - 0.05j
+    before = SimpleNamespace(parts=np.array([[0.2, -0.05, R, 0.6, -0.05, R]]))
+    contact, normal = axle - 1j * R * u, (-math.sin(lean), math.cos(lean))
+    held = SimpleNamespace(point=(contact.real, contact.imag), normal=normal, feature=0)
+
+    def placed(ahead, turn):
+        place = axle + ahead * u - arm * u * cmath.exp(1j * turn)
+        return Placement(place.real, place.imag, lean + turn)
+
+    for ahead, turn in ((0.03, 0.0), (0.0, SMALL), (-R * SMALL, SMALL)):
+        found = _slides(held, before, placed(0.0, 0.0), before, placed(ahead, turn))
+        assert found == pytest.approx(ahead + R * turn, abs=1e-9)
 
 
 def test_what_leans_by_more_than_45_degrees_holds_no_robot():

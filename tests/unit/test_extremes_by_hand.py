@@ -337,12 +337,14 @@ def test_the_step_of_the_least_rise_and_of_the_first_rock(monkeypatch):
         assert _rock(path, np.arange(3), 1.0, STEPS, False, 0.0, 3) == (0.1, step)
 
 
-def braked(*runs, more=(), up=False):
+def braked(*runs, more=(), up=False, climbing=(), legs=False):
     """Tractive forces of runs of poses between exchanges, and of some poses between."""
     s = np.concatenate([np.linspace(begin, end, len(each)) for begin, end, each in runs])
-    leg = np.zeros(len(s))
+    number = np.repeat(np.arange(len(runs)), [len(each) for _, _, each in runs])
+    direction = np.full(len(s), 0.5 if up else -0.5)
+    direction[list(climbing)] = 0.5
     path = SimpleNamespace(
-        poses=Rows(front_point=s, s=s, leg=leg, path_direction=np.full(len(s), 0.5 if up else -0.5))
+        poses=Rows(front_point=s, s=s, leg=number * legs, path_direction=direction)
     )
     traction = np.concatenate([[*each] for _, _, each in runs] + [[each for _, each in more]])
     row = np.r_[np.arange(len(s)), [row for row, _ in more]].astype(int)
@@ -366,6 +368,20 @@ def test_brief_braking_counts_by_how_long_it_lasts():
     assert braked(brief, (0.105, 0.2, (0.5, 1.0)))[0][0] == pytest.approx(0.5 + 0.25 * 7.5)
     assert braked((0.0, 0.1, (1.0, 0.5)), brief)[0][2] == pytest.approx(0.5 + 0.25 * 7.5)
     assert braked(brief)[0] == [8.0, 2.5]
+
+
+def test_of_a_brief_run_what_climbs_does_not_brake():
+    before, after = (0.0, 0.10, (1.0, 1.0, 2.0)), (0.105, 0.2, (3.0, 1.0, 1.0))
+    found, _ = braked(before, (0.10, 0.105, (8.0, 6.0)), after, climbing=[3])
+    assert found == pytest.approx([1, 1, 2, 8, 3.75, 3, 1, 1])
+
+
+def test_runs_end_where_another_line_of_poses_begins_and_may_be_one_pose():
+    before, after = (0.0, 0.10, (1.0, 1.0, 2.0)), (0.111, 0.2, (3.0, 1.0, 1.0))
+    found, _ = braked(before, (0.101, 0.106, (8.0, 2.5)), after, legs=True)
+    assert found == pytest.approx([1, 1, 2, 4.25, 2.5, 3, 1, 1])
+    found, _ = braked(before, (0.10, 0.105, (8.0, 2.5)), (0.105, 0.105, (3.0,)))
+    assert found == pytest.approx([1, 1, 2, 3.5, 2.125, 2.25])
 
 
 def test_brief_runs_side_by_side_last_as_long_as_they_brake_no_less():

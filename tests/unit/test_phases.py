@@ -1,5 +1,6 @@
 """Phases of poses from where their contacts stand, laid out by hand; no kernel."""
 
+import math
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -9,6 +10,7 @@ import pytest
 from kaidan.terrain.profile import Profile
 from kaidan.traversal.phases import (
     flights_span,
+    landing_zones,
     over_the_top,
     phases_of,
     step_at,
@@ -129,6 +131,20 @@ def test_where_the_flight_begins_and_ends():
     assert flights_span(falls.reflected(), True) == pytest.approx((-2.2, 1.0))
     level = Profile.of_points([(0, 0), (2, 0)])
     assert flights_span(level, False) == flights_span(level, True) == (0.0, 0.0)
+
+
+def test_where_the_front_stands_of_a_robot_that_lands():
+    on, up = 1e-6, math.inf
+    assert landing_zones(PROFILE, False, ROOM) == [
+        pytest.approx((2.2 + on, up, -up, up)), pytest.approx((2.2 - on, up, 0.6 - on, 0.6 + on)),
+        pytest.approx((0.6 - on, 1.6 - on, -up, 0.4 - on)),
+    ]  # fmt: skip
+
+
+def test_one_nosing_has_a_top():
+    kerb = Profile.of_points([(-2, 0), (0, 0), (0, 0.1), (2, 0.1)])
+    path, _ = driven([((-0.6, 0), (-0.1, 0)), ((-0.4, 0), (0, 0.1)), ((0, 0.1), (0.5, 0.1))], False)
+    assert over_the_top(path, kerb, False, ROOM).tolist() == [False, True, True]
 
 
 def test_steps_from_the_bottom():
