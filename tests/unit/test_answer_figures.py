@@ -107,3 +107,8 @@ def test_the_end_that_it_falls_over(each, end):
     other = {"tail": "nose", "nose": "tail", None: None}[end]
     assert answer(*each, direction="down").falls_over == other
     assert answer(*each, facing="tail-first").falls_over == other
+
+
+def test_without_advice_nothing_is_looked_for_that_would_help(monkeypatch):
+    monkeypatch.setattr("kaidan.assessment.advice.what_would_help", lambda *_, **__: 1 / 0)
+    assert answer(finding(SLIDES_DOWN, -0.1)).what_would_help == ()

@@ -111,6 +111,15 @@ def test_of_a_no_go_the_smallest_margin_in_the_best_case_governs():
     assert (found.verdict, found.governs) == (NO_GO, "tip_downhill")
 
 
+def test_where_only_all_together_fail_in_the_best_case_the_smallest_margin_governs():
+    """Of 1,000 samples 8 fail by either, others each: one of them fails alone in the worst case."""
+    downhill, uphill = samples(8), np.roll(samples(8, value=0.1), 500)
+    found = judged(
+        finding(TIP_DOWNHILL, -0.5 * np.ones(1000), downhill), finding(TIP_UPHILL, uphill)
+    )
+    assert (found.verdict, found.governs) == (NO_GO, "tip_uphill")
+
+
 def test_ties_go_to_the_first_of_the_vocabulary():
     each = [finding(mode, -0.1) for mode in (SLIDES_UP, SLIDES_DOWN, TIP_UPHILL, TIP_DOWNHILL)]
     assert judged(*each).governs == "tip_downhill"
@@ -367,6 +376,7 @@ def test_shares_and_margins_of_an_answer():
         one.mode.key: FindingShown.of(one, 0.0)
         for one in (finding(TIP_DOWNHILL, 0.1), finding(ENERGY, 0.02))
     }
+    assert shown["energy"].holds is shown["energy"].holds_best is True
     answer = SimpleNamespace(findings=shown)
     margins = {"tip_downhill": pytest.approx(math.degrees(0.1))}
     assert Assessment.margins_deg.fget(answer) == margins
