@@ -24,12 +24,12 @@ def moved(one, two):
     return move(ABSOLEM, one, two, before=Phase.LAND, start=Placement(0.0, 0.0, 0.0), ground=FLOOR)
 
 
-def two_poses(places, normal=(0.0, 1.0)):
+def two_poses(places, normal=(0.0, 1.0), point=(2.0, 0.0)):
     """Of which both contacts are one, of the first part."""
     x, z, inclination = np.array(places).T
     each = {}
     for end in ("rear", "front"):
-        each |= {end: np.zeros(2, dtype=np.int64), f"{end}_point": np.array([(2.0, 0.0)] * 2)}
+        each |= {end: np.zeros(2, dtype=np.int64), f"{end}_point": np.array([point] * 2)}
         each[f"{end}_normal"] = np.array([normal] * 2)
     return SimpleNamespace(x=x, z=z, inclination=inclination, **each)
 
@@ -58,14 +58,16 @@ def test_on_a_slope_what_is_pushed_slides_along_it():
     u, axle, arm = cmath.exp(1j * lean), 2 + 1j, 0.2 - 0.05j
     before = SimpleNamespace(parts=np.array([[0.2, -0.05, R, 0.6, -0.05, R]]))
     contact, normal = axle - 1j * R * u, (-math.sin(lean), math.cos(lean))
-    held = SimpleNamespace(point=(contact.real, contact.imag), normal=normal, feature=0)
 
     def placed(ahead, turn):
         place = axle + ahead * u - arm * u * cmath.exp(1j * turn)
-        return Placement(place.real, place.imag, lean + turn)
+        return place.real, place.imag, lean + turn
 
     for ahead, turn in ((0.03, 0.0), (0.0, SMALL), (-R * SMALL, SMALL)):
-        found = _slides(held, before, placed(0.0, 0.0), before, placed(ahead, turn))
+        poses = two_poses(
+            [placed(0.0, 0.0), placed(ahead, turn)], normal, (contact.real, contact.imag)
+        )
+        found = slides(poses, [before, before])[:, 0]
         assert found == pytest.approx(ahead + R * turn, abs=1e-9)
 
 
