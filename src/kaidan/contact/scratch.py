@@ -7,7 +7,6 @@ import threading
 import numpy as np
 
 from kaidan.contact.columns import LOAD_COLUMNS, SUPPORT_COLUMNS
-from kaidan.contact.kernel.holding import MOST_SUPPORTS
 from kaidan.contact.tables import FloatArray, IntArray, path_tables
 
 #: Rows up to which tables are kept.
@@ -42,6 +41,9 @@ def path_scratch(size: int) -> tuple[FloatArray, FloatArray, FloatArray]:
 
 def holding_scratch(size: int) -> tuple[FloatArray | IntArray, ...]:
     """Tables of :func:`kaidan.contact.kernel.holding.least_held` for a path of so many poses."""
+    # the kernel's own modules are not loaded where the native one stands for them
+    from kaidan.contact.kernel.holding import MOST_SUPPORTS
+
     wide = size * MOST_SUPPORTS
     of_poses = [np.empty(size, dtype=np.int64) for _ in range(3)]
     return (
