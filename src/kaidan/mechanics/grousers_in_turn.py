@@ -1,4 +1,4 @@
-r"""A grouser comes to stand behind a nosing while the one before it still lies in front of it.
+r"""Grousers that follow each other over a nosing: where the next one lands, how far it runs back.
 
 ::
 
@@ -129,3 +129,46 @@ def height_behind(
         enough = fits(middle)
         least, most = np.where(enough, middle, least), np.where(enough, most, middle)
     return least
+
+
+def belt_lag(*, d_x: Number, d_z: Number, own: Number, other: Number) -> Number:
+    """Share of its speed by which a belt passes one support more slowly than another.
+
+    ``1 - (d_x cos(other) - d_z sin(other)) / (d_x cos(own) - d_z sin(own))``
+
+    A robot that rests on two supports can only rotate about the point where their normals meet. So
+    each passes by in proportion to its distance from there; where the normals are parallel, alike.
+    Belts run everywhere at one speed. The one that passes more slowly runs on, and takes its
+    grousers back with it: a tip slides back by ``s belt_lag`` while the belt runs on by a spacing.
+
+    Assumptions: rigid; all belts run at one speed; the other support does not slide.
+
+    Parameters
+    ----------
+    d_x, d_z : float or array
+        From the other support to the own one, ahead and up [m].
+    own, other : float or array
+        Tilt of the normal of each from the vertical, ahead positive [rad].
+
+    Returns
+    -------
+    float or array
+        [1]: negative where the belt passes faster there; more than one where it passes the other
+        way.
+
+    Examples
+    --------
+    The other on a riser's face, its normal level, the own one as far below as behind it, so that
+    the distances from where they meet are 1 and sqrt(1/2):
+
+    >>> lag = belt_lag(d_x=-0.3, d_z=-0.3, own=np.radians(-45), other=np.radians(-90))
+    >>> print(round(float(1.0 - lag) ** 2, 9))
+    0.5
+
+    References
+    ----------
+    Derived: docs/theory/grousers.md.
+    """
+    far = d_x * np.cos(own) - d_z * np.sin(own)
+    near = d_x * np.cos(other) - d_z * np.sin(other)
+    return 1.0 - near / far

@@ -12,9 +12,11 @@ from kaidan.contact.kernel.grip import (
     belt_margins,
     carry,
     friction_at,
+    lag,
     margin_of_several,
     margin_standing,
     standing_margins,
+    tilt_run_back,
     tip_at,
 )
 from kaidan.mechanics import grousers, grousers_at_edges, grousers_in_turn
@@ -158,7 +160,7 @@ def held(one, other, tip, *, rigid, place=at.NOSING, point=3, side=1.0, gamma=0.
         rows[:, [at.SUPPORT_X, at.SUPPORT_NORMAL]] *= -1.0
         tip = (tip[0], -tip[1], *tip[2:])
     rolls = (False, 0.0, 0.0, tip[2] + 2 * RN * gamma, 0.0)
-    how = (NOSINGS, TREADS, FACES, H, RN, rigid, side)
+    how = (NOSINGS, TREADS, FACES, H, S, RN, rigid, side)
     return margin_standing(rows, 0, 1, loads(), 0, tip, rolls, *how)
 
 
@@ -208,6 +210,57 @@ def test_a_rigid_tip_stands_ahead_and_the_other_support_rolls(
         first = cones(stands, TIP[1], TREADS, other, rolled, phi)
         either.append(min(first, cones(stands, later, TREADS, other, axis, phi)))
     assert found == pytest.approx(max(either), abs=1e-9)
+
+
+# --- how far a tip runs back --------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("own", [-0.3, -1.2, 0.4])
+@pytest.mark.parametrize("other", [-1.5, -0.6, 0.0])
+def test_belts_pass_two_supports_as_a_small_step_along_the_path_moves_them(own, other):
+    """A step that leaves both on their tangents, by three equations: no meeting point is needed."""
+    rows = np.array([support(ONE, normal=own), support(OTHER, normal=other)])
+    equations, tangents = [], []
+    for place, normal in ((ONE, own), (OTHER, other)):
+        n, t = np.exp(1j * (math.pi / 2 - normal)), np.exp(-1j * normal)
+        equations.append([n.real, n.imag, (n.conjugate() * 1j * place).real])
+        tangents.append([t.real, t.imag, (t.conjugate() * 1j * place).real])
+    step = np.linalg.solve([*equations, tangents[1]], [0.0, 0.0, 1.0])  # the other moves by 1
+    expected = 1.0 - float(np.dot(tangents[0], step))
+    assert lag(rows, 0, 1) == pytest.approx(expected, abs=1e-9)
+    of_formula = grousers_in_turn.belt_lag(
+        d_x=(ONE - OTHER).real, d_z=(ONE - OTHER).imag, own=own, other=other
+    )
+    assert of_formula == pytest.approx(expected, abs=1e-9)
+
+
+def test_a_support_that_the_other_rotates_about_helps_nothing():
+    rows = np.array([support(0.3j, normal=0.0), support(0j, normal=-0.5)])
+    assert lag(rows, 0, 1) == math.inf
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("other", [-SLOPE, -0.75, -1.0, -1.5])
+def test_a_tip_runs_back_over_the_tread_and_the_round(other, side):
+    """By what a spacing of the belt takes it back, along the belt from where it came to stand."""
+    rows = np.array([support(ONE), support(OTHER, normal=other)])
+    if side < 0:
+        rows[:, [at.SUPPORT_X, at.SUPPORT_NORMAL]] *= -1.0
+    run, tilt = 0.001, -0.15
+    found = tilt_run_back(rows, 0, 1, (True, side * tilt, run, 0.0, 0.0), S, RN, side)
+    if side < 0:
+        assert found == -tilt
+        return
+    left = RN * math.sin(tilt + SLOPE) - max(S * lag(rows, 0, 1) - run, 0.0)
+    if left <= 0.0:
+        assert math.isnan(found)
+    else:
+        assert RN * math.sin(found + SLOPE) == pytest.approx(left, abs=ROUNDING)
+    rolls = (False, 0.0, 0.0, 0.0, 0.0)
+    how = (NOSINGS, TREADS, FACES, H, S, RN, False, side)
+    held = margin_standing(rows, 0, 1, loads(), 0, (True, tilt, run, 0.0, 0.0), rolls, *how)
+    expected = -math.inf if left <= 0.0 else cones(ONE, found, TREADS, OTHER, other, NOSINGS)
+    assert held == pytest.approx(expected, abs=1e-9)
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
@@ -294,7 +347,7 @@ def test_of_all_pairs_that_carry_the_least_counts(rigid):
         with_tip = {
             (one, other): margin_standing(
                 rows, first + one, first + other, load, 0, tips[one], tips[other], phi, phi, phi,
-                H, RN, rigid, 1.0,
+                H, S, RN, rigid, 1.0,
             )
             for pair in pairs for one, other in (pair, pair[::-1])
         }  # fmt: skip

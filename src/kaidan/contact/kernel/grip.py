@@ -195,10 +195,42 @@ def tip_at(
     return True, tread - side * beta, run, off, run + r * math.sin(theta - beta)
 
 
+def lag(supports: SupportTable, one: int, other: int) -> float:
+    """Share of its speed by which the belt at a support passes more slowly than at another [1].
+
+    Along its path a robot rotates about the point where the normals of both meet, see
+    `kaidan.mechanics.grousers_in_turn.belt_lag`.
+    """
+    d_x = supports[one, SUPPORT_X] - supports[other, SUPPORT_X]
+    d_z = supports[one, SUPPORT_Z] - supports[other, SUPPORT_Z]
+    own = supports[one, SUPPORT_NORMAL]
+    its = supports[other, SUPPORT_NORMAL]
+    far = d_x * math.cos(own) - d_z * math.sin(own)
+    if far == 0.0:
+        return math.inf
+    return float(1.0 - (d_x * math.cos(its) - d_z * math.sin(its)) / far)
+
+
+def tilt_run_back(
+    supports: SupportTable, one: int, other: int, tip: Tip, s: float, r: float, side: float
+) -> float:
+    """Tilt of the normal under a tip that ran back while the belt ran on by a spacing [rad].
+
+    It runs back over the tread first, then over the round of the nosing; NaN: it runs off. A robot
+    that goes down does not have to get on against its weight.
+    """
+    back = s * lag(supports, one, other) - tip[2]
+    if side < 0.0 or back <= 0.0:
+        return tip[1]
+    lean = side * (tip[1] - supports[one, SUPPORT_NORMAL])
+    left = math.sin(lean) - back / max(r, SHARP)
+    return supports[one, SUPPORT_NORMAL] + side * math.asin(left) if left > 0.0 else math.nan
+
+
 def margin_standing(
     supports: SupportTable, one: int, other: int, loads: LoadTable, row: int, tip: Tip,
-    rolls: Tip, nosings: float, treads: float, faces: float, h: float, r: float, rigid: bool,
-    side: float,
+    rolls: Tip, nosings: float, treads: float, faces: float, h: float, s: float, r: float,
+    rigid: bool, side: float,
 ) -> float:  # fmt: skip
     """Margin of two supports, a grouser standing at the first [rad]; minus infinity: none can.
 
@@ -209,7 +241,9 @@ def margin_standing(
     """
     if not tip[0]:
         return -math.inf
-    tilt = tip[1]
+    tilt = tilt_run_back(supports, one, other, tip, s, r, side)
+    if math.isnan(tilt):
+        return -math.inf
     axis = supports[other, SUPPORT_NORMAL]
     phi = friction_at(supports, other, nosings, treads, faces, 0.0)
     if not rigid:
@@ -308,11 +342,11 @@ def standing_margins(
                 of_i = tip_at(supports, first + i, h, s, w, r, rigid, side)
                 one = margin_standing(
                     supports, first + i, first + j, loads, row, of_i, of_j, nosings, treads,
-                    faces, h, r, rigid, side,
+                    faces, h, s, r, rigid, side,
                 )  # fmt: skip
                 other = margin_standing(
                     supports, first + j, first + i, loads, row, of_j, of_i, nosings, treads,
-                    faces, h, r, rigid, side,
+                    faces, h, s, r, rigid, side,
                 )  # fmt: skip
                 for slot in range(slots):
                     own = larger(one, other)
