@@ -1,13 +1,14 @@
 """The criterion on many draws at once is the criterion on each of them."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from kaidan.traversal import static_criterion as static
 from kaidan.traversal.criterion import Tread
-from kaidan.traversal.drawn_criterion import DrawnTread, drawn_criterion
+from kaidan.traversal.drawn_criterion import DrawnTread, _Losses, drawn_criterion
 from kaidan.traversal.static_criterion import flights_of, static_criterion
 
 
@@ -49,6 +50,10 @@ def test_each_draw_is_the_criterion_of_that_draw(seed, monkeypatch):
     nosings, drawn, tread, on, a = flights(seed, 20)
     monkeypatch.setattr("kaidan.traversal.drawn_criterion.BLOCK", 7 * len(nosings))
     within = (0.2, 1.5) if seed % 3 == 0 else (-math.inf, math.inf)
+    agrees(nosings, drawn, tread, on, a, within)
+
+
+def agrees(nosings, drawn, tread, on, a, within=(-math.inf, math.inf)):
     found = drawn_criterion(nosings, drawn, tread, on, acceleration=a, within=within)
     cuts = flights_of(nosings, tread.L)
     for k, one in enumerate(drawn):
@@ -64,6 +69,47 @@ def test_each_draw_is_the_criterion_of_that_draw(seed, monkeypatch):
         assert found.rocking[k] == pytest.approx(alone.rocking, abs=1e-9)
         assert found.rise[k] == pytest.approx(rise_of(alone), abs=1e-9)
         assert found.landing_rise[k] == pytest.approx(rise_of(alone, landing=True), abs=1e-9)
+
+
+@pytest.mark.parametrize("a", [0.0, 2.0, -2.0])
+@pytest.mark.parametrize("under", [2, 3])
+@pytest.mark.parametrize("of", ["flat", "centroid ahead", "centroid behind"])
+def test_draws_that_differ_in_how_many_nosings_lie_under(of, under, a):
+    """Under the flat, or under the part of it ahead of or behind the foot of the gravity line."""
+    rng = np.random.default_rng(under)
+    p, slope, C_N, n, count = 0.3, 0.6, 0.2, 8, 12
+    up = C_N * (math.tan(slope) + a / (9.80665 * math.cos(slope)))
+    L = under * p + 0.05 + 0.4 * (of != "flat")
+    C_L = 0.5 * L - up
+    if of == "flat":
+        L = under * p
+    elif of == "centroid ahead":
+        C_L = under * p * math.cos(slope) - up
+    else:
+        C_L = L - under * p * math.cos(slope) - up
+    tread = Tread(L, C_L, C_N, 0.1, 0.1, 0.3)
+    nosings = np.arange(n)[:, None] * p * np.array([[math.cos(slope), math.sin(slope)]])
+    drawn = nosings + rng.normal(0.0, 0.01, (count, *nosings.shape))
+    agrees(nosings, drawn, tread, DrawnTread(*(np.full(count, each) for each in tread[:3])), a)
+
+
+def test_a_draw_of_which_no_step_lies_within_the_flat_loses_nothing():
+    """Steps of 0.99 m under a flat of 1 m, and under one that is drawn shorter than they are."""
+    nosings = 0.99 * np.arange(5)[:, None] * np.array([[0.8, 0.6]])
+    on = DrawnTread(np.array([1.0, 0.98]), np.full(2, 0.4), np.full(2, 0.1))
+    found = drawn_criterion(
+        nosings, np.stack([nosings] * 2), Tread(1.0, 0.4, 0.1, 0.1, 0.1, 0.3), on
+    )
+    assert np.isfinite([found.downhill[0], found.uphill[0]]).all()
+    assert found.downhill[1] == found.uphill[1] == math.inf
+
+
+def test_how_far_the_centroid_may_move_towards_an_end():
+    """By hand, on a slope of 3 in 4: 0.5 m less 0.2 m times (0.75 + (g/2) / (g 0.8))."""
+    on = DrawnTread(*np.array([[1.0], [0.5], [0.2]]))
+    of = SimpleNamespace(on=on, a=9.80665 / 2)
+    beyond = _Losses._beyond(of, np.array([math.atan(0.75)]), np.array([0.5]))
+    assert beyond == pytest.approx(0.5 - 0.2 * 1.375)
 
 
 @pytest.mark.parametrize("seed", range(60, 76))

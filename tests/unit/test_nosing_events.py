@@ -160,6 +160,13 @@ def test_forces_of_two_contacts_add_up_to_effective_gravity(a, path, descending)
     assert 0.3 * rear - 0.2 * front == pytest.approx(0.2 * traction)
 
 
+@pytest.mark.parametrize("a", [2.0, -3.0])
+def test_forces_on_two_planes_add_up_to_effective_gravity(a):
+    pair = touching(-0.3, -0.2), touching(0.2, -0.2, 0.4)
+    found, pull = forces(pair, pair, a=a)
+    assert np.sum([each.vector for each in found], axis=0) == pytest.approx(pull)
+
+
 def test_the_pair_is_the_one_whose_friction_the_margins_tell():
     """On the floor before and behind no friction is needed, on the floor and at a face some."""
     rear, front, face = touching(-0.3, -0.2), touching(0.2, -0.2), touching(0.2, -0.1, math.pi / 2)

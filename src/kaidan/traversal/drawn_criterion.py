@@ -199,22 +199,19 @@ class _Losses:
 
     def _gain(self) -> None:
         x, on = self.x, self.on
-        for m in range(2, len(x)):
-            reached = np.ones(x.shape[1], dtype=np.bool_)
-            slope = np.full(x.shape[1], -np.inf)
-            for r in range(m - 1, 0, -1):
-                reached &= self._apart(r, m) <= on.L + ROUNDING
+        for m in range(3, len(x)):
+            for r in range(m - 2, 0, -1):
+                reached = self._apart(r, m) <= on.L + ROUNDING
                 if not reached.any():
                     break
-                if r < m - 1:
-                    last = reached & (self._apart(r - 1, m) > on.L + ROUNDING)
-                    slope = np.maximum.reduce([self._slope(r, k) for k in range(r + 1, m)])
-                    along = x[m] - on.C_L * np.cos(slope) - on.C_N * np.sin(slope)
-                    last &= (self.within[0] <= along) & (along <= self.within[1])
-                    margin = self._margin(slope, self._apart(r, m) - on.C_L)
-                    self.margin = _least(self.margin, margin, last)
-                    rise = self._rise(slope, slope, self._apart(r, m) - on.C_L)
-                    self.rise = _least(self.rise, rise, last)
+                last = reached & (self._apart(r - 1, m) > on.L + ROUNDING)
+                slope = np.maximum.reduce([self._slope(r, k) for k in range(r + 1, m)])
+                along = x[m] - on.C_L * np.cos(slope) - on.C_N * np.sin(slope)
+                last &= (self.within[0] <= along) & (along <= self.within[1])
+                margin = self._margin(slope, self._apart(r, m) - on.C_L)
+                self.margin = _least(self.margin, margin, last)
+                rise = self._rise(slope, slope, self._apart(r, m) - on.C_L)
+                self.rise = _least(self.rise, rise, last)
 
     def _counts(self, x: Array, slope: Array) -> Bools:
         """Whether the centroid is in the part that counts, the near tip at a nosing."""

@@ -197,6 +197,16 @@ def test_one_contact_above_the_other_needs_no_friction():
     assert (mu, t_1, t_2, n_1 + n_2) == (0.0, 0.0, 0.0, G)
 
 
+def test_the_friction_is_that_of_any_weight():
+    rng = np.random.default_rng(3)
+    for _ in range(50):
+        points, leans = rng.uniform(-0.5, 0.5, (2, 2)), rng.uniform(-1.4, 1.4, 2)
+        normals = np.stack([np.sin(leans), np.cos(leans)], axis=1)
+        given = *points[0], *normals[0], *points[1], *normals[1], *rng.uniform(-0.3, 0.3, 2)
+        light, heavy = (two_contact_forces(*given, 0.0, w)[0] for w in (1e-3, 10.0))
+        assert light == pytest.approx(heavy, rel=1e-9)
+
+
 def test_least_friction_where_directions_are_alike():
     """Normals and places of a few kinds, against inner forces on a grid: many roots coincide."""
     rng = np.random.default_rng(7)
@@ -370,9 +380,14 @@ def test_a_nosing_under_the_middle_of_a_raised_flipper():
     assert found[0, [CONTACT_N_X, CONTACT_N_Z]] == pytest.approx([-0.6, 0.8])
 
 
-def test_two_ends_at_one_face_are_two_contacts():
-    ground = ground_table([(-2, 0), (0, 0), (0, 0.5), (2, 0.5)])
-    ends = [[-0.4, each, 0.02, -0.02, each, 0.02] for each in (0.1, 0.3)]
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_two_ends_at_one_face_are_two_contacts(side, swapped):
+    low, high = (0.0, 0.5) if side < 0 else (0.5, 0.0)
+    ground = ground_table([(-2, low), (0, low), (0, high), (2, high)])
+    ends = [[0.02 * side, each, 0.02, 0.4 * side, each, 0.02] for each in (0.1, 0.3)]
+    if swapped:
+        ends = [each[3:] + each[:3] for each in ends]
     found = np.zeros((32, CONTACT_COLUMNS))
     count, _ = contacts_at(ground, body_table(ends), 0.0, 0.0, 0.0, 1e-9, found, 0)
     assert sorted(found[:count, CONTACT_Z]) == pytest.approx([0.1, 0.3])
