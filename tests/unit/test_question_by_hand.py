@@ -79,6 +79,8 @@ def test_what_is_uncertain():
     assert exact.spread == (0.0,) * 6
     assert not exact.uncertain
     assert not exact.steps_uncertain
+    ramp = Profile.of_points([(-2, 0), (0, 0), (2, 0.5), (4, 0.5)])
+    assert of(plain(), ramp).spread == (0.0,) * 6
     robot, steps = (of(plain(), uncertainty=each) for each in ("com_height=5mm", "rise=3mm"))
     assert robot.uncertain
     assert not robot.steps_uncertain
@@ -87,7 +89,7 @@ def test_what_is_uncertain():
 
 
 def test_one_flight_is_a_flight():
-    assert of(terrain=[FLIGHT]).terrain == FLIGHT
+    assert of().changed(terrain=(FLIGHT,)).terrain == FLIGHT
 
 
 def test_a_profile_that_falls_is_driven_down_and_seen_from_the_other_side():
@@ -203,6 +205,7 @@ def test_with_grousers_the_default_is_the_least_at_any_length():
     [
         ("stowed", "nose-first", 0.06), ("stowed", "tail-first", 0.05),
         ("flat", "nose-first", 0.03), ("flat", "tail-first", 0.04),
+        ("0deg,90deg", "nose-first", 0.06),
     ],
 )  # fmt: skip
 def test_the_flat_ends_downhill_on_the_track_or_on_a_flipper(flippers, facing, radius):
