@@ -84,9 +84,9 @@ def test_draws_that_differ_in_how_many_nosings_lie_under(of, under, a):
     if of == "flat":
         L = under * p
     elif of == "centroid ahead":
-        C_L = under * p * math.cos(slope) - up
+        C_L = under * p - up
     else:
-        C_L = L - under * p * math.cos(slope) - up
+        C_L = L - under * p - up
     tread = Tread(L, C_L, C_N, 0.1, 0.1, 0.3)
     nosings = np.arange(n)[:, None] * p * np.array([[math.cos(slope), math.sin(slope)]])
     drawn = nosings + rng.normal(0.0, 0.01, (count, *nosings.shape))

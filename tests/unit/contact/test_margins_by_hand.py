@@ -19,7 +19,13 @@ from kaidan.contact import body_table, ground_table
 from kaidan.contact import columns as at
 from kaidan.contact.codes import BELLY, TRACK
 from kaidan.contact.kernel.forces import two_contact_forces
-from kaidan.contact.kernel.margins import lasting, margins_at, margins_without, pose_margins
+from kaidan.contact.kernel.margins import (
+    forces_over_one,
+    lasting,
+    margins_at,
+    margins_without,
+    pose_margins,
+)
 from kaidan.models.quasi_static import traverse_of
 from kaidan.robot import Track
 
@@ -331,3 +337,16 @@ def test_braking_down_over_nosings_that_differ_takes_the_friction_of_the_plane()
     assert plane == pytest.approx(0.70, abs=0.005)
     # a chord that differs by 1 mm in 310 mm, and the arc of the trailing end
     assert plane - 0.01 < flown.required_friction < plane + 0.03
+
+
+@pytest.mark.parametrize("ahead", [True, False])
+def test_forces_over_one_contact_are_those_along_its_own_normal(ahead):
+    """Others at its height or under it do not count; half a newton a kilogram is a force."""
+    poses, found = np.zeros((1, at.POSE_COLUMNS)), np.zeros((3, at.CONTACT_COLUMNS))
+    rows = (0.1, 0.2, 0.6, 0.8), (0.1, 0.5, 0.0, 1.0), (0.7, 0.2, 0.0, 1.0)
+    found[:, [at.CONTACT_X, at.CONTACT_Z, at.CONTACT_N_X, at.CONTACT_N_Z]] = rows
+    mu, *forces = forces_over_one(poses, 0, found, 3, 0.1, 0.2, ahead, 0.0, 0.5)
+    normal, tangential = 0.4, -0.3
+    assert mu == pytest.approx(0.75)
+    on_one = (0.0, 0.0, normal, tangential) if ahead else (normal, tangential, 0.0, 0.0)
+    assert forces == pytest.approx(on_one)

@@ -376,6 +376,22 @@ def test_it_rolls_onto_a_part_behind(behind, kappa, mirrored):
     assert case.tilt(pivot, 1.2 * low, kappa) == carried
 
 
+@MIRRORED
+def test_what_remains_of_the_tolerance_is_less_by_the_rotation_onto_another_end(mirrored):
+    """The second part's end comes to touch after 25 mrad and rolls on; then a third has a plate."""
+    third = [-1.3, RADIUS - ABOVE + 0.022, RADIUS, -0.75, RADIUS - ABOVE + 0.022, RADIUS]
+    plate, end = -1.0 + 0j, -0.9 + 0j
+    line = [*plates(plate)[:-1], (end.real, LOW), (end.real, 0), (5, 0)]
+    case = Case(line, mirrored, [*PARTS, BEHIND, third])
+    pivot = case.rear_disc((end, complex(35, 0)))
+    first = leaning(-HALF + 0j, C, 0.0)
+    tilt, rocking = case.tilt(pivot, 0.06)
+    assert tilt > first
+    assert 0.03 < rocking < 0.05
+    assert case.tilt(pivot, rocking + 1e-4) == (near(tilt), near(rocking))
+    assert case.tilt(pivot, rocking - 1e-4) == (near(first), 0.0)
+
+
 def table_of(case, rear, front, kappa):
     """Tables of a pose that stands on two edges."""
     poses, margins = np.zeros((3, at.POSE_COLUMNS)), np.full((3, at.MARGIN_COLUMNS), np.nan)

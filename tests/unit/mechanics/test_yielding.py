@@ -72,6 +72,7 @@ def test_the_grip_of_a_tail(phi):
     given = {"L": L, "p": P, "C_L": C_L, "C_N": C_N, "w_n": w_n}
     assert grip_tilt(R=R, mu=mu, **given) == pytest.approx(m, abs=1e-6)
     assert grip_tilt(R=R, mu=math.inf, **given) == pytest.approx(theta)
+    assert grip_tilt(R=100 * R, mu=mu, **given) == 0.0
     assert math.isnan(grip_tilt(R=R, mu=mu, **given | {"L": P + C_L}))
 
 
