@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from kaidan.answer import Part
 from kaidan.assessment.uncertain_inputs import GROUPS, SAMPLED, STEPS, Doubt, doubts_of
-from kaidan.models.findings import ROUNDING, Array, Finding, Findings
+from kaidan.models.findings import ROUNDING, Array, Finding, Findings, smallest
 from kaidan.models.samples import sample_count, unit_draws
 from kaidan.modes import FALLS, SLIDES_DOWN, SLIDES_UP, TIP_DOWNHILL, TIP_UPHILL
 from kaidan.question import Question
@@ -160,9 +160,8 @@ def margins_of(question: Question, found: Findings, draws: Mapping[str, Drawn]) 
     count = sample_count(question)
     if any(len(one.worst) not in (1, count) for one in slopes):
         return None  # a model with samples of its own
-    moved = [_moved(question, one, draws, count) for one in slopes]
-    margin = np.fmin.reduce(moved)
-    return margin if np.isfinite(margin).all() else None
+    margin = smallest(_moved(question, one, draws) for one in slopes)
+    return np.broadcast_to(margin, (count,)) if np.isfinite(margin).all() else None
 
 
 def _certain(one: Finding) -> bool:
@@ -170,9 +169,9 @@ def _certain(one: Finding) -> bool:
     return len(one.worst) == 1 and one.mode.key not in _DRIVEN_BY
 
 
-def _moved(question: Question, one: Finding, draws: Mapping[str, Drawn], count: int) -> Array:
-    """Margin of each sample, between its worst and its best case as the ranges are drawn."""
-    worst, best = (np.broadcast_to(each, (count,)) for each in (one.worst, one.best))
+def _moved(question: Question, one: Finding, draws: Mapping[str, Drawn]) -> Array:
+    """Margin of each sample, or of all, between its worst and its best case as ranges are drawn."""
+    worst, best = one.worst, one.best
     widths = {
         "theta_d": question.allowance_d.high - question.allowance_d.low,
         "theta_M": question.allowance_M.high - question.allowance_M.low,
@@ -181,10 +180,8 @@ def _moved(question: Question, one: Finding, draws: Mapping[str, Drawn], count: 
     by = [name for name in _DRIVEN_BY.get(one.mode.key, ()) if name in draws]
     whole = sum(widths[name] for name in by)
     if not by or not (np.isfinite(one.worst).all() and np.isfinite(one.best).all()):
-        return np.array(worst)
-    part = np.zeros(count)
-    for name in by:
-        part = part + widths[name] / whole * draws[name].draws
+        return worst
+    part = sum(widths[name] / whole * draws[name].draws for name in by)
     return np.asarray(worst + part * (best - worst))
 
 

@@ -104,7 +104,7 @@ def phase_extremes(
     sudden = {side: _as_on_the_flat(seen, body, side) for side in (-1.0, 1.0)}
     # of a pose between two phases the other one judges
     of_criterion = _on_a_flight(seen, profile, room) | (phase[samples.row] != Phase.TRAVERSE.value)
-    at_nosing = np.isin(places, profile.nosings[:, 0]) if rises else np.zeros(0, dtype=np.bool_)
+    at_nosing = _at_nosing(places, profile) if rises else np.zeros(0, dtype=np.bool_)
     on_belly = seen.margins.belly_touches
     extremes = []
     for name in Phase:
@@ -150,8 +150,10 @@ def phase_extremes(
                 uphill_energy_margin_step=uphill_step,
                 steadiness=steady,
                 uphill_steadiness=uphill_steady,
-                static_margin=float(np.nanmin(margins[rows])),
-                traction_over_weight=float(np.nanmax(np.where(slides, 0.0, samples.traction[rows])))
+                static_margin=float(np.fmin.reduce(margins[rows])),
+                traction_over_weight=float(
+                    np.fmax.reduce(np.where(slides, 0.0, samples.traction[rows]))
+                )
                 / STANDARD_GRAVITY,
                 largest_rotation=max(
                     (angle for at, angle in rotated if phase[at] == name.value), default=0.0
@@ -190,6 +192,12 @@ def _on_a_flight(path: contact.Path, profile: Profile, room: float) -> NDArray[n
         begin, end = profile.nosings[[first, last], 0]
         found |= (rear >= begin - _PLACE) & (front <= end + _PLACE)
     return found
+
+
+def _at_nosing(places: NDArray[np.float64], profile: Profile) -> NDArray[np.bool_]:
+    """Places at which a nosing stands, to the last digit."""
+    nosings = np.append(profile.nosings[:, 0], math.inf)
+    return np.asarray(nosings[np.searchsorted(nosings[:-1], places)] == places)
 
 
 def _closed(path: contact.Path, phase: NDArray[np.str_]) -> dict[Phase, NDArray[np.bool_]]:
