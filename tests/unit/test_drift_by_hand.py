@@ -72,9 +72,11 @@ def test_on_a_slope_what_is_pushed_slides_along_it():
 
 
 def test_the_belts_of_a_flipper_and_of_a_wheel_from_pose_to_pose():
-    """Both move with the robot, the flipper turns about its own axle besides."""
-    place, lean = np.array([1 + 1j, 1.02 + 1.01j, 1.05 + 1.03j]), np.array([0.3, 0.35, 0.5])
-    angle, axles = np.array([0.2, 0.5, 0.4]), (0.2 - 0.05j, -0.3 - 0.1j)
+    """Both move with the robot, the flipper turns about its own axle besides; the last face is
+    too steep to hold."""
+    place = np.array([1 + 1j, 1.02 + 1.01j, 1.05 + 1.03j, 1.1 + 1.1j])
+    lean = np.array([0.3, 0.35, 0.5, 0.7])
+    angle, axles = np.array([0.2, 0.5, 0.4, 0.1]), (0.2 - 0.05j, -0.3 - 0.1j)
     outlines = [
         SimpleNamespace(parts=np.array([
             [axles[0].real, axles[0].imag, R, (axles[0] + L * cmath.exp(1j * each)).real,
@@ -83,22 +85,27 @@ def test_the_belts_of_a_flipper_and_of_a_wheel_from_pose_to_pose():
         ]))
         for each in angle
     ]  # fmt: skip
-    points, normals = np.array([1.5 + 0.8j, 1.45 + 0.7j, 9j]), np.exp(1j * np.array([1.4, 1.9, 0]))
+    points, normals = (
+        np.array([1.5 + 0.8j, 1.45 + 0.7j, 1.4 + 0.6j, 9j]),
+        np.exp(1j * np.array([1.4, 1.9, 2.6, 0])),
+    )
     flat = {
         name: np.stack([values.real, values.imag], axis=1)
         for end in ("rear", "front")
         for name, values in ((f"{end}_point", points), (f"{end}_normal", normals))
     }
-    codes = {"rear": np.zeros(3, dtype=np.int64), "front": np.full(3, 4)}  # part 1
+    parts = {"rear": np.array([0, 1, 0, 0]), "front": np.array([1, 0, 1, 1])}
+    codes = {end: 4 * each for end, each in parts.items()}
     poses = SimpleNamespace(x=place.real, z=place.imag, inclination=lean, **codes, **flat)
-    found = slides(poses, outlines)
-    for k, (axle, turned) in enumerate(zip(axles, (lean + angle, lean), strict=True)):
-        axle_at = place + axle * np.exp(1j * lean)
+    for found, part in zip(slides(poses, outlines), parts.values(), strict=True):
         for i in range(2):
+            axle_at = place + axles[part[i]] * np.exp(1j * lean)
+            turned = (lean + angle, lean)[part[i]]
             turn = cmath.exp(1j * (turned[i + 1] - turned[i]))
             moved = axle_at[i + 1] + (points[i] - axle_at[i]) * turn - points[i]
             ahead = -1j * normals[i]
-            assert found[k, i] == pytest.approx((moved * ahead.conjugate()).real, abs=1e-12)
+            assert found[i] == pytest.approx((moved * ahead.conjugate()).real, abs=1e-12)
+        assert found[2] == 0.0
 
 
 def test_what_leans_by_more_than_45_degrees_holds_no_robot():
