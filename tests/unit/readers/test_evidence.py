@@ -1,11 +1,12 @@
 """What tells stairs from ramps, and ends of elements from what goes on."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from kaidan.readers.stairfit.evidence import depth, evenness, slant
+from kaidan.readers.stairfit.evidence import depth, evenness, slant, upright
 from kaidan.readers.stairfit.staircase_line import StairLine, assigned, fronts, tops
 
 LINE = StairLine(s0=0.0, z0=0.2, going=0.3, rise=0.2, first=0, last=4)
@@ -81,6 +82,29 @@ def test_seats_of_twice_the_size_leave_every_second_step_empty():
     part = np.repeat(0.15 + 0.3 * np.arange(3), [600, 600, 20])
     three = replace(LINE, last=LINE.first + 2)
     assert evenness(three, assigned(three, part, 0 * part, treads(part), 0.02)) == 1.0
+
+
+def upside_down(s, t, z):
+    """Points and the line upside down: its nosings are the inner corners."""
+    line = StairLine(s0=-1.2, z0=-0.8, going=0.3, rise=0.2, first=0, last=4)
+    return upright(line, assigned(line, -s, t, -z, 0.02))
+
+
+def test_steps_hide_their_inner_corners_and_high_treads():
+    """By hand: fronts of treads alone; all risers, and of treads the lower two."""
+    front = np.concatenate([0.3 * k + np.linspace(0.03, 0.12, 50) for k in range(4)])
+    seen = upright(LINE, assigned(LINE, front, 0 * front, treads(front), 0.02))
+    beside = 4 * 36  # from 35 mm on, as far as treads are inner, to a third of a going
+    assert seen == pytest.approx(math.log((beside + 5) / 5), abs=0.2)
+    s = np.concatenate([0.3 * k + np.linspace(0.03, 0.27, 50) for k in range(2)])
+    z = np.concatenate([0.2 * k + np.linspace(0.22, 0.38, 50) for k in range(4)])
+    face = 0.3 * np.repeat(np.arange(1, 5), 50)
+    s, z = np.r_[s, face], np.r_[treads(s), z]
+    # risers up to four nosings lie one step and a half above the treads before them, two of them
+    found = upright(LINE, assigned(LINE, s, 0 * s, z, 0.02))
+    assert found == pytest.approx(1.5 - 0.5, abs=0.05)
+    # upside down the treads are 2 and 3, and the risers 1 to 3: the lowest one is of no tread
+    assert upside_down(s, 0 * s, z) == pytest.approx(1.0 - 2.5, abs=0.05)
 
 
 def test_what_goes_on_has_no_end():

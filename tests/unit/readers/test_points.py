@@ -121,14 +121,16 @@ def test_one_scan_says_which_side_is_up(up, axes):
     assert the_flight(found).regular.spacing == pytest.approx(truth.spacing, abs=0.003)
 
 
-def test_of_a_cloud_from_anywhere_a_positive_axis_is_up_and_said_to_be_taken_so():
+@pytest.mark.parametrize(("up", "axes"), [("+z", np.eye(3)), ("-y", scenes.turned(x=np.pi / 2))])
+def test_of_a_cloud_from_anywhere_what_steps_hide_says_which_side_is_up(up, axes):
+    """High treads are seen less than their risers; that no more is known is said."""
     truth = scenes.regular(8, 0.17, 0.28)
     seen = scenes.seen(scenes.with_stairs(truth), np.random.default_rng(3), sensor="phone")
-    seen.xyz += np.array([1.5, -0.2, 0.9])
+    seen.xyz = (seen.xyz + np.array([1.5, -0.2, 0.9])) @ axes.T
     found = interpreter.found(cloud(seen, up=None), Hints())
-    assert found.provenance.up.value == "+z"
+    assert found.provenance.up.value == up
     assert found.provenance.notes == (
-        "Nothing says from where the cloud was seen, and upside down it would be stairs too: +z "
+        f"Nothing says from where the cloud was seen, and upside down it would be stairs too: {up} "
         "is taken for up, --up states it.",
     )
 

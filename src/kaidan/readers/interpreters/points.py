@@ -74,6 +74,8 @@ class _Try:
     frame: Array
     sure: bool = False
     """Whether one of them leaves no need to look in another direction."""
+    turned: bool = False
+    """Whether its steps hide what such hide that are upside down."""
     leans: tuple[tuple[Array, float, float], ...] = ()
     """Of each flight its heading, shape (3,), the angle by which up leans along it as its treads
     have it, and its doubt [rad]."""
@@ -168,7 +170,7 @@ def _with_unit(points: Points, xyz: Array, unit: Known, metres: float, hints: Hi
     thin, of_thin = some.T.take(rows, axis=1).T, patches.of_point[rows]
     cloud = _Cloud(replace(points.provenance, unit=unit), xyz, thin, of_thin, patches, noise, eye)
     ups = _ups(points.provenance.up, patches, oriented=sensor is not None)
-    best = _first_up(cloud, ups, hints)
+    best = _first_up(cloud, ups, hints, placed=eye is not None)
     up = best.provenance.up
     if sensor is not None or not best.flights or up is None or up.how != "scored":
         return best
@@ -176,13 +178,21 @@ def _with_unit(points: Points, xyz: Array, unit: Known, metres: float, hints: Hi
     return replace(best, provenance=replace(best.provenance, notes=(*cloud.provenance.notes, note)))
 
 
-def _first_up(cloud: _Cloud, ups: list[tuple[Array, Known]], hints: Hints) -> _Try:
-    """Best of the directions up, none tried after a sure one, nor the one against a good one."""
+def _first_up(cloud: _Cloud, ups: list[tuple[Array, Known]], hints: Hints, *, placed: bool) -> _Try:
+    """Best of the directions up, none tried after a sure one, nor the one against a good one.
+
+    That one is taken where it has stairs too, nothing states from where they were seen (`placed`),
+    and what their steps hide says that the other ones are upside down.
+    """
     best, good = None, list[Array]()
     for up, known in ups:
         if any(float(other @ up) < -0.9 for other in good):
             continue
         tried = _with_up(cloud, up, known, hints)
+        if tried.turned and not placed and known.how == "scored":
+            against = replace(known, value="-+"[known.value[0] == "-"] + known.value[1])
+            over = _with_up(cloud, -up, against, hints)
+            tried = over if over.flights and not over.turned else tried
         if best is None or tried.score > best.score:
             best = tried
         if tried.sure:
@@ -259,7 +269,7 @@ def _along(seen: _Cloud, upward: Upward, side: Array, provenance: Provenance, er
     flights: list[FlightEstimate] = []
     refusals: list[Refusal] = []
     leans: list[tuple[Array, float, float]] = []
-    sure, score, left = False, 0.0, np.ones(len(thin), dtype=bool)
+    sure, score, hides, left = False, 0.0, 0.0, np.ones(len(thin), dtype=bool)
     for _ in range(MOST_FLIGHTS):
         flight = None
         for lane in islice(lanes(along, left, tolerance, another=bool(flights)), 2):
@@ -269,6 +279,7 @@ def _along(seen: _Cloud, upward: Upward, side: Array, provenance: Provenance, er
                 refusals.append(refusal)
                 continue
             assert steps is not None
+            hides += steps.upright
             flight = estimate(steps, aligned, upward.sigma, error, placed)
             if math.isfinite(steps.lean[0]):
                 ahead = np.array([math.cos(aligned.heading), math.sin(aligned.heading), 0.0])
@@ -295,5 +306,6 @@ def _along(seen: _Cloud, upward: Upward, side: Array, provenance: Provenance, er
     leant = upright_turn @ turn.T
     flights = [tilted(flight, leant) for flight in flights]
     return _Try(
-        tuple(flights), tuple(refusals), score, provenance, upright_turn, sure, tuple(leans)
-    )
+        tuple(flights), tuple(refusals), score, provenance, upright_turn, sure, hides < 0.0,
+        tuple(leans),
+    )  # fmt: skip

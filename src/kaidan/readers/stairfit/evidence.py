@@ -18,6 +18,10 @@ OUT_OF_LEVEL = math.tan(math.radians(3.0))
 """Slope across at which a tread is none; along it, where edges blur it, twice that."""
 FEWEST_SLANTED = 30
 """Points of treads, or of risers, from which their slope is taken."""
+CORNER, FEW = 0.35, 5
+"""Part of a tread or a riser that is near its end [1], and points that say nothing of it."""
+SCARCE_RISERS = 0.05
+"""Points of risers over those of treads from which risers are seen [1]; from above they are not."""
 
 
 def by_step(line: StairLine, step: Indices, on: NDArray[np.bool_]) -> list[Indices]:
@@ -108,3 +112,27 @@ def evenness(line: StairLine, at: Assigned) -> float:
         usual = np.clip(own, np.minimum(before, behind), np.maximum(before, behind))
     other = (own - usual) * np.where(np.arange(len(own)) % 2, 1.0, -1.0)
     return math.exp(-abs(float(other.mean()))) if len(other) else 1.0
+
+
+def upright(line: StairLine, at: Assigned) -> float:
+    """Whether steps are seen as those that stand are: positive; negative: upside down.
+
+    Steps hide the backs of treads and the feet of risers, never their nosings: the logarithm of the
+    points near the nosings over those near the inner corners. And the higher a tread lies the less
+    of it is seen from before the stairs, where risers are seen: how many steps the mean point of a
+    riser lies above that of a tread. Upside down both have the other sign.
+    """
+    count = line.last - line.first
+    above, along = at.over / line.rise, at.ahead / line.going
+    above = np.where(above < 0.0, above + 1.0, above)
+    tread = at.tread & (at.step >= line.first) & (at.step < line.last)
+    tread &= (along > INNER_TREAD[0]) & (along < INNER_TREAD[1])
+    riser = at.riser & (at.step > line.first) & (at.step <= line.last)
+    riser &= (above > INNER_RISER[0]) & (above < INNER_RISER[1])
+    near = (tread & (along < CORNER)).sum() + (riser & (above > 1.0 - CORNER)).sum()
+    inner = (tread & (along > 1.0 - CORNER)).sum() + (riser & (above < CORNER)).sum()
+    found = math.log((near + FEW) / (inner + FEW))
+    treads, risers = at.step[tread], at.step[riser] - 1
+    if count and len(treads) >= FEWEST_SLANTED and len(risers) > SCARCE_RISERS * len(treads):
+        found += float(risers.mean() - treads.mean())
+    return found

@@ -14,7 +14,14 @@ from numpy.typing import NDArray
 from kaidan.readers.flight import LAST_SPREAD, UNCHECKED
 from kaidan.readers.kinds import Array, Indices
 from kaidan.readers.stairfit.doubts import SMALLEST, across, common, place_of
-from kaidan.readers.stairfit.evidence import by_step, depth, evenness, level_share, slant
+from kaidan.readers.stairfit.evidence import (
+    by_step,
+    depth,
+    evenness,
+    level_share,
+    slant,
+    upright,
+)
 from kaidan.readers.stairfit.flight_ends import (
     EDGE_OFF,
     FEWEST_LANES,
@@ -88,6 +95,8 @@ class Steps:
     a ramp; NaN: too few."""
     evenness: float
     """Points of every second step over those of the others [1]."""
+    upright: float
+    """Positive where steps hide what those do that stand, negative where they are upside down."""
     lean: tuple[float, float]
     """Angle by which up leans ahead as the treads have it, and its doubt, NaN: not known [rad]."""
     width: tuple[float, float]
@@ -185,7 +194,7 @@ def steps_of(
         roughness=rms, residual=median(np.abs(off)),
         explained=explained_share(line, s, t, z, tight), depth=depth(line, s, t, z),
         level=level_share(line, at, s, t, z), slant=slant(line, s, t, z),
-        evenness=evenness(line, at),
+        evenness=evenness(line, at), upright=upright(line, at),
         lean=tread_lean(
             line, found[:, 1], *evenly(MOST_MEASURED, *every),
             eye=eye, width=2 * tight, range_error=range_error, out_of_true=OUT_OF_TRUE,
