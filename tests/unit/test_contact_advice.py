@@ -261,3 +261,29 @@ def test_where_a_landing_is_too_short_it_stows_its_flippers_there():
     assert kaidan.assess("absolem", longer, friction=1.1).verdict == "go"
     none = kaidan.assess("absolem", short.model_copy(update={"upper_landing": 0.65}), friction=1.1)
     assert none.what_would_help == ()
+
+
+def test_a_plan_at_just_its_angles_is_helped_by_friction_or_by_closer_angles():
+    """Absolem on the steepest flight of DIN 18065 at 0.8: off the flat its flippers slide."""
+    answer = kaidan.assess("absolem", "din-general", friction=0.8)
+    assert (answer.verdict, answer.governs) == ("caution", "posture_tolerance")
+    friction, closer = answer.what_would_help
+    assert friction.change.startswith("A surface with a friction of ")
+    assert closer.change == "Keep the flippers within 1 deg of their angles, with another plan"
+    assert (friction.verdict, closer.verdict) == ("go", "go")
+    enough = float(friction.change.split()[-3])
+    asked = {"flippers": answer.question.flippers, "flipper_tolerance": "2deg"}
+    for more, verdict in ((0.0, "go"), (-0.03, "caution")):
+        again = kaidan.assess("absolem", "din-general", friction=enough + more, **asked)
+        assert again.verdict == verdict
+    asked = {"friction": 0.8, "flipper_tolerance": "1deg"}
+    assert kaidan.assess("absolem", "din-general", **asked).verdict == "go"
+
+
+def test_closer_angles_are_not_advised_where_they_are_asked_for():
+    answer = kaidan.assess(
+        "absolem", "din-general", friction=0.8, flipper_tolerance="1deg",
+        flippers="35deg,-13deg/traverse:flat/land:-68deg,-20deg",
+    )  # fmt: skip
+    assert answer.governs == "posture_tolerance"
+    assert not any("within 1 deg" in each.change for each in answer.what_would_help)

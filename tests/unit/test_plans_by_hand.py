@@ -421,9 +421,9 @@ def test_scores_tell_where_nothing_but_the_flat_and_one_friction_count():
 
 
 def test_angles_about_a_posture(sturdier):
-    search, _ = sturdier((0.0, 1.0), limits=(-5.0, 8.0), tolerance=3.0)
+    search, _ = sturdier((0.0, 1.0), limits=(-8.0, 10.0), tolerance=3.0)
     found = [round(math.degrees(each.front), 6) for each in search._about(degrees(1.4)[0])]
-    assert found == [4.0, -2.0, 7.0, -5.0]
+    assert found == [2.0, 0.0, 3.0, -1.0, 4.0, -2.0, 5.0, -3.0, 6.0, -4.0, 7.0, -5.0, 10.0, -8.0]
     wide, _ = sturdier((0.0, 1.0), tolerance=2.0)
     found = [math.degrees(each.front) for each in wide._about(degrees(0.0)[0])]
     assert sorted(found) == pytest.approx([*range(-16, 0, 2), *range(2, 17, 2)])

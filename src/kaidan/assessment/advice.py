@@ -26,6 +26,7 @@ from kaidan.modes import (
     IMPACT,
     LANDING_ROOM,
     MOMENTUM,
+    POSTURE_TOLERANCE,
     ROTATION,
     TIP_DOWNHILL,
     TIPS,
@@ -46,6 +47,8 @@ if TYPE_CHECKING:
 
 RAISED = math.radians(45.0)
 """Angle of leading flippers that reach for a first riser: half-way between flat and upright."""
+CLOSER = math.radians(1.0)
+"""How far off its angles an operator is asked to keep a flipper who has the time for it [rad]."""
 SLOWEST = 0.01
 """Slowest speed that an operator is advised [m/s]."""
 WORTH_TELLING = math.radians(0.05)
@@ -199,6 +202,11 @@ def _candidates(
     if slips:
         yield from more_friction(question, found, search)
         yield from grousers(question)
+    if governs == POSTURE_TOLERANCE.key:
+        if question.tolerance > CLOSER:
+            closer = question.changed(flipper_tolerance=CLOSER)
+            yield Candidate(text.set_closer(CLOSER), closer, holds=True)
+        yield from more_friction(question, found, search)
     if governs == LANDING_ROOM.key:
         yield from _stowed_on_landings(question, found)
     energy = found.of(ENERGY)

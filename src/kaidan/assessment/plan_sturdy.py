@@ -27,6 +27,9 @@ from kaidan.traversal.moves import angles_of
 
 FARTHEST = 8
 """Largest move of an angle that is tried at a time, in tolerances; so off one lies on the next."""
+NEAR = 2
+"""Move of an angle up to which every whole degree is tried, in tolerances: what holds off its
+angles may be one degree wide."""
 MOST_MOVES = 2
 """Moves from a start, one after the other."""
 APART = 18
@@ -221,12 +224,15 @@ class Sturdier:
         return [self._held(*self._key(phase, each)) for each in ways]
 
     def _about(self, posture: Posture) -> Iterator[Posture]:
-        """Postures with one angle some tolerances off, in whole degrees."""
+        """Postures with one angle off in whole degrees: by each close by, then by tolerances."""
         low, high = self.limits
+        tolerance = math.degrees(self.question.tolerance)
+        close = range(1, round(NEAR * tolerance) + 1)
+        steps = (*close, *(many * tolerance for many in range(NEAR + 1, FARTHEST + 1)))
         for end, angle in angles_of(self.question.robot, posture).items():
-            for step in range(1, FARTHEST + 1):
+            for step in steps:
                 for by in (step, -step):
-                    degrees = round(math.degrees(angle + by * self.question.tolerance))
+                    degrees = round(math.degrees(angle) + by)
                     if low <= math.radians(degrees) <= high:
                         yield posture.model_copy(update={end: math.radians(degrees)})
 

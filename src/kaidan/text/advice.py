@@ -22,6 +22,11 @@ def raised(end: str, angle: float) -> str:
     return f"Raise the {end} flippers to {math.degrees(angle):.0f} deg"
 
 
+def set_closer(tolerance: float) -> str:
+    """Set the flippers to their angles within some tolerance [rad]."""
+    return f"Keep the flippers within {math.degrees(tolerance):.3g} deg of their angles"
+
+
 def friction(enough: float, *, known: bool) -> str:
     """Have a friction [1]."""
     if known:
