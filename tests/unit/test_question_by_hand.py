@@ -205,7 +205,7 @@ def test_with_grousers_the_default_is_the_least_at_any_length():
     [
         ("stowed", "nose-first", 0.06), ("stowed", "tail-first", 0.05),
         ("flat", "nose-first", 0.03), ("flat", "tail-first", 0.04),
-        ("0deg,90deg", "nose-first", 0.06),
+        ("flat,90deg", "nose-first", 0.06),
     ],
 )  # fmt: skip
 def test_the_flat_ends_downhill_on_the_track_or_on_a_flipper(flippers, facing, radius):

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from kaidan.contact import body_table
 from kaidan.contact import columns as at
 from kaidan.contact.kernel import holding
 
@@ -17,11 +18,17 @@ def least(monkeypatch):
         called, left = [], [margins for is_best, margins in each if is_best is best]
 
         def slip(poses, points, standing, friction, slots, sense, way, over, held):
+            assert len(poses) == 3
             called.append((sense, way, over, slots))
             held[:] = left.pop(0)
 
         monkeypatch.setattr(holding, "held_while_slipping", slip)
-        monkeypatch.setattr(holding, "belt_margins", lambda *given: called.append(given[4:8]))
+
+        def belt(supports, slots, loads, like, *given):
+            assert len(loads) == 3
+            called.append(given[:4])
+
+        monkeypatch.setattr(holding, "belt_margins", belt)
         monkeypatch.setattr(holding, "standing_margins", lambda *given: called.append(given[4:13]))
         poses = np.zeros((3, at.POSE_COLUMNS))
         poses[:, at.POSE_S] = places
@@ -65,3 +72,57 @@ def test_a_slip_leads_down_by_a_spacing_and_a_step(least):
     _, called = least((False, [0.0] * 3), climbs=False)
     assert called[1][-1] == -1.0
     assert called[2] == (1, pytest.approx(0.054), 0.05, 4)
+
+
+def test_a_pose_on_its_way_is_no_exchange_on_either_side(least):
+    margins = [0.3, 0.1, 0.2]
+    assert least((False, margins), places=(0.0, 0.1, 0.1))[0] == 0.1
+
+
+def test_the_load_of_a_pose():
+    """By hand: 3 m/s2 up a path of 30 degrees under 8 N/kg, leaning by 3 in 4; friction of 1."""
+    poses, margins = np.zeros((2, at.POSE_COLUMNS)), np.zeros((2, at.MARGIN_COLUMNS))
+    poses[0, at.POSE_PSI] = math.pi / 6
+    margins[0, [at.TILT, at.FRICTION]] = 0.75, 1.0
+    loads = np.full((2, at.LOAD_COLUMNS), np.nan)
+    holding.loads_of(poses, 2, margins, 3.0, 8.0, loads)
+    size = math.sqrt(64.0 + 9.0 + 24.0)
+    assert loads[0] == pytest.approx([0.6 * size, 0.8 * size, math.pi / 4])
+    assert loads[1] == pytest.approx([0.0, math.sqrt(73.0), 0.0])
+
+
+def test_how_far_a_robot_reaches():
+    parts = [[-0.3, 0.1, 0.05, 0.2, -0.1, 0.06], [0.1, 0.0, 0.01, 0.4, 0.3, 0.02]]
+    assert holding.reach_of(body_table(parts)) == pytest.approx(0.72)
+    assert holding.reach_of(body_table(parts[:1])) == pytest.approx(0.45)
+    assert holding.reach_of(body_table([[-0.1, 0.0, 0.1, 0.3, 0.2, 0.1]])) == pytest.approx(0.6)
+
+
+@pytest.mark.parametrize(("most", "slots"), [(4, 4), (5, 5), (8, 8), (9, 0)])
+def test_what_poses_stand_on_has_as_much_room_as_it_needs(most, slots, monkeypatch):
+    asked, alike = [], []
+
+    def find(ground, body, parts, own, poses, *more):
+        asked.append((parts, own, len(poses), *more[:4], more[-1]))
+        supports = more[-2]
+        supports[:, at.SUPPORT_POINT] = np.arange(len(supports)) + 100
+        return most
+
+    monkeypatch.setattr(holding, "find_supports", find)
+    monkeypatch.setattr(
+        holding, "find_alike", lambda *given: alike.append((given[1], len(given[2])))
+    )
+    poses, margins = np.zeros((3, at.POSE_COLUMNS)), np.zeros((3, at.MARGIN_COLUMNS))
+    supports, loads = np.zeros((16, at.SUPPORT_COLUMNS)), np.zeros((3, at.LOAD_COLUMNS))
+    points = np.full(16, -1)
+    body = body_table([[-0.3, 0.1, 0.05, 0.2, -0.1, 0.06]])
+    found = holding.find_standing(
+        None, body, poses, 2, margins, 0.0, 9.8, "treads", True, 0.7, 1e-7, supports, loads, None,
+        None, points,
+    )  # fmt: skip
+    assert found == slots
+    given = 1, False, 2, "treads", True, 0.7, 1e-7
+    assert asked == [(*given, room) for room in dict.fromkeys((4, slots or 4))]
+    assert alike == ([(slots, 2)] if slots else [])
+    assert points.tolist() == [100 + k if k < 2 * slots else -1 for k in range(16)]
+    assert (loads[:2, at.LOAD_Z] == 9.8).all()
