@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kaidan import Robot
-from kaidan.contact import Placement
+from kaidan.contact import Feature, FeatureKind, Placement
 from kaidan.modes import Phase
 from kaidan.robot import Posture
 from kaidan.traversal.drift import drift, slides
@@ -133,6 +133,25 @@ def test_the_contact_that_slid_ahead_by_more_may_have_stayed():
     assert found.drift == drift(found.path, found.outlines) == pytest.approx(each[1])
     drawn = found.path.poses.placement(-1)
     assert found.end == drawn._replace(x=drawn.x - found.drift - BEHIND)
+
+
+def test_now_the_one_contact_and_now_the_other_may_stay():
+    """Two discs on the floor are moved within the robot: the one ahead, then back, the other so."""
+    ways = np.array([(0.0, 0.0), (0.03, -0.02), (0.01, 0.02)])
+    at = np.array([0.0, 1.0])
+    bodies = []
+    poses = two_poses([(2.0, R, 0.0)] * 3)
+    poses.rear = np.zeros(3, dtype=np.int64)
+    poses.front = np.full(3, Feature(0, 1, FeatureKind.VERTEX).code)
+    for x in ways + at:
+        bodies.append(SimpleNamespace(parts=np.array([[each, 0, R, each, 0, R] for each in x])))
+    for k, end in enumerate(("rear", "front")):
+        setattr(poses, f"{end}_point", np.stack([2.0 + at[k] + ways[:, k], np.zeros(3)], axis=1))
+        setattr(poses, f"{end}_normal", np.array([[0.0, 1.0]] * 3))
+    expected = np.array([[0.03, -0.02], [-0.02, 0.04]])
+    assert slides(poses, bodies) == pytest.approx(expected, abs=1e-9)
+    # hand: the rear one stays first, then the front one
+    assert drift(SimpleNamespace(poses=poses), bodies) == pytest.approx(0.03 + 0.04)
 
 
 def test_flippers_that_touch_nothing_leave_the_robot_where_it_is():

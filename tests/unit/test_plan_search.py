@@ -289,7 +289,7 @@ def test_a_plan_that_promises_a_go_is_judged_at_its_angles_on_the_whole_flight_a
     monkeypatch.setattr(
         Drives, "judge", lambda self, question: at_angles.append(question) or known(self, question)
     )
-    found = found_of(Question.of("absolem", "ibc", friction=1.2))
+    found = found_of(Question.of("absolem", "uk-general", friction=1.2))
     assert (conclude(found.question, found.findings).verdict, at_angles) == (Verdict.GO, [])
     assert conclude(found.question, judge(found.question)).margin == pytest.approx(
         conclude(found.question, found.findings).margin, abs=1e-12

@@ -8,7 +8,8 @@ r"""How far behind the drawn pose a robot may stand once its flippers have moved
 
 The tracks are drawn where they are along the ground. But the distance between what the robot stands
 on changes as its flippers turn, so that one of its two contacts slides, whichever friction holds
-less. The drawn poses are one way between two: either contact may be the one that stays.
+less. The drawn poses are one way between two: either contact may be the one that stays, and now the
+one, now the other. So at every turn the one counts whose belt ran ahead by more.
 """
 
 from collections.abc import Sequence
@@ -38,7 +39,7 @@ def drift(path: contact.Path, outlines: Sequence[Outline]) -> float:
     outlines : sequence of Outline
         In each posture, x towards the leading end.
     """
-    return float(max(0.0, *slides(path.poses, outlines).sum(axis=1)))
+    return float(max(0.0, slides(path.poses, outlines).max(axis=0).sum()))
 
 
 def slides(poses: contact.Poses, outlines: Sequence[Outline]) -> Array:
