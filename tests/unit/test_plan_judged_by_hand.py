@@ -12,6 +12,7 @@ from kaidan.robot import FlipperPair, Robot, Track
 from kaidan.terrain.stairs import Stairs
 
 PAIR = FlipperPair(length=0.3, root_radius=0.06, tip_radius=0.03, pivot_height=0.06)
+INSET = PAIR.model_copy(update={"pivot_inset": 0.2})
 
 
 def robot(L, R, **given):
@@ -22,12 +23,15 @@ def robot(L, R, **given):
 @pytest.mark.parametrize(
     ("one", "going", "steps", "expected"),
     [
-        # from end to end 0.62 m, nosings 0.2 m apart: 3.1, so 4 and three more
-        (robot(0.5, 0.06), 0.16, 20, 7),
-        (robot(0.5, 0.06), 0.16, 7, 7),
+        # from end to end 0.62 m, nosings 0.2 m apart: 3.1, so 4 and two more
+        (robot(0.5, 0.06), 0.16, 20, 6),
         (robot(0.5, 0.06), 0.16, 6, 6),
-        # 0.3 m more of a flipper, stowed inside: 0.92 m
-        (robot(0.5, 0.06, rear_flippers=PAIR, mass=20.0), 0.16, 20, 8),
+        (robot(0.5, 0.06), 0.16, 5, 5),
+        # a flipper, stowed inside, reaches 0.33 m beyond the axle, the track 0.06 m: 0.89 m
+        (robot(0.5, 0.06, rear_flippers=PAIR, mass=20.0), 0.16, 20, 7),
+        # an axle 0.2 m inside: 0.69 m
+        (robot(0.5, 0.06, rear_flippers=INSET, mass=20.0), 0.16, 20, 6),
+        (robot(0.5, 0.06, front_flippers=PAIR, rear_flippers=PAIR, mass=20.0), 0.16, 20, 8),
         # 0.26 m: less than one nosing; five are driven at least
         (robot(0.2, 0.03), 0.5, 20, 5),
     ],

@@ -11,6 +11,7 @@ from kaidan.models.quasi_static import Basis
 from kaidan.modes import FALLS, Verdict
 from kaidan.outline import Outline
 from kaidan.question import Question
+from kaidan.robot import Robot
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Traverse
 
@@ -71,14 +72,25 @@ def shortened(question: Question) -> Question:
     """Same question on a flight just long enough for what repeats; others stay as they are.
 
     A uniform flight repeats itself once the robot has left the lower landing: as many nosings as
-    the robot spans, and three more, hold every pose of the whole flight.
+    the robot spans, its flippers stretched, and two more hold every pose of the whole flight, since
+    for the way from one nosing to the next it is on none of the landings.
     """
     stairs = question.terrain
     if not isinstance(stairs, Stairs) or stairs.rise is None:
         return question
-    reach = sum(Outline.of(question.robot).reach)
-    reach += sum(pair.length for pair in question.robot.flippers().values())
-    enough = max(5, math.ceil(reach / stairs.nosing_spacing) + 3)
+    enough = max(5, math.ceil(stretched(question.robot) / stairs.nosing_spacing) + 2)
     if stairs.steps <= enough:
         return question
     return question.changed(terrain=stairs.model_copy(update={"steps": enough}))
+
+
+def stretched(robot: Robot) -> float:
+    """Length of a robot with its flippers stretched [m]."""
+    outline = Outline.of(robot)
+    stance, (behind, ahead) = outline.stance, outline.reach
+    to_tip = {"front": stance.com_from_front, "rear": stance.flat_length - stance.com_from_front}
+    beyond = {"front": ahead, "rear": behind}
+    for end, pair in robot.flippers().items():
+        reach = to_tip[end] - pair.pivot_inset + pair.length + pair.tip_radius
+        beyond[end] = max(beyond[end], reach)
+    return sum(beyond.values())

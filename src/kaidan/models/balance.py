@@ -150,6 +150,9 @@ def _drawn(
     phases: tuple[PhaseExtremes, ...] | None,
 ) -> Array:
     """Tilt to the first rock of each sample, in whichever phase that is [rad]."""
+    if not downhill or np.array_equal(over.landing, over.tip_downhill):
+        # of every sample in the same phase
+        return rock.margin + over.tip(rock.phase, downhill=downhill)
     each = [rock]
     for phase in found.phases if phases is None else phases:
         other = found.first_rock(downhill=downhill, phases=(phase,))
