@@ -1,4 +1,4 @@
-"""What is known of a plan before it is judged, of parts driven by hand; no kernel runs."""
+"""What is known of a plan before it is judged, of parts driven by hand."""
 
 import math
 from types import SimpleNamespace
@@ -11,6 +11,8 @@ from kaidan.assessment import plan_drives as module
 from kaidan.assessment.plan_drives import Drives, Passed, friction_without_failure
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.models.findings import Findings
+from kaidan.modes import Phase
+from kaidan.robot import Posture
 
 STAIRS = Stairs(rise=0.17, going=0.29, steps=6)
 ABSOLEM = Robot.named("absolem")
@@ -38,15 +40,15 @@ def required(monkeypatch):
             robot=SimpleNamespace(track=SimpleNamespace(has_grousers=given.get("grousers", False))),
         )  # fmt: skip
 
-        def drive(asked, *, over):
-            assert asked is question
+        def drive(asked, *, over, moved):
+            assert (asked, moved) == (question, "known moves")
             assert over.keywords["reserve"] == 0.14
             over.keywords["needed"].extend(parts)
             return SimpleNamespace(moves=moves, arrived=arrived)
 
         monkeypatch.setattr(module.planned, "drive", drive)
         monkeypatch.setattr(module, "standing_margins", lambda question, one: (-1.0, one.best))
-        return friction_without_failure(question)
+        return friction_without_failure(question, moved="known moves")
 
     return of
 
@@ -171,11 +173,26 @@ def test_the_friction_of_a_plan_is_found_once(monkeypatch):
     assert len(found) == 2
 
 
+def test_a_change_of_posture_is_made_once():
+    """Whatever the belts; not from another place, and not of another robot."""
+    drives, floor = Drives(), np.array([[-5.0, 0.0], [5.0, 0.0]])
+    two = Posture(front=0.2, rear=0.2), Posture(front=0.4, rear=0.2)
+    where = {"before": Phase.LAND, "ground": floor, "payload": (), "facing": "nose-first"}
+    robot, start = ABSOLEM, contact.Placement(0.0, 0.0, 0.0)
+    known = drives.moved(robot, *two, start=start, **where)
+    belts = robot.model_copy(update={"track": robot.track.model_copy(update={"belt": "grousers"})})
+    assert drives.moved(belts, *two, start=start, **where) is known
+    assert drives.moved(robot, *two, start=start._replace(x=0.1), **where) is not known
+    assert drives.moved(robot, *two[::-1], start=start, **where) is not known
+    heavier = robot.with_centroid(robot.com_from_front + 0.01, robot.com_height)
+    assert drives.moved(heavier, *two, start=start, **where) is not known
+
+
 def test_only_the_contact_model_knows_without_judging(monkeypatch):
-    monkeypatch.setattr(module, "friction_without_failure", lambda question: 0.3)
+    monkeypatch.setattr(module, "friction_without_failure", lambda question, moved: 0.3)
     assert Drives().is_no_failure(plan())
     assert not Drives().is_no_failure(plan().changed(model="physics"))
-    monkeypatch.setattr(module, "friction_without_failure", lambda question: math.nan)
+    monkeypatch.setattr(module, "friction_without_failure", lambda question, moved: math.nan)
     assert not Drives().is_no_failure(plan())
 
 

@@ -1,11 +1,12 @@
 """Plans driven from poses farther apart, to compare them; what was driven before is remembered."""
 
 import math
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kaidan import contact
 from kaidan.assessment.plan_scores import ENOUGH, outline_key, terrain_key
@@ -22,10 +23,13 @@ from kaidan.models.quasi_static import (
 )
 from kaidan.models.traction import nosing_radii, standing_margins
 from kaidan.modes import CONTACT
+from kaidan.outline import Outline
 from kaidan.question import Question
+from kaidan.robot import Posture, Robot
 from kaidan.terrain.profile import Profile
 from kaidan.traversal import Traverse
 from kaidan.traversal.driving import way
+from kaidan.traversal.moves import Move, move
 from kaidan.traversal.phases import phases_of
 from kaidan.traversal.samples import samples_of
 
@@ -45,7 +49,9 @@ class Passed(NamedTuple):
     """Whether it arrives and has friction, drive and tilt to the fall to spare."""
 
 
-def friction_without_failure(question: Question) -> float:
+def friction_without_failure(
+    question: Question, *, moved: Callable[..., Move] | None = None
+) -> float:
     """Friction that a plan requires which is certainly no NO-GO [1]; NaN: it has to be judged.
 
     It arrives, in the best case with friction at every pose, and with traction to spare; so it does
@@ -55,6 +61,8 @@ def friction_without_failure(question: Question) -> float:
     ----------
     question : Question
         To the contact model.
+    moved : callable, optional
+        What changes a posture, as for `planned.drive`.
     """
     surface = question.surface
     if question.uncertain or question.robot.track.has_grousers or question.yaw:
@@ -63,7 +71,7 @@ def friction_without_failure(question: Question) -> float:
         return math.nan
     needed: list[float] = []
     over = partial(_passed, reserve=question.reserve, needed=needed)
-    planned_ = planned.drive(question, over=over)
+    planned_ = planned.drive(question, over=over, moved=moved)
     fails = any(
         standing_margins(question, each)[1] <= 0.0 or each.spare_torque <= 0.0
         for each in planned_.moves
@@ -123,10 +131,11 @@ def _manner(question: Question) -> tuple[Hashable, ...]:
 
 
 class Drives:
-    """Parts of traverses as far as they were driven: friction and belts play no part in them."""
+    """Parts and changes of plans as far as they were driven; friction and belts play no part."""
 
     def __init__(self) -> None:
         self._known: dict[Hashable, dict[Sought, Traverse]] = {}
+        self._moves: dict[Hashable, Move] = {}
         self._required: dict[Hashable, float] = {}
         """Friction that plans require which were judged [1]."""
 
@@ -155,6 +164,16 @@ class Drives:
             )
         return known[sought]
 
+    def moved(self, robot: Robot, one: Posture, two: Posture, **where: Any) -> Move:
+        """Change of posture, as `kaidan.traversal.moves.move` has it."""
+        ground: NDArray[np.float64] = where["ground"]
+        body = outline_key(Outline.of(robot, one, where["payload"]))
+        place = where["start"], where["before"], where["facing"]
+        key = ground.tobytes(), body, one, two, *place
+        if key not in self._moves:
+            self._moves[key] = move(robot, one, two, **where)
+        return self._moves[key]
+
     def judge(self, question: Question) -> Findings:
         """Findings of a plan, good enough to compare it with others."""
         return self._judge(question)
@@ -179,7 +198,7 @@ class Drives:
         """Whether a plan is certainly no NO-GO; False: it has to be judged."""
         if question.model != CONTACT.name:
             return False
-        required = friction_without_failure(question)
+        required = friction_without_failure(question, moved=self.moved)
         if math.isnan(required):
             return False
         self._required[_plan_key(question)] = required
@@ -197,7 +216,7 @@ class Drives:
         if question.model != CONTACT.name:
             return judge(question)
         if question.changes:
-            driven = planned.drive(question, over=self.over, **how)
+            driven = planned.drive(question, over=self.over, moved=self.moved, **how)
             return planned.findings(question, driven, most=_MOST)
         found = self.over(profile_of(question), question, **how)
         return findings_of(question, Basis(question, found), most=_MOST)

@@ -65,7 +65,13 @@ class Planned(NamedTuple):
         return self.parts[-1].traverse.arrived and all(each.stands for each in self.moves)
 
 
-def drive(question: Question, *, over: Callable[..., Any] = driven_over, **how: Any) -> Planned:
+def drive(
+    question: Question,
+    *,
+    over: Callable[..., Any] = driven_over,
+    moved: Callable[..., Move] | None = None,
+    **how: Any,
+) -> Planned:
     """Drive a plan of postures, from landing to landing.
 
     Parameters
@@ -74,6 +80,8 @@ def drive(question: Question, *, over: Callable[..., Any] = driven_over, **how: 
         Straight up or down.
     over : callable
         What drives a part, as `driven_over` does: its path, and whether it arrives, is needed.
+    moved : callable
+        What changes a posture; `move` without it.
     **how
         As for `kaidan.traversal.traverse`.
 
@@ -81,7 +89,7 @@ def drive(question: Question, *, over: Callable[..., Any] = driven_over, **how: 
     -------
     Planned
     """
-    profile = profile_of(question)
+    moved, profile = moved or move, profile_of(question)
     stages = list(stages_of(question))
     ends = [stop(question, profile, phase) for phase, _ in stages[1:]]
     parts: list[Part] = []
@@ -92,7 +100,7 @@ def drive(question: Question, *, over: Callable[..., Any] = driven_over, **how: 
         if k:
             before = parts[-1]
             moves.append(
-                move(
+                moved(
                     question.robot,
                     before.question.posture,
                     posture,

@@ -11,7 +11,7 @@ no such pose rotates although nobody drives it.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -215,7 +215,7 @@ def move(
         ground,
         [each.parts for each in outlines],
         outlines[0].kinds,
-        [_middle(each) for each in outlines],
+        _middles(outlines),
         start.x,
         start.inclination,
     )
@@ -262,7 +262,7 @@ def _between(robot: Robot, one: Posture, two: Posture, count: int) -> Iterator[P
     was, new = angles_of(robot, one), angles_of(robot, two)
     for k in range(1, count):
         angles = {end: was[end] + (new[end] - was[end]) * k / count for end in was}
-        yield Posture(**angles, state=one.state)
+        yield one.model_copy(update=angles)
     if count and one.state != two.state:
         yield two.model_copy(update={"state": one.state})
 
@@ -274,10 +274,11 @@ def _outline(
     return outline if facing == "nose-first" else outline.turned_round()
 
 
-def _middle(outline: Outline) -> Array:
-    """Middle of the tracks in the body frame [m]."""
-    discs = outline.parts[outline.kinds == TRACK].reshape(-1, 3)[:, :2]
-    return np.asarray(discs.sum(axis=0) / len(discs))
+def _middles(outlines: Sequence[Outline]) -> Array:
+    """Middle of the tracks of each in the body frame (n, 2) [m]."""
+    tracks = np.stack([each.parts for each in outlines])[:, outlines[0].kinds == TRACK]
+    discs = tracks.reshape(len(outlines), -1, 3)[:, :, :2]
+    return np.asarray(discs.sum(axis=1) / discs.shape[1])
 
 
 def _torques(
