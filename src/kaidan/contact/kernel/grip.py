@@ -267,6 +267,8 @@ def margin_standing(
         first = margin_of(
             supports, one, tilt, treads, ahead, other, axis - side * turned, phi, loads, row
         )
+        if first <= most:  # the worse of the two is no better
+            continue
         then = margin_of(
             supports, one, tilt - side * (lean - left), treads, ahead, other, axis, phi, loads, row
         )
@@ -334,7 +336,7 @@ def standing_margins(
             found[first + slot] = math.inf
             if supports[first + slot, SUPPORT_IS_ONE] == 1.0:
                 several += 1
-        for j in range(several):
+        for j in range(1, several):
             of_j = tip_at(supports, first + j, h, s, w, r, rigid, side)
             for i in range(j):
                 if not carry(supports, first, i, j, loads, row):
