@@ -226,6 +226,25 @@ def test_one_nosing_takes_its_riser_along():
     np.testing.assert_allclose(moved.points, expected, atol=1e-12)
 
 
+def test_of_several_flights_the_largest_doubt_is_that_of_the_slope(monkeypatch):
+    none = Drawn(*np.zeros((8, 1)))
+    monkeypatch.setattr("kaidan.models.spread._by_draws", lambda *_: (none, none))
+    flights = [
+        Stairs(rise=0.15, going=0.3, steps=5, uncertainty={"angle": each})
+        for each in (0.01, 0.02, 0.015)
+    ]
+    for some, doubt in ((flights, 0.02), (flights[:2], 0.02), (flights[0], 0.01)):
+        question = Question.in_one_posture(Robot.named("kenaf"), some, friction=1.0)
+        found = spread(question, SimpleNamespace(whole=True))
+        np.testing.assert_allclose(found.angle, doubt * unit_draws(2048)[3], atol=1e-15)
+
+
+def test_nosings_take_what_lies_between_along_by_its_place():
+    profile = Profile.of_points([(-1, 0), (0, 0), (0, 0.3), (0.4, 0.3), (0.4, 0.5), (1, 0.5)])
+    moved = moved_profile(profile, np.add(profile.nosings, [[0.01, 0.0], [0.03, 0.0]]))
+    assert moved.points[:, 0] == pytest.approx([-0.99, 0.01, 0.01, 0.43, 0.43, 1.03])
+
+
 def test_an_exact_question_has_one_sample():
     question = asked([0.0] * 6)
     found = spread(question, traverse_of(question))

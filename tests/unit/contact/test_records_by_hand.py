@@ -475,3 +475,16 @@ def test_one_way_alone_is_cut_too():
         1e-4, None,
     )  # fmt: skip
     assert len(none.cut_first(4)[0]) == 0
+
+
+@pytest.mark.parametrize("phi", [0.0, 0.3, -0.4])
+def test_touching_height_over_an_edge_under_the_middle_of_a_short_part(phi):
+    """The flat of 0.3 m lies on the edge, 0.1 m from the centre of its rear disc."""
+    disc, turn = -0.15 - 0.05j, np.exp(1j * phi)
+    body = Body(body_table([[disc.real, disc.imag, 0.02, 0.15, -0.05, 0.02]]))
+    fin = [(-9, -9), (0.5, -9), (0.5, 0.2), (0.5 + 1e-3, -9), (9, -9)]
+    ground = Ground(ground_table(fin))
+    place = 0.5 + 0.2j - (disc + 0.1 - 0.02j) * turn
+    found = heights.touching_heights(ground, body, np.array([place.real]), np.array([phi]))
+    assert found.z[0, 0] == pytest.approx(place.imag, abs=1e-12)
+    assert (found.contact_x[0, 0], found.contact_z[0, 0]) == (0.5, 0.2)
