@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 RAISED = math.radians(45.0)
 """Angle of leading flippers that reach for a first riser: half-way between flat and upright."""
 CLOSER = math.radians(1.0)
-"""How far off its angles an operator is told to keep a flipper who has the time for it [rad]."""
+"""How far off its angles an operator is advised to keep a flipper who has the time for it [rad]."""
 SLOWEST = 0.01
 """Slowest speed that an operator is advised [m/s]."""
 WORTH_TELLING = math.radians(0.05)
