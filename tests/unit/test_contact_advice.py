@@ -287,3 +287,19 @@ def test_closer_angles_are_not_advised_where_they_are_asked_for():
     )  # fmt: skip
     assert answer.governs == "posture_tolerance"
     assert not any("within 1 deg" in each.change for each in answer.what_would_help)
+
+
+def test_on_grousers_the_plan_without_a_stated_friction_is_one_that_some_friction_makes_a_go():
+    """MARV going down: by what holds without any friction it would rest on its belly."""
+    asked = {"direction": "down", "override": "track.belt=grousers"}
+    answer = kaidan.assess("marv", "uk-general", **asked)
+    assert (answer.verdict, answer.governs) == ("caution", "friction_unknown")
+    first = answer.what_would_help[0]
+    assert first.verdict == "go"
+    enough = float(first.change.split()[-3])
+    assert enough < 1.0
+    plan = {"flippers": answer.question.flippers, "facing": answer.question.facing}
+    again = kaidan.assess(
+        "marv", "uk-general", friction=enough, flipper_tolerance="2deg", **plan, **asked
+    )
+    assert again.verdict == "go"

@@ -14,7 +14,8 @@ from kaidan.assessment.plan_drives import Drives
 from kaidan.assessment.plan_hopes import LIMITS as LIMITS
 from kaidan.assessment.plan_hopes import Hope, Merit, Search
 from kaidan.assessment.plan_judged import Judged, Standing, judged_of, shortened
-from kaidan.assessment.plan_off_angles import OffAngles, judged_off
+from kaidan.assessment.plan_off_angles import OffAngles, holds_off_its_angles, judged_off
+from kaidan.assessment.plan_scores import UNKNOWN
 from kaidan.assessment.plan_sturdy import Sturdier
 from kaidan.assessment.plans import Plan, words
 from kaidan.assessment.plans import off_angles as off_angles
@@ -22,6 +23,7 @@ from kaidan.models import judge
 from kaidan.models.findings import Findings
 from kaidan.modes import CONTACT, Facing, Phase, Verdict
 from kaidan.question import Question
+from kaidan.surface import Surface
 
 FINALISTS = 3
 """Plans that are driven in one go and judged at most: the best one at its angles too."""
@@ -92,6 +94,8 @@ def better_than(
     drives = Drives() if drives is None else drives
     if not stated.plannable:
         return _fixed(stated, facings, drives)
+    if verdict is None and stated.surface is None and stated.robot.track.has_grousers:
+        return _at_unknown_friction(question, limits, drives)
     short = shortened(stated)
     beaten = None if verdict is None else (-verdict.rank, True, 0, math.inf)
     plans: list[OffAngles] = []
@@ -111,6 +115,23 @@ def better_than(
         return None
     ranked = sorted(plans, key=lambda each: each.worst, reverse=True)
     return _on_the_whole(stated, ranked, drives)._replace(tried=tried, ends=ends)
+
+
+def _at_unknown_friction(question: Question, limits: tuple[float, float], drives: Drives) -> Found:
+    """Best plan on grousers where no friction is stated: the best at a friction of `UNKNOWN`.
+
+    Without a friction nothing is known to hold, so no plan would be better than another by what
+    its grousers hold.
+    """
+    found = found_of(question.changed(surface=Surface.of_friction(UNKNOWN)), limits, drives=drives)
+    asked = found.question.changed(surface=None)
+    sturdy = found.sturdy or holds_off_its_angles(asked, drives)
+    return found._replace(
+        question=asked,
+        findings=judge(asked),
+        sturdy=sturdy,
+        short=found.short.changed(surface=None),
+    )
 
 
 def _on_the_whole(stated: Question, plans: Sequence[OffAngles], drives: Drives) -> Found:
