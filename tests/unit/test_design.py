@@ -171,6 +171,15 @@ def test_a_better_plan_of_the_design_is_taken_over():
     assert found.at([0.3]).merit >= stowed.at([0.3]).merit
 
 
+def test_a_design_without_meaning_has_no_plan():
+    """8 m behind the front of a robot of half a metre: stowed, by the same names as any plan."""
+    free = free_of({"robot": Robot.named("absolem"), "stairs": LOW}, {"com_from_front": (0, 9)}, {})
+    problem = Problem({"robot": Robot.named("absolem"), **CLOSED}, [LOW], free)
+    (of_none,), (plan,) = (planned(problem, [at]).plans for at in (8.0, 0.25))
+    assert of_none["flippers"] == "stowed"
+    assert of_none.keys() == plan.keys()
+
+
 def test_a_better_place_of_the_map_is_taken_over():
     """With one try the search alone comes upon less than the map does."""
     own = {"free": CENTROID, "tries": 1, **CLOSED}

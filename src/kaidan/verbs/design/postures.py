@@ -31,7 +31,7 @@ def _plan(values: dict[str, Any]) -> dict[str, Any]:
         question = question_of(values)
         found, _ = found_plan(question)
     except InputError:
-        return {"flippers": "stowed"}
+        return {"facing": None, "flippers": "stowed", "flipper_tolerance": None}
     return {
         "facing": found.facing,
         "flippers": (found.posture, *found.changes),
