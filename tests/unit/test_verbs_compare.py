@@ -144,7 +144,10 @@ def test_where_friction_decides_belts_that_no_sheet_describes_are_named():
     assert "friction decides for absolem: if they have grousers, --override track.belt" in str(low)
     stated = compare(**asked, friction=0.2, model="closed-form", override="track.belt=grousers")
     assert stated.belts_open == ()
-    for found in (stated, compare(**asked, friction=3.0, model="closed-form")):
+    enough = compare(**asked, friction=0.8, model="closed-form")
+    nearest = enough.cells[0]
+    assert (nearest.verdict, nearest.governs) == ("go", "slides_down")
+    for found in (stated, enough):
         assert "grousers" not in str(found)
 
 

@@ -72,13 +72,9 @@ def comparison_figure(found: "Comparison") -> Figure:
             name = "\n".join(textwrap.wrap(look.named(cell.robot, 22), 11))
             posture = f"\n({lie})" if lie in ("flat", "stowed") else ""
             axes.text(c + 0.5, -0.12, name + posture, ha="center", va="bottom", linespacing=1.1)
-        figure.text(
-            0.1 / width,
-            1 - 0.2 / height,
-            look.named(conditions(found), 120),
-            fontsize=9.0,
-            weight="bold",
-        )
+        said = look.named(conditions(found), 160)
+        first, *rest = textwrap.wrap(said, int((width - 0.2) * 13))
+        look.title(figure, 0.1, first, " ".join(rest))
         _draw_key(figure, (foot - 0.2) / height)
         for index, text in enumerate(reversed(notes)):
             figure.text(0.1 / width, (0.06 + 0.155 * index) / height, text)

@@ -72,7 +72,11 @@ def beside_the_slope(found: "Comparison") -> list[str]:
 def belts(found: "Comparison") -> list[str]:
     """What grousers that no sheet mentions would change, where friction decides."""
     supplies = {mode.key for mode in SUPPLIES} | {Undecided.FRICTION_UNKNOWN.value}
-    lacks = {cell.robot for cell in found.cells if cell.governs in supplies}
+    lacks = {
+        cell.robot
+        for cell in found.cells
+        if cell.verdict is not Verdict.GO and cell.governs in supplies
+    }
     open_ = [name for name in found.robots if name in lacks and name in found.belts_open]
     if not open_:
         return []
