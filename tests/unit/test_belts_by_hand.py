@@ -8,19 +8,15 @@ from kaidan import Profile, Stairs
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.grousers import standing_run
 from kaidan.mechanics.rubber import height_lost, rubber_modulus
+from kaidan.models import belts
 from kaidan.models import traction as module
+from kaidan.models.belts import HEIGHT, SPACING, TIP_WIDTH, YIELD, grousers_of, nosing_radii
 from kaidan.models.traction import (
     FASTEST,
-    HEIGHT,
-    SPACING,
-    TIP_WIDTH,
     USUAL,
-    YIELD,
     Supplies,
     Supply,
     figures_of,
-    grousers_of,
-    nosing_radii,
     too_fast_on_grousers,
 )
 from kaidan.modes import GROUSER_SPEED, Phase, Verdict
@@ -88,7 +84,7 @@ def test_of_a_known_hardness_half_of_the_weight_presses_and_pulls():
     question = asked(**known)
     question.stance.mass = None
     assert cases(question)[1].height == pytest.approx(0.006)
-    assert module._lost(asked(**known), asked(**known).robot.track, 0.0) == YIELD
+    assert belts._lost(asked(**known), asked(**known).robot.track, 0.0) == YIELD
 
 
 def test_nosings_of_all_flights_count_and_those_of_points_are_any():

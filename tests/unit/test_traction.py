@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from kaidan import InputError, Robot, Stairs, Surface
+from kaidan.models.belts import grousers_of
 from kaidan.models.quasi_static import traverse_of
-from kaidan.models.traction import grousers_of, supply
+from kaidan.models.traction import supply
 from kaidan.modes import Phase
 from kaidan.question import Question
 from kaidan.robot import Track

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from kaidan.models import traction as module
+from kaidan.models.belts import strength_margin
 from kaidan.models.traction import (
     Supply,
     standing_margins,
-    strength_margin,
     supplies,
     supply,
     together,

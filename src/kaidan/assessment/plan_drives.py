@@ -13,6 +13,7 @@ from kaidan.assessment.plan_scores import ENOUGH, outline_key, terrain_key
 from kaidan.assessment.verdict import conclude
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.models import judge, planned
+from kaidan.models.belts import nosing_radii
 from kaidan.models.findings import ROUNDING, Findings
 from kaidan.models.quasi_static import (
     Basis,
@@ -21,7 +22,7 @@ from kaidan.models.quasi_static import (
     findings_of,
     profile_of,
 )
-from kaidan.models.traction import nosing_radii, standing_margins
+from kaidan.models.traction import standing_margins
 from kaidan.modes import CONTACT
 from kaidan.outline import Outline
 from kaidan.question import Question

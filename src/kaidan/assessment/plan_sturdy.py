@@ -18,9 +18,10 @@ from kaidan.assessment.plan_scores import ENOUGH, FAILED, Score, Scores
 from kaidan.assessment.plans import GENTLE, Plan, off, pressed
 from kaidan.assessment.verdict import conclude
 from kaidan.errors import InputError
+from kaidan.models.belts import holds_otherwise
 from kaidan.models.findings import at_risk
 from kaidan.models.quasi_static import Basis, findings_of, sliding_margin
-from kaidan.models.traction import gripping, holds_otherwise
+from kaidan.models.traction import gripping
 from kaidan.modes import Acceptance, Phase, Verdict
 from kaidan.robot import Posture
 from kaidan.traversal.moves import angles_of

@@ -16,7 +16,7 @@ from kaidan.contact import Status
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.clearance import run_up_margin
 from kaidan.mechanics.oblique import equivalent_slope_across
-from kaidan.models import support_polygon, traction
+from kaidan.models import belts, support_polygon, traction
 from kaidan.models.balance import balance
 from kaidan.models.contact_figures import figures_of
 from kaidan.models.drive_limits import traction_limit
@@ -136,7 +136,7 @@ def repeats(question: Question) -> bool:
 
 def _drives_alike(question: Question, other: Question) -> bool:
     """Whether both have one traverse: friction, belts and allowances play no part."""
-    return traction.without_belts(question.robot) == traction.without_belts(other.robot) and all(
+    return belts.without_belts(question.robot) == belts.without_belts(other.robot) and all(
         getattr(question, name) == getattr(other, name)
         for name in (
             "terrain",
@@ -292,7 +292,7 @@ def sliding_margin(question: Question, basis: Basis) -> Array:
         [rad]; infinite where it takes the other margins to know.
     """
     driven, found = basis
-    if not _answered(driven, found) or not traction.holds_otherwise(question):
+    if not _answered(driven, found) or not belts.holds_otherwise(question):
         return np.full(1, math.inf)
     held = traction.supply(driven, found, question.robot.track)
     if held.phase is None:
