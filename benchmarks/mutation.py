@@ -3,6 +3,7 @@
 mutmut leaves decorated functions out, which is every function of the contact kernel, and starts
 a process a mutant. Here the tests are collected once; each mutant is a fork in which the code of
 one function is exchanged, and only the tests that pass over its line are run, the fastest first.
+A test that fails in such a fork though nothing is changed is named and left out.
 
 Example (see docs/mutation.md)::
 
@@ -35,7 +36,9 @@ from mutants import HANGS, KILLED, SURVIVES, UNTESTED, Mutant, answers, mutants
 LEAST_LIMIT = 1.0
 """CPU time that a test may take at least before a mutant counts as one that hangs [s]."""
 SLOWER = 8.0
-"""A mutant hangs if a test takes this many times its usual CPU time."""
+"""A mutant may hang if a test takes this many times its usual CPU time."""
+PATIENCE = 5.0
+"""It hangs if that test, alone, takes so many times as long still."""
 MEMORY = 4 << 30
 """Address space of a mutant beyond what the tests have taken already [B]: of many modules that is
 gigabytes, and a limit on all of it would end mutants that nothing notices."""
@@ -222,6 +225,10 @@ class Run:
         with os.fdopen(read) as pipe:
             usual = {int(k): (took, set(each)) for k, (took, each) in json.load(pipe).items()}
         os.wait()
+        for k in [*usual]:
+            if self._try(lambda: None, items, [k], usual)[0] != SURVIVES:
+                print(f"left out, as it fails alone on unchanged code: {items[k].nodeid}")
+                del usual[k]
         total = sum(each[0] for each in usual.values())
         print(
             f"{len(items)} tests, {len(usual)} that pass over the code, {total:.1f} s", flush=True
@@ -246,15 +253,16 @@ class Run:
         """Outcome of a mutant and the test that notices it alone, where no test ran before it."""
         while True:
             outcome, killer = self._try(change, items, chosen, usual)
-            if killer is None or killer == chosen[0]:
-                return outcome, killer
-            if self._try(change, items, [killer], usual)[0] != SURVIVES:
+            if outcome == HANGS or killer not in (None, chosen[0]):
+                assert killer is not None
+                outcome, _ = self._try(change, items, [killer], usual, PATIENCE)
+            if killer is None or outcome != SURVIVES:
                 return outcome, killer
             chosen = [each for each in chosen if each != killer]  # another test left something
 
     def _try(
         self, change: Callable[[], None], items: list[pytest.Item], chosen: list[int],
-        usual: dict[int, tuple[float, set[object]]],
+        usual: dict[int, tuple[float, set[object]]], patience: float = 1.0,
     ) -> tuple[str, int | None]:  # fmt: skip
         """Outcome of a mutant, in a fork, and the test that notices it."""
         read, write = os.pipe()
@@ -268,7 +276,7 @@ class Run:
             change()
             for at in chosen:
                 os.write(write, f"{at} ".encode())
-                limit = max(LEAST_LIMIT, SLOWER * usual[at][0])
+                limit = patience * max(LEAST_LIMIT, SLOWER * usual[at][0])
                 signal.setitimer(signal.ITIMER_VIRTUAL, limit)
                 if self._ask(items[at]):
                     os._exit(1)
