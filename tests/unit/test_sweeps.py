@@ -13,7 +13,7 @@ from kaidan import InputError, Payload, Posture, Robot, Stairs, Surface, stream,
 from kaidan.errors import MissingExtraError
 from kaidan.mechanics.verdict import Judged
 from kaidan.modes import Verdict
-from kaidan.sweeps import compiled, elementary, pairs
+from kaidan.sweeps import compiled, compiled_pairs, elementary, pairs
 from kaidan.sweeps.pairs import CODES, INPUTS
 
 RIG = Robot.named("kenaf").model_copy(update={"theta_d": None, "theta_M": None})
@@ -489,7 +489,7 @@ def test_a_stream_refuses_the_chunk_that_is_wrong():
 def test_loops_are_compiled_where_it_pays(monkeypatch):
     """Not for a few pairs, which take microseconds; for many, and for a stream."""
     made = []
-    monkeypatch.setattr(pairs, "_compiled_kernel", lambda: made.append(1) or pairs._numpy_kernel)
+    monkeypatch.setattr(compiled_pairs, "kernel", lambda: made.append(1) or pairs._numpy_kernel)
     verdicts(PAIR)
     assert not made
     next(stream([PAIR]))
@@ -517,10 +517,10 @@ def without_numba(monkeypatch):
     monkeypatch.setattr(builtins, "__import__", no_numba)
     monkeypatch.setitem(sys.modules, "numba", None)
     compiled.compiled.cache_clear()
-    kaidan.sweeps.pairs._compiled_kernel.cache_clear()
+    compiled_pairs.kernel.cache_clear()
     yield
     compiled.compiled.cache_clear()
-    kaidan.sweeps.pairs._compiled_kernel.cache_clear()
+    compiled_pairs.kernel.cache_clear()
 
 
 @pytest.mark.usefixtures("without_numba")

@@ -34,10 +34,14 @@ RESOLVED = 0.1
 """Inner step times the fastest angular frequency [1]."""
 SIGNATURES = {
     "depth_below": "Tuple((f8, f8, f8))(f8[::1], f8, f8, f8)",
+    "corner_met": "Tuple((f8, f8, f8, f8))(f8[:, ::1], i8, f8, f8[:, ::1], f8, f8, f8, f8)",
+    "end_met": "Tuple((f8, f8, f8, f8))(f8[:, ::1], i8, f8[:, ::1], i8, f8, f8, f8, f8)",
+    "shear_when_met": "f8(f8[:, ::1], f8[:, ::1], i8, i8)",
+    "rubber_force": "Tuple((f8, f8, f8))(f8, f8, f8, f8, f8, f8[::1])",
     "advance": "i8(f8[::1], f8[:, ::1], f8[:, ::1], f8[::1], f8[:, ::1], f8[:, ::1], f8[:, ::1], "
     "f8[:, ::1], f8[::1], i8, i8, i8, f8, f8, f8, f8[::1], f8[:, ::1])",
 }
-"""What is compiled, the first one for the second, in the types of numba."""
+"""What is compiled, each for those that follow, in the types of numba."""
 
 
 @cache

@@ -14,11 +14,14 @@ arrays: `kaidan.physics.planar` hands it to numba.
 
 import math
 
-from numpy import float64
+import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[float64]
-Flags = NDArray[float64]
+Array = NDArray[np.float64]
+Flags = NDArray[np.float64]
+
+THINNEST = 0.03
+"""Depth up to which thinner parts than this count as pressed in, and not passed through [m]."""
 
 
 def depth_below(part: Array, x: float, z: float, thickest: float) -> tuple[float, float, float]:
@@ -46,6 +49,117 @@ def depth_below(part: Array, x: float, z: float, thickest: float) -> tuple[float
     if apart >= part[at + 2] or apart < 1e-9:
         return 0.0, 0.0, -1.0
     return part[at + 2] - apart, d_x / apart, d_z / apart
+
+
+def corner_met(
+    points: Array, i: int, kind: float, parts: Array, x: float, z: float, cos: float, sin: float
+) -> tuple[float, float, float, float]:
+    """Depth of a corner inside the robot [m], the normal there into it, and 1 of a belt that runs.
+
+    Parameters
+    ----------
+    points, i : array, shape (n, 2), int
+        Terrain, and which of its points.
+    kind : float
+        See `corners` of `advance`.
+    parts : array, shape (m, 12)
+        See `depth_below`.
+    x, z, cos, sin : float
+        Centroid [m], cosine and sine of the inclination.
+    """
+    depth, n_x, n_z, runs = 0.0, 0.0, 0.0, 0.0
+    r_x, r_z = points[i, 0] - x, points[i, 1] - z
+    own_x, own_z = cos * r_x + sin * r_z, cos * r_z - sin * r_x
+    for m in range(len(parts)):
+        thickest = max(parts[m, 2] + parts[m, 5], THINNEST)
+        deep, out_x, out_z = depth_below(parts[m], own_x, own_z, thickest)
+        if deep > depth:
+            depth, runs = deep, parts[m, 11]
+            n_x, n_z = sin * out_z - cos * out_x, -sin * out_x - cos * out_z
+    if depth > 0.0 and kind == 1.0:
+        before_x = points[i, 0] - points[i - 1, 0]
+        before_z = points[i, 1] - points[i - 1, 1]
+        after_x = points[i + 1, 0] - points[i, 0]
+        after_z = points[i + 1, 1] - points[i, 1]
+        if n_x * before_x + n_z * before_z < -1e-12 or n_x * after_x + n_z * after_z > 1e-12:
+            depth = 0.0  # the tread or the riser is met, not the corner
+    return depth, n_x, n_z, runs
+
+
+def end_met(
+    points: Array, i: int, discs: Array, e: int, x: float, z: float, cos: float, sin: float
+) -> tuple[float, float, float, float]:
+    """Depth of an end below the piece after a point, its foot on that piece [m], and its direction.
+
+    Parameters
+    ----------
+    points, i : array, shape (n, 2), int
+        Terrain, and where the piece begins.
+    discs, e : array, shape (e, 4), int
+        Ends, see `advance`, and which of them.
+    x, z, cos, sin : float
+        See `corner_met`.
+    """
+    along_x = points[i + 1, 0] - points[i, 0]
+    along_z = points[i + 1, 1] - points[i, 1]
+    length = math.sqrt(along_x * along_x + along_z * along_z)
+    along_x, along_z = along_x / length, along_z / length
+    c_x = x + cos * discs[e, 0] - sin * discs[e, 1]
+    c_z = z + sin * discs[e, 0] + cos * discs[e, 1]
+    a_x, a_z = c_x - points[i, 0], c_z - points[i, 1]
+    s = a_x * along_x + a_z * along_z
+    high = a_z * along_x - a_x * along_z
+    radius = discs[e, 2]
+    if 0.0 <= s <= length and -max(radius, THINNEST) < high < radius:
+        return radius - high, s, along_x, along_z
+    return 0.0, s, along_x, along_z
+
+
+def shear_when_met(shear: Array, touching: Flags, row: int, i: int) -> float:
+    """Shear with which a contact begins [m].
+
+    Driven from a corner onto the piece behind it, or from a piece onto its corner, a contact
+    changes its name and keeps its shear.
+    """
+    if row > 0:
+        return shear[0, i] if touching[0, i] == 1.0 else 0.0
+    kept = 0.0
+    if i > 0:
+        for other in range(1, len(touching)):
+            if touching[other, i - 1] == 1.0:
+                kept = shear[other, i - 1]
+    return kept
+
+
+def rubber_force(
+    depth: float, closing: float, shear: float, sliding: float, dt: float, constants: Array
+) -> tuple[float, float, float]:
+    """Normal force, force along the belt [N], and the shear that is left [m].
+
+    Parameters
+    ----------
+    depth, closing : float
+        Of the contact [m], and its rate [m/s].
+    shear, sliding : float
+        Before the step [m], and its rate [m/s].
+    dt : float
+        Step [s].
+    constants : array, shape (8,)
+        See `advance`.
+    """
+    k, kt, c, ct, mu = constants[2], constants[3], constants[4], constants[5], constants[6]
+    normal = k * depth + c * closing
+    if normal <= 0.0:
+        normal = 0.0
+    moved = shear + sliding * dt
+    holding = kt * moved + ct * sliding
+    if holding > mu * normal:
+        holding = mu * normal
+        moved = min(moved, holding / kt)
+    elif holding < -mu * normal:
+        holding = -mu * normal
+        moved = max(moved, holding / kt)
+    return normal, holding, moved
 
 
 def advance(
@@ -101,10 +215,7 @@ def advance(
     impulses : array, shape (r, 2)
         What the ground gave the robot by rows of `owners` [N s]; added to.
     """
-    mass, inertia, k, kt, c, ct, mu, gravity = (
-        constants[0], constants[1], constants[2], constants[3], constants[4], constants[5],
-        constants[6], constants[7],
-    )  # fmt: skip
+    mass, inertia, gravity = constants[0], constants[1], constants[7]
     n, ends, contacts = len(points), len(discs), 0
     for step in range(steps):
         x, z, phi = state[0], state[1], state[2]
@@ -114,77 +225,31 @@ def advance(
         f_x, f_z, moment, contacts = push[0], push[1] - mass * gravity, 0.0, 0
         for i in range(first, last):
             for row in range(1 + ends):
-                # depth of the contact, its place, and its normal into the robot
-                depth, n_x, n_z, at_x, at_z, runs = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
                 if row == 0:
                     if corners[i] == 0.0:
                         continue
+                    depth, n_x, n_z, runs = corner_met(points, i, corners[i], parts, x, z, cos, sin)
                     at_x, at_z = points[i, 0], points[i, 1]
-                    r_x, r_z = at_x - x, at_z - z
-                    own_x, own_z = cos * r_x + sin * r_z, cos * r_z - sin * r_x
-                    for m in range(len(parts)):
-                        thickest = max(parts[m, 2] + parts[m, 5], 0.03)
-                        deep, out_x, out_z = depth_below(parts[m], own_x, own_z, thickest)
-                        if deep > depth:
-                            depth, runs = deep, parts[m, 11]
-                            n_x, n_z = sin * out_z - cos * out_x, -sin * out_x - cos * out_z
-                    if depth > 0.0 and corners[i] == 1.0:
-                        before_x = points[i, 0] - points[i - 1, 0]
-                        before_z = points[i, 1] - points[i - 1, 1]
-                        after_x = points[i + 1, 0] - points[i, 0]
-                        after_z = points[i + 1, 1] - points[i, 1]
-                        if (
-                            n_x * before_x + n_z * before_z < -1e-12
-                            or n_x * after_x + n_z * after_z > 1e-12
-                        ):
-                            depth = 0.0  # the tread or the riser is met, not the corner
                 elif i + 1 < n and corners[i] != 2.0:
-                    e = row - 1
-                    along_x = points[i + 1, 0] - points[i, 0]
-                    along_z = points[i + 1, 1] - points[i, 1]
-                    length = math.sqrt(along_x * along_x + along_z * along_z)
-                    along_x, along_z = along_x / length, along_z / length
-                    c_x = x + cos * discs[e, 0] - sin * discs[e, 1]
-                    c_z = z + sin * discs[e, 0] + cos * discs[e, 1]
-                    a_x, a_z = c_x - points[i, 0], c_z - points[i, 1]
-                    s = a_x * along_x + a_z * along_z
-                    high = a_z * along_x - a_x * along_z
-                    radius = discs[e, 2]
-                    if 0.0 <= s <= length and -max(radius, 0.03) < high < radius:
-                        depth, n_x, n_z, runs = radius - high, -along_z, along_x, discs[e, 3]
-                        at_x = points[i, 0] + s * along_x
-                        at_z = points[i, 1] + s * along_z
+                    depth, s, t_x, t_z = end_met(points, i, discs, row - 1, x, z, cos, sin)
+                    n_x, n_z, runs = -t_z, t_x, discs[row - 1, 3]
+                    at_x, at_z = points[i, 0] + s * t_x, points[i, 1] + s * t_z
+                else:
+                    continue
                 if depth <= 0.0:
                     continue
                 contacts += 1
                 if touching[row, i] == 0.0:
-                    shear[row, i] = 0.0
-                    # driven from a corner onto the piece behind it, or from a piece onto its
-                    # corner, a contact changes its name and keeps its shear
-                    if row > 0 and touching[0, i] == 1.0:
-                        shear[row, i] = shear[0, i]
-                    elif row == 0 and i > 0:
-                        for other in range(1, 1 + ends):
-                            if touching[other, i - 1] == 1.0:
-                                shear[row, i] = shear[other, i - 1]
+                    shear[row, i] = shear_when_met(shear, touching, row, i)
                 touching[row, i] = 2.0
                 t_x, t_z = n_z, -n_x
                 r_x, r_z = at_x - x, at_z - z
                 p_x, p_z = v_x - w * r_z, v_z + w * r_x
                 closing = -(p_x * n_x + p_z * n_z)
                 sliding = p_x * t_x + p_z * t_z - belt * runs
-                normal = k * depth + c * closing
-                if normal <= 0.0:
-                    normal = 0.0
-                moved = shear[row, i] + sliding * dt
-                holding = kt * moved + ct * sliding
-                if holding > mu * normal:
-                    holding = mu * normal
-                    moved = min(moved, holding / kt)
-                elif holding < -mu * normal:
-                    holding = -mu * normal
-                    moved = max(moved, holding / kt)
-                shear[row, i] = moved
+                normal, holding, shear[row, i] = rubber_force(
+                    depth, closing, shear[row, i], sliding, dt, constants
+                )
                 g_x, g_z = normal * n_x - holding * t_x, normal * n_z - holding * t_z
                 f_x += g_x
                 f_z += g_z

@@ -3,7 +3,6 @@
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from functools import cache
 from typing import Any, Literal
 
 import numpy as np
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 
 from kaidan.errors import InputError, shown
 from kaidan.mechanics.verdict import Judged, judged
-from kaidan.sweeps import compiled
+from kaidan.sweeps import compiled, compiled_pairs
 
 Engine = Literal["auto", "numpy", "compiled"]
 Array = NDArray[Any]
@@ -42,8 +41,6 @@ _HINT = 1 << 24
 """Size of a block that is mapped and freed to make the allocator keep what it gets back [bytes]."""
 _WORTH_COMPILING = 1 << 22
 """Pairs from which on compiled loops win back the seconds in which numba compiles them."""
-_BLOCK = 1 << 10
-"""Pairs that the compiled loops take at once, so that what both read stays in the cache."""
 
 _RANGES = {
     "flat_length": (0.05, 5.0, "m"),
@@ -118,7 +115,7 @@ def verdicts(
         engine = "compiled" if size >= _WORTH_COMPILING and compiled.available() else "numpy"
     if engine not in ("numpy", "compiled"):
         raise InputError(f"engine = {shown(engine)} is not known; known: auto, numpy, compiled")
-    kernel = _compiled_kernel() if engine == "compiled" else _numpy_kernel
+    kernel = compiled_pairs.kernel() if engine == "compiled" else _numpy_kernel
     step = _CHUNK[engine]
     flat_in = [_chunks(array, shape, step) for array in arrays.values()]
 
@@ -260,118 +257,3 @@ def _numpy_kernel(inputs: list[Array], outputs: list[Array]) -> None:
         answer = judged(**dict(zip(INPUTS.values(), inputs, strict=True)))
     for target, value in zip(outputs, answer, strict=True):
         target[...] = value
-
-
-@cache
-def _compiled_kernel() -> Any:
-    """Two loops, because one that writes all twelve outputs is too much for the vectoriser."""
-    formula = compiled.compiled(judged)
-    njit = compiled.numba().njit(error_model="numpy", nogil=True)
-
-    @njit
-    def angles(  # type: ignore[no-untyped-def]
-        L,
-        C_L,
-        C_N,
-        theta_s,
-        p,
-        mu_s,
-        a,
-        theta_d,
-        theta_M,
-        spare_d,
-        spare_M,
-        verdict,
-        governs,
-        margin,
-        theta_s_sup,
-        tip_downhill,
-        tip_uphill,
-        slides_down,
-        slides_up,
-    ):
-        for i in range(L.size):
-            answer = formula(
-                L[i],
-                C_L[i],
-                C_N[i],
-                theta_s[i],
-                p[i],
-                mu_s[i],
-                a[i],
-                theta_d[i],
-                theta_M[i],
-                spare_d[i],
-                spare_M[i],
-            )
-            verdict[i] = answer.verdict
-            governs[i] = answer.governs
-            margin[i] = answer.margin
-            theta_s_sup[i] = answer.theta_s_sup
-            tip_downhill[i] = answer.tip_downhill
-            tip_uphill[i] = answer.tip_uphill
-            slides_down[i] = answer.slides_down
-            slides_up[i] = answer.slides_up
-
-    @njit
-    def others(  # type: ignore[no-untyped-def]
-        L,
-        C_L,
-        C_N,
-        theta_s,
-        p,
-        mu_s,
-        a,
-        theta_d,
-        theta_M,
-        spare_d,
-        spare_M,
-        a_max,
-        a_min,
-        centroid,
-        required_friction,
-    ):
-        for i in range(L.size):
-            answer = formula(
-                L[i],
-                C_L[i],
-                C_N[i],
-                theta_s[i],
-                p[i],
-                mu_s[i],
-                a[i],
-                theta_d[i],
-                theta_M[i],
-                spare_d[i],
-                spare_M[i],
-            )
-            a_max[i] = answer.a_max
-            a_min[i] = answer.a_min
-            centroid[i] = answer.centroid
-            required_friction[i] = answer.required_friction
-
-    @njit
-    def blocks(inputs, outputs):  # type: ignore[no-untyped-def]
-        (L, C_L, C_N, theta_s, p, mu_s, a, theta_d, theta_M, spare_d, spare_M) = inputs
-        (
-            verdict, governs, margin, theta_s_sup, tip_downhill, tip_uphill, slides_down, slides_up,
-            a_max, a_min, centroid, required_friction,
-        ) = outputs  # fmt: skip
-        for i in range(0, L.size, _BLOCK):
-            j = min(i + _BLOCK, L.size)
-            angles(
-                L[i:j], C_L[i:j], C_N[i:j], theta_s[i:j], p[i:j], mu_s[i:j], a[i:j],
-                theta_d[i:j], theta_M[i:j], spare_d[i:j], spare_M[i:j],
-                verdict[i:j], governs[i:j], margin[i:j], theta_s_sup[i:j], tip_downhill[i:j],
-                tip_uphill[i:j], slides_down[i:j], slides_up[i:j],
-            )  # fmt: skip
-            others(
-                L[i:j], C_L[i:j], C_N[i:j], theta_s[i:j], p[i:j], mu_s[i:j], a[i:j],
-                theta_d[i:j], theta_M[i:j], spare_d[i:j], spare_M[i:j],
-                a_max[i:j], a_min[i:j], centroid[i:j], required_friction[i:j],
-            )  # fmt: skip
-
-    def kernel(inputs: list[Array], outputs: list[Array]) -> None:
-        blocks(tuple(inputs), tuple(outputs))
-
-    return kernel
