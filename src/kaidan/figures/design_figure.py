@@ -71,11 +71,12 @@ def _draw_map(axes: Axes, found: "Design", drawn: "DesignMap") -> None:
     )
     verdicts = np.array(drawn.verdicts, dtype=float)
     for verdict, (colour, hatch) in _FILLS.items():
-        there = verdicts == verdict.rank
-        if not there.any():
+        if not (verdicts == verdict.rank).any():
             continue
         filled: dict[str, Any] = {"colors": [colour], "hatches": [hatch]}
-        axes.contourf(along, up, there.astype(float), [0.5, 1.5], **filled)
+        # what is no worse lies over it, so no gap shows where three zones meet
+        no_worse = (verdicts <= verdict.rank).astype(float)
+        axes.contourf(along, up, no_worse, [0.5, 1.5], zorder=1.0 - 0.1 * verdict.rank, **filled)
         axes.fill_between([], [], facecolor=colour, hatch=hatch, edgecolor="#777777",
                           linewidth=0.3, label=verdict.label)  # fmt: skip
     margins = np.array(drawn.margins_deg, dtype=float)
