@@ -33,10 +33,25 @@ class Outline:
     """Shape (m,): `kaidan.contact.TRACK`, FLIPPER or BELLY."""
     stance: Stance
     """Flat length, centroid and mass that go with it."""
-    gyration: float
-    """Radius of gyration about the lateral axis through the centroid [m]."""
-    gyration_estimated: bool
-    """Whether it was estimated, because the sheet gives no moment of inertia."""
+    stated_gyration: float | None
+    """Radius of gyration about the lateral axis through the centroid [m]; None: the sheet gives no
+    moment of inertia."""
+
+    @property
+    def gyration_estimated(self) -> bool:
+        """Whether the radius of gyration is estimated."""
+        return self.stated_gyration is None
+
+    @cached_property
+    def gyration(self) -> float:
+        """Radius of gyration about the lateral axis through the centroid [m].
+
+        Where the sheet gives none, that of an even box as long as the robot and twice as high as
+        its centroid.
+        """
+        if self.stated_gyration is not None:
+            return self.stated_gyration
+        return math.hypot(sum(self.reach), 2 * self.stance.com_height) / math.sqrt(12.0)
 
     @property
     def least_gyration(self) -> float:
@@ -50,11 +65,7 @@ class Outline:
     def of(
         cls, robot: Robot, posture: Posture | None = None, payload: Iterable[Payload] = ()
     ) -> Self:
-        """Outline of a robot in a posture under its payload.
-
-        A moment of inertia that the sheet does not give is estimated as that of an even box as
-        long as the robot and twice as high as its centroid.
-        """
+        """Outline of a robot in a posture under its payload."""
         posture = posture or Posture()
         stance = robot.stance(posture, payload)
         front_tip = stance.com_from_front - stance.front_extension
@@ -74,9 +85,10 @@ class Outline:
             height = bottom + robot.track.belly_clearance
             discs.append((rear_tip, height, 0.0, front_tip, height, 0.0))
             kinds.append(BELLY)
-        parts = np.array(discs)
-        gyration, estimated = _gyration(robot, stance, parts)
-        return cls(parts, np.array(kinds, dtype=np.int64), stance, gyration, estimated)
+        gyration = None
+        if robot.inertia is not None and robot.mass is not None:
+            gyration = math.sqrt(robot.inertia / robot.mass)
+        return cls(np.array(discs), np.array(kinds, dtype=np.int64), stance, gyration)
 
     @cached_property
     def reach(self) -> tuple[float, float]:
@@ -173,11 +185,3 @@ def _flipper(
     if outward > 0:
         return (*root, *end, pair.tip_radius)
     return (*end, pair.tip_radius, *root)
-
-
-def _gyration(robot: Robot, stance: Stance, parts: Array) -> tuple[float, bool]:
-    if robot.inertia is not None and robot.mass is not None:
-        return math.sqrt(robot.inertia / robot.mass), False
-    left = np.minimum(parts[:, 0] - parts[:, 2], parts[:, 3] - parts[:, 5]).min()
-    right = np.maximum(parts[:, 0] + parts[:, 2], parts[:, 3] + parts[:, 5]).max()
-    return math.hypot(float(right - left), 2 * stance.com_height) / math.sqrt(12.0), True

@@ -28,6 +28,8 @@ from kaidan.units import kind_of_unit, parse
 PLACEHOLDER = "FILL IN"
 """What stands for a value that the user has yet to fill in; no sheet accepts it."""
 
+_TEXTS = (str, dict)
+"""Types of fields that hold texts."""
 _MISTAKEN_UNITS = {
     "m": (("millimetres", 1e-3), ("inches", 0.0254), ("centimetres", 1e-2), ("feet", 0.3048)),
     "rad": (("degrees", 0.017453292519943295),),
@@ -81,7 +83,7 @@ class Sheet(BaseModel):
     @classmethod
     def _tell_what_is_wrong(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
         if isinstance(data, cls):  # it was looked at when it was made
-            return handler(data)
+            return data
         wrong: list[str] = []
         if isinstance(data, Mapping):
             data = cls._in_si(data, wrong)
@@ -94,7 +96,7 @@ class Sheet(BaseModel):
                 wrong = [
                     f"{cls.label}: {name} holds half a character (a lone surrogate)"
                     for name, value in sheet.__dict__.items()
-                    if isinstance(value, str | dict) and not _is_unicode(value)
+                    if isinstance(value, _TEXTS) and not _is_unicode(value)
                 ]
                 if not wrong:
                     return sheet

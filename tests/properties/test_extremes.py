@@ -91,7 +91,6 @@ def test_the_scale_does_not_matter(robot, flight, descending, facing, k):
     big = replace(
         outline,
         parts=outline.parts * k,
-        gyration=outline.gyration * k,
         stance=stance._replace(
             flat_length=stance.flat_length * k,
             com_from_front=stance.com_from_front * k,

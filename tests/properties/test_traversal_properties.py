@@ -91,7 +91,6 @@ def test_scale(robot, flight, k):
     big = replace(
         outline,
         parts=outline.parts * k,
-        gyration=outline.gyration * k,
         stance=outline.stance._replace(
             flat_length=outline.stance.flat_length * k, com_height=outline.stance.com_height * k
         ),

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise, product
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,8 +50,12 @@ def cost_of_drop(drop: Number) -> Number:
 
 def cost_of(robot: Robot, postures: Sequence[Posture]) -> float:
     """Margin that the changes of a plan have to gain [deg]."""
-    changes = [(one, two) for one, two in pairwise(postures) if one != two]
-    return sum(float(costs_of_changes(robot, [one], [two])[0, 0]) for one, two in changes)
+    cost = 0.0
+    for one, two in pairwise(postures):
+        if one != two:
+            was, new = (angles_of(robot, each).values() for each in (one, two))
+            cost += _cost_of_a_change(sum(abs(a - b) for a, b in zip(was, new, strict=True)))
+    return cost
 
 
 def costs_of_changes(
@@ -68,7 +72,12 @@ def costs_of_changes(
     turned = np.abs(one[:, None] - two).sum(axis=-1)
     number = {posture: k for k, posture in enumerate((*before, *after))}
     a, b = ([number[each] for each in some] for some in (before, after))
-    return np.where(np.not_equal.outer(a, b), A_CHANGE + A_TURN * np.degrees(turned), 0.0)
+    return np.where(np.not_equal.outer(a, b), _cost_of_a_change(turned), 0.0)
+
+
+def _cost_of_a_change(turned: Number) -> Any:
+    """Margin that a change has to gain by which flippers turn so far [deg]."""
+    return A_CHANGE + A_TURN * math.degrees(1.0) * turned
 
 
 def words(robot: Robot) -> Iterator[Posture]:
