@@ -7,6 +7,8 @@ from amounts import fast_and_slow
 from contact_cases import LANDING, random_robot, random_terrain
 from kaidan.contact import (
     Job,
+    first_rock,
+    friction_peaks,
     stand_in_turn,
     traverse,
     traverse_many,
@@ -28,6 +30,26 @@ def same(plain, native):
     np.testing.assert_array_equal(plain.poses.table, native.poses.table)
     np.testing.assert_array_equal(plain.rotations.table, native.rotations.table)
     np.testing.assert_array_equal(plain.margins.table, native.margins.table)
+
+
+def same_between(path, seed, acceleration):
+    """Likewise what is looked for between poses: peaks of the friction, and the first rock."""
+    rng = np.random.default_rng(seed)
+    count = len(path.poses)
+    friction = path.margins.required_friction
+    group, narrow = rng.integers(-1, 3, count), rng.random(count - 1) < 0.05
+    values = np.where(np.isfinite(friction), friction, np.inf)
+    rows = np.sort(rng.choice(count, size=max(count // 2, 1), replace=False))
+    whence = np.where(rng.random(count) < 0.3, path.inclination + 0.1, -np.inf)
+    side, own = (1.0, -1.0)[seed % 2], max(count - seed % 3, 1)
+    found = []
+    for kernel in ("plain", "native"):
+        with using_kernel(kernel):
+            peaks = friction_peaks(path, values, group, narrow, 0.02, acceleration=acceleration)
+            rock = first_rock(path, rows, side, own=own, whence=whence, acceleration=acceleration)
+            found.append((peaks.rows, peaks.path.poses.table, peaks.path.margins.table, rock))
+    for one, other in zip(*found, strict=True):
+        np.testing.assert_array_equal(one, other)
 
 
 def scan(terrain, begin, end, rng):
@@ -57,6 +79,7 @@ def compare(seeds):
             with using_kernel(kernel):
                 runs.append(traverse(terrain, parts, start, end, kinds=kinds, **how))
         same(*runs)
+        same_between(runs[1], seed, how["acceleration"])
 
 
 @pytest.mark.parametrize("count", fast_and_slow(6, 15))

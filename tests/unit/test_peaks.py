@@ -2,49 +2,50 @@
 
 import math
 from itertools import pairwise
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from kaidan import contact
-from kaidan.contact import PIECES
+from kaidan.contact import columns as at
+from kaidan.contact.codes import CUT_AT_ONCE, PIECES, ROUNDS
+from kaidan.contact.kernel import peak_search
 from kaidan.contact.kernel.peaks import LEAST, is_open, promised, slope, told
-from kaidan.traversal.peaks import AT_ONCE, ROUNDS, peaks_between
+from kaidan.contact.scratch import peak_scratch
 
 NAN = math.nan
 
 
-class Poses(SimpleNamespace):
-    leads_on = property(contact.Poses.leads_on.func)
-
-    def __len__(self):
-        return len(self.s)
-
-
-class Line:
-    """Poses along a line, on each of which a figure is known."""
-
-    def __init__(self, s, leg=None):
-        self.s = np.array(s, dtype=float)
-        leg = np.zeros(len(self.s)) if leg is None else np.array(leg)
-        self.poses = Poses(s=self.s, leg=leg)
-
-    def between(self, rows, shares, *, acceleration):
-        assert acceleration == 0.5
-        assert (shares > 0).all()
-        assert (shares < 1).all()
-        return Line(self.s[rows] + shares * (self.s[rows + 1] - self.s[rows]))
-
-
-def search(figure, s, leg=None, group=None, narrow=None):
+def search(figure, s, leg=0.0, group=None, narrow=None):
     """Largest figure found in between of group 0, the places and the rows."""
-    line = Line(s, leg)
-    found, rows = peaks_between(
-        line, figure(line.s), np.zeros(len(line.s), dtype=int) if group is None else group, 1e-4,
-        lambda some: figure(some.s), narrow=narrow, acceleration=0.5,
-    )  # fmt: skip
-    places = np.concatenate([each.s for each in found]) if found else np.empty(0)
+    poses = np.full((len(s), at.POSE_COLUMNS), NAN)
+    poses[:, at.POSE_S], poses[:, at.POSE_LEG] = s, leg
+    group = np.zeros(len(s), dtype=int) if group is None else group
+    narrow = np.zeros(len(s), dtype=int) if narrow is None else narrow
+
+    def poses_between(ground, body, of, rows, shares, count, new):
+        assert ((shares[:count] > 0) & (shares[:count] < 1)).all()
+        begin = of[rows[:count], at.POSE_S]
+        new[:count, at.POSE_S] = begin + shares[:count] * (of[rows[:count] + 1, at.POSE_S] - begin)
+
+    def pose_margins(ground, body, new, count, a, g, touch, margins, contacts):
+        assert (a, g, touch) == (0.5, 9.8, 1e-9)
+        margins[:count, at.TRACTION] = new[:count, at.POSE_S]
+
+    def figure_of(ground, body, new, margins, row, side, hint):
+        assert side == -1.0
+        return float(figure(margins[row, at.TRACTION])), hint
+
+    scratch = peak_scratch(len(s), int(group.max()) + 1)
+    with pytest.MonkeyPatch.context() as patch:
+        for each in (poses_between, pose_margins, figure_of):
+            patch.setattr(peak_search, each.__name__, each)
+        count = peak_search.find_peaks(
+            None, None, poses, figure(poses[:, at.POSE_S]), group, narrow, 1e-4, -1.0, 0.5, 9.8,
+            1e-9, *scratch,
+        )  # fmt: skip
+    rows, between, margins = (each[:count].copy() for each in scratch[-3:])
+    places = between[:, at.POSE_S]
+    assert (margins[:, at.TRACTION] == places).all()
     return max(figure(places), default=-math.inf), places, rows
 
 
@@ -56,11 +57,11 @@ def test_an_arch_between_two_poses():
     assert 3 in rows
 
 
-@pytest.mark.parametrize("at", [2.05, 2.5, 2.95])
+@pytest.mark.parametrize("place", [2.05, 2.5, 2.95])
 @pytest.mark.parametrize("falls", [0.2, 1.0, 30.0])
-def test_a_kink_between_two_poses(at, falls):
+def test_a_kink_between_two_poses(place, falls):
     """By hand: up by 1 a place, down by something else; no pose of the path is the highest."""
-    highest, _, _ = search(lambda s: 5.0 + np.minimum(s - at, falls * (at - s)), range(6))
+    highest, _, _ = search(lambda s: 5.0 + np.minimum(s - place, falls * (place - s)), range(6))
     assert highest == pytest.approx(5.0, rel=1e-4)
 
 
@@ -70,7 +71,7 @@ def test_a_peak_hides_before_a_higher_pose():
     def figure(s):
         return np.interp(s, [0, 1, 2, 2.5, 3, 4], [0.0, 1.0, 1.95, 2.04, 1.96, 2.0])
 
-    highest, _, _ = search(figure, range(5), narrow=np.ones(4, dtype=bool))
+    highest, _, _ = search(figure, range(5), narrow=np.ones(5, dtype=int))
     assert highest == pytest.approx(2.04, rel=1e-4)
     assert len(search(figure, range(5))[1]) == 0  # no line tells of it
 
@@ -166,9 +167,9 @@ def test_what_repeats_itself_is_looked_at_once():
 
 def test_the_search_ends():
     rng = np.random.default_rng(1)
-    noise = lambda s: rng.random(len(s))  # noqa: E731
+    noise = lambda s: rng.random(np.shape(s))  # noqa: E731
     _, places, _ = search(noise, range(300))
-    assert len(places) <= ROUNDS * AT_ONCE * (PIECES - 1)
+    assert len(places) <= ROUNDS * CUT_AT_ONCE * (PIECES - 1)
 
 
 def test_lines_through_the_neighbours_bound_a_figure():
@@ -188,3 +189,52 @@ def test_lines_through_the_neighbours_bound_a_figure():
         assert promised(1.0, *height[1:3], before, after) == pytest.approx(expected, abs=1e-12), (
             height
         )
+
+
+def test_the_figures_of_which_peaks_are_looked_for(monkeypatch):
+    """Friction, infinite where nothing holds; or minus the tilt at which a pose rotates at all."""
+    margins = np.full((4, at.MARGIN_COLUMNS), 7.0)
+    margins[:, at.FRICTION] = [0.4, NAN, -math.inf, math.inf]
+    found = [peak_search.figure_of(None, None, None, margins, row, 0.0, 3) for row in range(4)]
+    assert found == [(0.4, 3), *[(math.inf, 3)] * 3]
+
+    def pose_tilt(ground, body, poses, of, row, side, tolerance, hint):
+        assert of is margins
+        return 0.1 * row + side, tolerance, hint + 1
+
+    monkeypatch.setattr(peak_search, "pose_tilt", pose_tilt)
+    for side in (1.0, -1.0):
+        found = peak_search.figure_of(None, None, "poses", margins, 2, side, 3)
+        assert found == (pytest.approx(-0.2 - side), 4)
+
+
+def test_a_way_leads_on_along_one_line_of_poses_and_over_a_distance():
+    """Poses 1e-8 m apart stand at one place; what lies between two lines is a rotation."""
+    tent = lambda s: 1.0 - np.abs(s - 0.5)  # noqa: E731
+    hides = np.ones(2, dtype=int)
+    assert len(search(tent, [0.0, 0.9], narrow=hides)[1])
+    assert len(search(tent, [0.0, 0.9], leg=[0, 1], narrow=hides)[1]) == 0
+    flat = lambda s: 1.0 + 0.0 * s  # noqa: E731
+    for apart, looks in ((0.9e-8, False), (1.1e-8, True)):
+        assert bool(len(search(flat, [0.0, apart], narrow=hides)[1])) is looks
+
+
+def test_places_of_one_search_do_not_stay_for_the_next():
+    """Its tables are those of the thread, which has room for the longest so far."""
+    one = peak_scratch(5, 2)
+    assert peak_scratch(4, 1) is one
+    longer = peak_scratch(len(one.s) + 1, 1)
+    assert len(longer.largest) == len(one.largest)
+    assert len(longer.s) == len(longer.line) == len(one.s) + 1
+    wider = peak_scratch(3, len(longer.largest) + 1)
+    assert (len(wider.largest), len(wider.s)) == (len(longer.largest) + 1, len(longer.s))
+    places = (PIECES - 1) * CUT_AT_ONCE * len(wider.largest)
+    for each in (wider.rows, wider.between, wider.margins):
+        assert len(each) == ROUNDS * places
+    for each in (wider.ways, wider.kept, wider.order):
+        assert len(each) == len(wider.s) + ROUNDS * places
+    first = search(arch, range(6))
+    search(lambda s: -arch(s), range(9))
+    again = search(arch, range(6))
+    assert first[0] == again[0]
+    assert first[1].tolist() == again[1].tolist()

@@ -176,7 +176,8 @@ def test_the_traction_of_an_upright_path_is_that_of_all_its_weight(a, monkeypatc
     steady = np.array([True, True])
     for name, answer in (
         ("nosing_events", events), ("_upright", (rows, np.array([0.4, 0.6]))),
-        ("_peaks", ([], none)), ("_turns_steadily", (steady, psi)), ("_friction", "friction"),
+        ("_peaks", SimpleNamespace(path="peaks", rows=none)), ("_friction", "friction"),
+        ("_turns_steadily", (steady, psi)),
         ("trailing_end_leaves", "off"), ("corners", np.zeros(2, dtype=bool)),
     ):  # fmt: skip
         monkeypatch.setattr(samples, name, lambda *given, answer=answer: answer)

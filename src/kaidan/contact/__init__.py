@@ -3,7 +3,6 @@
 from kaidan.contact.codes import (
     BELLY,
     FLIPPER,
-    PIECES,
     ROCKING,
     TRACK,
     Event,
@@ -16,9 +15,10 @@ from kaidan.contact.codes import (
 )
 from kaidan.contact.contacts import Contact, PairForces, pair_forces, spring_loads
 from kaidan.contact.heights import TouchingHeights, touching_heights
-from kaidan.contact.margin_records import Job, Margins, Summaries, Tilts
+from kaidan.contact.margin_records import Job, Margins, Summaries
 from kaidan.contact.nosings import nosings_passed, without_nosings
 from kaidan.contact.path import Path, joined
+from kaidan.contact.peaks import Between, Rock, first_rock, friction_peaks
 from kaidan.contact.rating import Belts, Ratings, rate_many
 from kaidan.contact.records import (
     ONE_PLACE,
@@ -46,17 +46,16 @@ from kaidan.contact.switch import (
 )
 from kaidan.contact.tables import body_table, ground_table, mirror, without_folds
 from kaidan.contact.traversing import STEP, arrives, plain_seconds, traverse, traverse_many
-from kaidan.contact.ways import Ways
 
 __all__ = [
     "BELLY",
     "FLIPPER",
     "ONE_PLACE",
-    "PIECES",
     "ROCKING",
     "STEP",
     "TRACK",
     "Belts",
+    "Between",
     "Body",
     "Contact",
     "Event",
@@ -75,6 +74,7 @@ __all__ = [
     "Placement",
     "Poses",
     "Ratings",
+    "Rock",
     "RotationOutcome",
     "RotationRecord",
     "Rotations",
@@ -82,11 +82,11 @@ __all__ = [
     "Status",
     "Summaries",
     "Supports",
-    "Tilts",
     "TouchingHeights",
-    "Ways",
     "arrives",
     "body_table",
+    "first_rock",
+    "friction_peaks",
     "ground_of",
     "ground_table",
     "held_while_slipping",

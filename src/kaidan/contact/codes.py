@@ -29,6 +29,10 @@ from kaidan.contact.columns import (
 ROCKING = math.radians(2.6)
 #: Pieces into which a way between two poses is cut, on which a figure may be the largest.
 PIECES = 8
+#: Such ways of a group of poses that are cut together, the most promising first, and how many times
+#: more of them are cut at most.
+CUT_AT_ONCE = 4
+ROUNDS = 8
 
 
 class Status(IntEnum):

@@ -61,10 +61,6 @@ ROTATION_COLUMNS = 19
 ) = range(22)  # fmt: skip
 MARGIN_COLUMNS = 22
 
-# Tilts of one pose to one side: see kaidan.contact.records.Tilts.
-CARRIED_TO, ROCKS_BY = range(2)
-TILT_COLUMNS = 2
-
 # Contacts of one pose: feature, point [m], normal, gap [m], kind of the part.
 (
     CONTACT_FEATURE, CONTACT_X, CONTACT_Z, CONTACT_N_X, CONTACT_N_Z, CONTACT_GAP, CONTACT_KIND,

@@ -126,20 +126,6 @@ class Margins(_Table):
         return self._column(at.TILT)
 
 
-class Tilts(_Table):
-    """Tilts of gravity to one side beyond which poses rotate by more than rocking."""
-
-    @property
-    def tilt(self) -> FloatArray:
-        """Tilt [rad]; negative: it does already."""
-        return self._column(at.CARRIED_TO)
-
-    @property
-    def rocking(self) -> FloatArray:
-        """How far it rocks before that [rad]."""
-        return self._column(at.ROCKS_BY)
-
-
 class Job(NamedTuple):
     """One traverse of a batch."""
 

@@ -9,17 +9,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kaidan.contact.codes import ROCKING, Feature, PartKind, Status
-from kaidan.contact.columns import (
-    ENERGY,
-    POSE_COLUMNS,
-    TILT_COLUMNS,
-)
+from kaidan.contact.codes import Feature, PartKind, Status
+from kaidan.contact.columns import ENERGY, POSE_COLUMNS
 from kaidan.contact.contacts import Contact, contacts_of
-from kaidan.contact.margin_records import Margins, Tilts
+from kaidan.contact.margin_records import Margins
 from kaidan.contact.records import (
     Body,
-    BoolArray,
     Events,
     Ground,
     Placement,
@@ -180,7 +175,7 @@ class Path:
         side
             +1 back, -1 front.
         weights
-            Shape (k,): of the rise of each [1].
+            Of the rise at each pose of the path [1].
         tie
             Difference of rises that is none [m].
 
@@ -194,81 +189,11 @@ class Path:
         """
         if self.margins is None:
             raise ValueError("traverse: energy needs with_margins=True")
-        rises = self.margins.back_rise if side > 0 else self.margins.front_rise
-        order = np.argsort(weights * rises[rows], kind="stable")
         least, row = kernel().least_flow_energy(
-            self.ground.table, self.body.table, self.poses.table, self.margins.table,
-            rows[order], side, weights[order], tie,
+            self.ground.table, self.body.table, self.poses.table, self.margins.table, rows, side,
+            weights, tie, np.empty(len(rows), dtype=np.int64), np.empty(len(rows)),
         )  # fmt: skip
         return least, row if row >= 0 else int(rows[0])
-
-    def tilts(self, rows: ArrayLike, side: float, tolerance: ArrayLike = ROCKING) -> Tilts:
-        """Tilts of gravity beyond which some poses rotate by more than rocking, to one side.
-
-        Parameters
-        ----------
-        rows
-            Shape (k,): rows of the poses.
-        side
-            +1 back, -1 front.
-        tolerance
-            Rotation that is rocking [rad], of all or of each.
-
-        Returns
-        -------
-        Tilts
-        """
-        if self.margins is None:
-            raise ValueError("traverse: tilts need with_margins=True")
-        chosen = np.atleast_1d(np.asarray(rows, dtype=np.int64))
-        found = np.empty((len(chosen), TILT_COLUMNS))
-        each = np.full(len(chosen), tolerance, dtype=np.float64)
-        kernel().flow_tilts(
-            self.ground.table, self.body.table, self.poses.table, self.margins.table, chosen,
-            side, each, found,
-        )  # fmt: skip
-        return Tilts(found)
-
-    def tilt_jumps(
-        self, rows: IntArray, side: float, whence: FloatArray, of_tilt: BoolArray,
-        half: FloatArray, falls: BoolArray, within: float, *, acceleration: float = 0.0,
-        gravity: float = STANDARD_GRAVITY,
-    ) -> tuple[FloatArray, FloatArray]:  # fmt: skip
-        """Places between poses and the next of the line where rocking, or the tilt after it, jumps.
-
-        Parameters
-        ----------
-        rows
-            The first of each two (k,).
-        side
-            +1 back, -1 front.
-        whence
-            Inclination from which each came down by rocking [rad]; minus infinity: from none.
-        of_tilt
-            Where the tilt jumps, and not the rocking.
-        half
-            Figure between those before and after [rad].
-        falls
-            Where it is more before.
-        within
-            To which the places are found [m].
-        acceleration, gravity
-            As for :meth:`margins_of`.
-
-        Returns
-        -------
-        before, after : ndarray (k,)
-            Shares of the arclength to the next pose.
-        """
-        low, high = np.empty((2, len(rows)))
-        margins, found = margin_tables(1)
-        kernel().find_tilt_jumps(
-            self.ground.table, self.body.table, self.poses.table, rows, side,
-            np.ascontiguousarray(whence), of_tilt.astype(np.int64), np.ascontiguousarray(half),
-            falls.astype(np.int64), within, acceleration, gravity, TOUCH, np.empty(1),
-            np.empty((1, POSE_COLUMNS)), margins, found, low, high,
-        )  # fmt: skip
-        return low, high
 
     def contacts_at(self, place: Placement, touch: float = 1e-7) -> tuple[Contact, ...]:
         """Contacts of the robot at a place: gaps up to ``touch`` [m]."""
@@ -345,7 +270,7 @@ class Path:
         """Those poses as a table, without margins."""
         poses = np.empty((len(rows), POSE_COLUMNS))
         kernel().poses_between(
-            self.ground.table, self.body.table, self.poses.table, rows, shares, poses
+            self.ground.table, self.body.table, self.poses.table, rows, shares, len(rows), poses
         )
         return poses
 

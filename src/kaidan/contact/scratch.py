@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import threading
+from typing import NamedTuple
 
 import numpy as np
 
-from kaidan.contact.columns import LOAD_COLUMNS, SUPPORT_COLUMNS
-from kaidan.contact.tables import FloatArray, IntArray, path_tables
+from kaidan.contact.codes import CUT_AT_ONCE, PIECES, ROUNDS
+from kaidan.contact.columns import (
+    LOAD_COLUMNS,
+    MARGIN_COLUMNS,
+    POSE_COLUMNS,
+    SUPPORT_COLUMNS,
+    WAY_COLUMNS,
+)
+from kaidan.contact.tables import FloatArray, IntArray, margin_tables, path_tables
 
 #: Rows up to which tables are kept.
 KEPT = 40_000
@@ -37,6 +45,61 @@ def path_scratch(size: int) -> tuple[FloatArray, FloatArray, FloatArray]:
         kept = _of_thread.tables = path_tables(size)
     poses, events, rotations = kept
     return poses[:size], events[:size], rotations[: size // 8 + 16]
+
+
+class PeakScratch(NamedTuple):
+    """Tables of :func:`kaidan.contact.kernel.peak_search.find_peaks`; it fills the last three."""
+
+    largest: FloatArray
+    s: FloatArray
+    line: IntArray
+    ways: FloatArray
+    kept: FloatArray
+    order: IntArray
+    chosen: IntArray
+    places: IntArray
+    shares: FloatArray
+    inside: FloatArray
+    new: FloatArray
+    new_margins: FloatArray
+    contacts: FloatArray
+    rows: IntArray
+    between: FloatArray
+    margins: FloatArray
+
+
+def peak_scratch(size: int, groups: int) -> PeakScratch:
+    """Tables of this thread for a path of so many poses; the next search writes over them."""
+    kept: PeakScratch | None = getattr(_of_thread, "peaks", None)
+    if kept is not None:
+        if len(kept.largest) >= groups and len(kept.s) >= size:
+            return kept
+        groups, size = max(groups, len(kept.largest)), max(size, len(kept.s))
+    cut = CUT_AT_ONCE * groups
+    places = (PIECES - 1) * cut
+    most = ROUNDS * places
+    new_margins, contacts = margin_tables(places)
+    found = PeakScratch(
+        largest=np.empty(groups),
+        s=np.empty(size),
+        line=np.empty(size, dtype=np.int64),
+        ways=np.empty((size + most, WAY_COLUMNS)),
+        kept=np.empty((size + most, WAY_COLUMNS)),
+        order=np.empty(size + most, dtype=np.int64),
+        chosen=np.empty(cut, dtype=np.int64),
+        places=np.empty(places, dtype=np.int64),
+        shares=np.empty(places),
+        inside=np.empty(places),
+        new=np.empty((places, POSE_COLUMNS)),
+        new_margins=new_margins,
+        contacts=contacts,
+        rows=np.empty(most, dtype=np.int64),
+        between=np.empty((most, POSE_COLUMNS)),
+        margins=np.empty((most, MARGIN_COLUMNS)),
+    )
+    if size <= KEPT:
+        _of_thread.peaks = found
+    return found
 
 
 def holding_scratch(size: int) -> tuple[FloatArray | IntArray, ...]:

@@ -43,7 +43,6 @@ from kaidan.contact.columns import (
     SETTLED_COLUMNS,
     SUMMARY_COLUMNS,
     SUPPORT_COLUMNS,
-    TILT_COLUMNS,
     U_X,
     U_Z,
     WAY_COLUMNS,
@@ -68,7 +67,6 @@ EventTable = Annotated[FloatArray, EVENT_COLUMNS]
 RotationTable = Annotated[FloatArray, ROTATION_COLUMNS]
 MarginTable = Annotated[FloatArray, MARGIN_COLUMNS]
 ContactTable = Annotated[FloatArray, CONTACT_COLUMNS]
-TiltTable = Annotated[FloatArray, TILT_COLUMNS]
 JobTable = Annotated[FloatArray, JOB_COLUMNS]
 SummaryTable = Annotated[FloatArray, SUMMARY_COLUMNS]
 RatingTable = Annotated[FloatArray, RATING_COLUMNS]

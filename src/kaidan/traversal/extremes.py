@@ -18,7 +18,6 @@ from kaidan.traversal.phases import Phase, over_the_top, step_at
 from kaidan.traversal.rotations import ROCKING, together
 from kaidan.traversal.samples import corners, samples_of
 from kaidan.traversal.static_criterion import flights_of
-from kaidan.traversal.tilting import first_rock
 
 _TIE = 1e-9
 _PLACE = 1e-6
@@ -43,15 +42,12 @@ class PhaseExtremes:
     Entering on the way down the edge of the landing obliges to rotate, so only what stays counts:
     infinite where no flat carries."""
     energy_margin_step: int
-    uphill_energy_margin: float
-    """The same towards the uphill end [m], as long as the next nosing uphill is still to come:
-    over the last one the robot has to drop onto the landing."""
-    uphill_energy_margin_step: int
     steadiness: tuple[float, int]
     """`energy_margin` where the belt pulls at the flat; elsewhere the rise about the flat that the
     same sudden stop or start brings about [m], and the step."""
     uphill_steadiness: tuple[float, int]
-    """The same towards the uphill end."""
+    """The same towards the uphill end, traversing, as long as the next nosing uphill is still to
+    come: over the last one the robot has to drop onto the landing."""
     static_margin: float
     """Smallest static stability margin towards the downhill end [m]."""
     traction_over_weight: float
@@ -101,6 +97,7 @@ def phase_extremes(
     top = over_the_top(seen, profile, descending, room)
     closed, came_down = _closed(path, phase), _came_down(path, room, whole)
     whence = came_down.whence[samples.row]
+    as_it_is = np.ones(len(seen.poses))
     sudden = {side: _as_on_the_flat(seen, body, side) for side in (-1.0, 1.0)}
     # of a pose between two phases the other one judges
     of_criterion = _on_a_flight(seen, profile, room) | (phase[samples.row] != Phase.TRAVERSE.value)
@@ -120,15 +117,18 @@ def phase_extremes(
         if descending and name is Phase.ENTER and not profile.is_level:
             # the edge of the landing obliges it to rotate
             posed[:] = False
+        uphill = rows[posed & ~top[rows]] if name is Phase.TRAVERSE else rows[:0]
         barriers = []
-        for down in (True, False):
-            counts, to = (rows[posed], side) if down else (rows[posed & ~top[rows]], -side)
-            flat = _least_rise(of_rises, downhill=down)
-            for weights in (np.ones(len(counts)), sudden[to][counts]):
-                least, at = _least_energy(seen, counts, to, weights)
-                there = least < flat[0]
-                barriers.append((least, step_at(profile, at, descending)) if there else flat)
-        (energy, step), steady, (uphill, uphill_step), uphill_steady = barriers
+        for counts, to, weights in (
+            (rows[posed], side, as_it_is),
+            (rows[posed], side, sudden[side]),
+            (uphill, -side, sudden[-side]),
+        ):
+            flat = _least_rise(of_rises, downhill=to == side)
+            least, at = _least_energy(seen, counts, to, weights)
+            there = least < flat[0]
+            barriers.append((least, step_at(profile, at, descending)) if there else flat)
+        (energy, step), steady, uphill_steady = barriers
         judged = rows[~of_criterion[rows]] if whole and name is Phase.TRAVERSE else rows
         downhill_rows = rows[:0] if descending and name is Phase.ENTER else judged
         if not descending:
@@ -146,8 +146,6 @@ def phase_extremes(
                 required_friction_step=step_at(profile, float(places[rows[hardest]]), descending),
                 energy_margin=energy,
                 energy_margin_step=step,
-                uphill_energy_margin=uphill,
-                uphill_energy_margin_step=uphill_step,
                 steadiness=steady,
                 uphill_steadiness=uphill_steady,
                 static_margin=float(np.fmin.reduce(margins[rows])),
@@ -304,7 +302,9 @@ def _rock(
     acceleration: float, own: int, whence: NDArray[np.float64] | None = None,
 ) -> tuple[float, int]:  # fmt: skip
     """Least tilt at which some poses rotate to one side [rad], and the step."""
-    tilt, row = first_rock(path, rows, side, own=own, acceleration=acceleration, whence=whence)
+    tilt, row = contact.first_rock(
+        path, rows, side, own=own, acceleration=acceleration, whence=whence
+    )
     if row < 0:
         return tilt, 0
     return tilt, step_at(profile, float(path.poses.front_point[row, 0]), descending)

@@ -23,7 +23,6 @@ from kaidan import contact
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.traversal.brief import by_how_long
 from kaidan.traversal.nosing_events import nosing_events
-from kaidan.traversal.peaks import peaks_between
 from kaidan.traversal.phases import Phase
 
 Array = NDArray[np.float64]
@@ -75,7 +74,7 @@ def samples_of(path: contact.Path, phase: NDArray[np.str_], acceleration: float)
     every = [
         path,
         contact.without_nosings(path, nosings, acceleration=acceleration),
-        *peaks[0],
+        peaks.path,
         path.between(*upright, acceleration=acceleration),
     ]
     seen = contact.joined(every)
@@ -87,7 +86,7 @@ def samples_of(path: contact.Path, phase: NDArray[np.str_], acceleration: float)
         last = traction[-len(psi) :]
         last[steady] = largest[steady]
     # between two phases stands a pose of both: what follows on it is of the second
-    between = np.concatenate([nosings.pose, peaks[1], upright[0]])
+    between = np.concatenate([nosings.pose, peaks.rows, upright[0]])
     row = np.concatenate([np.arange(count), between + corners(path)[between]])
     lasts = np.ones(len(traction), dtype=np.bool_)
     lasts[:count] = lasting(path)
@@ -137,9 +136,7 @@ def _friction(path: contact.Path) -> Array:
     return np.where(np.isfinite(required), required, np.inf)
 
 
-def _peaks(
-    path: contact.Path, phase: NDArray[np.str_], acceleration: float
-) -> tuple[list[contact.Path], Rows]:
+def _peaks(path: contact.Path, phase: NDArray[np.str_], acceleration: float) -> contact.Between:
     """Poses between two where the friction required in a phase may be the largest."""
     values = _friction(path)
     slides = trailing_end_leaves(path) & (phase == Phase.LAND.value)
@@ -147,9 +144,7 @@ def _peaks(
     for number, name in enumerate(Phase):
         group[(phase == name.value) & ~slides] = number
     narrow = _along_ends(path)
-    return peaks_between(
-        path, values, group, TOLERANCE, _friction, narrow=narrow, acceleration=acceleration
-    )
+    return contact.friction_peaks(path, values, group, narrow, TOLERANCE, acceleration=acceleration)
 
 
 def _along_ends(path: contact.Path) -> NDArray[np.bool_]:

@@ -106,9 +106,9 @@ def test_the_least_energy_is_worked_out_only_where_it_may_be(seed, low, side):
     """The least over all poses; unknown stays what needs more about its pivot alone."""
     whole, bare = run_of(seed), run_of(seed, with_energy=False)
     rows = np.arange(3, len(whole.poses), 2)
-    weights = np.random.default_rng(seed).uniform(low, 1.0, len(rows))
-    pivot = weights * (whole.margins.back_rise if side > 0 else whole.margins.front_rise)[rows]
-    needed = np.maximum(weights * whole.margins.energy[rows], pivot)
+    weights = np.random.default_rng(seed).uniform(low, 1.0, len(whole.poses))
+    pivot = (weights * (whole.margins.back_rise if side > 0 else whole.margins.front_rise))[rows]
+    needed = np.maximum((weights * whole.margins.energy)[rows], pivot)
     least, row = bare.least_energy(rows, side, weights, 1e-9)
     assert least == needed.min()
     assert row == rows[np.flatnonzero(needed <= least + 1e-9)[0]]

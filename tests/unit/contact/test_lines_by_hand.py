@@ -188,7 +188,7 @@ def test_poses_between_two_of_a_path(share, every, back, off):
     same = (np.diff(leg) == 0) & (np.diff(s) > 1e-3)
     rows = np.flatnonzero(same)[::3].copy()
     between = np.full((len(rows), at.POSE_COLUMNS), math.nan)
-    poses_between(ground, body, poses, rows, np.full(len(rows), share), between)
+    poses_between(ground, body, poses, rows, np.full(len(rows), share), len(rows), between)
     counts = 0
     for row, found in zip(rows, between, strict=True):
         x, z, phi = poses[row, [at.POSE_X, at.POSE_Z, at.POSE_PHI]]

@@ -25,7 +25,6 @@ from kaidan.contact.path import Path
 from kaidan.contact.records import ONE_PLACE, Body, Events, Ground, Poses, Rotations
 from kaidan.contact.rest import resting_height, settle
 from kaidan.contact.tables import body_table, ground_table
-from kaidan.contact.ways import Ways
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.traversal.nosing_events import nosing_events
 
@@ -344,17 +343,16 @@ def test_of_energies_that_are_all_infinite_the_first_pose_is_told(monkeypatch):
     margins = Margins(table(at.MARGIN_COLUMNS, 3, BACK_RISE=(0.3, 0.1, 0.2), FRONT_RISE=1.0))
     path, given = path_of(s=(0.0, 1.0, 2.0), margins=margins), []
 
-    def least(ground, body, poses, of, rows, side, weights, tie):
-        given.append((rows.tolist(), weights.tolist(), side))
+    def least(ground, body, poses, of, rows, side, weights, tie, order, pivots):
+        given.append((rows.tolist(), weights.tolist(), side, len(order), len(pivots)))
         return answer
 
     monkeypatch.setattr(paths, "kernel", lambda: SimpleNamespace(least_flow_energy=least))
-    rows, weights = np.array([2, 0]), np.array([1.0, 0.5])
-    for answer, row in (((0.1, 0), 0), ((0.1, 2), 2), ((math.inf, -1), 2)):
+    rows, weights = np.array([0, 2]), np.array([1.0, 0.5, 0.2])
+    for answer, row in (((0.1, 0), 0), ((0.1, 2), 2), ((math.inf, -1), 0)):
         assert path.least_energy(rows, 1.0, weights, 1e-9) == (answer[0], row)
-    assert given[0] == ([0, 2], [0.5, 1.0], 1.0)  # those first that rise least
     path.least_energy(rows, -1.0, weights, 1e-9)
-    assert given[-1] == ([0, 2], [0.5, 1.0], -1.0)
+    assert given[::3] == [([0, 2], [1.0, 0.5, 0.2], side, 2, 2) for side in (1.0, -1.0)]
 
 
 @pytest.mark.parametrize("climbs", [True, False])
@@ -454,27 +452,6 @@ def test_the_steepest_flight_is_halved_out(monkeypatch):
     assert 0.5 - 1e-5 <= steepest.steepest_flight(flight, ROBOT, **how) <= 0.5
     limit = 0.1
     assert math.isnan(steepest.steepest_flight(flight, ROBOT, **how))
-
-
-def test_one_way_alone_is_cut_too():
-    """A tent over two poses, with one way between them."""
-    ways = Ways(
-        np.array([0.0, 1.0]), np.array([True]), np.array([1.0, 2.0]), np.zeros(2, dtype=int),
-        1e-4, np.array([True]),
-    )  # fmt: skip
-    rows, shares = ways.cut_first(4)
-    assert rows.tolist() == [0] * len(rows)
-    assert len(rows) > 0
-    assert ((shares > 0) & (shares < 1)).all()
-    nothing = Ways(
-        np.array([0.0, 1.0]), np.array([True]), np.array([1.0, 2.0]), np.full(2, -1), 1e-4, None
-    )
-    assert [len(each) for each in nothing.cut_first(4)] == [0, 0]
-    none = Ways(
-        np.array([0.0, 1.0]), np.array([False]), np.array([1.0, 2.0]), np.zeros(2, dtype=int),
-        1e-4, None,
-    )  # fmt: skip
-    assert len(none.cut_first(4)[0]) == 0
 
 
 @pytest.mark.parametrize("phi", [0.0, 0.3, -0.4])

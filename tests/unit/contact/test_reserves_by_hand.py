@@ -16,7 +16,7 @@ import pytest
 
 from kaidan.contact import body_table, ground_table, mirror
 from kaidan.contact import columns as at
-from kaidan.contact.kernel.energy_margins import flow_energy, flow_tilts
+from kaidan.contact.kernel.energy_margins import flow_energy, pose_tilt
 from kaidan.contact.kernel.reserves import AS_IT_COMES_OVER, barrier, carrying_tilt, lean
 
 HALF, ABOVE, RADIUS = 0.3, 0.1, 0.05
@@ -445,15 +445,15 @@ def test_a_side_whose_circle_rises_more_is_not_looked_at(mirrored):
 def test_tilts_of_some_poses_each_with_its_tolerance(mirrored):
     case = Case(plates(D, A, B), mirrored)
     poses, margins = table_of(case, A, B, 0.0)
-    rows, tolerance = np.array([1, 1]), np.array([1.1 * ONTO_D, 0.0])
 
     def found(side):
-        tilts = np.full((2, at.TILT_COLUMNS), np.nan)
-        flow_tilts(case.ground, case.body, poses, margins, rows, side, tolerance, tilts)
-        return tilts.tolist()
+        return [
+            pose_tilt(case.ground, case.body, poses, margins, 1, side, tolerance, 0)[:2]
+            for tolerance in (1.1 * ONTO_D, 0.0)
+        ]
 
-    rear, front = [near(leaning(A, C, 0.0)), 0.0], [near(-leaning(B, C, 0.0)), 0.0]
-    assert found(case.sign) == [[near(leaning(D, ON_D, 0.0)), near(ONTO_D)], rear]
+    rear, front = (near(leaning(A, C, 0.0)), 0.0), (near(-leaning(B, C, 0.0)), 0.0)
+    assert found(case.sign) == [(near(leaning(D, ON_D, 0.0)), near(ONTO_D)), rear]
     assert found(-case.sign) == [front, front]
     margins[1, at.WITHOUT] = case.point(D)
     assert found(case.sign) == [rear, rear]

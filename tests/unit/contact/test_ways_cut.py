@@ -9,8 +9,8 @@ import math
 import numpy as np
 import pytest
 
-from kaidan.contact import PIECES
 from kaidan.contact import columns as at
+from kaidan.contact.codes import PIECES
 from kaidan.contact.kernel.peaks import (
     LEAST,
     NEAR,

@@ -8,33 +8,27 @@ from kaidan.contact.codes import ROCKING
 from kaidan.contact.columns import (
     BACK_RISE,
     BOUNDED,
-    CARRIED_TO,
     ENERGY,
     ENERGY_SIDE,
     FRONT_RISE,
     OUTER_FRONT,
     OUTER_REAR,
     POSE_PHI,
-    POSE_S,
     POSE_X,
     POSE_Z,
-    ROCKS_BY,
     TILT,
     WITHOUT,
 )
 from kaidan.contact.entries import entry
-from kaidan.contact.kernel.margins import pose_margins
-from kaidan.contact.kernel.renaming import poses_between
+from kaidan.contact.kernel.heaps import heap_of, taken
 from kaidan.contact.kernel.reserves import barrier, carrying_tilt
 from kaidan.contact.tables import (
     BodyTable,
-    ContactTable,
     FloatRow,
     GroundTable,
     IntArray,
     MarginTable,
     PoseTable,
-    TiltTable,
 )
 
 
@@ -98,7 +92,7 @@ def work_out_energy(
 @entry
 def least_flow_energy(
     ground: GroundTable, body: BodyTable, poses: PoseTable, margins: MarginTable, rows: IntArray,
-    side: float, weights: FloatRow, tie: float,
+    side: float, weights: FloatRow, tie: float, order: IntArray, pivots: FloatRow,
 ) -> tuple[float, int]:  # fmt: skip
     """Smallest weighted rise of the centroid that a fall to one side needs, of some poses.
 
@@ -111,13 +105,15 @@ def least_flow_energy(
     ground, body, poses, margins
         As for :func:`flow_energy`.
     rows
-        Which poses, that with the smallest weighted rise about its pivot first.
+        Which poses.
     side
         +1 back, -1 front.
     weights
-        Of the rise of each [1].
+        Of the rise at each pose of the table [1].
     tie
         Difference of rises that is none [m].
+    order, pivots
+        Scratch, as long as the rows.
 
     Returns
     -------
@@ -126,105 +122,41 @@ def least_flow_energy(
     hint = 0
     least = math.inf
     column = BACK_RISE if side > 0.0 else FRONT_RISE
-    known = 0
-    while known < rows.shape[0] and weights[known] * margins[rows[known], column] < least + tie:
-        row = rows[known]
+    for k in range(rows.shape[0]):
+        order[k] = k
+        pivots[k] = weights[rows[k]] * margins[rows[k], column]
+    left = rows.shape[0]
+    heap_of(order, pivots, left)
+    while left > 0 and pivots[order[0]] < least + tie:
+        row = rows[taken(order, pivots, left)]
+        left -= 1
         if math.isnan(margins[row, ENERGY]):
             hint = work_out_energy(ground, body, poses, margins, row, hint)
         rise = max(margins[row, ENERGY], margins[row, column])
-        least = min(least, weights[known] * rise)
-        known += 1
+        least = min(least, weights[row] * rise)
     first = -1
-    for k in range(known):
-        row = rows[k]
+    for k in range(left, rows.shape[0]):
+        row = rows[order[k]]
         rise = max(margins[row, ENERGY], margins[row, column])
-        if weights[k] * rise <= least + tie and least < math.inf:
+        if weights[row] * rise <= least + tie and least < math.inf:
             first = row if first < 0 else min(first, row)
     return least, first
 
 
-@entry
-def flow_tilts(
-    ground: GroundTable, body: BodyTable, poses: PoseTable, margins: MarginTable, rows: IntArray,
-    side: float, tolerance: FloatRow, found: TiltTable,
-) -> None:  # fmt: skip
-    """Work out beyond which tilt of gravity some poses rotate by more than rocking, to one side.
+def pose_tilt(
+    ground: GroundTable, body: BodyTable, poses: PoseTable, margins: MarginTable, row: int,
+    side: float, tolerance: float, hint: int,
+) -> tuple[float, float, int]:  # fmt: skip
+    """Tilt of gravity beyond which a pose rotates to one side by more than rocking.
 
-    Parameters
-    ----------
-    ground, body, poses
-        As for :func:`kaidan.contact.kernel.margins.pose_margins`.
-    margins
-        Table that it has filled.
-    rows
-        Which poses.
-    side
-        +1 back, -1 front.
-    tolerance
-        Rotation of each that is rocking [rad].
-    found
-        A row for each pose, to be filled: tilt and rocking [rad].
+    Returns
+    -------
+    tilt [rad], rocking [rad], hint
+        As :func:`kaidan.contact.kernel.reserves.carrying_tilt`.
     """
-    hint = 0
     column = OUTER_REAR if side > 0.0 else OUTER_FRONT
-    for k in range(rows.shape[0]):
-        row = rows[k]
-        found[k, CARRIED_TO], found[k, ROCKS_BY], hint = carrying_tilt(
-            ground, body, int(margins[row, column]), poses[row, POSE_X], poses[row, POSE_Z],
-            poses[row, POSE_PHI], side, margins[row, TILT], tolerance[k],
-            int(margins[row, WITHOUT]), hint,
-        )  # fmt: skip
-
-
-@entry
-def find_tilt_jumps(
-    ground: GroundTable, body: BodyTable, poses: PoseTable, rows: IntArray, side: float,
-    whence: FloatRow, of_tilt: IntArray, half: FloatRow, falls: IntArray, within: float, a: float,
-    g: float, touch: float, share: FloatRow, between: PoseTable, margins: MarginTable,
-    found: ContactTable, low: FloatRow, high: FloatRow,
-) -> None:  # fmt: skip
-    """Halve out where rocking, or the tilt after it, jumps on the way from some poses to the next.
-
-    Parameters
-    ----------
-    ground, body, poses, a, g, touch
-        As for :func:`kaidan.contact.kernel.margins.pose_margins`.
-    rows
-        The first of each two poses.
-    side
-        +1 back, -1 front.
-    whence
-        Inclination from which each came down by rocking [rad]; minus infinity: from none.
-    of_tilt, half, falls
-        1 where the tilt jumps, 0 where the rocking does; figure between its values before and after
-        [rad]; 1 where it is more before.
-    within
-        To which the places are found [m].
-    share, between, margins, found
-        Scratch: one share, pose, row of margins; the contacts of a pose.
-    low, high
-        To be filled: shares of the arclength to the next pose, just before and just after.
-    """
-    longest = 0.0
-    for k in range(rows.shape[0]):
-        longest = max(longest, poses[rows[k] + 1, POSE_S] - poses[rows[k], POSE_S])
-    hint = 0
-    column = OUTER_REAR if side > 0.0 else OUTER_FRONT
-    for k in range(rows.shape[0]):
-        low[k] = 0.0
-        high[k] = 1.0
-        while longest * (high[k] - low[k]) > within:
-            share[0] = 0.5 * (low[k] + high[k])
-            poses_between(ground, body, poses, rows[k : k + 1], share, between)
-            pose_margins(ground, body, between, 1, a, g, touch, margins, found)
-            reach = max(whence[k] - between[0, POSE_PHI], 0.0) + ROCKING
-            tilt, rocks_by, hint = carrying_tilt(
-                ground, body, int(margins[0, column]), between[0, POSE_X], between[0, POSE_Z],
-                between[0, POSE_PHI], side, margins[0, TILT], reach, int(margins[0, WITHOUT]),
-                hint,
-            )  # fmt: skip
-            figure = tilt if of_tilt[k] == 1 else rocks_by
-            if (figure > half[k]) == (falls[k] == 1):
-                low[k] = share[0]
-            else:
-                high[k] = share[0]
+    return carrying_tilt(
+        ground, body, int(margins[row, column]), poses[row, POSE_X], poses[row, POSE_Z],
+        poses[row, POSE_PHI], side, margins[row, TILT], tolerance, int(margins[row, WITHOUT]),
+        hint,
+    )  # fmt: skip

@@ -224,6 +224,7 @@ def poses_between(
     poses: PoseTable,
     rows: IntArray,
     shares: FloatRow,
+    count: int,
     between: PoseTable,
 ) -> None:
     """Work out poses between two of a line of poses.
@@ -238,10 +239,12 @@ def poses_between(
         The first of each two.
     shares
         Of the arclength to the next (0 to 1).
+    count
+        How many.
     between
         Table of poses to be filled; short of them where the corrector fails.
     """
-    for k in range(rows.shape[0]):
+    for k in range(count):
         row = rows[k]
         x = poses[row, POSE_X]
         z = poses[row, POSE_Z]
