@@ -42,6 +42,8 @@ PATIENCE = 5.0
 MEMORY = 4 << 30
 """Address space of a mutant beyond what the tests have taken already [B]: of many modules that is
 gigabytes, and a limit on all of it would end mutants that nothing notices."""
+OFF = [part for name in ("cacheprovider", "xdist", "faulthandler") for part in ("-p", f"no:{name}")]
+"""Plugins that are of no use here; the last would tell of each mutant that ends its process."""
 
 
 def load(path: Path) -> None:
@@ -317,9 +319,7 @@ def main() -> None:
     if chosen.native or chosen.compiled:
         os.environ["KAIDAN_KERNEL"] = "native"
     tests = sys.argv[split + 1 :]
-    pytest.main(
-        ["-q", "-s", "-p", "no:cacheprovider", "-p", "no:xdist", *tests], plugins=[Run(chosen)]
-    )
+    pytest.main(["-q", "-s", *OFF, *tests], plugins=[Run(chosen)])
 
 
 if __name__ == "__main__":

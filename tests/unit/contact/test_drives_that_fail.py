@@ -11,8 +11,10 @@ import pytest
 from contact_cases import stadium
 from kaidan.contact import Event, Feature, FeatureKind, Status, body_table, ground_table
 from kaidan.contact import columns as at
-from kaidan.contact.codes import Advance
+from kaidan.contact.codes import Advance, RotationOutcome
 from kaidan.contact.kernel import driver
+from kaidan.contact.kernel.contact_changes import effective_gravity
+from kaidan.contact.kernel.continuation import tilt
 
 LEVEL = ground_table([(-4, 0), (4, 0)])
 C_N, R = 0.1, 0.08
@@ -22,11 +24,11 @@ NUDGE = 1e-5  # m: the first by which a robot is let down farther on
 STARTS = (0.3, C_N, 0.0, 1.0, 0.0, 0.0, REAR, FRONT)
 
 
-def driven(x_end=0.4, rows=300):
+def driven(x_end=0.4, rows=300, a=0.0):
     """A drive over a floor from 0.3 m on."""
     tables = [np.full((rows, columns), math.nan) for columns in
               (at.POSE_COLUMNS, at.EVENT_COLUMNS, at.ROTATION_COLUMNS)]  # fmt: skip
-    found = driver.drive(LEVEL, BODY, 0.3, x_end, 0.0, 0.01, 0.0, 9.8, 0.0, 0.2, *tables)
+    found = driver.drive(LEVEL, BODY, 0.3, x_end, 0.0, 0.01, a, 9.8, 0.0, 0.2, *tables)
     status, poses, events, rotations = found
     return status, tables[0][:poses], tables[1][:events], rotations
 
@@ -76,6 +78,103 @@ def test_a_failure_where_it_can_not_be_let_down_ends_the_drive(monkeypatch):
     )
     status, poses, events, _ = driven()
     assert (status, len(poses), len(events)) == (Status.NOT_CONVERGED, 3, 0)
+
+
+@pytest.mark.parametrize("before", [0, 2])
+def test_twenty_steps_that_lead_nowhere_are_borne(monkeypatch, before):
+    def outcome(call, here):
+        return None if call <= before else (Advance.NOTHING, here, 0, 0.0, False)
+
+    calls = put(monkeypatch, outcome)
+    status, poses, events, _ = driven()
+    assert status == Status.STUCK
+    assert len(calls) == before + 21
+    assert events[:, [at.EVENT_KIND, at.EVENT_POSE]].tolist() == [[Event.STUCK, len(poses) - 1]]
+
+
+def test_short_steps_are_joined(monkeypatch):
+    """Steps of 4 mm: a pose is written once 7 mm lie behind it, so each 8 mm."""
+    step_on = driver.step_on
+
+    def step(ground, body, here, x_end, step, *rest):
+        return step_on(ground, body, here, x_end, 0.004, *rest)
+
+    monkeypatch.setattr(driver, "step_on", step)
+    status, poses, _, _ = driven(x_end=0.4)
+    assert status == Status.OK
+    assert np.diff(poses[:-1, at.POSE_S]) == pytest.approx([0.008] * 12, abs=1e-9)
+
+
+def test_full_tables_and_steps_without_end_are_too_long(monkeypatch):
+    calls = put(monkeypatch, lambda call, here: failed(here))
+    status, poses, events, _ = driven(rows=10)
+    assert (status, len(poses), len(events), len(calls)) == (Status.TOO_LONG, 1, 6, 6)
+    monkeypatch.undo()
+    # nothing is written of steps of a micrometre: thirty for each row
+    calls = put(
+        monkeypatch,
+        lambda call, here: (Advance.NOTHING, (here[0] + 1e-6, *here[1:]), 0, 1e-6, False),
+    )
+    status, poses, events, _ = driven(rows=10)
+    assert (status, len(poses), len(events), len(calls)) == (Status.TOO_LONG, 1, 0, 300)
+
+
+@pytest.mark.parametrize("up", [1.0, -1.0])
+@pytest.mark.parametrize("t_x", [1.0, -1.0])
+def test_driven_upright_it_falls_the_way_it_leans(monkeypatch, up, t_x):
+    there = (0.31, C_N, up * (driver.UPRIGHT - 5e-5), t_x, 0.0, 0.0, REAR, FRONT)
+    put(monkeypatch, lambda call, here: (Advance.NOTHING, there, 0, 0.01, False))
+    status, poses, events, _ = driven()
+    fell = [Event.FELL_BACKWARD, 1] if up > 0.0 else [Event.FELL_FORWARD, 1]
+    assert status == (Status.FELL_BACKWARD if up > 0.0 else Status.FELL_FORWARD)
+    assert events[:, [at.EVENT_KIND, at.EVENT_POSE]].tolist() == [fell]
+    assert len(poses) == 2
+
+
+def test_effective_gravity_follows_the_way_that_an_exchange_leads_to(monkeypatch):
+    """Its tilt before the exchange by the way up to it, after it by the way on."""
+    a, before, after = 2.0, (0.8, 0.6, 0.0), (0.6, 0.64, 0.48)
+    there = (0.31, C_N, 0.0, *before, REAR, FRONT)
+    put(monkeypatch, lambda call, here: (FRONT, there, 0, 0.01, False))
+    told = []
+
+    def exchange(ground, body, made, here, kappa, path, leg, poses, n_pose, events, n_event):
+        told.append((made, kappa))
+        return True, (*here[:3], *after, *here[6:]), n_pose, n_event
+
+    def onset(ground, body, here, kappa):
+        told.append(kappa)
+        return -1.0
+
+    def rotate_on(ground, body, here, sense, kappa, gyration, gravity, path, leg, *rest):
+        told.append((sense, kappa, gyration, gravity, path, leg))
+        return Status.STUCK, here, 2, 0, 1, 0
+
+    for each in (exchange, onset, rotate_on):
+        monkeypatch.setattr(driver, each.__name__, each)
+    status, *_, rotations = driven(a=a)
+    assert (status, rotations) == (Status.STUCK, 1)
+    leans = tilt(a, 9.8, 0.0, *after[:2])
+    assert told[0] == (FRONT, tilt(a, 9.8, 0.0, *before[:2]))
+    assert told[1] == leans
+    assert told[2][:2] == (-1.0, leans)
+    assert told[2][3] == effective_gravity(a, 9.8, *after[:2])
+    assert told[2][2::2] == (0.2, pytest.approx(0.01, abs=1e-6))
+    assert told[2][5] == 1
+
+
+def test_no_drive_goes_on_from_a_pair_without_a_line(monkeypatch):
+    """What arrests it is one contact by two names."""
+    arrested = (RotationOutcome.ARRESTED, REAR, REAR, 0.3, C_N, 0.0, 0.1, 0, 5)
+    monkeypatch.setattr(driver, "rotate", lambda *given: arrested)
+    poses, events, rows = (np.full((4, columns), 7.0) for columns in
+                           (at.POSE_COLUMNS, at.EVENT_COLUMNS, at.ROTATION_COLUMNS))  # fmt: skip
+    found = driver.rotate_on(
+        LEVEL, BODY, STARTS, -1.0, 0.0, 0.2, 9.8, 1.0, 1, 0, poses, 1, events, 0, rows, 0
+    )
+    assert found == (Status.NOT_CONVERGED, (*STARTS[:6], REAR, REAR), 1, 0, 0, 5)
+    assert (poses == 7.0).all()
+    assert (events == 7.0).all()
 
 
 @pytest.mark.parametrize("short", [-1e-12, 5e-10, 3e-9])

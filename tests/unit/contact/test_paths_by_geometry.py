@@ -271,6 +271,7 @@ def test_rotations_lead_from_one_line_to_the_next(case):
         arrested = each.outcome is RotationOutcome.ARRESTED
         assert arrested == each.arrested
         if arrested:
+            assert Event.ARRESTED in case.events_at[row + 1]
             assert each.end == poses.placement(row + 1)
             assert each.sense * (each.end.inclination - each.start.inclination) == pytest.approx(
                 each.angle, abs=1e-9

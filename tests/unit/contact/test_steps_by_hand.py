@@ -619,3 +619,19 @@ def test_one_contact_by_another_name_turns_on_as_before(sense):
         assert (good, lost, there[6:]) == (True, front, (rear, front + at.PART))
         assert there[3:6] == pytest.approx(way, abs=1e-9)
     assert turns > 2
+
+
+def test_one_contact_by_another_name_is_no_event():
+    """The pose that is written last has the other name from then on."""
+    body = body_table([TRACK[0], TRACK[0]])
+    made = FRONT + at.PART
+    poses, events = np.full((4, at.POSE_COLUMNS), 7.0), np.full((3, at.EVENT_COLUMNS), 7.0)
+    good, there, *counts = driver.exchange(
+        LEVEL, body, made, ON_LEVEL, 0.0, 2.5, 3, poses, 2, events, 1
+    )
+    assert (good, counts) == (True, [2, 1])
+    assert there == pytest.approx((*ON_LEVEL[:6], REAR, made), abs=1e-12)
+    columns = [at.POSE_S, at.POSE_LEG, at.POSE_REAR, at.POSE_FRONT]
+    assert poses[1, columns].tolist() == [2.5, 3, REAR, made]
+    assert (poses[[0, 2, 3]] == 7.0).all()
+    assert (events == 7.0).all()
