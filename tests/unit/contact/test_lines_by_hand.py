@@ -112,10 +112,10 @@ def test_no_pose_touches_two_points_farther_apart_than_the_robot_is_long(x, z):
         assert (u_x, u_z, u_w) == (1.0, 0.0, 0.0)
 
 
-def test_an_end_passes_many_points_in_one_step():
-    """The tail comes down a hill of 0.3 m in radius, the nose on the floor: points 0.6 mm apart."""
+def down_a_hill(count):
+    """The tail on a hill of 0.3 m in radius and so many points, the nose on the floor."""
     robot = stadium(0.5, 0.25, 0.1, 0.08)
-    angles = np.linspace(-0.58, 0.58, 601)
+    angles = np.linspace(-0.58, 0.58, count)
     hill = zip(0.3 * np.sin(angles), 0.3 * (np.cos(angles) - math.cos(0.58)), strict=True)
     line = [(-9, 0), *hill, (9, 0)]
     ground, body, x = ground_table(line), body_table(robot), 0.36
@@ -123,6 +123,22 @@ def test_an_end_passes_many_points_in_one_step():
     assert there.found
     z, phi, pair = there.z, there.inclination, (there.rear, there.front)
     *way, _ = tangent(ground, body, *pair, x, z, math.cos(phi), math.sin(phi))
+    return ground, body, pair, (x, z, phi), way
+
+
+def test_a_step_in_which_a_contact_takes_too_many_names_is_too_long():
+    """Points 58 um apart, two names each; the end that passes them moves by half of a step."""
+    ground, body, pair, pose, way = down_a_hill(6001)
+    passed = {}
+    for ds in (1e-3, 4e-3):
+        good, *_, rear, _ = stepped(ground, body, *pair, *pose, *way, ds)
+        passed[good] = (rear >> at.POINT_BITS) - (pair[0] >> at.POINT_BITS)
+    assert 5 < passed[True] < 20 <= passed[False] <= 21
+
+
+def test_an_end_passes_many_points_in_one_step():
+    """Points 0.6 mm apart."""
+    ground, body, pair, (x, z, phi), way = down_a_hill(601)
     good, x1, z1, _, c, s, *_, rear, front = stepped(ground, body, *pair, x, z, phi, *way, 0.01)
     assert good
     assert front == pair[1]

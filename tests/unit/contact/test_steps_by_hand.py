@@ -561,13 +561,40 @@ def test_effective_gravity_does_not_hang_on_the_size_of_the_way():
     assert contact_changes.effective_gravity(4.0, 4.0, 0.0, -1.0) == 0.0
 
 
-def rotated(ground, place, pivot, sense, gravity=9.7):
+def rotated(ground, place, pivot, sense, gravity=9.7, gyration=0.2):
     """What `rotate` returns, and the row that it writes."""
     rows = np.full((1, at.ROTATION_COLUMNS), math.nan)
     found = contact_changes.rotate(
-        ground, BODY, pivot, *place, sense, 0.0, 0.2, gravity, 2.5, rows, 0, 0
+        ground, BODY, pivot, *place, sense, 0.0, gyration, gravity, 2.5, rows, 0, 0
     )
     return found, rows[0]
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_momentum_about_the_end_that_comes_down(sense):
+    """On a slope one end is down, the other one falls from 0.3 rad above the slope."""
+    k = int(np.flatnonzero(SLOPE[:, 0] < 0.0)[-1])
+    ends = {1.0: (at.DISC_2, C_L), -1.0: (at.DISC_1, C_L - L)}
+    kind, along = ends[sense]
+    slope, turn = (complex(math.cos(phi), math.sin(phi)) for phi in (INCLINED, -sense * 0.3))
+    com = (0.7 + 1j * R - complex(along, R - C_N) * turn) * slope
+    place = com.real, com.imag, INCLINED - sense * 0.3
+    gyration = 0.4  # so large that it turns on about the end that comes down
+    found, row = rotated(SLOPE, place, at.POINT * k + kind, sense, gyration=gyration)
+    assert found[0] == RotationOutcome.ARRESTED
+    foot = 0.7 * slope
+    assert row[[at.PIVOT_X, at.PIVOT_Z]] == pytest.approx([foot.real, foot.imag], abs=1e-12)
+    rolled = 0.7 - sense * R * 0.3  # the end that is down rolls by the angle
+    com = (rolled - along + 1j * C_N) * slope
+    assert found[3:6] == pytest.approx((com.real, com.imag, INCLINED), abs=1e-9)
+    arm = complex(ends[-sense][1], -C_N)
+    rate = row[at.RATE_AFTER]
+    assert rate > 0.1
+    kinetic = 0.5 * (abs(arm) ** 2 + gyration**2) * rate**2
+    assert row[at.KINETIC] == pytest.approx(kinetic)
+    # the top over that end is farther off
+    assert row[at.BARRIER] > kinetic
+    assert row[at.TOPPLES] == 0.0
 
 
 def test_what_is_arrested_at_once_is_no_rotation():
