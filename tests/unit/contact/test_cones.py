@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from kaidan.contact import using_kernel
-from kaidan.contact.kernel.cones import BELOW, held_below, narrowed, root_below
+from kaidan.contact.kernel.cones import BELOW, NARROWEST, held_below, narrowed, root_below
 from kaidan.contact.switch import kernel
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.cones import cone_margin
@@ -47,6 +47,8 @@ def test_on_one_plane_the_margin_is_the_friction_less_the_slope():
     other = [c - 0.1 * s, s - 0.1 * c, -slope, 0.7]
     found = cone_margins([*one, *other, 0.0, STANDARD_GRAVITY])
     np.testing.assert_allclose(found, 0.7 - slope, atol=1e-5)
+    # on the level no cone is too narrow, but for the narrowest that is looked at
+    assert found[0] == pytest.approx(0.7 - NARROWEST, abs=1e-9)
 
 
 def test_contacts_at_one_place_are_not_known():
@@ -93,7 +95,8 @@ def test_a_bound_that_turns_round_is_looked_at_there():
     ("square", "line", "constant", "below", "root"),
     [(1.0, -3.0, 2.0, 5.0, 2.0), (1.0, -3.0, 2.0, 2.0, 1.0), (1.0, -3.0, 2.0, 1.0, -math.inf),
      (-1.0, 3.0, -2.0, 5.0, 2.0), (0.0, 2.0, -1.0, 5.0, 0.5), (0.0, 0.0, 1.0, 5.0, -math.inf),
-     (1.0, 0.0, 1.0, 5.0, -math.inf), (1.0, 3.0, 0.0, 5.0, 0.0), (1.0, 3.0, 0.0, 0.0, -3.0)],
+     (1.0, 0.0, 1.0, 5.0, -math.inf), (1.0, 3.0, 0.0, 5.0, 0.0), (1.0, 3.0, 0.0, 0.0, -3.0),
+     (0.0, -1.0, 0.5, 5.0, 0.5)],
 )  # fmt: skip
 def test_the_largest_root_below_a_number(square, line, constant, below, root):
     assert root_below(square, line, constant, below) == pytest.approx(root)

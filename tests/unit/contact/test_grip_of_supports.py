@@ -91,7 +91,7 @@ def both_ways(row, *how):
 
 
 @pytest.mark.parametrize("rigid", [True, False])
-@pytest.mark.parametrize("curvature", [0.0, 8.0])
+@pytest.mark.parametrize("curvature", [0.0, 0.6, 8.0])
 @pytest.mark.parametrize("lean", [0.35, 0.6, 1.1])
 @pytest.mark.parametrize(
     ("s", "w", "r"), [(S, W, RN), (0.024, 0.001, RN), (S, W, 0.002), (0.06, W, 0.05)]
@@ -135,9 +135,10 @@ def test_no_tip_stands(change):
 
 @pytest.mark.parametrize("lift", [-0.06, -0.02, 0.0, 0.03])
 @pytest.mark.parametrize("radius", [0.05, 0.12])
-def test_a_tip_stands_over_the_edge_of_a_face(radius, lift):
+@pytest.mark.parametrize("normal", [-1.4, -0.4])
+def test_a_tip_stands_over_the_edge_of_a_face(normal, radius, lift):
     """The robot stands on its grousers: its axle is higher by one than the rigid outline's."""
-    row = support(0.2j, normal=-1.4, tread=0.1, curvature=1.0 / radius, lift=lift + H)
+    row = support(0.2j, normal=normal, tread=0.1, curvature=1.0 / radius, lift=lift + H)
     found = both_ways(row, H, S, W, RN, True)
     if lift > grousers_at_edges.reach_over_edge(R=radius, h=H, s=S):
         assert found == (False, 0.0, 0.0, 0.0, 0.0)
@@ -209,6 +210,40 @@ def test_a_rigid_tip_stands_ahead_and_the_other_support_rolls(
         later = -SLOPE + math.asin(max(left, 0.0))
         first = cones(stands, TIP[1], TREADS, other, rolled, phi)
         either.append(min(first, cones(stands, later, TREADS, other, axis, phi)))
+    assert found == pytest.approx(max(either), abs=1e-9)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize(
+    ("one", "other", "own", "its", "tread", "tilt", "gamma"),
+    [
+        (0.11 - 0.27j, -0.37 - 0.39j, -0.98, -1.28, 0.06, -0.39, 0.54),
+        (-0.25 + 0.04j, 0.25 - 0.07j, -1.15, -1.30, 0.15, -0.46, 0.25),
+        (0.02 - 0.14j, -0.33 + 0.09j, -0.69, -0.01, 0.16, 0.1, 0.59),
+    ],
+)
+def test_a_tip_rolls_no_farther_than_onto_the_face(one, other, own, its, tread, tilt, gamma, side):
+    """The face is square to the tread; each of these is held the better for it, or the worse."""
+    rows = np.array([support(one, normal=own), support(other, normal=its, tread=tread)])
+    tip, rolls = (True, side * tilt, 0.006, 0.08, 0.011), 0.006 + 2 * RN * gamma
+    if side < 0.0:
+        rows[:, [at.SUPPORT_X, at.SUPPORT_NORMAL, at.SUPPORT_TREAD]] *= -1.0
+    how = (NOSINGS, TREADS, FACES, H, S, RN, True, side)
+    # the belt passes the own support no more slowly: the tip does not run back
+    back = tilt_run_back(rows, 0, 1, tip, S, RN, side)
+    found = margin_standing(rows, 0, 1, loads(), 0, tip, (False, 0.0, 0.0, rolls, 0.0), *how)
+    if math.isnan(back):
+        assert found == -math.inf
+        return
+    stands = one + (tip[4] * np.exp(-1j * own) if one.real > other.real else 0.0)
+    axis, face = its - H / abs(one - other), tread - math.pi / 2
+    either = []
+    for share in (0.0, 1.0, 2.0):
+        rolled = max(axis - math.asin(min(share * gamma, 1.0)), min(face, axis))
+        left = max(math.sin(side * back - own) - (2.0 - share) * gamma, 0.0)
+        first = cones(stands, side * back, TREADS, other, rolled, NOSINGS)
+        then = cones(stands, own + math.asin(left), TREADS, other, axis, NOSINGS)
+        either.append(min(first, then))
     assert found == pytest.approx(max(either), abs=1e-9)
 
 

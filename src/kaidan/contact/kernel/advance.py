@@ -149,9 +149,10 @@ def careful(
 def runs_past(
     ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
 ) -> bool:
-    """Whether a disc's foot has run past the end of its segment, where the ground turns up."""
-    if feature & KIND_MASK == VERTEX:
-        return False
+    """Whether a disc's foot has run past the end of its segment, where the ground turns up.
+
+    A vertex lies at the begin of its own.
+    """
     p_x, p_z = contact_point(ground, body, feature, x, z, c, s)
     return beyond_segment(ground, feature >> POINT_BITS, p_x, p_z) > PAST
 

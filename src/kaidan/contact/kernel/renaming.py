@@ -203,11 +203,10 @@ def record_renamings(
         )  # fmt: skip
         if cut > left - 2.0 * PLACE:  # the pose at the end of the step is it
             break
-        good, x2, z2, phi2, _, _, u_x, u_z, u_w, rear2, front2 = stepped(
+        # found, as `renaming` has looked there
+        _, x2, z2, phi2, _, _, u_x, u_z, u_w, rear2, front2 = stepped(
             ground, body, rear, front, x, z, phi, t_x, t_z, t_w, cut
         )
-        if not good:
-            break
         left -= cut
         length += distance(x, z, phi, x2, z2, phi2)
         x, z, phi, t_x, t_z, t_w, rear, front = x2, z2, phi2, u_x, u_z, u_w, rear2, front2
