@@ -330,7 +330,7 @@ def test_poses_between_two_lie_on_the_line(ends, back):
     poses[1, at.POSE_LEG] = 2
     shares = np.array([0.0, 0.25, 0.6, 1.0])
     between = np.full((4, at.POSE_COLUMNS), math.nan)
-    poses_between(ground, BODY, poses, np.ones(4, dtype=np.int64), shares, between)
+    poses_between(ground, BODY, poses, np.ones(4, dtype=np.int64), shares, 4, between)
     length = abs(ALONG[then] - ALONG[first])
     for share, row in zip(shares, between, strict=True):
         s = ALONG[first] + (ALONG[then] - ALONG[first]) * share
@@ -348,7 +348,10 @@ def test_a_pose_between_is_by_the_names_that_hold_there():
     there = step(CORNER, BODY, here, 0.01)
     poses = table_of((*here[:3], *here[6:], 0.0), (*there[:3], *there[6:], chord(here, there)))
     between = np.full((2, at.POSE_COLUMNS), math.nan)
-    poses_between(CORNER, BODY, poses, np.zeros(2, dtype=np.int64), np.array([0.3, 0.7]), between)
+    rows, shares = np.zeros(2, dtype=np.int64), np.array([0.3, 0.7])
+    poses_between(CORNER, BODY, poses, rows, shares, 1, between)
+    assert np.isnan(between[1]).all()
+    poses_between(CORNER, BODY, poses, rows, shares, 2, between)
     assert between[:, at.POSE_FRONT].tolist() == [FRONT, code(1, FeatureKind.VERTEX)]
     assert between[:, at.POSE_REAR].tolist() == [REAR, REAR]
 
@@ -366,7 +369,7 @@ def test_a_pose_between_two_on_a_steep_slope(back):
         (one.real, one.imag, slope, *pair, 1.0), (other.real, other.imag, slope, *pair, 1.1)
     )
     between = np.full((1, at.POSE_COLUMNS), math.nan)
-    poses_between(ground, BODY, poses, np.zeros(1, dtype=np.int64), np.array([0.5]), between)
+    poses_between(ground, BODY, poses, np.zeros(1, dtype=np.int64), np.array([0.5]), 1, between)
     half = (0.15 + 1j * C_N) * u
     found = between[0, [at.POSE_X, at.POSE_Z, at.POSE_PHI, at.POSE_S]]
     assert found == pytest.approx([half.real, half.imag, slope, 1.05], abs=1e-9)
@@ -378,7 +381,7 @@ def test_a_pose_so_far_that_twenty_steps_do_not_lead_there_is_told_where_it_is()
     pair = code(0, FeatureKind.DISC_1), code(2, FeatureKind.VERTEX)
     poses = table_of((*LINE[0], *pair, 1.0), (*LINE[100], *pair, 6.0))
     between = np.full((1, at.POSE_COLUMNS), math.nan)
-    poses_between(ground, BODY, poses, np.zeros(1, dtype=np.int64), np.array([1.0]), between)
+    poses_between(ground, BODY, poses, np.zeros(1, dtype=np.int64), np.array([1.0]), 1, between)
     end = float(between[0, at.REAR_X])
     assert BEGIN + 0.2 < end < -0.05
     line, along = line_over_a_nosing(BEGIN, end)
