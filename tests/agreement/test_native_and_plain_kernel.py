@@ -8,7 +8,7 @@ from contact_cases import LANDING, random_robot, random_terrain
 from kaidan.contact import (
     Job,
     first_rock,
-    friction_peaks,
+    samples_of,
     stand_in_turn,
     traverse,
     traverse_many,
@@ -33,21 +33,19 @@ def same(plain, native):
 
 
 def same_between(path, seed, acceleration):
-    """Likewise what is looked for between poses: peaks of the friction, and the first rock."""
+    """Likewise what is looked for between poses: samples of phases, and the first rock."""
     rng = np.random.default_rng(seed)
     count = len(path.poses)
-    friction = path.margins.required_friction
-    group, narrow = rng.integers(-1, 3, count), rng.random(count - 1) < 0.05
-    values = np.where(np.isfinite(friction), friction, np.inf)
+    phase = np.sort(rng.integers(0, 3, count))
     rows = np.sort(rng.choice(count, size=max(count // 2, 1), replace=False))
     whence = np.where(rng.random(count) < 0.3, path.inclination + 0.1, -np.inf)
     side, own = (1.0, -1.0)[seed % 2], max(count - seed % 3, 1)
     found = []
     for kernel in ("plain", "native"):
         with using_kernel(kernel):
-            peaks = friction_peaks(path, values, group, narrow, 0.02, acceleration=acceleration)
+            seen = samples_of(path, phase, 1e-7, acceleration=acceleration)
             rock = first_rock(path, rows, side, own=own, whence=whence, acceleration=acceleration)
-            found.append((peaks.rows, peaks.path.poses.table, peaks.path.margins.table, rock))
+            found.append((seen.rows, seen.path.poses.table, seen.path.margins.table, rock))
     for one, other in zip(*found, strict=True):
         np.testing.assert_array_equal(one, other)
 

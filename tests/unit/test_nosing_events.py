@@ -16,51 +16,23 @@ from kaidan.traversal.nosing_events import TOUCH, nosing_events
 G = 9.80665
 
 
-class Rows(SimpleNamespace):
-    def __len__(self):
-        return len(self.s)
-
-
 @pytest.fixture(autouse=True)
 def passed(monkeypatch):
     """A path made for it reports the passings that were made with it."""
 
-    def told(path, rows, touch):
+    def told(path, touch):
         assert touch == TOUCH
-        if path.asked is not None:
-            path.asked.extend(rows.tolist())
         return np.array(path.passings, dtype=float).reshape(-1, 6)
 
     monkeypatch.setattr(contact, "nosings_passed", told)
 
 
-def path_of(passings, asked=None, **margins):
-    """A path of ten poses with some passings of its straight pieces."""
+def path_of(passings):
+    """A path of ten poses with some passings."""
     n = np.arange(10.0)
-    poses = Rows(
-        leg=np.array([0] * 8 + [1] * 2),
-        inclination=np.where(n < 3, 0.0, 1e-8),  # turns from the third pose to the fourth
-        s=np.array([0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0, 5.5, 6.0, 7.0]),
-        placements=np.c_[n, n**2, -n],
-    )
     return SimpleNamespace(
-        poses=poses, passings=passings, asked=asked,
-        margins=SimpleNamespace(**margins) if margins else None,
+        poses=SimpleNamespace(placements=np.c_[n, n**2, -n]), passings=passings
     )  # fmt: skip
-
-
-def test_pieces_are_straight_and_beside_a_change_of_contacts():
-    asked = []
-    nosing_events(path_of([], asked))
-    assert asked == [0, 1, 3, 5, 6, 8]  # no turn, some way, one line of poses
-    asked.clear()
-    contacts = np.array([2] * 3 + [3] * 7)
-    outermost = np.array([[1, 4]] * 7 + [[1, 5]] * 3)
-    nosing_events(path_of([], asked, contacts=contacts, outermost=outermost))
-    assert asked == [1, 3, 5, 6]  # changes at 2 and 6, and the pieces beside them
-    asked.clear()
-    nosing_events(path_of([], asked, contacts=contacts, outermost=outermost[:1].repeat(10, 0)))
-    assert asked == [1, 3]
 
 
 def test_an_event_lies_between_two_poses():
@@ -72,20 +44,6 @@ def test_an_event_lies_between_two_poses():
         EventRecord(Event.LEFT, 2.2, 3.25, 10.75, -3.25, one, -1, 3),
         EventRecord(Event.REACHED, 4.0, 5.0, 25.0, -5.0, other, -1, 5),
     ]
-
-
-def test_from_one_part_to_the_next_in_line_a_nosing_neither_comes_nor_goes():
-    def kept(*passings):
-        rows = [[s, reached, point, 0, 1, 0] for s, reached, point in passings]
-        return [(e.s, Feature.of(e.feature).point) for e in nosing_events(path_of(rows))]
-
-    assert kept((1.0, 0, 5), (1.0 + 5e-7, 1, 5)) == []
-    assert kept((1.0, 1, 5), (1.0, 0, 5), (1.0, 1, 5)) == [(1.0, 5)]
-    for other in ((1.0, 1, 6), (1.0, 0, 5), (1.01, 1, 5)):  # another nosing, way, place
-        assert kept((1.0, 0, 5), other) == [(1.0, 5), (other[0], other[2])]
-    between = [(1.0, 0, 10 + k) for k in range(8)]
-    assert len(kept((1.0, 0, 5), *between[:7], (1.0, 1, 5))) == 7
-    assert len(kept((1.0, 0, 5), *between, (1.0, 1, 5))) == 10  # only eight are looked back on
 
 
 def test_place_along_a_flat_by_hand():

@@ -1,5 +1,6 @@
 """Quasi-static contact of a tracked robot with any two-dimensional profile, numbers only."""
 
+from kaidan.contact.between import Between, Rock, first_rock, samples_of
 from kaidan.contact.codes import (
     BELLY,
     FLIPPER,
@@ -16,9 +17,8 @@ from kaidan.contact.codes import (
 from kaidan.contact.contacts import Contact, PairForces, pair_forces, spring_loads
 from kaidan.contact.heights import TouchingHeights, touching_heights
 from kaidan.contact.margin_records import Job, Margins, Summaries
-from kaidan.contact.nosings import nosings_passed, without_nosings
+from kaidan.contact.nosings import nosings_passed
 from kaidan.contact.path import Path, joined
-from kaidan.contact.peaks import Between, Rock, first_rock, friction_peaks
 from kaidan.contact.rating import Belts, Ratings, rate_many
 from kaidan.contact.records import (
     ONE_PLACE,
@@ -86,7 +86,6 @@ __all__ = [
     "arrives",
     "body_table",
     "first_rock",
-    "friction_peaks",
     "ground_of",
     "ground_table",
     "held_while_slipping",
@@ -100,6 +99,7 @@ __all__ = [
     "rate_many",
     "resting_height",
     "rotated",
+    "samples_of",
     "settle",
     "spring_loads",
     "stand_in_turn",
@@ -111,5 +111,4 @@ __all__ = [
     "using_kernel",
     "without_folds",
     "without_native",
-    "without_nosings",
 ]

@@ -2,26 +2,22 @@
 
 import numpy as np
 
-from kaidan.contact.codes import FeatureTable
 from kaidan.contact.columns import PASSED_COLUMNS
-from kaidan.contact.path import TOUCH, Path
-from kaidan.contact.records import Events
+from kaidan.contact.path import Path
 from kaidan.contact.switch import kernel
-from kaidan.contact.tables import FloatArray, IntArray, margin_tables
-from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.contact.tables import FloatArray, margin_tables
 
 
-def nosings_passed(path: Path, rows: IntArray, touch: float) -> FloatArray:
-    """Nosings that a flat reaches or leaves on the way from some poses to the next.
+def nosings_passed(path: Path, touch: float) -> FloatArray:
+    """Nosings that a flat reaches or leaves on straight pieces of a path.
 
-    Those of which an event tells are left out.
+    Those of which an event tells are left out, and those that pass from one part to the next in
+    line with it.
 
     Parameters
     ----------
     path
-        As driven.
-    rows
-        The first of each two poses, which lie on one straight piece of the path.
+        As driven; with margins only pieces beside a change of contacts are looked at.
     touch
         Gap up to which a nosing lies on a flat [m].
 
@@ -31,47 +27,15 @@ def nosings_passed(path: Path, rows: IntArray, touch: float) -> FloatArray:
         Arclength [m], 1 where it is reached, point of the ground, part, row before, share of
         the arclength to the next pose; in this order.
     """
-    if len(rows) == 0:
-        return np.empty((0, PASSED_COLUMNS))
-    size, count = 0, 2 * len(rows) + 8
+    known = path.margins is not None
+    margins = margin_tables(1)[0] if path.margins is None else path.margins.table
+    rows = np.empty(len(path.poses), dtype=np.int64)
+    size, count = 0, len(rows) + 8
     while count > size:
         size = count
         table = np.empty((size, PASSED_COLUMNS))
-        count = kernel().nosings_passed(
-            path.ground.table, path.body.table, path.poses.table, path.events.table, rows,
-            touch, path.reach, table,
+        count = kernel().find_passings(
+            path.ground.table, path.body.table, path.poses.table, margins, known,
+            path.events.table, touch, path.reach, rows, table,
         )  # fmt: skip
-    found = table[:count]
-    return found[np.lexsort(found.T[::-1])]
-
-
-def without_nosings(
-    path: Path, events: Events, *, acceleration: float = 0.0, gravity: float = STANDARD_GRAVITY
-) -> Path:
-    """Poses at which nosings come under the flat or leave it, as if these were not there.
-
-    Parameters
-    ----------
-    path
-        As driven.
-    events
-        REACHED and LEFT, between two poses on one straight piece of the path.
-    acceleration, gravity
-        As for :meth:`Path.margins_of`.
-
-    Returns
-    -------
-    Path
-        A pose for each event, with its margins just before the nosing is reached, or just
-        after it is left; neither events nor rotations.
-    """
-    begin = path.s[events.pose]
-    shares = (events.s - begin) / (path.s[events.pose + 1] - begin)
-    poses = path.table_between(events.pose, shares)
-    points = FeatureTable.of(events.feature).point
-    margins, found = margin_tables(len(poses))
-    kernel().margins_without(
-        path.ground.table, path.body.table, poses, points, acceleration, gravity, TOUCH,
-        margins, found,
-    )  # fmt: skip
-    return path.with_poses(poses, margins)
+    return table[:count]

@@ -102,6 +102,20 @@ def peak_scratch(size: int, groups: int) -> PeakScratch:
     return found
 
 
+def sample_scratch(size: int) -> tuple[IntArray, FloatArray, FloatArray]:
+    """Rows, poses and margins of this thread, as many; the next search writes over them."""
+    kept: tuple[IntArray, FloatArray, FloatArray] | None = getattr(_of_thread, "samples", None)
+    if kept is not None and len(kept[0]) >= size:
+        return kept
+    found = (
+        np.empty(size, dtype=np.int64), np.empty((size, POSE_COLUMNS)),
+        np.empty((size, MARGIN_COLUMNS)),
+    )  # fmt: skip
+    if size <= KEPT:
+        _of_thread.samples = found
+    return found
+
+
 def holding_scratch(size: int) -> tuple[FloatArray | IntArray, ...]:
     """Tables of :func:`kaidan.contact.kernel.holding.least_held` for a path of so many poses."""
     # the kernel's own modules are not loaded where the native one stands for them

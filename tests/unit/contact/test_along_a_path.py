@@ -2,13 +2,14 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from contact_cases import flight, stadium
 from kaidan import contact
-from kaidan.contact import Event, EventRecord, Feature, FeatureKind, using_kernel
+from kaidan.contact import Event, EventRecord, Feature, FeatureKind, nosings, using_kernel
 from kaidan.contact.kernel.passings import along_flat
 from kaidan.contact.records import Events
 
@@ -49,10 +50,12 @@ def by_hand(path, rows):
 
 @pytest.mark.parametrize("kernel", ["auto", "plain"])
 def test_nosings_that_pass_an_end_of_the_flat(path, kernel):
-    rows = straight(path)
     with using_kernel(kernel):
-        found = contact.nosings_passed(path, rows, TOUCH)
-    expected = by_hand(path, rows)
+        beside_changes = contact.nosings_passed(path, TOUCH)
+        found = contact.nosings_passed(replace(path, margins=None), TOUCH)
+    expected = by_hand(path, straight(path))
+    assert len(beside_changes) > 8
+    assert {*map(tuple, beside_changes.tolist())} <= {*map(tuple, found.tolist())}
     assert len(found) > 8
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9)
 
@@ -60,8 +63,7 @@ def test_nosings_that_pass_an_end_of_the_flat(path, kernel):
 @pytest.mark.parametrize("kernel", ["auto", "plain"])
 @pytest.mark.parametrize("named", ["feature", "other"])
 def test_what_an_event_tells_of_is_left_out(path, kernel, named):
-    rows = straight(path)
-    found = contact.nosings_passed(path, rows, TOUCH)
+    found = contact.nosings_passed(path, TOUCH)
     s, _, point, part, row, _ = found[3].tolist()
     code = Feature(int(point), int(part), FeatureKind.VERTEX).code
     codes = {"feature": -1, "other": -1, named: code}
@@ -71,12 +73,30 @@ def test_what_an_event_tells_of_is_left_out(path, kernel, named):
     told = replace(path, events=Events.of(records))
     with using_kernel(kernel):
         np.testing.assert_array_equal(
-            contact.nosings_passed(told, rows, TOUCH), np.delete(found, 3, axis=0)
+            contact.nosings_passed(told, TOUCH), np.delete(found, 3, axis=0)
         )
 
 
 def test_nothing_passes_on_no_way(path):
-    assert contact.nosings_passed(path, np.empty(0, dtype=np.int64), TOUCH).shape == (0, 6)
+    one = replace(path, poses=path.poses[:1], margins=None)
+    assert contact.nosings_passed(one, TOUCH).shape == (0, 6)
+
+
+def test_there_is_room_for_more_nosings_than_poses(monkeypatch):
+    """Of as many as there are poses, and 8 more, at first."""
+    sizes = []
+
+    def find_passings(*given):
+        sizes.append(len(given[-1]))
+        if len(given[-1]) < 20:
+            return 20
+        given[-1][:3] = np.arange(18.0).reshape(3, 6)
+        return 3
+
+    monkeypatch.setattr(nosings, "kernel", lambda: SimpleNamespace(find_passings=find_passings))
+    few = contact.traverse([(-4, 0), (4, 0)], ROBOT, 0.0, 0.08, step=0.02)
+    assert contact.nosings_passed(few, TOUCH).tolist() == np.arange(18.0).reshape(3, 6).tolist()
+    assert sizes == [len(few.poses) + 8, 20]
 
 
 def slip(path, points, standing, friction, way, sense):

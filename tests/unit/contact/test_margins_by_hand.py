@@ -297,7 +297,7 @@ def test_margins_as_if_an_edge_were_not_there(k):
     margins = np.zeros((2, at.MARGIN_COLUMNS))
     found = np.zeros((8, at.CONTACT_COLUMNS))
     points = np.array([edges[k] // at.POINT, 0])
-    margins_without(ground, body, poses, points, 0.0, GRAVITY, 1e-9, margins, found)
+    margins_without(ground, body, poses, points, 2, 0.0, GRAVITY, 1e-9, margins, found)
     assert margins[:, at.CONTACTS].tolist() == [2, 3]
     assert margins[:, at.WITHOUT].tolist() == points.tolist()
 
@@ -313,7 +313,7 @@ def test_of_edges_on_one_level_one_alone_is_not_there():
     poses[:, [at.REAR_X, at.REAR_Z, at.FRONT_X, at.FRONT_Z]] = -0.2, -ABOVE, 0.2, -ABOVE
     margins = np.zeros((1, at.MARGIN_COLUMNS))
     found = np.zeros((8, at.CONTACT_COLUMNS))
-    margins_without(ground, body, poses, edges[[1]], 0.0, GRAVITY, 1e-9, margins, found)
+    margins_without(ground, body, poses, edges[[1]], 1, 0.0, GRAVITY, 1e-9, margins, found)
     assert margins[0, at.CONTACTS] == 3
     assert margins[0, [at.BACK, at.FRONT]].tolist() == pytest.approx([0.2, 0.2], abs=EXACT)
 

@@ -186,9 +186,14 @@ def test_nosings_come_and_go_where_they_are_left_out():
     path = contact.traverse([*flight, (4, 0.6)], ROBOT, -0.5, 1.0, step=0.05)
     passed = nosing_events(path)
     assert len(passed) > 3
-    assert contact.nosings_passed(path, np.empty((0, 2), dtype=np.int64), 1e-7).shape[0] == 0
-    found = contact.without_nosings(path, passed)
-    assert found.s == pytest.approx(passed.s)
+    count = len(path.poses)
+    found = contact.samples_of(path, np.ones(count, dtype=np.int64), 1e-7, acceleration=0.0)
+    between = slice(count, count + len(passed))
+    assert found.path.s[between] == pytest.approx(passed.s)
+    assert found.rows[between].tolist() == passed.pose.tolist()
+    assert found.rows[:count].tolist() == list(range(count))
+    np.testing.assert_array_equal(found.path.poses.table[:count], path.poses.table)
+    np.testing.assert_array_equal(found.path.margins.table[:count], path.margins.table)
 
 
 # robot at rest

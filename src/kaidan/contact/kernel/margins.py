@@ -357,12 +357,12 @@ def pose_margins(
         margins_at(poses, row, a, g, found, many, margins)
 
 
-@entry
 def margins_without(
     ground: GroundTable,
     body: BodyTable,
     poses: PoseTable,
     without: IntArray,
+    count: int,
     a: float,
     g: float,
     touch: float,
@@ -379,9 +379,11 @@ def margins_without(
         Poses at which a nosing comes under the flat, or leaves it.
     without
         That nosing's point of the ground, for each.
+    count
+        How many.
     """
     hint = 0
-    for row in range(poses.shape[0]):
+    for row in range(count):
         many, hint = contacts_at(
             ground, body, poses[row, POSE_X], poses[row, POSE_Z], poses[row, POSE_PHI], touch,
             found, hint,

@@ -12,6 +12,7 @@ import math
 
 from kaidan.contact.codes import BELLY
 from kaidan.contact.columns import (
+    CONTACTS,
     CONVEX,
     COSINE,
     E_X,
@@ -22,6 +23,9 @@ from kaidan.contact.columns import (
     FLAT,
     KIND,
     KIND_MASK,
+    OUTER_FRONT,
+    OUTER_REAR,
+    PASSED_COLUMNS,
     PASSED_PART,
     PASSED_POINT,
     PASSED_REACHED,
@@ -29,6 +33,7 @@ from kaidan.contact.columns import (
     PASSED_S,
     PASSED_SHARE,
     POINT_BITS,
+    POSE_LEG,
     POSE_PHI,
     POSE_S,
     POSE_X,
@@ -49,12 +54,18 @@ from kaidan.contact.tables import (
     EventTable,
     GroundTable,
     IntArray,
+    MarginTable,
     PassedTable,
     PoseTable,
 )
 
 #: Arclength within which an event is at a place [m].
 AT_PLACE = 1e-9
+#: Rotation between two poses above which the drive has the event [rad].
+STRAIGHT = 1e-9
+#: Passings of one nosing by two parts in line are one [m], and how many before are looked back on.
+IN_LINE = 1e-6
+LOOKED_BACK = 8
 
 
 def along_flat(
@@ -89,7 +100,6 @@ def is_reported(events: EventTable, first: int, end: float, k: int) -> bool:
     return False
 
 
-@entry
 def nosings_passed(
     ground: GroundTable,
     body: BodyTable,
@@ -159,3 +169,118 @@ def nosings_passed(
                     count += 1
             k += 1
     return count
+
+
+def leads_straight(poses: PoseTable, row: int) -> bool:
+    """Whether the path leads from a pose straight to the next."""
+    return bool(
+        poses[row + 1, POSE_LEG] == poses[row, POSE_LEG]
+        and abs(poses[row + 1, POSE_PHI] - poses[row, POSE_PHI]) < STRAIGHT
+        and poses[row + 1, POSE_S] > poses[row, POSE_S]
+    )
+
+
+def contacts_change(margins: MarginTable, row: int) -> bool:
+    """Whether other contacts bound the margins of the next pose, or more or fewer carry it."""
+    if row < 0 or row + 1 >= margins.shape[0]:
+        return False
+    return bool(
+        margins[row + 1, OUTER_REAR] != margins[row, OUTER_REAR]
+        or margins[row + 1, OUTER_FRONT] != margins[row, OUTER_FRONT]
+        or margins[row + 1, CONTACTS] != margins[row, CONTACTS]
+    )
+
+
+def comes_before(passed: PassedTable, one: int, other: int) -> bool:
+    """Whether a passing comes before another: by its columns, one after the other."""
+    for column in range(PASSED_COLUMNS):
+        if passed[one, column] != passed[other, column]:
+            return bool(passed[one, column] < passed[other, column])
+    return False
+
+
+def put_passings_in_order(passed: PassedTable, count: int) -> None:
+    """Sort some passings, which all but are in their order."""
+    for k in range(1, count):
+        for j in range(k, 0, -1):
+            if not comes_before(passed, j, j - 1):
+                break
+            for column in range(PASSED_COLUMNS):
+                swapped = passed[j, column]
+                passed[j, column] = passed[j - 1, column]
+                passed[j - 1, column] = swapped
+
+
+def without_twins(passed: PassedTable, count: int) -> int:
+    """Leave out nosings that pass from one part to the next in line with it; how many stay."""
+    kept = 0
+    for k in range(count):
+        twin = -1
+        for j in range(kept - 1, max(kept - LOOKED_BACK, 0) - 1, -1):
+            if (
+                twin < 0
+                and passed[j, PASSED_POINT] == passed[k, PASSED_POINT]
+                and passed[j, PASSED_REACHED] != passed[k, PASSED_REACHED]
+                and abs(passed[j, PASSED_S] - passed[k, PASSED_S]) < IN_LINE
+            ):
+                twin = j
+        if twin < 0:
+            for column in range(PASSED_COLUMNS):
+                passed[kept, column] = passed[k, column]
+            kept += 1
+            continue
+        for j in range(twin, kept - 1):
+            for column in range(PASSED_COLUMNS):
+                passed[j, column] = passed[j + 1, column]
+        kept -= 1
+    return kept
+
+
+@entry
+def find_passings(
+    ground: GroundTable,
+    body: BodyTable,
+    poses: PoseTable,
+    margins: MarginTable,
+    known: bool,
+    events: EventTable,
+    touch: float,
+    reach: float,
+    rows: IntArray,
+    passed: PassedTable,
+) -> int:
+    """Find nosings that come under a flat, or leave it, along a path, in their order.
+
+    Parameters
+    ----------
+    ground, body, poses, events, touch, reach
+        As for `nosings_passed`.
+    margins, known
+        Margins of the poses, and whether there are any: without them it is looked everywhere.
+    rows
+        Scratch, as long as the poses.
+    passed
+        To be filled.
+
+    Returns
+    -------
+    number of passings; more than there is room for: too many to be found
+    """
+    pieces = 0
+    for row in range(poses.shape[0] - 1):
+        if not leads_straight(poses, row):
+            continue
+        # a nosing counts as a contact a little before it comes under the flat: maybe one pose early
+        if (
+            not known
+            or contacts_change(margins, row - 1)
+            or contacts_change(margins, row)
+            or contacts_change(margins, row + 1)
+        ):
+            rows[pieces] = row
+            pieces += 1
+    count = nosings_passed(ground, body, poses, events, rows[0:pieces], touch, reach, passed)
+    if count > passed.shape[0]:
+        return count
+    put_passings_in_order(passed, count)
+    return without_twins(passed, count)

@@ -15,7 +15,6 @@ import math
 
 from kaidan.contact.codes import CUT_AT_ONCE, PIECES, ROUNDS
 from kaidan.contact.columns import FRICTION, MARGIN_COLUMNS, POSE_COLUMNS, POSE_LEG, POSE_S
-from kaidan.contact.entries import entry
 from kaidan.contact.kernel.energy_margins import pose_tilt
 from kaidan.contact.kernel.margins import ONE_PLACE, pose_margins
 from kaidan.contact.kernel.peaks import chosen_ways, cut_ways, open_ways, places_on_ways
@@ -48,7 +47,14 @@ def figure_of(
     return -tilt, hint
 
 
-@entry
+def leads_on(poses: PoseTable, row: int) -> bool:
+    """Whether the path leads on from a pose to the next along one line of poses."""
+    return bool(
+        poses[row + 1, POSE_LEG] == poses[row, POSE_LEG]
+        and poses[row + 1, POSE_S] - poses[row, POSE_S] > ONE_PLACE
+    )
+
+
 def find_peaks(
     ground: GroundTable,
     body: BodyTable,
@@ -103,9 +109,7 @@ def find_peaks(
     """
     for row in range(poses.shape[0]):
         s[row] = poses[row, POSE_S]
-        line[row] = 0
-        if row + 1 < poses.shape[0] and poses[row + 1, POSE_LEG] == poses[row, POSE_LEG]:
-            line[row] = 1 if poses[row + 1, POSE_S] - poses[row, POSE_S] > ONE_PLACE else 0
+        line[row] = 1 if row + 1 < poses.shape[0] and leads_on(poses, row) else 0
     count = open_ways(s, line, values, group, narrow, largest, tolerance, ways)
     total = 0
     hint = 0

@@ -36,7 +36,6 @@ from kaidan.contact.columns import (
     PIVOT_X,
     PIVOT_Z,
     POSE_LEG,
-    POSE_PHI,
     POSE_PSI,
     POSE_S,
     RATED_ANGLE,
@@ -48,7 +47,6 @@ from kaidan.contact.columns import (
     RATED_ROCKING,
     RATED_SPARE,
     RATED_STATUS,
-    REAR_LEAN,
     REAR_X,
     ROTATION_ANGLE,
     ROTATION_S,
@@ -64,6 +62,7 @@ from kaidan.contact.kernel.driver import drive
 from kaidan.contact.kernel.holding import find_standing, least_held
 from kaidan.contact.kernel.impact import impact_speed
 from kaidan.contact.kernel.margins import pose_margins
+from kaidan.contact.kernel.sampling import leaves_edge
 from kaidan.contact.tables import (
     BodyTable,
     ContactTable,
@@ -84,16 +83,13 @@ from kaidan.contact.tables import (
     ZoneTable,
 )
 
-#: Difference of two directions that is rounding [rad].
-ALIKE = 1e-9
 #: Way of the centroid between two rotations that follow at once, over the flat's length [1].
 FOLLOWS = 0.01
 
 
 def comes_off(poses: PoseTable, row: int, zones: ZoneTable) -> bool:
     """Whether the trailing end leaves an edge on the way down, the front on a landing."""
-    flat = max(-poses[row, POSE_PHI], 0.0)
-    if not (poses[row, REAR_LEAN] > flat + ALIKE and math.sin(poses[row, POSE_PSI]) < 0.0):
+    if not leaves_edge(poses, row):
         return False
     x = poses[row, FRONT_X]
     z = poses[row, FRONT_Z]

@@ -1,4 +1,4 @@
-"""Figures that may be the largest between two poses of a path, and the tilt to the first rock."""
+"""Poses between two of a path at which a figure may be the largest, and the first rock."""
 
 from __future__ import annotations
 
@@ -7,16 +7,19 @@ from typing import NamedTuple
 
 import numpy as np
 
+from kaidan.contact.nosings import nosings_passed
 from kaidan.contact.path import TOUCH, Path
-from kaidan.contact.records import BoolArray
-from kaidan.contact.scratch import peak_scratch
+from kaidan.contact.scratch import peak_scratch, sample_scratch
 from kaidan.contact.switch import kernel
 from kaidan.contact.tables import FloatArray, IntArray
 from kaidan.mechanics import STANDARD_GRAVITY
 
+GROUPS = 4
+"""Groups of poses of which peaks are looked for: phases, and what leaves an edge as it lands."""
+
 
 class Between(NamedTuple):
-    """Poses between two of a path."""
+    """Poses of a path and between two of it."""
 
     path: Path
     """Those poses with their margins."""
@@ -33,34 +36,46 @@ class Rock(NamedTuple):
     """Of the pose; -1: none."""
 
 
-def friction_peaks(
-    path: Path, values: FloatArray, group: IntArray, narrow: BoolArray, tolerance: float, *,
-    acceleration: float, gravity: float = STANDARD_GRAVITY,
+def samples_of(
+    path: Path, phase: IntArray, touch: float, *, acceleration: float,
+    gravity: float = STANDARD_GRAVITY,
 ) -> Between:  # fmt: skip
-    """Poses between two at which the required friction may be the largest of a group of poses.
+    """Poses of a path, and those between them at which its extremes may lie.
+
+    Where a nosing comes under a flat or leaves it, as if it were not there; where the friction that
+    a phase requires may be the largest; where the path stands upright.
 
     Parameters
     ----------
     path
         With margins.
-    values
-        The friction at each pose [1].
-    group
-        Number of the group of each pose; negative: of none.
-    narrow
-        Whether the way from each pose to the next may hide a peak that no line tells of (n - 1).
-    tolerance
-        Share of the largest figure of a group above which is not looked for [1].
+    phase
+        Number of the phase of each pose: in 2 the robot lands.
+    touch
+        Gap up to which a nosing lies on a flat [m].
     acceleration, gravity
         As for :meth:`Path.margins_of`.
+
+    Returns
+    -------
+    Between
+        The poses of the path first, with their own rows. Where it turns steadily over the upright,
+        the traction is that of all the weight.
     """
-    scratch = peak_scratch(len(values), int(group.max(initial=-1)) + 1)
-    count = kernel().find_peaks(
-        path.ground.table, path.body.table, path.poses.table, values, group,
-        narrow.astype(np.int64), tolerance, 0.0, acceleration, gravity, TOUCH, *scratch,
+    assert path.margins is not None
+    passed, count = nosings_passed(path, touch), len(path.poses)
+    peaks = peak_scratch(count, GROUPS)
+    room = len(passed) + len(peaks.rows) + 2 * count
+    group, narrow = np.empty((2, count), dtype=np.int64)
+    *scratch, _, _, _ = peaks
+    rows, poses, margins = sample_scratch(count + room)
+    total = kernel().find_samples(
+        path.ground.table, path.body.table, path.poses.table, path.margins.table, phase, passed,
+        len(passed), acceleration, gravity, TOUCH, np.empty(count), group, narrow,
+        np.empty(room, dtype=np.int64), np.empty(room), *scratch, rows, poses, margins,
     )  # fmt: skip
-    poses = path.with_poses(scratch.between[:count].copy(), scratch.margins[:count].copy())
-    return Between(poses, scratch.rows[:count].copy())
+    found = path.with_poses(poses[:total].copy(), margins[:total].copy())
+    return Between(found, rows[:total].copy())
 
 
 def first_rock(

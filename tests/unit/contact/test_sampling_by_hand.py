@@ -1,0 +1,233 @@
+"""Between which poses extremes are looked for, on poses made by hand."""
+
+import math
+
+import numpy as np
+import pytest
+
+from kaidan.contact import Feature, FeatureKind
+from kaidan.contact import columns as at
+from kaidan.contact.kernel import sampling
+from kaidan.contact.kernel.peak_search import leads_on
+from kaidan.contact.scratch import peak_scratch, sample_scratch
+
+HALF = math.pi / 2
+VERTEX, DISC = FeatureKind.VERTEX, FeatureKind.DISC_1
+
+
+def path(count, **columns):
+    """Level poses a metre apart on discs, but for what is given."""
+    found = np.full((count, at.POSE_COLUMNS), np.nan)
+    usual = {
+        "s": np.arange(count, dtype=float), "leg": 0, "phi": 0, "psi": 0, "lean": 0,
+        "rear": Feature(1, 0, DISC).code, "front": Feature(1, 0, DISC).code,
+        "rear_n": [(0.0, 1.0)], "front_n": [(0.0, 1.0)],
+    }  # fmt: skip
+    to = {
+        "s": at.POSE_S, "leg": at.POSE_LEG, "phi": at.POSE_PHI, "psi": at.POSE_PSI,
+        "lean": at.REAR_LEAN, "rear": at.POSE_REAR, "front": at.POSE_FRONT,
+        "rear_n": [at.REAR_N_X, at.REAR_N_Z], "front_n": [at.FRONT_N_X, at.FRONT_N_Z],
+    }  # fmt: skip
+    for name, value in (usual | columns).items():
+        found[:, to[name]] = value
+    return found
+
+
+def test_the_path_leads_on_over_a_distance_along_one_line_of_poses():
+    found = path(5, s=[0.0, 1.0, 1.0 + 0.9e-8, 1.0 + 2.1e-8, 2.0], leg=[0, 0, 0, 0, 1])
+    assert [leads_on(found, row) for row in range(4)] == [True, False, True, False]
+    assert not leads_on(path(2, s=[1.0, 0.0]), 0)
+
+
+def test_the_trailing_end_leaves_an_edge():
+    """Its normal leans ahead by more than the flat does, and the path falls."""
+    leans = [0.3, 0.3, 0.3, -0.3, 0.3, 0.0, 0.9e-9, 1.1e-9]
+    phi = [0.0, -0.2, -0.4, 0.0, 0.5, 0.0, 0.0, 0.0]
+    expected = [True, True, False, False, True, False, False, True]
+    found = path(8, lean=leans, phi=phi, psi=-0.1)
+    assert [sampling.leaves_edge(found, row) for row in range(8)] == expected
+    for direction in (0.1, 0.0, math.pi - 0.1):
+        found = path(8, lean=leans, phi=phi, psi=direction)
+        assert not any(sampling.leaves_edge(found, row) for row in range(8))
+
+
+LEVEL, LEANS = (0.0, 1.0), (math.sin(0.3), math.cos(0.3))
+
+
+@pytest.mark.parametrize("end", ["rear", "front"])
+def test_where_a_nosing_moves_along_an_end(end):
+    """Its normal turns on the body between two poses; of a disc on a tread it does not count."""
+    codes = {kind: Feature(1, 3, kind).code for kind in (VERTEX, DISC)}
+
+    def moves(kinds, normals, phi=(0.0, 0.0), leg=(0, 0)):
+        given = {end: [codes[each] for each in kinds], f"{end}_n": normals}
+        return sampling.moves_along_end(path(2, phi=phi, leg=leg, **given), 0)
+
+    assert moves((VERTEX, VERTEX), (LEVEL, LEANS))
+    assert moves((VERTEX, DISC), (LEVEL, LEANS))
+    assert moves((DISC, VERTEX), (LEANS, LEVEL))
+    assert not moves((DISC, DISC), (LEVEL, LEANS))
+    assert not moves((VERTEX, VERTEX), (LEANS, LEANS))
+    # the body turns with the normal, and under it
+    assert not moves((VERTEX, VERTEX), (LEVEL, LEANS), (0.3, 0.0))
+    assert moves((VERTEX, VERTEX), (LEANS, LEANS), (0.3, 0.0))
+    assert moves((VERTEX, VERTEX), (LEANS, LEANS), (0.0, 1.1e-9))
+    assert not moves((VERTEX, VERTEX), (LEANS, LEANS), (0.0, 0.9e-9))
+    assert not moves((VERTEX, VERTEX), (LEVEL, LEANS), leg=(0, 1))
+
+
+@pytest.mark.parametrize(("one", "other", "turn"), [
+    (0.1, 0.4, 0.3), (0.4, 0.1, -0.3), (3.0, -3.0, 2 * math.pi - 6.0), (-3.0, 3.0, 6 - 2 * math.pi),
+])  # fmt: skip
+def test_from_one_direction_to_another(one, other, turn):
+    assert sampling.turn_to(one, other) == pytest.approx(turn)
+
+
+def upright(*psi, **more):
+    """Rows and shares, up and down."""
+    found = path(len(psi), psi=psi, **more)
+    both = [
+        [sampling.upright_at(found, row, way) for row in range(len(psi) - 1)]
+        for way in (HALF, -HALF)
+    ]
+    return [{row: share for row, share in enumerate(each) if share != -1.0} for each in both]
+
+
+def test_where_the_path_stands_upright():
+    """Its direction passes 90 degrees up, and down."""
+    up, down = upright(
+        HALF - 0.3, HALF + 0.1, 0.0, -HALF - 0.1, -HALF + 0.3, 0.2, 0.4, HALF - 0.1, HALF + 0.1,
+        leg=[0, 0, 0, 1, 1, 1, 1, 1, 2],
+    )  # fmt: skip
+    # up, back down from beyond it, and down
+    assert up == pytest.approx({0: 0.75, 1: 0.1 / (HALF + 0.1)})
+    assert down == pytest.approx({3: 0.25})
+    assert upright(math.pi - 0.1, -math.pi + 0.1) == [{}, {}]  # over 180 degrees
+    assert upright(-HALF + 0.1, -HALF - 0.1)[1] == pytest.approx({0: 0.5})
+    up, down = upright(1.4, 1.7, 1.6, 3.0, -3.0, -1.5)
+    assert up == pytest.approx({0: (HALF - 1.4) / 0.3})
+    assert down == pytest.approx({4: (-HALF + 3.0) / 1.5})
+    # by more than a right angle it passes upright once, up and not down
+    assert upright(0.1, 3.0) == [pytest.approx({0: (HALF - 0.1) / 2.9}), {}]
+    # on one side of it, and on it, it passes nothing
+    assert upright(0.1, 1.5) == upright(1.6, 3.0) == [{}, {}]
+    assert upright(HALF, HALF) == [{}, {}]
+
+
+@pytest.mark.parametrize(("one", "middle", "other", "steady"), [
+    (1.4, 1.57, 1.8, True),
+    (1.8, 1.57, 1.4, True),
+    (1.4, 1.5, 1.2, False),  # there and back
+    (1.5, 1.4, 1.6, False),
+    (1.5, 1.5, 1.6, False),
+    (0.0, 1.6, 1.9, False),  # by more than a right angle at once
+    (0.0, 0.3, 2.0, False),
+    (0.0, 1.5, 3.0, True),
+    (3.1, -3.1, -3.0, True),  # over 180 degrees
+])  # fmt: skip
+def test_whether_the_path_turns_steadily(one, middle, other, steady):
+    assert sampling.turns_steadily(path(4, psi=[9.0, one, other, 9.0]), 1, middle) is steady
+
+
+@pytest.fixture
+def sampled(monkeypatch):
+    """Samples of a path; of the kernel nothing runs that works out poses or margins."""
+    asked = {}
+
+    def poses_between(ground, body, of, rows, parts, count, new):
+        assert len(rows) == len(new) == count
+        asked.setdefault("parts", []).append(parts[:count].tolist())
+        new[:, at.POSE_S] = of[rows, at.POSE_S] + parts[:count]
+        new[:, at.POSE_PSI] = asked["directions"][:count]
+
+    def margins_without(ground, body, poses, points, count, a, g, touch, margins, contacts):
+        assert (a, g, touch, len(poses), len(margins)) == (asked["a"], 9.8, 1e-9, count, count)
+        asked["points"] = points[:count].tolist()
+        margins[:, at.TRACTION] = 100.0
+
+    def pose_margins(ground, body, poses, count, a, g, touch, margins, contacts):
+        assert (a, g, touch, len(poses), len(margins)) == (asked["a"], 9.8, 1e-9, count, count)
+        margins[:, at.TRACTION] = 300.0
+
+    def find_peaks(ground, body, poses, values, group, narrow, tolerance, side, a, g, touch, *rest):
+        assert (tolerance, side, a, g, touch) == (1e-4, 0.0, asked["a"], 9.8, 1e-9)
+        asked.update(
+            values=values.tolist(), group=group.tolist(), narrow=narrow.tolist(), room=len(rest[-1])
+        )
+        rows, between, margins = rest[-3:]
+        rows[0], between[0, at.POSE_S], margins[0, at.TRACTION] = 1, 1.5, 200.0
+        return 1
+
+    for each in (poses_between, margins_without, pose_margins, find_peaks):
+        monkeypatch.setattr(sampling, each.__name__, each)
+
+    def of(poses, phase, passed=(), friction=0.5, directions=(), a=0.0):
+        asked.update(directions=np.array(directions), a=a)
+        count = len(poses)
+        margins = np.full((count, at.MARGIN_COLUMNS), 7.0)
+        margins[:, at.FRICTION] = friction
+        table = np.full((len(passed), at.PASSED_COLUMNS), np.nan)
+        table[:, [at.PASSED_ROW, at.PASSED_S, at.PASSED_POINT]] = np.reshape(passed, (-1, 3))
+        *scratch, _, _, _ = peak_scratch(count, 4)
+        room = 4 * count
+        found = [each[: count + room] for each in sample_scratch(count + room)]
+        total = sampling.find_samples(
+            None, None, poses, margins, np.array(phase), table, len(passed), a, 9.8, 1e-9,
+            np.empty(count), *np.full((2, count), 9), np.empty(room, dtype=np.int64),
+            np.empty(room), *scratch, *found,
+        )  # fmt: skip
+        np.testing.assert_array_equal(found[1][:count], poses)
+        np.testing.assert_array_equal(found[2][:count], margins)
+        return [each[:total] for each in found], asked
+
+    return of
+
+
+def test_samples_are_poses_nosings_peaks_and_places_upright(sampled):
+    """In this order, each with the row before it."""
+    poses = path(4, psi=[0.0, HALF - 0.1, HALF + 0.3, 3.0])
+    passed = [(0, 0.25, 8), (2, 2.5, 6)]
+    (rows, found, margins), asked = sampled(poses, [0] * 4, passed, directions=[HALF, 0.0])
+    assert rows.tolist() == [0, 1, 2, 3, 0, 2, 1, 1]
+    assert found[:, at.POSE_S].tolist() == pytest.approx([0, 1, 2, 3, 0.25, 2.5, 1.5, 1.25])
+    assert asked["parts"] == [pytest.approx([0.25, 0.5]), pytest.approx([0.25])]
+    assert asked["points"] == [8, 6]
+    assert margins[4:, at.TRACTION].tolist() == [100.0, 100.0, 200.0, 9.8]
+    assert asked["room"] == 16 + 4 - 6
+
+
+def test_groups_of_friction(sampled):
+    """Phases, and what leaves an edge as it lands; infinite where nothing holds."""
+    lean = [0.3, 0.3, 0.3, 0.0]
+    found = path(4, lean=lean, psi=-0.1)
+    friction = [0.4, math.nan, math.inf, 0.6]
+    _, asked = sampled(found, [0, 1, 2, 2], friction=friction)
+    assert asked["values"] == [0.4, math.inf, math.inf, 0.6]
+    assert asked["group"] == [0, 1, 3, 2]
+    assert asked["narrow"] == [0] * 4
+    corner = path(3, rear=[1 << at.POINT_BITS] * 3, rear_n=[LEVEL, LEANS, LEANS])
+    assert sampled(corner, [0] * 3)[1]["narrow"] == [1, 0, 0]
+
+
+@pytest.mark.parametrize("a", [0.7, -0.7])
+def test_the_traction_of_an_upright_path_is_that_of_all_its_weight(a, sampled):
+    """Up and down; where the path only comes to a stand it is that of its pose."""
+    poses = path(3, psi=[HALF - 0.1, HALF + 0.2, HALF - 0.1])
+    (rows, _, margins), _ = sampled(poses, [0] * 3, directions=[HALF, 1.0], a=a)
+    assert rows.tolist() == [0, 1, 2, 1, 0, 1]
+    assert margins[-2:, at.TRACTION].tolist() == pytest.approx([9.8 + a, 300.0])
+    poses = path(2, psi=[-HALF - 0.1, -HALF + 0.2])
+    (_, _, margins), _ = sampled(poses, [0] * 2, directions=[-HALF], a=a)
+    assert margins[-1, at.TRACTION] == pytest.approx(-9.8 + a)
+    # up before down
+    poses = path(4, psi=[-HALF - 0.1, -HALF + 0.2, HALF - 0.1, HALF + 0.1])
+    (rows, _, _), _ = sampled(poses, [0] * 4, directions=[HALF, -HALF], a=a)
+    assert rows[-2:].tolist() == [2, 0]
+
+
+def test_tables_of_samples_stay_with_the_thread():
+    one = sample_scratch(50)
+    assert all(len(each) >= 50 for each in one)
+    assert sample_scratch(20) is one
+    more = sample_scratch(len(one[0]) + 1)
+    assert {len(each) for each in more} == {len(one[0]) + 1}
