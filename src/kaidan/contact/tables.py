@@ -81,12 +81,14 @@ SettledTable = Annotated[FloatArray, SETTLED_COLUMNS]
 WayTable = Annotated[FloatArray, WAY_COLUMNS]
 #: Numbers that belong together, in the kernel: four, or x, z, cosine, sine and a point, or x, z and
 #: inclination, tangent (3) of the line of poses, rear and front contact, or of a part's side
-#: whether it faces down, its normal, and how far the pivot lies beyond its line; or of the tip of a
-#: grouser whether it can stand, tilt, run, loss of sine and how far ahead.
+#: whether it faces down, its normal, how far the pivot lies beyond its line and where along it; or
+#: of the tip of a grouser whether it can stand, tilt, run, loss of sine and how far ahead; or of a
+#: line its normal and its height over a point.
 Four = tuple[float, float, float, float]
 Pose = tuple[float, float, float, float, float, float]
+Line = tuple[float, float, float]
 Held = tuple[float, float, float, float, float, float, int, int]
-Side = tuple[bool, float, float, float]
+Side = tuple[bool, float, float, float, float]
 Tip = tuple[bool, float, float, float, float]
 
 #: Points closer than this to the line of those beside them are dropped [m]; far below any scan,

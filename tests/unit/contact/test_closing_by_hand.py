@@ -166,7 +166,7 @@ def test_what_closes_while_an_end_rolls(what, mirrored):
     case = Case(line, mirrored, EVERY)
     # the line ends 30 m beyond the last point
     pivot = case.rear_disc((GROUND_END, complex(35, 0)))
-    start = case.ground, case.body, pivot, *case.pose(1j * ABOVE, 0.0), case.sign
+    start = case.ground, case.body, pivot, *case.turned_pose(1j * ABOVE, 0.0), case.sign
     closed, angle, _ = first_closing(*start, FARTHEST, 0)
     assert angle == near(expected)
     if what in PLATES:
@@ -207,7 +207,7 @@ def test_what_an_end_meets_about_an_edge(less, phi, upon, part, swapped, mirrore
         line += [(ends[1].real, LOW)]
     case = Case([*line, *plates(EDGE)[1:]], mirrored, parts)
     start = EDGE + (0.05 + 1j * ABOVE) * cmath.exp(1j * phi)
-    given = case.ground, case.body, case.edge(EDGE), *case.pose(start, phi), case.sign
+    given = case.ground, case.body, case.edge(EDGE), *case.turned_pose(start, phi), case.sign
     closed, angle, _ = first_closing(*given, 1.1 * upon, 0)
     assert angle == near(upon)
     if less is None:

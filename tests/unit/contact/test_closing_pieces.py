@@ -15,12 +15,17 @@ from kaidan.contact import body_table
 from kaidan.contact import columns as at
 from kaidan.contact.kernel.closing import (
     BESIDE,
+    FROM_DISC_1,
     FROM_DISC_2,
     TO_FLAT,
     TO_TOP,
     closing_angle,
+    crossing_angle,
+    crossing_angle_on,
+    foot_on,
     on_piece,
     separation,
+    stays_beside,
 )
 from kaidan.contact.kernel.event_location import PENETRATED
 from kaidan.contact.kernel.first_closing import first_closing
@@ -317,7 +322,7 @@ def test_a_disc_on_an_edge_rolls_on_along_the_segment_behind(onto, swapped, mirr
         if swapped:
             row = [*row[3:], *row[:3]]
         case = Case(line, mirrored, [row])
-        start = case.ground, case.body, case.edge(edge), *case.pose(0j, 0.0), case.sign
+        start = case.ground, case.body, case.edge(edge), *case.turned_pose(0j, 0.0), case.sign
         closed, angle, _ = first_closing(*start, 0.6, 0)
         if left < -1e-9:
             assert (closed, angle) == (at.NO_FEATURE, 0.6)
@@ -337,7 +342,7 @@ def test_of_points_in_line_the_flat_comes_upon_the_outermost(phi, apart, mirrore
     outer = edge - 0.12 * cmath.exp(1j * (phi + upon + apart))
     case = Case(plates(outer, inner, edge), mirrored)
     c = edge + (0.02 + 0.1j) * cmath.exp(1j * phi)
-    given = case.ground, case.body, case.edge(edge), *case.pose(c, phi), case.sign
+    given = case.ground, case.body, case.edge(edge), *case.turned_pose(c, phi), case.sign
     closed, angle, _ = first_closing(*given, 0.5, 0)
     assert closed == case.edge(inner if apart > 1e-9 else outer)
     assert angle == near(upon + min(apart, 0.0))
@@ -362,8 +367,9 @@ def test_a_point_that_a_flat_comes_upon_about_another_one(size):
         ground = table((o + v, 1 + 0j, 1.0), (o, 1 + 0j, 1.0))
         meets = turn < end and 0.3 * size < foot.real < 1.1 * size
         angle, which = flat_closing(
-            ground, body, 0, 0, TO_FLAT, at.POINT, o.real, o.imag, 1.0, 0.0, o.real, o.imag, -1.0,
-            math.cos(end), math.sin(end), 0.0, -1.0, height, end, at.NO_FEATURE,
+            ground, body, 0, 0, TO_FLAT, at.POINT, (o.real, o.imag, 1.0, 0.0, o.real, o.imag), -1.0,
+            math.cos(end), math.sin(end), (True, 0.0, -1.0, height, -0.3 * size), end,
+            at.NO_FEATURE,
         )  # fmt: skip
         assert (angle, which) == ((near(turn), 0) if meets else (end, at.NO_FEATURE))
         found.append(meets)
@@ -382,3 +388,77 @@ def test_a_point_on_the_upper_side_is_met_by_parts_that_are_not_thin(radius):
                 ground = table((place, 1 + 0j, 1.0), (1 + place, 1 + 0j, 1.0))
                 met = on and (piece == TO_FLAT or radius > 0.01)
                 assert on_piece(ground, body, 0, 0, piece, *pose) is met
+
+
+def flat_of(first, second, upper):
+    """Where the common tangent of two discs on one side leaves the first, and its direction."""
+    (a, r), (b, q) = first, second
+    axis = (b - a) / abs(b - a)
+    lean = math.acos((r - q) / abs(b - a))
+    normal = axis * cmath.exp(1j * (lean if upper else -lean))
+    return a + r * normal, normal * (-1j if upper else 1j)
+
+
+@pytest.mark.parametrize("piece", [TO_FLAT, TO_TOP, FROM_DISC_1, FROM_DISC_2])
+def test_a_foot_lies_along_the_tangent_of_both_discs_or_along_the_segment(piece):
+    rng = np.random.default_rng(8)
+    for swapped in (False, True):
+        for _ in range(20):
+            first = -1.0 + 0.2j * rng.uniform(-1, 1), rng.uniform(0.05, 0.4)
+            second = 1.0 + 0.2j * rng.uniform(-1, 1), rng.uniform(0.05, 0.4)
+            both = (second, first) if swapped else (first, second)
+            c, phi, v = random_place(rng, 3.0), random_direction(rng), random_place(rng, 3.0)
+            u = random_direction(rng)
+            ground = table((9j, 1 + 0j, 1.0), (v, u, 1.0))
+            body = np.vstack([discs((0j, 1.0), (9j, 2.0)), discs(*both)])
+            placed = [(c + centre * phi, radius) for centre, radius in both]
+            if piece in (TO_FLAT, TO_TOP):
+                # from the first disc to the second the lower side may be on the left
+                begin, direction = flat_of(*placed, (piece == TO_TOP) is not swapped)
+                foot = along(direction, v - begin)[0]
+            else:
+                foot = along(u, placed[piece - FROM_DISC_1][0] - v)[0]
+            pose = c.real, c.imag, phi.real, phi.imag
+            assert foot_on(ground, body, 1, 1, piece, *pose) == near(foot)
+
+
+@pytest.mark.parametrize(("foot", "later", "sagitta", "beside"), [
+    (1.2, 1.5, 0.1, True), (1.5, 1.2, 0.1, True), (1.2, 1.5, 0.25, False), (1.5, 1.2, 0.25, False),
+    (-0.2, -0.5, 0.1, True), (-0.5, -0.2, 0.1, True), (-0.2, -0.5, 0.25, False),
+    (-0.5, -0.2, 0.25, False), (1.5, 0.5, 0.0, False), (0.5, -1.0, 0.0, False),
+    (-1.0, 2.0, 0.0, False), (2.0, -1.0, 0.0, False), (1.0, 1.0, 0.0, False), (0.0, 0.0, 0.0, False)
+])  # fmt: skip
+def test_a_foot_stays_beside_what_is_farther_off_than_its_arc_bulges(foot, later, sagitta, beside):
+    """Of a metre, from 0 to 1."""
+    assert stays_beside(foot, later, sagitta, 1.0) is beside
+
+
+@pytest.mark.parametrize("ahead", [-1.0, 1.0])
+@pytest.mark.parametrize("swings", [True, False])
+def test_a_foot_that_swings_out_to_a_piece_and_back_crosses_there(swings, ahead):
+    """Half a turn: its foot runs along half a circle of 1 m, out and back to where it began."""
+    beyond = 1e-3 if swings else -1e-3
+    # 1 m over the piece at first, level with it after a quarter turn
+    length, offset = 5.0, beyond - 1.0 if ahead < 0.0 else 6.0 - beyond
+    given = 0.0, 1.0, 0.0, -1.0, 0.0
+    expected = crossing_angle(*given, PENETRATED)
+    assert expected == near(math.pi / 2)
+    found = crossing_angle_on(*given, length, offset, ahead)
+    assert found == (expected if swings else NEVER)
+
+
+def test_what_crosses_on_a_piece_is_not_left_out():
+    rng = np.random.default_rng(9)
+    left_out = 0
+    for _ in range(400):
+        level, even, rate, offset = rng.normal(scale=(1.0, 1.0, 1.0, 2.0))
+        end, ahead, length = rng.uniform(0.1, math.pi), rng.choice([-1.0, 1.0]), rng.uniform(0, 1)
+        given = level, even, rate, math.cos(end), math.sin(end)
+        expected = crossing_angle(*given, PENETRATED)
+        found = crossing_angle_on(*given, length, offset, ahead)
+        foot = offset + ahead * (rate * math.cos(expected) - even * math.sin(expected))
+        if 0.0 <= foot <= length and expected <= end:
+            assert found == expected
+        assert found in (expected, NEVER)
+        left_out += found != expected
+    assert left_out > 30

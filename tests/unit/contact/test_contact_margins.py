@@ -173,7 +173,9 @@ def test_nothing_is_hit_before_the_first_closing(seed):
         ground, body = run.ground.table, run.body.table
         for sense, pivot in ((1.0, int(run.poses.rear[row])), (-1.0, int(run.poses.front[row]))):
             x, z, phi = run.poses.placement(row)
-            closed, angle, _ = first_closing(ground, body, pivot, x, z, phi, sense, 0.5, 0)
+            closed, angle, _ = first_closing(
+                ground, body, pivot, x, z, math.cos(phi), math.sin(phi), sense, 0.5, 0
+            )
             for part in (0.02, 0.3, 0.6, 0.9, 0.99):
                 x1, z1 = turned(ground, body, pivot, x, z, phi, sense * part * angle)
                 angle1 = phi + sense * part * angle
@@ -255,10 +257,10 @@ def test_momentum_over_several_rotations():
             phi_end = rotation.end.inclination
             omega, after = 0.0, 0.0
             while phi * sense < phi_end * sense - 1e-9:
-                end = min(
-                    abs(phi_end - phi) + 1e-9, foot_limit(ground, body, pivot, x, z, phi, sense)
-                )
-                closed, angle, _ = first_closing(ground, body, pivot, x, z, phi, sense, end, 0)
+                c, s = math.cos(phi), math.sin(phi)
+                limit = foot_limit(ground, body, pivot, x, z, c, s, sense)
+                end = min(abs(phi_end - phi) + 1e-9, limit)
+                closed, angle, _ = first_closing(ground, body, pivot, x, z, c, s, sense, end, 0)
                 # (k^2 + r^2) omega' = g Delta - rolling terms: integrated as energy, trapezoid free
                 x1, z1 = turned(ground, body, pivot, x, z, phi, sense * angle)
                 a = contact_arm(run, pivot, x1, z1, phi + sense * angle)

@@ -32,7 +32,8 @@ def at_angle(ground, body, pivot, x, z, phi, turn):
 def checked_closing(ground, body, pivot, x, z, phi, sense, end):
     """What `first_closing` finds, once it is sure: nothing sooner, and there it does."""
     for hint in (0, 5):
-        closed, angle, after = first_closing(ground, body, pivot, x, z, phi, sense, end, hint)
+        c, s = math.cos(phi), math.sin(phi)
+        closed, angle, after = first_closing(ground, body, pivot, x, z, c, s, sense, end, hint)
         assert 0 <= after <= len(ground)
     assert 0.0 <= angle <= end
     for share in (0.02, 0.2, 0.4, 0.6, 0.8, 0.9, 0.97, 0.999):
@@ -62,7 +63,8 @@ def test_nothing_closes_sooner_and_there_it_does(seed, terrain):
     if not found:
         return
     for sense, pivot in ((1.0, rear), (-1.0, front)):
-        end = min(0.6, foot_limit(ground, body, pivot, x, z, phi, sense))
+        limit = foot_limit(ground, body, pivot, x, z, math.cos(phi), math.sin(phi), sense)
+        end = min(0.6, limit)
         checked_closing(ground, body, pivot, x, z, phi, sense, end)
 
 
@@ -88,7 +90,8 @@ def test_a_part_that_falls_past_upright_meets_the_ground_with_its_upper_side(rol
     for _ in range(60):
         middle = 0.5 * (lo + hi)
         lo, hi = (middle, hi) if beside(middle) > 0.0 else (lo, middle)
-    closed, angle, _ = first_closing(ground, body, pivot, 0.0, 0.05, phi, -1.0, 1.5, 0)
+    turn = math.cos(phi), math.sin(phi)
+    closed, angle, _ = first_closing(ground, body, pivot, 0.0, 0.05, *turn, -1.0, 1.5, 0)
     assert closed == 64 * nosing
     assert angle == pytest.approx(lo, abs=1e-9)
 
@@ -107,7 +110,8 @@ def test_turning_on_about_what_closed_nothing_closes_sooner_either(seed):
     for sense, pivot in ((1.0, rear), (-1.0, front)):
         at, turn = pivot, (x, z, phi)
         for _ in range(6):
-            limit = foot_limit(ground, body, at, *turn, sense)
+            c, s = math.cos(turn[2]), math.sin(turn[2])
+            limit = foot_limit(ground, body, at, *turn[:2], c, s, sense)
             closed, angle = checked_closing(ground, body, at, *turn, sense, min(FARTHEST, limit))
             turn = (*turned(ground, body, at, *turn, sense * angle), turn[2] + sense * angle)
             if closed >= 0:

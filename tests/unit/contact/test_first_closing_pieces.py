@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 import pytest
-from test_closing_pieces import discs, random_direction, random_place, table
+from test_closing_pieces import discs, flat_of, random_direction, random_place, table
 
 from kaidan.contact import columns as at
 from kaidan.contact.kernel.closing import (
@@ -22,10 +22,12 @@ from kaidan.contact.kernel.closing import (
     flat_normal,
     separation,
 )
+from kaidan.contact.kernel.event_location import PENETRATED
 from kaidan.contact.kernel.first_closing import (
     curvature,
     rolling_closing,
     side_of,
+    stays_under,
     swept,
     turning_about,
 )
@@ -54,11 +56,12 @@ def test_a_robot_turns_about_a_vertex_or_about_the_centre_of_the_end_that_rolls(
         body, both = random_part(rng)
         rows = np.vstack([discs((0j, 3.0), (9j, 3.0)), body])
         point, up, end = random_place(rng, 3.0), random_direction(rng), rng.uniform(0.1, 1.5)
+        ground = table((9j, 1 + 0j, 1.0), (point, -1j * up, 1.0))
         radii = [radius for _, radius in both]
         for kind, radius in zip((at.VERTEX, at.DISC_1, at.DISC_2), (0.0, *radii), strict=True):
             centre = point + radius * up
             about = turning_about(
-                rows, at.POINT * 7 + at.PART + kind, point.real, point.imag, up.real, up.imag, end
+                ground, rows, at.POINT + at.PART + kind, point.real, point.imag, end
             )
             assert about == pytest.approx((centre.real, centre.imag, radius, radius * end))
 
@@ -97,13 +100,17 @@ def test_a_side_faces_down_if_it_does_so_before_or_after(piece):
         c, phi, turn = random_place(rng, 3.0), random_direction(rng), random_direction(rng)
         point = random_place(rng, 3.0)
         a = c + both[0][0] * phi
-        down, *normal, level = side_of(
+        down, *normal, level, foot = side_of(
             body, 0, piece, pose(c, phi, point), a.real, a.imag, turn.real, turn.imag
         )
         n = complex(*normal)
         assert n == pytest.approx(complex(*flat_normal(body, 0, piece, phi.real, phi.imag)))
         beyond = (point - a) * n.conjugate()
         assert level == pytest.approx(beyond.real - both[0][1])
+        leads_back = bool((both[1][0] - both[0][0]).real < 0.0)
+        placed = [(c + place * phi, radius) for place, radius in both]
+        begin, direction = flat_of(*placed, (piece == TO_TOP) is not leads_back)
+        assert foot == pytest.approx(((point - begin) * direction.conjugate()).real)
         assert down == (n.imag < 0.0 or (n * turn).imag < 0.0)
         seen.add((n.imag < 0.0, (n * turn).imag < 0.0))
     assert len(seen) == 4
@@ -212,3 +219,45 @@ def look_at(look, angle):
     turn = complex(*look.start[2:4]) * cmath.exp(1j * sense * angle)
     moved = -sense * angle * look.about[2]
     return pose(complex(*look.start[:2]) + moved, turn, moved + 0j)
+
+
+def test_a_point_stays_under_a_line_that_turns_if_it_does_so_before_and_after():
+    rng = np.random.default_rng(6)
+    found = []
+    for _ in range(200):
+        o, n, v = random_place(rng, 3.0), random_direction(rng), random_place(rng, 1.0)
+        height, turn = -rng.uniform(0.0, 0.3), rng.choice([-1.0, 1.0]) * rng.uniform(0.1, 2.0)
+        looks = (v * (n * np.exp(1j * turn * np.linspace(0.0, 1.0, 99))).conj()).real
+        if min(abs(looks[[0, -1]] - height)) < 1e-9:
+            continue
+        place = o + v
+        ground = table((9j, 1 + 0j, 1.0), (place, 1 + 0j, 1.0))
+        under = stays_under(
+            ground, 1, o.real, o.imag, math.cos(turn), math.sin(turn), (n.real, n.imag, height)
+        )
+        assert under == (looks.max() < height)
+        found.append(under)
+    assert 0.1 < np.mean(found) < 0.9
+
+
+@pytest.mark.parametrize("height", [0.0, 1.0, -1e-3])
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+@pytest.mark.parametrize(("over", "under"), [(0.49, True), (0.51, False)])
+def test_half_of_what_is_penetrated_is_under(over, under, sense, height):
+    """Before or after; a line over the pivot is no higher than through it."""
+    n, level = 0.6 + 0.8j, min(height, 0.0) + over * PENETRATED
+    turn = np.exp(1j * sense * 0.7)
+    for place in ((level - 1j * sense) * n, (level + 1j * sense) * n * turn):
+        ground = table((place, 1 + 0j, 1.0))
+        given = turn.real, turn.imag, (n.real, n.imag, height)
+        assert stays_under(ground, 0, 0.0, 0.0, *given) == under
+
+
+def test_an_end_that_swings_out_to_a_short_edge_and_back_meets_it():
+    """Under an edge of 0.1 m, 1.9 to 2 m ahead; before and after it is 0.15 m short of that."""
+    look = Look(2.0, 0.1, -0.5, 1.0, 1.0)
+    ground = table((2 + 0.2j, -1 + 0j, 0.1), (0j, 1 + 0j, 1.0))
+    ground[:, at.CONVEX] = 0.0  # the edge itself, and not its corners
+    which, angle = look.first(ground, True, True)
+    assert which == at.DISC_2
+    assert angle == pytest.approx(0.5, abs=1e-9)

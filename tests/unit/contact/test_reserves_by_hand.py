@@ -79,6 +79,10 @@ class Case:
     def pose(self, c, phi):
         return self.sign * c.real, c.imag, self.sign * phi
 
+    def turned_pose(self, c, phi):
+        """The same with cosine and sine."""
+        return self.sign * c.real, c.imag, math.cos(phi), self.sign * math.sin(phi)
+
     def barrier(self, pivot, kappa=0.0, tolerance=0.0, c=C, phi=0.0):
         """Rise as the nose goes up, and whether it is bounded."""
         return self.barrier_and_way(pivot, kappa, tolerance, c, phi)[:2]

@@ -52,6 +52,8 @@ GROUND = ground_table([(-2, 0.8), (0.3, 0.4), (1.8, 1.3), (2.0, 1.35), (3.3, 0.6
 """A valley, a slope up, a flatter one, an edge, a slope down, a valley."""
 SLOPE = int(np.flatnonzero(GROUND[:, 0] == 0.3)[0])
 """From (0.3, 0.4) to (1.8, 1.3)."""
+LEVEL = 1.0, 0.0
+"""Cosine and sine of no inclination."""
 EDGE = int(np.flatnonzero(GROUND[:, 0] == 2.0)[0])
 
 
@@ -101,12 +103,12 @@ def test_a_disc_rolls_to_the_end_of_its_segment(k, sense):
     # hand: nose up it rolls back over 0.6 m, nose down ahead over the rest
     x, z = on_slope(k, 0.6, 0.4)
     room = 0.6 if sense > 0 else GROUND[SLOPE, LENGTH] - 0.6
-    pivot = POINT * SLOPE + PART + k
-    found = foot_limit(GROUND, BODY, pivot, x, z, 0.4, sense)
+    pivot, turn = POINT * SLOPE + PART + k, (math.cos(0.4), math.sin(0.4))
+    found = foot_limit(GROUND, BODY, pivot, x, z, *turn, sense)
     assert found == pytest.approx(room / RADIUS[k], abs=ROUNDING / 0.05)
     beyond = on_slope(k, -0.1 if sense > 0 else GROUND[SLOPE, LENGTH] + 0.1, 0.4)
-    assert foot_limit(GROUND, BODY, pivot, *beyond, 0.4, sense) == 0.0
-    assert foot_limit(GROUND, BODY, POINT * EDGE + PART, x, z, 0.4, sense) == NEVER
+    assert foot_limit(GROUND, BODY, pivot, *beyond, *turn, sense) == 0.0
+    assert foot_limit(GROUND, BODY, POINT * EDGE + PART, x, z, *turn, sense) == NEVER
 
 
 def test_what_a_disc_rolls_on_next():
@@ -136,16 +138,16 @@ def test_what_a_disc_rolls_on_next():
 @pytest.mark.parametrize("kappa", [0.0, 0.2, -0.3])
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_angle_until_the_centroid_stands_over_a_vertex(kappa, sense):
-    pivot, phi = POINT * EDGE + PART, 0.3
+    pivot, phi, turn = POINT * EDGE + PART, 0.3, (math.cos(0.3), math.sin(0.3))
     for x, z in ((1.9, 1.6), (2.1, 1.6), (2.05, 1.7)):
-        angle = angle_until_over(GROUND, BODY, pivot, x, z, phi, sense, kappa, False)
+        angle = angle_until_over(GROUND, BODY, pivot, x, z, *turn, sense, kappa, False)
         assert 0.0 <= angle < 2 * math.pi
         after = turned(GROUND, BODY, pivot, x, z, phi, sense * angle)
         assert after[1] > GROUND[EDGE, 1]  # over it, not under it
         at = phi + sense * angle
         delta = lever(GROUND, BODY, pivot, *after, math.cos(at), math.sin(at), kappa)
         assert delta == pytest.approx(0.0, abs=ROUNDING)
-        assert angle_until_over(GROUND, BODY, pivot, x, z, phi, sense, kappa, True) == NEVER
+        assert angle_until_over(GROUND, BODY, pivot, x, z, *turn, sense, kappa, True) == NEVER
 
 
 @pytest.mark.parametrize("kappa", [0.0, 0.2, -0.3])
@@ -168,7 +170,8 @@ def test_angle_until_the_centroid_stands_over_a_rolling_disc(k, sense, kappa, be
     falls = values[:-1] * values[1:] < 0
     rate = sense * np.diff(values)
     (roots,) = np.nonzero(falls & ((rate < 0) if below else (rate > 0)))
-    found = angle_until_over(GROUND, BODY, pivot, x, z, phi, sense, kappa, below)
+    turn = math.cos(phi), math.sin(phi)
+    found = angle_until_over(GROUND, BODY, pivot, x, z, *turn, sense, kappa, below)
     assert grid[roots[0]] - 1e-9 <= found <= grid[roots[0] + 1] + 1e-9
     assert delta(found) == pytest.approx(0.0, abs=ROUNDING)
 
@@ -177,10 +180,10 @@ def test_a_disc_wider_than_the_lever_of_its_centroid_never_stands_under_it():
     # hand: on a slope of 45 degrees a wheel of 0.1 whose centroid lies 0.02 off its middle
     ground = ground_table([(0, 0), (2, 2)])
     body = body_table([[-0.02, 0.0, 0.1, -0.02, 0.0, 0.1]])
-    assert angle_until_over(ground, body, 1, 1.0, 1.2, 0.0, 1.0, 0.0, False) == NEVER
+    assert angle_until_over(ground, body, 1, 1.0, 1.2, *LEVEL, 1.0, 0.0, False) == NEVER
     # just wide enough: 0.1 sin 45 = 0.0707
     wide = body_table([[-0.0708, 0.0, 0.1, -0.0708, 0.0, 0.1]])
-    assert angle_until_over(ground, wide, 1, 1.0, 1.2, 0.0, 1.0, 0.0, False) < 7.0
+    assert angle_until_over(ground, wide, 1, 1.0, 1.2, *LEVEL, 1.0, 0.0, False) < 7.0
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
@@ -377,6 +380,6 @@ def test_over_the_pivot_it_is_there_already(sense):
     """On an edge, and on a disc whose centre lies straight below the centroid: no turn of 360."""
     ground = ground_table([(-3, -1), (0, 0), (3, -1)])
     body = body_table([[0.0, -0.1, 0.05, 0.4, -0.1, 0.05]])
-    assert angle_until_over(ground, body, 64, 0.0, 0.2, 0.0, sense, 0.0, False) == 0.0
+    assert angle_until_over(ground, body, 64, 0.0, 0.2, *LEVEL, sense, 0.0, False) == 0.0
     level = ground_table([(-3, 0), (3, 0)])
-    assert angle_until_over(level, body, 1, 0.3, 0.15, 0.0, sense, 0.0, False) == 0.0
+    assert angle_until_over(level, body, 1, 0.3, 0.15, *LEVEL, sense, 0.0, False) == 0.0

@@ -81,7 +81,8 @@ def test_nothing_sinks_in_before_and_something_does_behind(seed, terrain):
                 left = behind if sense > 0.0 else ground[k, at.LENGTH] - behind
                 end = min(end, left / abs(roll))
             tables = memoryview(ground), memoryview(body)
-            given = *tables, code, c_i.real, c_i.imag, phi_i, sense, end
+            turn = math.cos(phi_i), math.sin(phi_i)
+            given = *tables, code, c_i.real, c_i.imag, *turn, sense, end
             closed, angle, _ = first_closing(*given, int(i) % len(ground))
             looks = np.append(sense * angle * LOOKS, sense * (angle + 1e-3))
             gaps = room(ground, parts, *turned(every[i], looks))

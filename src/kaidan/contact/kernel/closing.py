@@ -49,11 +49,14 @@ FINEST = 1e-6
 TO_FLAT, TO_TOP, TO_ARC_1, TO_ARC_2, FROM_DISC_1, FROM_DISC_2 = range(6)
 
 
+def turning_side(body: BodyTable, part: int, piece: int) -> float:
+    """+1 if a flat's normal, turned nose up, leads along it from its first end; -1: to it."""
+    return float(-body[part, SIDE] if piece == TO_TOP else body[part, SIDE])
+
+
 def flat_normal(body: BodyTable, part: int, piece: int, c: float, s: float) -> tuple[float, float]:
     """Outward normal of a part's flat, or of its mirror image (`TO_TOP`)."""
-    side = body[part, SIDE]
-    if piece == TO_TOP:
-        side = -side
+    side = turning_side(body, part, piece)
     e_x = body[part, E_X]
     e_z = body[part, E_Z] * side
     b_x = body[part, SINE] * e_x + body[part, COSINE] * e_z
@@ -142,6 +145,34 @@ def crossing_angle(
     return max(angle, 0.0)
 
 
+def crossing_angle_on(
+    level: float, even: float, rate: float, cosine: float, sine: float,
+    length: float, offset: float, ahead: float,
+) -> float:  # fmt: skip
+    """:func:`crossing_angle` to a flat or a segment; 1e9 too if the foot stays beside it.
+
+    Parameters
+    ----------
+    level, even, rate, cosine, sine
+        See :func:`crossing_angle`.
+    length
+        Of the flat or the segment [m].
+    offset, ahead
+        The foot runs along an arc: offset + ahead (rate cos - even sin), ``ahead`` 1 or -1.
+
+    Notes
+    -----
+    Sagitta of an arc by the angle a, of radius r = hypot(even, rate), seen from any side::
+
+        r (1 - cos(a/2)) = r (1 - cos a) / (2 + 2 cos(a/2)) <= (|even| + |rate|) (1 - cos a) / 2
+    """
+    sagitta = 0.5 * (1.0 - cosine) * (abs(even) + abs(rate))
+    later = offset + ahead * (rate * cosine - even * sine)
+    if stays_beside(offset + ahead * rate, later, sagitta, length):
+        return NEVER
+    return crossing_angle(level, even, rate, cosine, sine, PENETRATED)
+
+
 def closing_angle(
     ground: GroundTable, body: BodyTable, k: int, part: int, piece: int, pivot: int,
     start: Pose, finish: Pose, sense: float, end: float, before: float,
@@ -211,6 +242,33 @@ def closing_angle(
         )  # fmt: skip
 
 
+def foot_on(
+    ground: GroundTable, body: BodyTable, k: int, part: int, piece: int,
+    x: float, z: float, c: float, s: float,
+) -> float:  # fmt: skip
+    """Where along a flat from its first end, or along segment k, a piece of a gap has its foot [m].
+
+    Of a flat that of vertex k, of a segment that of the centre of an end disc.
+    """
+    if piece <= TO_TOP:
+        n_x, n_z = flat_normal(body, part, piece, c, s)
+        v_x = ground[k, X] - x - c * body[part, X1] + s * body[part, Z1]
+        v_z = ground[k, Z] - z - s * body[part, X1] - c * body[part, Z1]
+        return float(turning_side(body, part, piece) * (v_z * n_x - v_x * n_z))
+    j = DISC * (piece - FROM_DISC_1)
+    r_x = x + c * body[part, j + DISC_X] - s * body[part, j + DISC_Z] - ground[k, X]
+    r_z = z + s * body[part, j + DISC_X] + c * body[part, j + DISC_Z] - ground[k, Z]
+    return float(r_x * ground[k, U_X] + r_z * ground[k, U_Z])
+
+
+def stays_beside(foot: float, later: float, sagitta: float, length: float) -> bool:
+    """Whether a foot that runs along an arc stays beyond an end of what it would stand on.
+
+    It is never farther off the chord of its arc, from ``foot`` to ``later``, than the sagitta.
+    """
+    return min(foot, later) - sagitta > length or max(foot, later) + sagitta < 0.0
+
+
 def on_piece(
     ground: GroundTable,
     body: BodyTable,
@@ -229,8 +287,4 @@ def on_piece(
         return on_flat(ground, body, POINT * k + PART * part, x, z, c, s)
     if piece < FROM_DISC_1:
         return True
-    j = DISC * (piece - FROM_DISC_1)
-    r_x = x + c * body[part, j + DISC_X] - s * body[part, j + DISC_Z] - ground[k, X]
-    r_z = z + s * body[part, j + DISC_X] + c * body[part, j + DISC_Z] - ground[k, Z]
-    foot = r_x * ground[k, U_X] + r_z * ground[k, U_Z]
-    return bool(0.0 <= foot <= ground[k, LENGTH])
+    return bool(0.0 <= foot_on(ground, body, k, part, piece, x, z, c, s) <= ground[k, LENGTH])

@@ -9,14 +9,19 @@ from kaidan.contact.columns import (
     DISC,
     DISC_1,
     DISC_R,
+    FLAT,
     KIND_MASK,
+    LENGTH,
     NO_FEATURE,
     PART,
     PART_BITS,
     PART_MASK,
     POINT,
+    POINT_BITS,
     R1,
     R2,
+    U_X,
+    U_Z,
     VERTEX,
     X1,
     X2,
@@ -34,27 +39,32 @@ from kaidan.contact.kernel.closing import (
     TO_TOP,
     closing_angle,
     flat_normal,
+    foot_on,
     separation,
+    stays_beside,
+    turning_side,
 )
-from kaidan.contact.kernel.gaps import gap
+from kaidan.contact.kernel.event_location import PENETRATED
+from kaidan.contact.kernel.gaps import contact_point, gap
 from kaidan.contact.kernel.nearest_feature import first_index
 from kaidan.contact.kernel.rotation import carried
 from kaidan.contact.kernel.turning_closing import arcs_closing, flat_closing, segment_closing
-from kaidan.contact.tables import BodyTable, Four, GroundTable, Pose, Side
+from kaidan.contact.tables import BodyTable, Four, GroundTable, Line, Pose, Side
 
 
 def turning_about(
-    body: BodyTable, pivot: int, o_x: float, o_z: float, q_x: float, q_z: float, end: float
+    ground: GroundTable, body: BodyTable, pivot: int, o_x: float, o_z: float, end: float
 ) -> Four:
     """What a robot turns about: centre of the end that rolls, its radius, the way that it rolls.
 
-    A vertex has no radius.  ``q``: from the point of the pivot, ``o``, to that centre.
+    A vertex has no radius.  ``o``: the point of the pivot.
     """
     kind = pivot & KIND_MASK
     if kind == VERTEX:
         return o_x, o_z, 0.0, 0.0
     radius = body[(pivot >> PART_BITS) & PART_MASK, DISC * (kind - DISC_1) + DISC_R]
-    return o_x + radius * q_x, o_z + radius * q_z, radius, radius * end
+    k = pivot >> POINT_BITS
+    return o_x - radius * ground[k, U_Z], o_z + radius * ground[k, U_X], radius, radius * end
 
 
 def swept(
@@ -97,11 +107,14 @@ def side_of(
         Its normal.
     level
         How far the pivot lies beyond its line [m].
+    foot
+        Where along it the pivot lies, from its first end [m].
     """
     _, _, c0, s0, o_x, o_z = start
     n_x, n_z = flat_normal(body, part, piece, c0, s0)
     level = (o_x - a_x) * n_x + (o_z - a_z) * n_z - body[part, R1]
-    return n_z < 0.0 or n_z * ce + n_x * se < 0.0, n_x, n_z, level
+    foot = turning_side(body, part, piece) * ((o_z - a_z) * n_x - (o_x - a_x) * n_z)
+    return n_z < 0.0 or n_z * ce + n_x * se < 0.0, n_x, n_z, level, foot
 
 
 def curvature(piece: int, g_x: float, g_z: float, levers: Four, about: Four) -> float:
@@ -168,6 +181,12 @@ def rolling_closing(
         value, rate = separation(ground, body, k, part, piece, x, z, c0, s0, o_x, o_z, sense)
         if value > 0.0 and value + best * (rate - 0.5 * bend * best) > 0.0:
             continue
+        if piece <= TO_TOP or piece >= FROM_DISC_1:
+            length = body[part, FLAT] if piece <= TO_TOP else ground[k, LENGTH]
+            foot = foot_on(ground, body, k, part, piece, x, z, c0, s0)
+            later = foot_on(ground, body, k, part, piece, x1, z1, c1, s1)
+            if stays_beside(foot, later, 0.125 * bend * end * end, length):
+                continue
         far, far_rate = separation(ground, body, k, part, piece, x1, z1, c1, s1, f_x, f_z, sense)
         at = closing_angle(
             ground, body, k, part, piece, pivot, start, finish, sense, end, best,
@@ -179,10 +198,28 @@ def rolling_closing(
     return best, which
 
 
+def stays_under(
+    ground: GroundTable, k: int, o_x: float, o_z: float, ce: float, se: float, line: Line
+) -> bool:
+    """Whether point k stays under a line through (o_x, o_z) as long as that turns about there.
+
+    The part of the pivot lies over its supporting line there, so that it meets nothing that stays
+    under it. What is over it by PENETRATED / 2 at most before and after a turn by 120 deg or less
+    is so by PENETRATED at most on the way: its height is a sinusoid, and half of the greatest one
+    is reached 60 deg before and after.
+    """
+    n_x, n_z, height = line
+    v_x = ground[k, X] - o_x
+    v_z = ground[k, Z] - o_z
+    up = v_x * n_x + v_z * n_z
+    most = min(height, 0.0) + 0.5 * PENETRATED
+    return bool(up <= most and up * ce + (v_z * n_x - v_x * n_z) * se <= most)
+
+
 def part_closing(
     ground: GroundTable, body: BodyTable, k: int, part: int, pivot: int,
     flat: Side, top: Side, start: Pose, finish: Pose, sense: float, end: float,
-    ce: float, se: float, about: Four, centres: Four, levers: Four, ranges: Four,
+    ce: float, se: float, line: Line, about: Four, centres: Four, levers: Four, ranges: Four,
     best: float, which: int,
 ) -> tuple[float, int]:  # fmt: skip
     """Points and segments from k on meet one part.
@@ -195,6 +232,8 @@ def part_closing(
         See :func:`rolling_closing`.
     ce, se
         Cosine and sine of ``end``.
+    line
+        Supporting line of the pivot's part: its normal, and its height over the pivot.
     centres, ranges
         See :func:`swept`.
 
@@ -202,12 +241,19 @@ def part_closing(
     -------
     angle [rad], feature: those given unless one of these closes before.
     """
-    x, z, c0, s0, o_x, o_z = start
+    _, _, _, _, o_x, o_z = start
     right = max(ranges[1], ranges[3])
-    down, n_x, n_z, flat_level = flat
-    falls, t_x, t_z, top_level = top
+    down, _, _, _, _ = flat
+    falls, _, _, _, _ = top
     rolls = pivot & KIND_MASK != VERTEX
+    passes = not rolls and part == (pivot >> PART_BITS) & PART_MASK
+    under = passes and stays_under(ground, k, o_x, o_z, ce, sense * se, line)
     while k < ground.shape[0] - 1 and ground[k, X] <= right:
+        before = under
+        under = passes and stays_under(ground, k + 1, o_x, o_z, ce, sense * se, line)
+        if before and under:
+            k += 1
+            continue
         if rolls:
             best, which = rolling_closing(
                 ground, body, k, part, pivot, down, falls, start, finish, sense, end, about,
@@ -217,13 +263,13 @@ def part_closing(
             if ground[k, CONVEX] == 1.0:
                 if down:
                     best, which = flat_closing(
-                        ground, body, k, part, TO_FLAT, pivot, x, z, c0, s0, o_x, o_z, sense,
-                        ce, se, n_x, n_z, flat_level, best, which,
+                        ground, body, k, part, TO_FLAT, pivot, start, sense, ce, se, flat,
+                        best, which,
                     )  # fmt: skip
                 if falls:
                     best, which = flat_closing(
-                        ground, body, k, part, TO_TOP, pivot, x, z, c0, s0, o_x, o_z, sense,
-                        ce, se, t_x, t_z, top_level, best, which,
+                        ground, body, k, part, TO_TOP, pivot, start, sense, ce, se, top,
+                        best, which,
                     )  # fmt: skip
                 best, which = arcs_closing(
                     ground, body, k, part, o_x, o_z, sense, ce, se, centres, best, which
@@ -241,7 +287,8 @@ def first_closing(
     pivot: int,
     x: float,
     z: float,
-    phi: float,
+    c0: float,
+    s0: float,
     sense: float,
     end: float,
     hint: int,
@@ -252,16 +299,14 @@ def first_closing(
     -------
     feature (-1: none), angle [rad], hint for the next call
     """
-    c0 = math.cos(phi)
-    s0 = math.sin(phi)
     ce = math.cos(end)
     se = math.sin(end)
     x1, z1 = carried(ground, body, pivot, x, z, c0, s0, sense * end, ce, sense * se)
     c1 = c0 * ce - s0 * sense * se
     s1 = s0 * ce + c0 * sense * se
-    _, q_x, q_z, o_x, o_z = gap(ground, body, pivot, x, z, c0, s0)
-    _, _, _, f_x, f_z = gap(ground, body, pivot, x1, z1, c1, s1)
-    about = turning_about(body, pivot, o_x, o_z, q_x, q_z, end)
+    height, q_x, q_z, o_x, o_z = gap(ground, body, pivot, x, z, c0, s0)
+    f_x, f_z = contact_point(ground, body, pivot, x1, z1, c1, s1)
+    about = turning_about(ground, body, pivot, o_x, o_z, end)
     h_x, h_z, _, _ = about
     start = (x, z, c0, s0, o_x, o_z)
     finish = (x1, z1, c1, s1, f_x, f_z)
@@ -280,6 +325,6 @@ def first_closing(
         new_hint = min(new_hint, k)
         best, which = part_closing(
             ground, body, k, part, pivot, flat, top, start, finish, sense, end, ce, se,
-            about, centres, levers, ranges, best, which,
+            (q_x, q_z, height), about, centres, levers, ranges, best, which,
         )  # fmt: skip
     return which, best, new_hint

@@ -95,17 +95,17 @@ def barrier(
         delta = lever(ground, body, pivot, x, z, c, s, kappa)
         over = 0.0
         if delta * sense < 0.0:
-            over = max(angle_until_over(ground, body, pivot, x, z, phi, sense, kappa, False), 0.0)
+            over = max(angle_until_over(ground, body, pivot, x, z, c, s, sense, kappa, False), 0.0)
         elif total >= tolerance:
             return True, best, across, hint
         most = 0.5 * math.pi - total
         if most <= 0.0:
             return False, best, across, hint
-        limit = foot_limit(ground, body, pivot, x, z, phi, sense)
+        limit = foot_limit(ground, body, pivot, x, z, c, s, sense)
         end = min(limit, most)
         if over <= end:  # past the pivot only as far as rocking is tolerated
             end = min(max(over + AS_IT_COMES_OVER, tolerance - total), end)
-        closed, angle, hint = first_closing(ground, body, pivot, x, z, phi, sense, end, hint)
+        closed, angle, hint = first_closing(ground, body, pivot, x, z, c, s, sense, end, hint)
         if over < angle:
             c_over = math.cos(over)
             s_over = sense * math.sin(over)
@@ -245,9 +245,11 @@ def carrying_tilt(
                 ground, body, pivot, x, z, phi, sense, tolerance - total, without, hint
             )
         else:
-            limit = foot_limit(ground, body, pivot, x, z, phi, sense)
+            c = math.cos(phi)
+            s = math.sin(phi)
+            limit = foot_limit(ground, body, pivot, x, z, c, s, sense)
             closed, angle, hint = first_closing(
-                ground, body, pivot, x, z, phi, sense, min(tolerance - total, limit), hint
+                ground, body, pivot, x, z, c, s, sense, min(tolerance - total, limit), hint
             )
         x, z = turned(ground, body, pivot, x, z, phi, sense * angle)
         phi += sense * angle

@@ -76,8 +76,9 @@ def carried(
 
 
 def foot_limit(
-    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float, sense: float
-) -> float:
+    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, c: float, s: float,
+    sense: float,
+) -> float:  # fmt: skip
     """Turn after which a rolling disc's foot reaches the end of its segment [rad] (inf: vertex)."""
     kind = pivot & KIND_MASK
     if kind == VERTEX:
@@ -85,8 +86,8 @@ def foot_limit(
     k = pivot >> POINT_BITS
     part = (pivot >> PART_BITS) & PART_MASK
     j = DISC * (kind - DISC_1)
-    c_x = x + math.cos(phi) * body[part, j + DISC_X] - math.sin(phi) * body[part, j + DISC_Z]
-    c_z = z + math.sin(phi) * body[part, j + DISC_X] + math.cos(phi) * body[part, j + DISC_Z]
+    c_x = x + c * body[part, j + DISC_X] - s * body[part, j + DISC_Z]
+    c_z = z + s * body[part, j + DISC_X] + c * body[part, j + DISC_Z]
     foot = (c_x - ground[k, X]) * ground[k, U_X] + (c_z - ground[k, Z]) * ground[k, U_Z]
     if sense > 0.0:
         return float(max(foot, 0.0) / body[part, j + DISC_R])
@@ -117,7 +118,8 @@ def angle_until_over(
     pivot: int,
     x: float,
     z: float,
-    phi: float,
+    c: float,
+    s: float,
     sense: float,
     kappa: float,
     below: bool,
@@ -139,8 +141,6 @@ def angle_until_over(
         return angle + 2.0 * math.pi if angle < -1e-9 else angle
     part = (pivot >> PART_BITS) & PART_MASK
     j = DISC * ((pivot & KIND_MASK) - DISC_1)
-    c = math.cos(phi)
-    s = math.sin(phi)
     d_x = s * body[part, j + DISC_Z] - c * body[part, j + DISC_X]
     d_z = -s * body[part, j + DISC_X] - c * body[part, j + DISC_Z]
     ratio = body[part, j + DISC_R] * (ground[k, U_Z] + kappa * ground[k, U_X])

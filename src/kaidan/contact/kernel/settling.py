@@ -223,13 +223,14 @@ def settle(
             q_phi -= (m_z * g2 - n_z * g1) / det
             if q_phi < lo - 1e-3 or q_phi > hi + 1e-3:
                 break
-        trial = mid
-        if good and lo - 1e-12 <= q_phi <= hi + 1e-12:
-            trial = q_phi
-        c = math.cos(trial)
-        s = math.sin(trial)
+        trial = q_phi
+        if not good or q_phi < lo - 1e-12 or q_phi > hi + 1e-12:
+            good = False
+            trial = mid
+            c = math.cos(mid)
+            s = math.sin(mid)
         z, f_trial, hint = touching_near(ground, body, x, c, s, hint)
-        if good and trial == q_phi and z <= q_z + 1e-12:
+        if good and z <= q_z + 1e-12:
             return True, q_z, trial, f_hi, f_lo
         if hi - lo < 1e-14:
             break

@@ -156,10 +156,12 @@ def fall(
             outcome = RotationOutcome.PAST_VERTICAL
             break
         height = (z + kappa * x) / down
-        limit = foot_limit(ground, body, pivot, x, z, phi, sense)
-        rest = angle_until_over(ground, body, pivot, x, z, phi, sense, kappa, True)
+        c = math.cos(phi)
+        s = math.sin(phi)
+        limit = foot_limit(ground, body, pivot, x, z, c, s, sense)
+        rest = angle_until_over(ground, body, pivot, x, z, c, s, sense, kappa, True)
         closed, angle, hint = first_closing(
-            ground, body, pivot, x, z, phi, sense, min(most, limit, rest), hint
+            ground, body, pivot, x, z, c, s, sense, min(most, limit, rest), hint
         )
         x, z = turned(ground, body, pivot, x, z, phi, sense * angle)
         phi += sense * angle

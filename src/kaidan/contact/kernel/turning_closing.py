@@ -8,6 +8,7 @@ from kaidan.contact.columns import (
     DISC,
     DISC_1,
     DISC_R,
+    FLAT,
     KIND_MASK,
     LENGTH,
     NO_FEATURE,
@@ -20,10 +21,15 @@ from kaidan.contact.columns import (
     X,
     Z,
 )
-from kaidan.contact.kernel.closing import crossing_angle, on_piece
+from kaidan.contact.kernel.closing import (
+    crossing_angle,
+    crossing_angle_on,
+    on_piece,
+    turning_side,
+)
 from kaidan.contact.kernel.event_location import PENETRATED
 from kaidan.contact.kernel.rotation import carried
-from kaidan.contact.tables import BodyTable, Four, GroundTable
+from kaidan.contact.tables import BodyTable, Four, GroundTable, Pose, Side
 
 #: A pivot this close to an end disc [m] lies on it: five times the gap at which a rotation ends.
 #: One that lies farther off closes with the segment sqrt(2 off / R) later, at a gap of zero.
@@ -34,19 +40,24 @@ IN_LINE = 1e-10
 
 def flat_closing(
     ground: GroundTable, body: BodyTable, k: int, part: int, piece: int, pivot: int,
-    x: float, z: float, c0: float, s0: float, o_x: float, o_z: float, sense: float,
-    ce: float, se: float, n_x: float, n_z: float, level: float, best: float, which: int,
+    start: Pose, sense: float, ce: float, se: float, side: Side, best: float, which: int,
 ) -> tuple[float, int]:  # fmt: skip
-    """Point k meets a flat of a part that turns about (o_x, o_z).
+    """Point k meets a flat of a part that turns about the point of the pivot.
+
+    ``side``: see :func:`kaidan.contact.kernel.first_closing.side_of`.
 
     Returns
     -------
     angle [rad], feature: those given unless it closes before.
     """
+    x, z, c0, s0, o_x, o_z = start
+    _, n_x, n_z, level, foot = side
     v_x = ground[k, X] - o_x
     v_z = ground[k, Z] - o_z
     even = v_x * n_x + v_z * n_z
-    at = crossing_angle(level, even, sense * (v_z * n_x - v_x * n_z), ce, se, PENETRATED)
+    rate = sense * (v_z * n_x - v_x * n_z)
+    ahead = sense * turning_side(body, part, piece)
+    at = crossing_angle_on(level, even, rate, ce, se, body[part, FLAT], foot, ahead)
     tie = 0.0
     if which != NO_FEATURE and which & KIND_MASK == VERTEX:
         # of points in line the outermost: they come in the order of x
@@ -146,15 +157,11 @@ def segment_closing(
         even = u_x * r_z - u_z * r_x
         level = u_z * v_x - u_x * v_z - radius
         rate = sense * (r_x * u_x + r_z * u_z)
-        at = crossing_angle(level, even, rate, ce, se, PENETRATED)
+        beyond = v_x * u_x + v_z * u_z
+        at = crossing_angle_on(level, even, rate, ce, se, ground[k, LENGTH], -beyond, sense)
         if at < best:
             # along the segment: the centre, turned
-            foot = (
-                math.cos(at) * (r_x * u_x + r_z * u_z)
-                - sense * math.sin(at) * even
-                - v_x * u_x
-                - v_z * u_z
-            )
+            foot = sense * (math.cos(at) * rate - math.sin(at) * even) - beyond
             if foot >= 0.0 and foot <= ground[k, LENGTH]:
                 best = at
                 which = POINT * k + PART * part + DISC_1 + disc
