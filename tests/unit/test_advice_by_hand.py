@@ -9,6 +9,7 @@ import pytest
 from kaidan import Payload, Question, Robot, Stairs
 from kaidan.assessment import advice, plan_off_angles, plan_search, plans, traction_advice
 from kaidan.assessment.advice import (
+    CLOSER,
     WORTH_TELLING,
     _centroid_moved,
     _is_better,
@@ -37,6 +38,7 @@ from kaidan.modes import (
     ENERGY,
     GROUSER_SPEED,
     LANDING_ROOM,
+    POSTURE_TOLERANCE,
     SLIDES_DOWN,
     SLIDES_UP,
     TIP_DOWNHILL,
@@ -244,6 +246,19 @@ def tried(monkeypatch):
         return [one.change if isinstance(one, Candidate) else one for one in each]
 
     return of
+
+
+@pytest.mark.parametrize(("tolerance", "tries"), [(2 * CLOSER, True), (CLOSER, False)])
+def test_closer_angles_are_tried_where_they_are_not_asked_for(monkeypatch, tolerance, tries):
+    """In a plan that holds off its angles, whatever it is."""
+    monkeypatch.setattr(advice, "more_friction", lambda question, found, search: [])
+    question = Question.of("absolem", KENAF.terrain, friction=1.0).changed(
+        best_of=(), posture={"front": 0.1, "rear": 0.1}, flipper_tolerance=tolerance
+    )
+    now = concluded(Verdict.CAUTION)._replace(governs=POSTURE_TOLERANCE.key)
+    each = list(advice._candidates(question, Findings(model="by hand"), now, object()))
+    told = [(one.change, one.question.tolerance, one.holds, one.certain) for one in each]
+    assert told == [(text.set_closer(CLOSER), CLOSER, True, False)] * tries
 
 
 def test_what_is_tried_where_it_slips(tried):

@@ -4,8 +4,9 @@ import math
 
 import pytest
 
-from kaidan import Robot, Stairs
+from kaidan import Profile, Robot, Stairs
 from kaidan.assessment.limits import limits
+from kaidan.mechanics.transitions import largest_step_height
 from kaidan.question import Question
 from one_posture import assess
 
@@ -18,8 +19,12 @@ LONG = Robot(
 )  # fmt: skip
 
 
-def of(robot, **manner):
-    return limits(Question.in_one_posture(robot, FLIGHT, friction=1.5, **manner))
+def of(robot, terrain=FLIGHT, **manner):
+    return limits(Question.in_one_posture(robot, terrain, friction=1.5, **manner))
+
+
+def names(found):
+    return [each.figure for each in found]
 
 
 def test_a_short_robot_is_told_its_length_and_its_centroid():
@@ -79,3 +84,52 @@ def test_a_riser_too_high_and_a_rear_length_too_short_are_one():
         )
         assert str(answer).count("a riser up to") == short
         assert "rear length" not in str(answer)
+
+
+def test_of_several_flights_the_longest_step_and_the_highest_riser_count():
+    steep = Stairs(name="steep", rise=0.2, going=0.2, steps=4)
+    long = Stairs(name="long", rises=(0.1, 0.1, 0.1), goings=(0.35, 0.3))
+    for flights in ([steep, long], [long, steep]):
+        spacing, riser = of(SHORT, flights)
+        assert spacing.has_m == pytest.approx(math.hypot(0.1, 0.35))
+        assert riser.has_m == pytest.approx(0.2)
+
+
+def test_a_profile_is_limited_as_the_flight_that_it_is():
+    figures = [
+        [(each.figure, each.has_m, each.takes_m, each.needs_m) for each in found]
+        for found in (of(SHORT), of(SHORT, Profile.of_flights([FLIGHT])))
+    ]
+    assert figures[1] == [(name, *map(pytest.approx, rest)) for name, *rest in figures[0]]
+
+
+def test_without_steps_no_spacing_limits_and_without_an_edge_no_riser():
+    kerb = Profile.of_points([(-3, 0), (0, 0), (0, 0.3), (3, 0.3)])
+    assert names(of(SHORT, kerb)) == ["rise"]
+    assert of(SHORT, Profile.of_points([(-3, 0), (3, 0)])) == ()
+
+
+def test_tail_first_the_centroid_counts_from_the_tail():
+    mirrored = SHORT.with_centroid(0.52 - SHORT.com_from_front, SHORT.com_height)
+    tail, nose = of(SHORT, facing="tail-first"), of(mirrored)
+    assert names(tail) == names(nose) == ["nosing_spacing", "rise"]
+    assert tail[1].takes_m == pytest.approx(nose[1].takes_m)
+    assert tail[1].needs_m == nose[1].needs_m
+
+
+def test_the_centroid_asked_for_is_told_in_whole_millimetres_and_is_enough():
+    (needs,) = (each.needs_m for each in of(SHORT) if each.figure == "rise")
+    assert needs * 1e3 == pytest.approx(round(needs * 1e3), abs=1e-9)
+    for along, enough in ((needs, True), (needs + 1.1e-3, False)):
+        height = largest_step_height(l_c=0.52 - along, C_N=SHORT.com_height, R=0.085)
+        assert (height >= 0.174) == enough
+
+
+def test_who_lifts_an_end_with_flippers_pivots_over_no_edge_as_a_plain_track():
+    pair = {"length": 0.3, "root_radius": 0.085, "tip_radius": 0.04, "pivot_height": 0.085}
+    robot = Robot(
+        name="with flippers", mass=24.5, com_from_front=0.255, com_height=0.146, track=TRACK,
+        front_flippers=pair,
+    )  # fmt: skip
+    assert names(of(robot, flippers="stowed")) == ["nosing_spacing", "rise"]
+    assert names(of(robot, flippers="-20deg")) == ["nosing_spacing"]
