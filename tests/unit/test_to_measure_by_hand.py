@@ -61,6 +61,12 @@ def test_ranges_move_margins_from_the_worst_to_the_best_case(margins):
     assert margins(half, **THREE) == [0.1, 0.2, 0.3]  # not all of it is known
 
 
+def test_what_never_fails_in_some_samples_is_not_moved(margins):
+    tips = finding(TIP_DOWNHILL, [0.1, math.inf, 0.3], [0.5, math.inf, 0.5])
+    other = finding(TIP_UPHILL, [0.2] * 3)
+    assert margins(tips, other, **THREE) == [0.1, 0.2, 0.2]
+
+
 def test_of_what_no_margin_is_known(margins):
     tips, certain = finding(TIP_DOWNHILL, [0.1] * 3), finding(STUCK, [0.05])
     assert margins(tips, certain) == [0.1] * 3  # nothing drawn moves it
