@@ -135,7 +135,7 @@ def judged(verdict=Verdict.GO, question="own"):
 def searched(monkeypatch):
     """A search of each end that leads: its best plan, and how many drives it took."""
 
-    def of(*ends, best_of=("flippers", "facing"), known=False):
+    def of(*ends, best_of=("flippers", "facing"), known=False, verdict=None):
         left, ranked = list(ends), []
 
         def search(question, facing, limits):
@@ -156,7 +156,7 @@ def searched(monkeypatch):
         monkeypatch.setattr(module, "_sturdiest", sturdiest)
         monkeypatch.setattr(module, "_on_the_whole", on_the_whole)
         question = Question.of(ABSOLEM, STAIRS, friction=1.0).changed(best_of=best_of)
-        return module.found_of(question, drives="known" if known else None), ranked
+        return module.better_than(verdict, question, drives="known" if known else None), ranked
 
     return of
 
@@ -181,6 +181,87 @@ def test_the_other_end_is_tried_where_the_nose_is_no_sturdy_go(searched):
         assert ranked == sorted(plans, key=lambda each: each.worst, reverse=True)
     found, _ = searched((30, caution), best_of=("flippers",), known=True)
     assert (found.ends, found.tried) == (("nose-first",), 30)
+
+
+@pytest.mark.parametrize(
+    ("verdict", "plan", "better"),
+    [
+        (Verdict.CAUTION, Verdict.GO, True),
+        (Verdict.CAUTION, Verdict.CAUTION, False),
+        (Verdict.NO_GO, Verdict.CAUTION, True),
+        (Verdict.NO_GO, None, False),
+        (None, Verdict.NO_GO, True),
+    ],
+)
+def test_a_verdict_is_exceeded_by_a_better_one_alone(searched, verdict, plan, better):
+    """Of one verdict no margin is enough."""
+    one = None if plan is None else off(plan, 80.0, sturdy=plan is Verdict.GO)
+    if plan is Verdict.CAUTION:
+        one.worst = (CAUTION, True, 0, 80.0)
+    found, ranked = searched((3, one), best_of=("flippers",), verdict=verdict)
+    assert (found is not None) == better
+    assert ranked == ([one] if better else [])
+
+
+@pytest.mark.parametrize("verdict", [None, Verdict.CAUTION])
+@pytest.mark.parametrize("surface", ["unknown", "known"])
+@pytest.mark.parametrize("belt", ["grousers", "smooth"])
+def test_on_grousers_without_a_friction_the_best_at_one_is_taken(
+    monkeypatch, verdict, surface, belt
+):
+    stated = SimpleNamespace(
+        surface=None if surface == "unknown" else "known", plannable=True, facing="nose-first",
+        robot=SimpleNamespace(track=SimpleNamespace(has_grousers=belt == "grousers")),
+    )  # fmt: skip
+    question = SimpleNamespace(tolerance=0.0, best_of=(), changed=lambda **changes: stated)
+    monkeypatch.setattr(module, "_at_unknown_friction", lambda *given: "at one")
+    monkeypatch.setattr(module, "shortened", lambda asked: asked)
+    monkeypatch.setattr(
+        module, "Search", lambda *given: SimpleNamespace(scores=SimpleNamespace(known=()))
+    )
+    monkeypatch.setattr(module, "_sturdiest", lambda *given: off(Verdict.GO, 1.0))
+    monkeypatch.setattr(
+        module, "_on_the_whole", lambda *given: module.Found("own", "its", True, "short", None)
+    )
+    found = module.better_than(verdict, question, (-1.0, 1.0), drives="known")
+    at_one = verdict is None and surface == "unknown" and belt == "grousers"
+    assert (found == "at one") == at_one
+
+
+@pytest.mark.parametrize(
+    ("sturdy", "holds"), [(True, False), (False, True), (False, False), (True, True)]
+)
+def test_at_an_unknown_friction_it_holds_as_it_does_at_one_or_without(monkeypatch, sturdy, holds):
+    question = Question.of(ABSOLEM, STAIRS)
+    found = module.Found(question, "at one", sturdy, question, "drives")
+    monkeypatch.setattr(module, "found_of", lambda *given, **named: found)
+    monkeypatch.setattr(module, "holds_off_its_angles", lambda asked, drives: holds)
+    monkeypatch.setattr(module, "judge", lambda asked: ("judged", asked.surface))
+    told = module._at_unknown_friction(question, (-1.0, 1.0), "drives")
+    assert told.sturdy == (sturdy or holds)
+    assert told.findings == ("judged", None)
+    assert told.question.surface is told.short.surface is None
+
+
+def test_where_no_plan_may_hold_the_best_at_its_angles_is_steadied(monkeypatch):
+    class OfVerdict:
+        def __init__(self, verdict):
+            self.verdict = verdict
+
+        def question(self, asked):
+            return self.verdict
+
+    plans = [OfVerdict(each) for each in (Verdict.CAUTION, Verdict.GO, Verdict.NO_GO)]
+    each = [module._Candidate(plan, (True, 0, 0.0), (True, 0, 0.0)) for plan in plans]
+    search, steadied = SimpleNamespace(may_hold=lambda plan: False, question="asked"), []
+    monkeypatch.setattr(module, "_candidates", lambda search: each)
+    monkeypatch.setattr(
+        module, "_judged", lambda verdict, drives: SimpleNamespace(merit=(-verdict.rank,))
+    )
+    monkeypatch.setattr(module, "_to_steady", lambda search, first: steadied.append(first.merit))
+    monkeypatch.setattr(module, "_best_of", lambda some, *given: (some or None, None))
+    assert module._sturdiest(search, None, "drives") == each
+    assert steadied == [(GO,)]
 
 
 @pytest.mark.parametrize(
