@@ -79,7 +79,8 @@ def test_tips_are_the_first_rock_of_whichever_phase_less_the_allowances():
         each = [FirstRock(rocks[downhill][one], one, 2) for one in some if one in rocks[downhill]]
         return min(each, default=None)
 
-    down, up = _tips(ASKED, ASKED, found(first_rock=first_rock), over, None)
+    phases = (SimpleNamespace(phase=Phase.ENTER), ON, LANDS)  # entering it never rocks
+    down, up = _tips(ASKED, ASKED, found(first_rock=first_rock, phases=phases), over, None)
     assert (down.mode, down.phase, down.step) == (TIP_DOWNHILL, Phase.TRAVERSE, 2)
     assert (down.failing, up.failing, up.mode) == (Verdict.CAUTION, Verdict.CAUTION, TIP_UPHILL)
     assert down.worst == pytest.approx(np.array([0.2, 0.16, 0.1]) - 0.07)

@@ -117,6 +117,9 @@ def test_going_down_a_slip_that_passes_over_what_nothing_holds_is_longer(passed,
     down.descending = True
     found = supply(asked(), down, track())
     assert found.slip == pytest.approx(slip)
+    # sliding, of the least friction
+    asked_of_slips = [each for each in down.grip.asked if len(each) == 2]
+    assert asked_of_slips[-1] == (pytest.approx(slip), pytest.approx(0.8 * 0.5))
     assert found.heights == {Phase.TRAVERSE: pytest.approx(height)}
 
 
@@ -127,6 +130,31 @@ def test_of_a_phase_alone():
     assert none[2:] == (None, None, 0.0, {})
     assert math.isnan(none.margin)
     assert math.isnan(none.required)
+
+
+@pytest.mark.parametrize("stated", [True, False])
+@pytest.mark.parametrize("holds", [True, False])
+@pytest.mark.parametrize("bear", [True, False])
+def test_belts_by_cases_where_grousers_hold_and_bear(stated, holds, bear, monkeypatch):
+    """At the worst friction and at the best one, each case of grousers with its angles."""
+    monkeypatch.setattr(module, "holds_otherwise", lambda question: holds)
+    monkeypatch.setattr(module, "bears", lambda question, track: bear)
+    found = module.gripping(asked(stated=stated))
+    if not (stated and holds and bear):
+        assert found is None
+        return
+    cases = module.grousers_of(None, None, best=False)
+    angles = {best: tuple(map(math.atan, each)) for best, each in FRICTIONS.items()}
+    assert found == tuple(
+        module.Case(one, angles[best], best) for best in (False, True) for one in cases
+    )
+
+
+def test_a_grouser_stands_at_no_more_than_all_phases():
+    one = SimpleNamespace(height=0.02, spacing=0.04, nosing_radius=0.0, tip_width=0.0, rigid=False)
+    # by hand: a height above the tread over the tangent of the slope
+    for slope, share in ((math.atan(0.8), 0.625), (math.atan(0.4), 1.0)):
+        assert module._share(slope, one) == pytest.approx(share)
 
 
 def test_friction_that_nobody_stated_is_none():
