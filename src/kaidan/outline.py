@@ -21,6 +21,8 @@ from kaidan.robot import FlipperPair, Payload, Posture, Robot, Stance
 from kaidan.robot.robot import IN_LINE
 
 Array = NDArray[np.float64]
+Disc = tuple[float, float, float]
+"""x and z of its centre, radius [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,18 +93,21 @@ class Outline:
         return cls(np.array(discs), np.array(kinds, dtype=np.int64), stance, gyration)
 
     @cached_property
+    def discs(self) -> list[Disc]:
+        """Discs of all parts, two of each, one after the other."""
+        numbers = self.parts.ravel().tolist()
+        return list(zip(numbers[::3], numbers[1::3], numbers[2::3], strict=True))
+
+    @cached_property
     def reach(self) -> tuple[float, float]:
         """Distances from the centroid to the ends of the robot behind it and ahead of it [m]."""
-        left = np.minimum(self.parts[:, 0] - self.parts[:, 2], self.parts[:, 3] - self.parts[:, 5])
-        right = np.maximum(self.parts[:, 0] + self.parts[:, 2], self.parts[:, 3] + self.parts[:, 5])
-        return float(-left.min()), float(right.max())
+        return -min(x - r for x, _, r in self.discs), max(x + r for x, _, r in self.discs)
 
     @cached_property
     def trail(self) -> float:
         """Largest distance of what lies behind the centroid, whatever the inclination [m]."""
-        discs = self.parts.reshape(-1, 3)
-        behind = discs[discs[:, 0] - discs[:, 2] < 0.0]
-        return float((np.hypot(behind[:, 0], behind[:, 1]) + behind[:, 2]).max(initial=0.0))
+        behind = (abs(complex(x, z)) + r for x, z, r in self.discs if x - r < 0.0)
+        return max(behind, default=0.0)
 
     @cached_property
     def lead(self) -> float:
@@ -111,13 +116,11 @@ class Outline:
         A flipper that is pushed below the flat raises its end of the robot, and then reaches
         further ahead than in line with the floor.
         """
-        discs = self.parts.reshape(-1, 3)
-        lowest = discs[:, 1] - discs[:, 2] + self.stance.com_height
         ahead = self.reach[1]
-        if lowest.min() >= -IN_LINE:
+        if min(z - r for _, z, r in self.discs) + self.stance.com_height >= -IN_LINE:
             return ahead
-        low = discs[(discs[:, 0] + discs[:, 2] > 0.0) & (discs[:, 1] < 0.0)]
-        return float((np.hypot(low[:, 0], low[:, 1]) + low[:, 2]).max(initial=ahead))
+        low = (abs(complex(x, z)) + r for x, z, r in self.discs if x + r > 0.0 and z < 0.0)
+        return max(ahead, *low)
 
     def turned_round(self) -> Self:
         """Outline with nose and tail swapped, x counting towards the tail."""

@@ -41,6 +41,7 @@ class Body(SimpleNamespace):
 def robot(*others, kinds=(), main=TRACK, tips_below=False):
     return Body(
         parts=np.array([main, *others]),
+        discs=[tuple(part[k : k + 3]) for part in (main, *others) for k in (0, 3)],
         kinds=np.array([contact.TRACK, *kinds]),
         stance=SimpleNamespace(
             flat_length=L, com_height=C_N, com_from_front=C_L, tips_below=tips_below

@@ -3,6 +3,8 @@
 import math
 from collections.abc import Sequence
 from functools import lru_cache
+from itertools import compress
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -10,7 +12,7 @@ from numpy.typing import NDArray
 
 from kaidan import contact
 from kaidan.errors import InputError
-from kaidan.outline import Outline
+from kaidan.outline import Disc, Outline
 from kaidan.robot.robot import IN_LINE
 from kaidan.terrain.profile import Profile
 from kaidan.traversal.criterion import Criterion, Tread
@@ -102,30 +104,34 @@ def _criterion(nosings: bytes, tread: Tread, along: float) -> Criterion:
 def tread_of(body: Outline) -> Tread:
     """Underside of a robot on a flight that rises towards +x."""
     stance = body.stance
-    level = _level(body)
-    last, first = _flat_ends(body, level)
+    (_, _, last), (first, _, radius) = _flat_ends(body)
+    level, tracks = _level(body), (body.kinds == contact.TRACK).tolist()
+    flats = zip(level[::2], level[1::2], tracks, strict=True)
     return Tread(
         L=stance.flat_length,
-        C_L=float(first[0]),
+        C_L=first,
         C_N=stance.com_height,
-        R=float(first[2]),
-        R_downhill=float(last[2]),
+        R=radius,
+        R_downhill=last,
         gyration=body.gyration,
-        whole=int(np.sum(level[:, 0] & level[:, 1] & (body.kinds == contact.TRACK))) == 1,
+        whole=sum(map(all, flats)) == 1,
     )
 
 
-def _level(body: Outline) -> NDArray[np.bool_]:
-    """Shape (m, 2): discs of each part whose lower edge lies in the line of the flat."""
-    above = body.parts[:, [1, 4]] - body.parts[:, [2, 5]] + body.stance.com_height
-    length = np.hypot(*(body.parts[:, [0, 1]] - body.parts[:, [3, 4]]).T)
-    return np.asarray(np.abs(above) <= IN_LINE * length[:, None] + ROUNDING)
+def _level(body: Outline) -> list[bool]:
+    """Of each disc of the parts whether its lower edge lies in the line of the flat."""
+    level = []
+    for one, two in zip(body.discs[::2], body.discs[1::2], strict=True):
+        most = IN_LINE * abs(complex(one[0] - two[0], one[1] - two[1])) + ROUNDING
+        level += [abs(z - r + body.stance.com_height) <= most for _, z, r in (one, two)]
+    return level
 
 
-def _flat_ends(body: Outline, level: NDArray[np.bool_]) -> tuple[Array, Array]:
-    """Rear and front disc of the flat, of those in its line: x, z, radius [m]."""
-    on = body.parts.reshape(-1, 2, 3).swapaxes(0, 1)[level.T]
-    return on[np.argmin(on[:, 0])], on[np.argmax(on[:, 0])]
+def _flat_ends(body: Outline) -> tuple[Disc, Disc]:
+    """Rear and front disc of the flat, of those in its line."""
+    discs, level = body.discs, _level(body)
+    on = list(compress(discs[::2] + discs[1::2], level[::2] + level[1::2]))
+    return min(on, key=itemgetter(0)), max(on, key=itemgetter(0))
 
 
 def whole_of(tread: Tread, criterion: Criterion, body: Outline) -> bool:
@@ -144,15 +150,21 @@ def _rocks_onto_flippers(body: Outline) -> bool:
 
     The flat ends at a kink there, and what lies beyond it carries as on a low nosing.
     """
-    flippers = body.parts[body.kinds == contact.FLIPPER]
-    if len(flippers) == 0:
+    flippers = [
+        each
+        for part, kind in enumerate(body.kinds.tolist())
+        if kind == contact.FLIPPER
+        for each in body.discs[2 * part : 2 * part + 2]
+    ]
+    if not flippers:
         return False
-    (last, *_), (first, *_) = _flat_ends(body, _level(body))
-    x, z, radius = flippers.reshape(-1, 3).T
-    beyond = np.maximum(x - first, last - x)
-    z = z + body.stance.com_height
-    lowest = z * math.cos(contact.ROCKING) - beyond * math.sin(contact.ROCKING) - radius
-    return bool(np.any((beyond > 0.0) & (lowest <= 0.0)))
+    (last, *_), (first, *_) = _flat_ends(body)
+    c, s = math.cos(contact.ROCKING), math.sin(contact.ROCKING)
+    for x, z, radius in flippers:
+        beyond = max(x - first, last - x)
+        if beyond > 0.0 and (z + body.stance.com_height) * c - beyond * s - radius <= 0.0:
+            return True
+    return False
 
 
 def refuse_too_long(
