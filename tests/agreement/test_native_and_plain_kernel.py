@@ -7,6 +7,8 @@ from amounts import fast_and_slow
 from contact_cases import LANDING, random_robot, random_terrain
 from kaidan.contact import (
     Job,
+    Status,
+    arrives,
     first_rock,
     samples_of,
     stand_in_turn,
@@ -50,6 +52,17 @@ def same_between(path, seed, acceleration):
         np.testing.assert_array_equal(one, other)
 
 
+def same_end(terrain, parts, start, end, kinds, how):
+    """Whether it arrives under tilted gravity, of which no pose is kept."""
+    for tilt in (0.0, 0.05, -0.1):
+        way = terrain, parts, start, end
+        whole = traverse(*way, kinds=kinds, tilt=tilt, with_margins=False, **how)
+        for kernel in ("plain", "native"):
+            with using_kernel(kernel):
+                found = arrives(*way, kinds=kinds, tilt=tilt, **how)
+            assert found is (whole.status is Status.OK)
+
+
 def scan(terrain, begin, end, rng):
     """A part of the terrain as points 2 cm apart with 3 mm of noise."""
     x = np.arange(begin, end, 0.02)
@@ -78,6 +91,7 @@ def compare(seeds):
                 runs.append(traverse(terrain, parts, start, end, kinds=kinds, **how))
         same(*runs)
         same_between(runs[1], seed, how["acceleration"])
+        same_end(terrain, parts, start, end, kinds, how)
 
 
 @pytest.mark.parametrize("count", fast_and_slow(6, 15))

@@ -111,7 +111,7 @@ def traverse(
     poses, events, rotations = path_scratch(most_poses(x_end - x_start, step, len(ground)))
     status, n_pose, n_event, n_rotation = entries.drive(
         ground, body, x_start, x_end, inclination, step, acceleration, gravity * math.cos(tilt),
-        math.tan(tilt), gyration, poses, events, rotations,
+        math.tan(tilt), gyration, True, poses, events, rotations,
     )  # fmt: skip
     margins = None
     if with_margins:
@@ -156,7 +156,7 @@ def arrives(
     ground, body = ground_of(terrain), body_of(parts, kinds)
     status, *_ = kernel().drive(
         ground, body, x_start, x_end, inclination, step, acceleration,
-        STANDARD_GRAVITY * math.cos(tilt), math.tan(tilt), gyration,
+        STANDARD_GRAVITY * math.cos(tilt), math.tan(tilt), gyration, False,
         *path_scratch(most_poses(x_end - x_start, step, len(ground))),
     )  # fmt: skip
     return bool(status == Status.OK)

@@ -244,16 +244,20 @@ class Robot(Sheet):
         mass, moment_x, moment_z = self.mass, 0.0, 0.0
         extension = {"front": 0.0, "rear": 0.0}
         tips_below = False
-        for end in ("front", "rear"):
-            requested, pair = getattr(posture, end), self.flippers().get(end)
+        pairs: tuple[tuple[str, Any, FlipperPair | None], ...] = (
+            ("front", posture.front, self.front_flippers),
+            ("rear", posture.rear, self.rear_flippers),
+        )
+        for end, requested, pair in pairs:
             if requested is None:
                 continue
             if pair is None:
                 raise InputError(f"robot {self.name!r} has no {end} flippers")
-            angle = pair.flat_angle if requested == "flat" else float(requested)
-            if math.isclose(angle, pair.flat_angle, abs_tol=IN_LINE):
+            flat = pair.flat_angle
+            angle = flat if requested == "flat" else float(requested)
+            if math.isclose(angle, flat, abs_tol=IN_LINE):
                 extension[end] = pair.flat_extension
-            tips_below |= angle < pair.flat_angle - IN_LINE
+            tips_below |= angle < flat - IN_LINE
             arm = pair.mass * pair.com_from_pivot
             outward = arm * (math.cos(angle) - math.cos(pair.stowed_angle))
             moment_x += outward if end == "rear" else -outward

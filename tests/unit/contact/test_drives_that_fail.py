@@ -28,7 +28,7 @@ def driven(x_end=0.4, rows=300, a=0.0):
     """A drive over a floor from 0.3 m on."""
     tables = [np.full((rows, columns), math.nan) for columns in
               (at.POSE_COLUMNS, at.EVENT_COLUMNS, at.ROTATION_COLUMNS)]  # fmt: skip
-    found = driver.drive(LEVEL, BODY, 0.3, x_end, 0.0, 0.01, a, 9.8, 0.0, 0.2, *tables)
+    found = driver.drive(LEVEL, BODY, 0.3, x_end, 0.0, 0.01, a, 9.8, 0.0, 0.2, True, *tables)
     status, poses, events, rotations = found
     return status, tables[0][:poses], tables[1][:events], rotations
 
@@ -138,7 +138,7 @@ def test_effective_gravity_follows_the_way_that_an_exchange_leads_to(monkeypatch
     put(monkeypatch, lambda call, here: (FRONT, there, 0, 0.01, False))
     told = []
 
-    def exchange(ground, body, made, here, kappa, path, leg, poses, n_pose, events, n_event):
+    def exchange(ground, body, made, here, kappa, kept, path, leg, poses, n_pose, events, n_event):
         told.append((made, kappa))
         return True, (*here[:3], *after, *here[6:]), n_pose, n_event
 
@@ -146,7 +146,7 @@ def test_effective_gravity_follows_the_way_that_an_exchange_leads_to(monkeypatch
         told.append(kappa)
         return -1.0
 
-    def rotate_on(ground, body, here, sense, kappa, gyration, gravity, path, leg, *rest):
+    def rotate_on(ground, body, here, sense, kappa, gyration, gravity, kept, path, leg, *rest):
         told.append((sense, kappa, gyration, gravity, path, leg))
         return Status.STUCK, here, 2, 0, 1, 0
 
@@ -170,7 +170,7 @@ def test_no_drive_goes_on_from_a_pair_without_a_line(monkeypatch):
     poses, events, rows = (np.full((4, columns), 7.0) for columns in
                            (at.POSE_COLUMNS, at.EVENT_COLUMNS, at.ROTATION_COLUMNS))  # fmt: skip
     found = driver.rotate_on(
-        LEVEL, BODY, STARTS, -1.0, 0.0, 0.2, 9.8, 1.0, 1, 0, poses, 1, events, 0, rows, 0
+        LEVEL, BODY, STARTS, -1.0, 0.0, 0.2, 9.8, True, 1.0, 1, 0, poses, 1, events, 0, rows, 0
     )
     assert found == (Status.NOT_CONVERGED, (*STARTS[:6], REAR, REAR), 1, 0, 0, 5)
     assert (poses == 7.0).all()
@@ -224,7 +224,7 @@ def test_a_step_that_leads_beyond_upright_is_cut_there(monkeypatch, x_end, cut, 
 def test_no_exchange_where_the_new_pair_has_no_line():
     """The rear foot for itself, where gravity leans so far that it is ahead."""
     poses, events = np.full((3, at.POSE_COLUMNS), 7.0), np.full((3, at.EVENT_COLUMNS), 7.0)
-    found = driver.exchange(LEVEL, BODY, REAR, STARTS, 5.0, 1.0, 0, poses, 1, events, 2)
+    found = driver.exchange(LEVEL, BODY, REAR, STARTS, 5.0, True, 1.0, 0, poses, 1, events, 2)
     assert found == (False, STARTS, 1, 2)
     assert (poses == 7.0).all()
     assert (events == 7.0).all()

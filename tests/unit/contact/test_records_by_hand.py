@@ -330,6 +330,7 @@ def test_tilted_gravity_and_the_room_for_a_way(tilt, driven):
         assert way == pytest.approx(1.1)
         assert arguments[7] == pytest.approx(gravity * math.cos(tilt))
         assert arguments[8] == pytest.approx(math.tan(tilt))
+        assert arguments[10] is (drive is not contact.arrives)  # whether poses are kept
         if gravity > 3.0:
             assert found is (tilt == 0.0)
 

@@ -394,8 +394,24 @@ def tables(poses=200, events=50, rotations=20):
 
 def over_a_step(x_start=-1.5, phi=0.0, a=0.0, ground=None, body=BODY, **sizes):
     ground = ground_table(steps(0.15, 0.3, 1)) if ground is None else ground
-    found = driver.drive(ground, body, x_start, 1.2, phi, 0.01, a, 9.8, 0.0, 0.2, *tables(**sizes))
+    found = driver.drive(
+        ground, body, x_start, 1.2, phi, 0.01, a, 9.8, 0.0, 0.2, True, *tables(**sizes)
+    )
     return tuple(int(each) for each in found)
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_a_drive_of_which_no_pose_is_kept_ends_as_the_others_do(count):
+    """With as many events and rotations; no pose is written, and the room for them no bound."""
+    way = ground_table(steps(0.15, 0.3, count)), BODY, -1.5, 1.2, 0.0, 0.01, 0.0, 9.8
+    for tilt in (0.0, 0.1, 0.4):
+        kept = driver.drive(*way, tilt, 0.2, True, *tables(poses=900))
+        given = tables(poses=100)
+        bare = driver.drive(*way, tilt, 0.2, False, *given)
+        assert (bare[0], *bare[2:]) == (kept[0], *kept[2:])
+        assert bare[1] == 0
+        assert np.isnan(given[0]).all()
+        assert not np.isnan(given[2][: kept[3], at.ROTATION_ANGLE]).any()
 
 
 def test_full_tables_end_a_drive():
@@ -561,11 +577,11 @@ def test_effective_gravity_does_not_hang_on_the_size_of_the_way():
     assert contact_changes.effective_gravity(4.0, 4.0, 0.0, -1.0) == 0.0
 
 
-def rotated(ground, place, pivot, sense, gravity=9.7, gyration=0.2):
+def rotated(ground, place, pivot, sense, gravity=9.7, gyration=0.2, kept=True):
     """What `rotate` returns, and the row that it writes."""
     rows = np.full((1, at.ROTATION_COLUMNS), math.nan)
     found = contact_changes.rotate(
-        ground, BODY, pivot, *place, sense, 0.0, gyration, gravity, 2.5, rows, 0, 0
+        ground, BODY, pivot, *place, sense, 0.0, gyration, gravity, kept, 2.5, rows, 0, 0
     )
     return found, rows[0]
 
@@ -595,6 +611,11 @@ def test_momentum_about_the_end_that_comes_down(sense):
     # the top over that end is farther off
     assert row[at.BARRIER] > kinetic
     assert row[at.TOPPLES] == 0.0
+    # where only its end counts, what momentum can do is not worked out
+    bare, other = rotated(SLOPE, place, at.POINT * k + kind, sense, gyration=gyration, kept=False)
+    assert bare[:8] == found[:8]
+    assert other[at.BARRIER] == 0.0
+    assert other[: at.KINETIC].tolist() == row[: at.KINETIC].tolist()
 
 
 def test_what_is_arrested_at_once_is_no_rotation():
@@ -653,9 +674,12 @@ def test_one_contact_by_another_name_is_no_event():
     body = body_table([TRACK[0], TRACK[0]])
     made = FRONT + at.PART
     poses, events = np.full((4, at.POSE_COLUMNS), 7.0), np.full((3, at.EVENT_COLUMNS), 7.0)
+    bare = driver.exchange(LEVEL, body, made, ON_LEVEL, 0.0, False, 2.5, 3, poses, 2, events, 1)
+    assert (poses == 7.0).all()
     good, there, *counts = driver.exchange(
-        LEVEL, body, made, ON_LEVEL, 0.0, 2.5, 3, poses, 2, events, 1
+        LEVEL, body, made, ON_LEVEL, 0.0, True, 2.5, 3, poses, 2, events, 1
     )
+    assert bare == (good, there, *counts)
     assert (good, counts) == (True, [2, 1])
     assert there == pytest.approx((*ON_LEVEL[:6], REAR, made), abs=1e-12)
     columns = [at.POSE_S, at.POSE_LEG, at.POSE_REAR, at.POSE_FRONT]

@@ -155,7 +155,7 @@ def traverse_many(
         a = jobs[job, JOB_ACCELERATION]
         status, n_pose, n_event, n_rotation = drive(
             ground, body, jobs[job, JOB_START], jobs[job, JOB_END], jobs[job, JOB_PHI], step, a, g,
-            0.0, jobs[job, JOB_GYRATION], poses, events, rotations,
+            0.0, jobs[job, JOB_GYRATION], True, poses, events, rotations,
         )  # fmt: skip
         summaries[job, SUMMARY_STATUS] = status
         summaries[job, SUMMARY_POSES] = n_pose

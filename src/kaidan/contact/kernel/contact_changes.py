@@ -120,13 +120,15 @@ def effective_gravity(a: float, g: float, t_x: float, t_z: float) -> float:
 
 def rotate(
     ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float,
-    sense: float, kappa: float, gyration: float, gravity: float, path: float,
+    sense: float, kappa: float, gyration: float, gravity: float, kept: bool, path: float,
     rotations: RotationTable, count: int, hint: int,
 ) -> tuple[int, int, int, float, float, float, float, int, int]:  # fmt: skip
     """Rotate about a contact until two hold the robot again, or it falls; and write that down.
 
     Parameters
     ----------
+    kept
+        Whether it is written down too what its momentum can still do.
     path
         Arclength [m].
     rotations, count
@@ -154,7 +156,7 @@ def rotate(
         rotations, count, sense, path, pivot, p_x, p_z, x, z, phi, x1, z1, phi1,
         angle, before, after, outcome,
     )  # fmt: skip
-    if outcome == RotationOutcome.ARRESTED:
+    if kept and outcome == RotationOutcome.ARRESTED:
         # momentum: what is left after the impact against what is still to climb
         last = rear if sense >= 0.0 else front
         c1 = math.cos(phi1)

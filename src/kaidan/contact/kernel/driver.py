@@ -80,11 +80,27 @@ def step_on(
     return what, there, hint, ds, ends
 
 
+def kept_pose(
+    ground: GroundTable, body: BodyTable, poses: PoseTable, n_pose: int, path: float, at: Held,
+    leg: int, kept: bool,
+) -> int:  # fmt: skip
+    """Write a pose behind others, where poses are kept; number of poses written."""
+    if not kept:
+        return n_pose
+    record_pose(ground, body, poses, n_pose, path, at, leg)
+    return n_pose + 1
+
+
 def exchange(
-    ground: GroundTable, body: BodyTable, made: int, at: Held, kappa: float,
+    ground: GroundTable, body: BodyTable, made: int, at: Held, kappa: float, kept: bool,
     path: float, leg: int, poses: PoseTable, n_pose: int, events: EventTable, n_event: int,
 ) -> tuple[bool, Held, int, int]:  # fmt: skip
     """Exchange a contact for another that has closed, and write that down.
+
+    Parameters
+    ----------
+    kept
+        As for `drive`.
 
     Returns
     -------
@@ -96,21 +112,21 @@ def exchange(
     x, z, phi, t_x, t_z, t_w, rear, _ = at
     if same_place(ground, body, made, lost, x, z, phi):
         # one contact by the name of the part that carries from here on
-        record_pose(ground, body, poses, n_pose - 1, path, at, leg)
+        kept_pose(ground, body, poses, n_pose - 1, path, at, leg, kept)
         return True, at, n_pose, n_event
     # the same pose with its new contacts: the forces jump here
-    record_pose(ground, body, poses, n_pose, path, at, leg)
+    now = kept_pose(ground, body, poses, n_pose, path, at, leg, kept)
     code = Event.TAIL_RESTS if made & KIND_MASK == DISC_1 and made == rear else Event.MADE
     write_event(events, n_event, code, path, (x, z, phi, t_x, t_z, t_w, made, lost), n_pose)
     write_event(
         events, n_event + 1, Event.LOST, path, (x, z, phi, t_x, t_z, t_w, lost, made), n_pose
     )
-    return True, at, n_pose + 1, n_event + 2
+    return True, at, now, n_event + 2
 
 
 def rotate_on(
     ground: GroundTable, body: BodyTable, at: Held, sense: float, kappa: float,
-    gyration: float, gravity: float, path: float, leg: int, hint: int,
+    gyration: float, gravity: float, kept: bool, path: float, leg: int, hint: int,
     poses: PoseTable, n_pose: int, events: EventTable, n_event: int,
     rotations: RotationTable, n_rotation: int,
 ) -> tuple[int, Held, int, int, int, int]:  # fmt: skip
@@ -118,6 +134,8 @@ def rotate_on(
 
     Parameters
     ----------
+    kept
+        As for `drive`.
     leg
         Line of poses after the rotation.
 
@@ -130,7 +148,7 @@ def rotate_on(
     x, z, phi, t_x, t_z, t_w, rear, front = at
     pivot = rear if sense > 0.0 else front
     outcome, new_rear, new_front, x1, z1, phi1, angle, count, hint = rotate(
-        ground, body, pivot, x, z, phi, sense, kappa, gyration, gravity, path,
+        ground, body, pivot, x, z, phi, sense, kappa, gyration, gravity, kept, path,
         rotations, n_rotation, hint,
     )  # fmt: skip
     if count > n_rotation:
@@ -151,14 +169,14 @@ def rotate_on(
     at = (x1, z1, phi1, t_x, t_z, t_w, rear, front)
     if size == 0.0:
         return Status.NOT_CONVERGED, at, n_pose, n_event, count, hint
-    record_pose(ground, body, poses, n_pose, path, at, leg)
+    now = kept_pose(ground, body, poses, n_pose, path, at, leg, kept)
     if angle > 1e-7:
         write_event(events, n_event, Event.ARRESTED, path, at, n_pose)
         n_event += 1
         if repeats(rotations, count):
             write_event(events, n_event, Event.STUCK, path, at, n_pose)
-            return Status.STUCK, at, n_pose + 1, n_event + 1, count, hint
-    return GOES_ON, at, n_pose + 1, n_event, count, hint
+            return Status.STUCK, at, now, n_event + 1, count, hint
+    return GOES_ON, at, now, n_event, count, hint
 
 
 @entry
@@ -173,6 +191,7 @@ def drive(
     g: float,
     kappa_g: float,
     gyration: float,
+    kept: bool,
     poses: PoseTable,
     events: EventTable,
     rotations: RotationTable,
@@ -195,6 +214,9 @@ def drive(
         Tilt of gravity itself: its horizontal part backward over its vertical part g.
     gyration
         Radius of gyration about the centroid [m], for the energy of rotations.
+    kept
+        Whether poses are written down, and what the momentum of a rotation can still do: without
+        them a drive tells no more than how it ends.
     poses, events, rotations
         Tables of :func:`kaidan.contact.tables.path_tables`; columns in
         :mod:`kaidan.contact.columns`, meanings in :mod:`kaidan.contact.records`.
@@ -212,8 +234,7 @@ def drive(
     path = 0.0
     leg = 0
     hint = 0
-    record_pose(ground, body, poses, 0, path, at, leg)
-    n_pose = 1
+    n_pose = kept_pose(ground, body, poses, 0, path, at, leg, kept)
     n_event = 0
     n_rotation = 0
     idle = 0
@@ -233,14 +254,13 @@ def drive(
             write_event(events, n_event, Event.RESETTLED, path, at, n_pose - 1)
             n_event += 1
             continue
-        n_pose, moved = record_renamings(
-            ground, body, poses, n_pose, path, at, there, ds, leg
-        )  # fmt: skip
+        moved = ds
+        if kept:
+            n_pose, moved = record_renamings(ground, body, poses, n_pose, path, at, there, ds, leg)
         at = there
         path += moved
         if ends and (what == Advance.NOTHING or at[0] >= x_end - 1e-9):
-            record_pose(ground, body, poses, n_pose, path, at, leg)
-            n_pose += 1
+            n_pose = kept_pose(ground, body, poses, n_pose, path, at, leg, kept)
             if at[0] >= x_end - 1e-7:
                 write_event(events, n_event, Event.ARRIVED, path, at, n_pose - 1)
                 return Status.OK, n_pose, n_event + 1, n_rotation
@@ -250,9 +270,10 @@ def drive(
             write_event(events, n_event, Event.STUCK, path, at, n_pose - 1)
             return Status.STUCK, n_pose, n_event + 1, n_rotation
         upright = abs(at[2]) > UPRIGHT - NEARLY
-        if upright or what != Advance.NOTHING or path - poses[n_pose - 1, POSE_S] > 0.7 * step:
-            record_pose(ground, body, poses, n_pose, path, at, leg)
-            n_pose += 1
+        if kept and (
+            upright or what != Advance.NOTHING or path - poses[n_pose - 1, POSE_S] > 0.7 * step
+        ):
+            n_pose = kept_pose(ground, body, poses, n_pose, path, at, leg, kept)
         if upright:
             status, code = end_of_fall(RotationOutcome.PAST_VERTICAL, at[2])
             write_event(events, n_event, code, path, at, n_pose - 1)
@@ -263,7 +284,7 @@ def drive(
         sense = 1.0 if what == Advance.OVER_REAR else -1.0
         if what >= 0:
             good, at, n_pose, n_event = exchange(
-                ground, body, what, at, kappa, path, leg, poses, n_pose, events, n_event
+                ground, body, what, at, kappa, kept, path, leg, poses, n_pose, events, n_event
             )
             if not good:
                 return Status.NOT_CONVERGED, n_pose, n_event, n_rotation
@@ -276,7 +297,7 @@ def drive(
         leg += 1
         status, at, n_pose, n_event, n_rotation, hint = rotate_on(
             ground, body, at, sense, kappa, gyration, effective_gravity(a, g, at[3], at[4]),
-            path, leg, hint, poses, n_pose, events, n_event, rotations, n_rotation,
+            kept, path, leg, hint, poses, n_pose, events, n_event, rotations, n_rotation,
         )  # fmt: skip
         if status != GOES_ON:
             return status, n_pose, n_event, n_rotation

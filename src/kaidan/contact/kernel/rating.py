@@ -327,7 +327,7 @@ def rate_many(
         a = jobs[job, JOB_ACCELERATION]
         status, n_pose, _, n_rotation = drive(
             ground, body, jobs[job, JOB_START], jobs[job, JOB_END], jobs[job, JOB_PHI], step, a, g,
-            0.0, jobs[job, JOB_GYRATION], poses, events, rotations,
+            0.0, jobs[job, JOB_GYRATION], True, poses, events, rotations,
         )  # fmt: skip
         ratings[job, RATED_STATUS] = status
         if status != Status.OK:
