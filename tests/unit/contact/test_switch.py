@@ -114,7 +114,7 @@ def test_tables_of_the_wrong_shape_are_refused(entry):
     native = switch.kernel()
     ground, body = contact.ground_table(FLAT), contact.body_table(ROBOT)
     arguments = {
-        "drive": (ground[:, :5].copy(), body, *(0.0,) * 8, *(body,) * 3),
+        "drive": (ground[:, :5].copy(), body, *(0.0,) * 8, True, *(body,) * 3),
         "pose_margins": (ground, ground, ground, 1, 0.0, 9.8, 1e-9, ground, ground),
         "settle": (body, body, 0.0, 0.0, 0.0),
     }[entry]
