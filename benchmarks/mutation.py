@@ -21,7 +21,7 @@ import signal
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict
 from functools import _lru_cache_wrapper, partial
 from pathlib import Path
@@ -172,6 +172,7 @@ class Run:
         done = {each.key for each in answers(self.out)}
         counts: Counter[str] = Counter()
         last: dict[str, int] = {}
+        killers: set[int] = set()
         for path in self.paths:
             every = self._sampled(list(self.mutants.of_file(path)))
             empty(all_caches())  # answers of the unchanged code, worked out by an import
@@ -187,12 +188,15 @@ class Run:
                     mutant.outcome, killer = self._noticed(change, items, chosen, usual)
                     if killer is not None:
                         mutant.by, last[mutant.function] = items[killer].nodeid, killer
+                        killers.add(killer)
                 counts[mutant.outcome] += 1
                 with self.out.open("a") as file:
                     file.write(json.dumps(asdict(mutant)) + "\n")
                 if mutant.lives:
                     print(f"{mutant.outcome}: {mutant.file}:{mutant.line} {mutant.function}: "
                           f"{mutant.before}  ->  {mutant.after}", flush=True)  # fmt: skip
+        for k in self._failing(killers, items, usual):
+            print(f"fails by now on unchanged code, what it killed is void: {items[k].nodeid}")
         print(dict(counts))
         return True
 
@@ -227,15 +231,21 @@ class Run:
         with os.fdopen(read) as pipe:
             usual = {int(k): (took, set(each)) for k, (took, each) in json.load(pipe).items()}
         os.wait()
-        for k in [*usual]:
-            if self._try(lambda: None, items, [k], usual)[0] != SURVIVES:
-                print(f"left out, as it fails alone on unchanged code: {items[k].nodeid}")
-                del usual[k]
+        for k in self._failing(usual, items, usual):
+            print(f"left out, as it fails alone on unchanged code: {items[k].nodeid}")
+            del usual[k]
         total = sum(each[0] for each in usual.values())
         print(
             f"{len(items)} tests, {len(usual)} that pass over the code, {total:.1f} s", flush=True
         )
         return usual
+
+    def _failing(
+        self, some: Iterable[int], items: list[pytest.Item],
+        usual: dict[int, tuple[float, set[object]]],
+    ) -> list[int]:  # fmt: skip
+        """Those of some tests that fail alone on unchanged code."""
+        return [k for k in some if self._try(lambda: None, items, [k], usual)[0] != SURVIVES]
 
     def _ask(self, item: pytest.Item) -> bool:
         """Whether a test fails."""
