@@ -83,9 +83,11 @@ class Choices(ast.NodeTransformer):
         return node
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        """A call of another function, as no choice is called."""
+        """A call of another function, as no choice is called; the step of a range stays."""
         was = copy.deepcopy(node)
-        node.args = [self.visit(each) for each in node.args]
+        in_range = isinstance(node.func, ast.Name) and node.func.id == "range"
+        chosen = node.args[:2] if in_range else node.args
+        node.args = [*(self.visit(each) for each in chosen), *node.args[len(chosen) :]]
         new: ast.AST = node
         for other in changes(was.func):
             new = self._choice(was.func, other, was, ast.Call(other, was.args, []), new)
