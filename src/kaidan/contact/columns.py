@@ -119,12 +119,14 @@ WAY_COLUMNS = 11
 # place from the centroid [m], tilt of its normal [rad], what it stands on (NOSING, TREAD, FACE),
 # point of the ground where a grouser may stand (-1: none), tilt of the normal of the tread there
 # [rad], curvature of the belt [1/m], lift of that point above the axle of the end that leans
-# against a face [m] (NaN: no face).
+# against a face [m] (NaN: no face), how far beyond its nosing it lies on the tread [m], tilt of the
+# normal of the flat of that part, over which the end would come if it were farther back [rad]
+# (NaN: there is none).
 (
     SUPPORT_IS_ONE, SUPPORT_X, SUPPORT_Z, SUPPORT_NORMAL, SUPPORT_PLACE, SUPPORT_POINT,
-    SUPPORT_TREAD, SUPPORT_CURVATURE, SUPPORT_LIFT,
-) = range(9)  # fmt: skip
-SUPPORT_COLUMNS = 9
+    SUPPORT_TREAD, SUPPORT_CURVATURE, SUPPORT_LIFT, SUPPORT_BEYOND, SUPPORT_FLAT,
+) = range(11)  # fmt: skip
+SUPPORT_COLUMNS = 11
 NOSING, TREAD, FACE = range(3)
 NOWHERE = -1
 

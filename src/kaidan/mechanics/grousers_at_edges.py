@@ -5,6 +5,9 @@ import numpy as np
 from kaidan.mechanics import Number
 from kaidan.mechanics.validity import validity
 
+ALIKE = 1e-3
+"""Difference of two tilts below which nothing is pushed back [rad]."""
+
 
 def reach_over_edge(*, R: Number, h: Number, s: Number) -> Number:
     """Height above the axle at which a tip that comes round a track's end passes over an edge.
@@ -83,6 +86,60 @@ def tip_overlap(*, R: Number, h: Number, s: Number, lift: Number) -> Number:
     angle = np.arcsin(np.minimum(np.maximum(sine, -1.0), 1.0))
     face = np.maximum(R, (R + h) * np.cos(angle - s / R))
     return validity(holds=np.abs(sine) <= 1.0) * ((R + h) * np.cos(angle) - face)
+
+
+def pushed_lean(
+    *, lean: Number, other: Number, beyond: Number, h: Number, r: Number, curvature: Number
+) -> Number:
+    """Tilt of the normal of a track's end at a nosing, once grousers elsewhere push it back.
+
+    ``lean' = arctan((r - x) / (r + z))``, with x, z the middle of the end from the sharp nosing, as
+    both supports stand off by ``h - r (sin + cos - 1)`` of their tilts.
+
+    Where another support leans more, at most a riser's face, grousers there keep the robot farther
+    back: its end is then farther down on the round of its nosing, on a normal that is tilted more.
+
+    Assumptions: rigid grousers at both supports; a level tread; the end stays on its round.
+
+    Parameters
+    ----------
+    lean : float or array
+        Tilt of the end's normal from the tread's without grousers, on a sharp nosing [rad].
+    other : float or array
+        That of the other support [rad]: pi/2 at a face; not less than *lean*.
+    beyond : float or array
+        How far beyond its nosing the end stands on the tread [m]; zero: on the nosing.
+    h : float or array
+        Height of the grousers under load [m].
+    r : float or array
+        Radius of the nosings [m].
+    curvature : float or array
+        Of the end [1/m]: one over its radius, belt included, grousers not.
+
+    Returns
+    -------
+    float or array
+        [rad], not less than *lean*.
+
+    Examples
+    --------
+    An end of 80 mm on the tread 10 mm behind the nosing, its other end on a face:
+
+    >>> found = pushed_lean(lean=0.0, other=np.pi / 2, beyond=0.01, h=0.02, r=0.0, curvature=12.5)
+    >>> print(round(np.degrees(found), 2))  # 10 mm before the nosing, 100 mm above it
+    5.71
+
+    References
+    ----------
+    Derived: docs/theory/grousers.md.
+    """
+    between = np.maximum(other - lean, ALIKE)
+    off = h - r * (np.sin(lean) + np.cos(lean) - 1.0)
+    other_off = h - r * (np.sin(other) + np.cos(other) - 1.0)
+    back = (other_off - off * np.cos(between)) / np.sin(between)
+    x = beyond - (off + 1.0 / curvature) * np.sin(lean) - back * np.cos(lean)
+    z = (off + 1.0 / curvature) * np.cos(lean) - back * np.sin(lean)
+    return np.maximum(lean, np.arctan2(r - x, r + z))
 
 
 def edge_tilt(*, overlap: Number, r: Number) -> Number:

@@ -15,6 +15,7 @@ from kaidan.contact.kernel.grip import (
     lag,
     margin_of_several,
     margin_standing,
+    pushed_normal,
     standing_margins,
     tilt_run_back,
     tip_at,
@@ -82,10 +83,10 @@ H, S, W, RN = 0.012, 0.045, 0.004, 0.01
 
 def both_ways(row, *how):
     """A tip going up, and that it is the mirror image going down."""
-    up = tip_at(row[None], 0, *how, 1.0)
+    up = tip_at(row[None], 0, row[at.SUPPORT_NORMAL], *how, 1.0)
     mirrored = row.copy()
     mirrored[[at.SUPPORT_X, at.SUPPORT_NORMAL, at.SUPPORT_TREAD]] *= -1.0
-    down = tip_at(mirrored[None], 0, *how, -1.0)
+    down = tip_at(mirrored[None], 0, mirrored[at.SUPPORT_NORMAL], *how, -1.0)
     assert down == pytest.approx((up[0], -up[1], *up[2:]), abs=ROUNDING)
     return up
 
@@ -122,15 +123,16 @@ def test_no_tip_stands(change):
     off = 0.0
     if change.get("tread", math.nan) <= -0.4:
         off = float(grousers.roll_off_length(theta=1e-6, h=H, r=RN))
-    found = tip_at(row[None], 0, H, S, W, RN, False, 1.0)
+    found = tip_at(row[None], 0, -0.4, H, S, W, RN, False, 1.0)
     assert found == (False, 0.0, 0.0, pytest.approx(off), 0.0)
     whole = support(0.2j, normal=-0.4, tread=0.2)
     assert both_ways(whole, H, S, W, RN, False)[0]
     assert not both_ways(whole, 0.0, S, W, RN, False)[0]
     upright = support(0.2j, normal=-1.6, tread=0.2)  # leans by more than a quarter of a turn
-    assert not tip_at(upright[None], 0, H, S, W, RN, False, 1.0)[0]
+    assert not tip_at(upright[None], 0, -1.6, H, S, W, RN, False, 1.0)[0]
     at_face = support(0.2j, normal=0.3, tread=0.1, curvature=10.0, lift=0.0)
-    assert tip_at(at_face[None], 0, H, S, W, RN, True, 1.0) == (False, 0.0, 0.0, 0.0, 0.0)
+    found = tip_at(at_face[None], 0, 0.3, H, S, W, RN, True, 1.0)
+    assert found == (False, 0.0, 0.0, 0.0, 0.0)
 
 
 @pytest.mark.parametrize("lift", [-0.06, -0.02, 0.0, 0.03])
@@ -162,7 +164,8 @@ def held(one, other, tip, *, rigid, place=at.NOSING, point=3, side=1.0, gamma=0.
         tip = (tip[0], -tip[1], *tip[2:])
     rolls = (False, 0.0, 0.0, tip[2] + 2 * RN * gamma, 0.0)
     how = (NOSINGS, TREADS, FACES, H, S, RN, rigid, side)
-    return margin_standing(rows, 0, 1, loads(), 0, tip, rolls, *how)
+    own, axis = rows[:, at.SUPPORT_NORMAL].tolist()
+    return margin_standing(rows, 0, 1, own, axis, loads(), 0, tip, rolls, *how)
 
 
 def cones(one, tilt, phi_one, other, axis, phi):
@@ -230,8 +233,10 @@ def test_a_tip_rolls_no_farther_than_onto_the_face(one, other, own, its, tread, 
         rows[:, [at.SUPPORT_X, at.SUPPORT_NORMAL, at.SUPPORT_TREAD]] *= -1.0
     how = (NOSINGS, TREADS, FACES, H, S, RN, True, side)
     # the belt passes the own support no more slowly: the tip does not run back
-    back = tilt_run_back(rows, 0, 1, tip, S, RN, side)
-    found = margin_standing(rows, 0, 1, loads(), 0, tip, (False, 0.0, 0.0, rolls, 0.0), *how)
+    normals = rows[:, at.SUPPORT_NORMAL].tolist()
+    back = tilt_run_back(rows, 0, 1, *normals, tip, S, RN, side)
+    rolling = (False, 0.0, 0.0, rolls, 0.0)
+    found = margin_standing(rows, 0, 1, *normals, loads(), 0, tip, rolling, *how)
     if math.isnan(back):
         assert found == -math.inf
         return
@@ -245,6 +250,81 @@ def test_a_tip_rolls_no_farther_than_onto_the_face(one, other, own, its, tread, 
         then = cones(stands, own + math.asin(left), TREADS, other, axis, NOSINGS)
         either.append(min(first, then))
     assert found == pytest.approx(max(either), abs=1e-9)
+
+
+# --- how far grousers push an end back ----------------------------------------------------------
+
+RADIUS = 0.08
+
+
+def centre_of(lean, beyond, h, r, other):
+    """Of an end before and after, from its sharp nosing, as both supports stand off."""
+    before = complex(beyond, 0.0) + RADIUS * np.exp(1j * (math.pi / 2 + lean))
+    leans = lean, other
+    off = [h - r * (math.sin(each) + math.cos(each) - 1.0) for each in leans]
+    normals = [[-math.sin(each), math.cos(each)] for each in leans]
+    return before, before + complex(*np.linalg.solve(normals, off))
+
+
+@pytest.mark.parametrize(("place", "lean", "beyond"), [
+    (at.NOSING, 0.3, 0.0), (at.NOSING, 0.6, 0.0), (at.TREAD, 0.0, 0.004), (at.TREAD, 0.0, 0.05),
+])  # fmt: skip
+@pytest.mark.parametrize("other", [math.pi / 2, 1.1, 0.4])
+@pytest.mark.parametrize("r", [0.0, 0.02])
+def test_grousers_at_another_support_push_an_end_back(place, lean, beyond, other, r):
+    """The normal at a nosing's round is the line from its middle to that of the end."""
+    tread = 0.05
+    row = support(ONE, place=place, normal=tread - lean, tread=tread, curvature=1.0 / RADIUS)
+    row[[at.SUPPORT_BEYOND, at.SUPPORT_FLAT]] = beyond, math.nan
+    rows = np.array([row, support(OTHER, normal=tread - other, place=at.FACE)])
+    found = pushed_normal(rows, 0, 1, H, r, 1.0)
+    before, after = centre_of(lean, beyond, H, r, other)
+    line = after - complex(r, -r)
+    expected = max(lean, math.atan2(-line.real, line.imag)) if other > lean else lean
+    assert found == pytest.approx(tread - expected, abs=1e-9)
+    assert abs(after - before) < 2 * H
+    assert pushed_normal(rows, 0, 1, 0.0, r, 1.0) == tread - lean
+    assert pushed_normal(rows, 0, 1, H, r, -1.0) == tread - lean
+    rows[0, at.SUPPORT_FLAT] = tread - lean - 0.01  # no farther back than onto the flat
+    most = min(expected, lean + 0.01)
+    assert pushed_normal(rows, 0, 1, H, r, 1.0) == pytest.approx(tread - most, abs=1e-9)
+
+
+@pytest.mark.parametrize("change", [
+    {"curvature": 0.0}, {"place": at.FACE}, {"tread": math.nan}, {"normal": -1.5}
+])  # fmt: skip
+def test_what_is_not_pushed(change):
+    row = support(ONE, **{"curvature": 1.0 / RADIUS, "flat": math.nan} | change)
+    rows = np.array([row, support(OTHER, normal=-1.5, place=at.FACE)])
+    assert pushed_normal(rows, 0, 1, H, 0.02, 1.0) == row[at.SUPPORT_NORMAL]
+
+
+def test_no_tip_stands_on_a_tread_but_where_its_end_is_pushed_onto_the_round():
+    row = support(ONE, place=at.TREAD, normal=0.0, tread=0.0, curvature=1.0 / RADIUS)
+    assert not tip_at(row[None], 0, 0.0, H, S, W, RN, True, 1.0)[0]
+    assert tip_at(row[None], 0, -0.3, H, S, W, RN, True, 1.0)[0]
+
+
+def test_the_normals_of_ends_that_are_pushed_back_count():
+    """The rear end on the tread just behind its nosing, the front end on a face."""
+    rear, front = -0.4 - 0.3j, 0.3 + 0.1j
+    rows = np.array([
+        support(rear, place=at.TREAD, normal=0.0, tread=0.0, curvature=1.0 / RADIUS),
+        support(front, place=at.FACE, normal=-math.pi / 2, tread=math.nan, curvature=12.0),
+    ])  # fmt: skip
+    rows[:, at.SUPPORT_FLAT] = math.nan
+    rows[0, at.SUPPORT_BEYOND] = 0.004
+    pushed = pushed_normal(rows, 0, 1, H, RN, 1.0)
+    assert pushed < -0.1
+    how, found = (H, S, W, RN, True, 1.0), np.empty(2)
+    standing_margins(rows, 2, loads(), np.array([0]), 0.7, 0.7, 0.7, *how, found)
+    tip = tip_at(rows, 0, pushed, *how)
+    none = (False, 0.0, 0.0, 0.0, 0.0)
+    normals = pushed, -math.pi / 2
+    held = margin_standing(
+        rows, 0, 1, *normals, loads(), 0, tip, none, 0.7, 0.7, 0.7, H, S, RN, True, 1.0
+    )
+    assert found[0] == pytest.approx(held, abs=1e-9)
 
 
 # --- how far a tip runs back --------------------------------------------------------------------
@@ -262,7 +342,7 @@ def test_belts_pass_two_supports_as_a_small_step_along_the_path_moves_them(own, 
         tangents.append([t.real, t.imag, (t.conjugate() * 1j * place).real])
     step = np.linalg.solve([*equations, tangents[1]], [0.0, 0.0, 1.0])  # the other moves by 1
     expected = 1.0 - float(np.dot(tangents[0], step))
-    assert lag(rows, 0, 1) == pytest.approx(expected, abs=1e-9)
+    assert lag(rows, 0, 1, own, other) == pytest.approx(expected, abs=1e-9)
     of_formula = grousers_in_turn.belt_lag(
         d_x=(ONE - OTHER).real, d_z=(ONE - OTHER).imag, own=own, other=other
     )
@@ -271,7 +351,7 @@ def test_belts_pass_two_supports_as_a_small_step_along_the_path_moves_them(own, 
 
 def test_a_support_that_the_other_rotates_about_helps_nothing():
     rows = np.array([support(0.3j, normal=0.0), support(0j, normal=-0.5)])
-    assert lag(rows, 0, 1) == math.inf
+    assert lag(rows, 0, 1, 0.0, -0.5) == math.inf
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
@@ -282,18 +362,20 @@ def test_a_tip_runs_back_over_the_tread_and_the_round(other, side):
     if side < 0:
         rows[:, [at.SUPPORT_X, at.SUPPORT_NORMAL]] *= -1.0
     run, tilt = 0.001, -0.15
-    found = tilt_run_back(rows, 0, 1, (True, side * tilt, run, 0.0, 0.0), S, RN, side)
+    normals = rows[:, at.SUPPORT_NORMAL].tolist()
+    found = tilt_run_back(rows, 0, 1, *normals, (True, side * tilt, run, 0.0, 0.0), S, RN, side)
     if side < 0:
         assert found == -tilt
         return
-    left = RN * math.sin(tilt + SLOPE) - max(S * lag(rows, 0, 1) - run, 0.0)
+    left = RN * math.sin(tilt + SLOPE) - max(S * lag(rows, 0, 1, *normals) - run, 0.0)
     if left <= 0.0:
         assert math.isnan(found)
     else:
         assert RN * math.sin(found + SLOPE) == pytest.approx(left, abs=ROUNDING)
     rolls = (False, 0.0, 0.0, 0.0, 0.0)
     how = (NOSINGS, TREADS, FACES, H, S, RN, False, side)
-    held = margin_standing(rows, 0, 1, loads(), 0, (True, tilt, run, 0.0, 0.0), rolls, *how)
+    tip = (True, tilt, run, 0.0, 0.0)
+    held = margin_standing(rows, 0, 1, *normals, loads(), 0, tip, rolls, *how)
     expected = -math.inf if left <= 0.0 else cones(ONE, found, TREADS, OTHER, other, NOSINGS)
     assert held == pytest.approx(expected, abs=1e-9)
 
@@ -375,14 +457,15 @@ def test_of_all_pairs_that_carry_the_least_counts(rigid):
     found = np.empty(len(rows))
     standing_margins(rows, slots, load, np.arange(3), phi, phi, phi, *how, 1.0, found)
     for first in range(0, 3 * slots, slots):
-        tips = [tip_at(rows, first + slot, *how, 1.0) for slot in range(4)]
+        normals = rows[first : first + 4, at.SUPPORT_NORMAL].tolist()
+        tips = [tip_at(rows, first + k, normal, *how, 1.0) for k, normal in enumerate(normals)]
         pairs = [(i, j) for j in range(4) for i in range(j) if carry(rows, first, i, j, load, 0)]
         assert (0, 2) not in pairs
         assert (1, 2) in pairs
         with_tip = {
             (one, other): margin_standing(
-                rows, first + one, first + other, load, 0, tips[one], tips[other], phi, phi, phi,
-                H, S, RN, rigid, 1.0,
+                rows, first + one, first + other, normals[one], normals[other], load, 0,
+                tips[one], tips[other], phi, phi, phi, H, S, RN, rigid, 1.0,
             )
             for pair in pairs for one, other in (pair, pair[::-1])
         }  # fmt: skip

@@ -163,15 +163,25 @@ def test_an_end_stands_on_a_tread_or_a_face_below_its_edge(x, disc, climbs):
     assert found[0].tolist() == [-9.0] * at.SUPPORT_COLUMNS
     own = TAPERED[3 * disc - 3 : 3 * disc]
     assert found[1, at.SUPPORT_CURVATURE] == pytest.approx(1.0 / own[2], abs=ROUNDING)
+    level = found[1, at.SUPPORT_FLAT]
+    if disc == 1:  # farther back it comes onto the flat
+        normal = -flat(TAPERED)[2] * np.exp(1j * PHI)
+        assert level == pytest.approx(math.atan2(normal.real, normal.imag), abs=ROUNDING)
+    else:
+        assert level == -9.0  # as it was
     face = x in (0.05, 1.05)
     assert found[1, at.SUPPORT_PLACE] == (at.FACE if face else at.TREAD)
     if climbs and x == 0.05:
         axle = at_pose(complex(*own[:2])).imag
         assert found[1, at.SUPPORT_POINT] == k + 1
         assert found[1, at.SUPPORT_LIFT] == pytest.approx(0.4 - axle, abs=ROUNDING)
-    else:
-        assert found[1, at.SUPPORT_POINT] == -9.0  # as it was
-        assert math.isnan(found[1, at.SUPPORT_LIFT])
+        return
+    behind = climbs and x == 0.5  # a tread behind its nosing
+    assert found[1, at.SUPPORT_POINT] == (k if behind else -9.0)  # else as it was
+    assert math.isnan(found[1, at.SUPPORT_LIFT])
+    if behind:
+        beyond = X - 9.0 - ZIGZAG[k, 0]  # what was written of its place from the centroid
+        assert found[1, at.SUPPORT_BEYOND] == pytest.approx(beyond, abs=ROUNDING)
 
 
 def test_what_is_the_same_to_a_tenth_of_a_micrometre():

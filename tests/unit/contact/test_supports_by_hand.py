@@ -77,6 +77,9 @@ def test_tips_over_an_edge_are_those_of_the_formulas():
     lift = R * drawn(-0.9, 0.9, 3)
     same(kernel.reach_over_edge, grousers_at_edges.reach_over_edge, R=R, h=h, s=s)
     same(kernel.tip_overlap, grousers_at_edges.tip_overlap, R=R, h=h, s=s, lift=lift)
+    lean, other = R, 1.5 - R
+    pushed = {"lean": lean, "other": other, "beyond": 0.0 * s, "h": h, "r": 0.5 * s}
+    same(kernel.pushed_lean, grousers_at_edges.pushed_lean, **pushed, curvature=1.0 / R)
     same(kernel.edge_tilt, grousers_at_edges.edge_tilt, overlap=0.02 - h, r=0.5 * s)
 
 

@@ -19,7 +19,9 @@ from kaidan.contact.columns import (
     LOAD_Z,
     NOSING,
     NOWHERE,
+    SUPPORT_BEYOND,
     SUPPORT_CURVATURE,
+    SUPPORT_FLAT,
     SUPPORT_IS_ONE,
     SUPPORT_LIFT,
     SUPPORT_NORMAL,
@@ -37,6 +39,7 @@ from kaidan.contact.kernel.grousers import (
     face_friction,
     height_behind,
     phases_friction,
+    pushed_lean,
     reach_over_edge,
     roll_off_length,
     roll_off_sine,
@@ -51,6 +54,8 @@ from kaidan.contact.tables import FloatRow, IntArray, LoadTable, SupportTable, T
 #: Share of the phases that counts where four nosings or more are under the belts [1]: fitted with
 #: `kaidan.mechanics.grousers.phases_friction` (docs/theory/grousers.md).
 MANY = 0.75
+#: Tilt up to which an end on a tread is off the round of its nosing [rad].
+LEVEL = 1e-3
 #: Radius of a nosing that is sharp [m].
 SHARP = 1e-6
 #: Distance of two supports below which they count as that far apart [m].
@@ -90,6 +95,28 @@ def friction_at(
         return faces
     left = face_friction(math.tan(faces), height, supports[at, SUPPORT_CURVATURE])
     return math.atan2(left, 1.0)
+
+
+def pushed_normal(
+    supports: SupportTable, at: int, other: int, h: float, r: float, side: float
+) -> float:
+    """Tilt of the normal of an end's support once rigid grousers at another one push it back [rad].
+
+    It goes no farther back than onto the flat. Going down, or of no height, nothing pushes.
+    """
+    normal = float(supports[at, SUPPORT_NORMAL])
+    tread = float(supports[at, SUPPORT_TREAD])
+    place = supports[at, SUPPORT_PLACE]
+    if side < 0.0 or h <= 0.0 or place == FACE or math.isnan(tread):
+        return normal
+    lean = max(tread - normal, 0.0)
+    pushed = pushed_lean(
+        lean, tread - supports[other, SUPPORT_NORMAL], supports[at, SUPPORT_BEYOND], h, r,
+        supports[at, SUPPORT_CURVATURE],
+    )  # fmt: skip
+    if not math.isnan(supports[at, SUPPORT_FLAT]):
+        pushed = min(pushed, tread - supports[at, SUPPORT_FLAT])
+    return tread - pushed if pushed > lean else normal
 
 
 def margin_of(
@@ -157,10 +184,10 @@ def belt_margins(
 
 
 def tip_at(
-    supports: SupportTable, at: int, h: float, s: float, w: float, r: float, rigid: bool,
-    side: float,
+    supports: SupportTable, at: int, normal: float, h: float, s: float, w: float, r: float,
+    rigid: bool, side: float,
 ) -> Tip:  # fmt: skip
-    """Tip of a grouser as it comes to stand at a support.
+    """Tip of a grouser as it comes to stand at a support whose normal is so tilted [rad].
 
     Returns
     -------
@@ -169,10 +196,12 @@ def tip_at(
     ahead of the nosing, along the belt [m].
     """
     tread = supports[at, SUPPORT_TREAD]
-    leans = side * (tread - supports[at, SUPPORT_NORMAL])
+    leans = side * (tread - normal)
     if not (supports[at, SUPPORT_IS_ONE] == 1.0 and supports[at, SUPPORT_POINT] != NOWHERE):
         return False, 0.0, 0.0, 0.0, 0.0
     if not h > 0.0 or math.isnan(leans):
+        return False, 0.0, 0.0, 0.0, 0.0
+    if supports[at, SUPPORT_PLACE] == TREAD and leans <= LEVEL:
         return False, 0.0, 0.0, 0.0, 0.0
     curvature = supports[at, SUPPORT_CURVATURE]
     if not math.isnan(supports[at, SUPPORT_LIFT]):
@@ -195,7 +224,7 @@ def tip_at(
     return True, tread - side * beta, run, off, run + r * math.sin(theta - beta)
 
 
-def lag(supports: SupportTable, one: int, other: int) -> float:
+def lag(supports: SupportTable, one: int, other: int, own: float, its: float) -> float:
     """Share of its speed by which the belt at a support passes more slowly than at another [1].
 
     Along its path a robot rotates about the point where the normals of both meet, see
@@ -203,8 +232,6 @@ def lag(supports: SupportTable, one: int, other: int) -> float:
     """
     d_x = supports[one, SUPPORT_X] - supports[other, SUPPORT_X]
     d_z = supports[one, SUPPORT_Z] - supports[other, SUPPORT_Z]
-    own = supports[one, SUPPORT_NORMAL]
-    its = supports[other, SUPPORT_NORMAL]
     far = d_x * math.cos(own) - d_z * math.sin(own)
     if far == 0.0:
         return math.inf
@@ -212,25 +239,25 @@ def lag(supports: SupportTable, one: int, other: int) -> float:
 
 
 def tilt_run_back(
-    supports: SupportTable, one: int, other: int, tip: Tip, s: float, r: float, side: float
-) -> float:
+    supports: SupportTable, one: int, other: int, own: float, its: float, tip: Tip, s: float,
+    r: float, side: float,
+) -> float:  # fmt: skip
     """Tilt of the normal under a tip that ran back while the belt ran on by a spacing [rad].
 
     It runs back over the tread first, then over the round of the nosing; NaN: it runs off. A robot
     that goes down does not have to get on against its weight.
     """
-    back = s * lag(supports, one, other) - tip[2]
+    back = s * lag(supports, one, other, own, its) - tip[2]
     if side < 0.0 or back <= 0.0:
         return tip[1]
-    lean = side * (tip[1] - supports[one, SUPPORT_NORMAL])
-    left = math.sin(lean) - back / max(r, SHARP)
-    return supports[one, SUPPORT_NORMAL] + side * math.asin(left) if left > 0.0 else math.nan
+    left = math.sin(side * (tip[1] - own)) - back / max(r, SHARP)
+    return own + side * math.asin(left) if left > 0.0 else math.nan
 
 
 def margin_standing(
-    supports: SupportTable, one: int, other: int, loads: LoadTable, row: int, tip: Tip,
-    rolls: Tip, nosings: float, treads: float, faces: float, h: float, s: float, r: float,
-    rigid: bool, side: float,
+    supports: SupportTable, one: int, other: int, own: float, axis: float, loads: LoadTable,
+    row: int, tip: Tip, rolls: Tip, nosings: float, treads: float, faces: float, h: float,
+    s: float, r: float, rigid: bool, side: float,
 ) -> float:  # fmt: skip
     """Margin of two supports, a grouser standing at the first [rad]; minus infinity: none can.
 
@@ -241,10 +268,9 @@ def margin_standing(
     """
     if not tip[0]:
         return -math.inf
-    tilt = tilt_run_back(supports, one, other, tip, s, r, side)
+    tilt = tilt_run_back(supports, one, other, own, axis, tip, s, r, side)
     if math.isnan(tilt):
         return -math.inf
-    axis = supports[other, SUPPORT_NORMAL]
     phi = friction_at(supports, other, nosings, treads, faces, 0.0)
     if not rigid:
         return margin_of(supports, one, tilt, treads, 0.0, other, axis, phi, loads, row)
@@ -257,7 +283,7 @@ def margin_standing(
         gamma = roll_off_sine(tip[2], rolls[3], max(r, SHARP))
     if gamma <= 0.0:
         return margin_of(supports, one, tilt, treads, ahead, other, axis, phi, loads, row)
-    lean = side * (tilt - supports[one, SUPPORT_NORMAL])
+    lean = side * (tilt - own)
     upright = 0.5 * math.pi - side * (supports[other, SUPPORT_TREAD] - axis)
     most = -math.inf
     for half in range(3):
@@ -325,6 +351,7 @@ def standing_margins(
     found
         To be filled, as many a pose as it has slots [rad]; minus infinity: none can stand there.
     """
+    pushing = h if rigid else 0.0
     for row in range(loads.shape[0]):
         first = row * slots
         if like[row] != row:
@@ -337,18 +364,20 @@ def standing_margins(
             if supports[first + slot, SUPPORT_IS_ONE] == 1.0:
                 several += 1
         for j in range(1, several):
-            of_j = tip_at(supports, first + j, h, s, w, r, rigid, side)
             for i in range(j):
                 if not carry(supports, first, i, j, loads, row):
                     continue
-                of_i = tip_at(supports, first + i, h, s, w, r, rigid, side)
+                at_i = pushed_normal(supports, first + i, first + j, pushing, r, side)
+                at_j = pushed_normal(supports, first + j, first + i, pushing, r, side)
+                of_i = tip_at(supports, first + i, at_i, h, s, w, r, rigid, side)
+                of_j = tip_at(supports, first + j, at_j, h, s, w, r, rigid, side)
                 one = margin_standing(
-                    supports, first + i, first + j, loads, row, of_i, of_j, nosings, treads,
-                    faces, h, s, r, rigid, side,
+                    supports, first + i, first + j, at_i, at_j, loads, row, of_i, of_j, nosings,
+                    treads, faces, h, s, r, rigid, side,
                 )  # fmt: skip
                 other = margin_standing(
-                    supports, first + j, first + i, loads, row, of_j, of_i, nosings, treads,
-                    faces, h, s, r, rigid, side,
+                    supports, first + j, first + i, at_j, at_i, loads, row, of_j, of_i, nosings,
+                    treads, faces, h, s, r, rigid, side,
                 )  # fmt: skip
                 for slot in range(slots):
                     own = larger(one, other)
@@ -362,7 +391,8 @@ def standing_margins(
             if found[at] == math.inf:
                 found[at] = -math.inf
             if several > 2:
-                tip = tip_at(supports, at, h, s, w, r, rigid, side)
+                normal = supports[at, SUPPORT_NORMAL]
+                tip = tip_at(supports, at, normal, h, s, w, r, rigid, side)
                 of_all = margin_of_several(
                     supports, at, several, loads[row, LOAD_COULOMB], tip, nosings, s, rigid, side
                 )

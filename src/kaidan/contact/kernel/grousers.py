@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+#: Difference of two tilts below which they are one [rad].
+PARALLEL = 1e-3
 #: Looks at the height of a grouser at most, and to what it is found [m].
 MOST_LOOKS = 50
 CLOSE = 1e-13
@@ -114,6 +116,25 @@ def phases_friction(theta: float, q: float) -> float:
 def face_friction(mu: float, h: float, curvature: float) -> float:
     """Friction that grousers on a round end have left at a riser's face [1]."""
     return mu / ((1.0 + h * curvature) * (1.0 + h * curvature))
+
+
+def stand_off(lean: float, h: float, r: float) -> float:
+    """How far grousers and the round of a nosing keep a belt off its sharp nosing [m]."""
+    return h - r * (math.sin(lean) + math.cos(lean) - 1.0)
+
+
+def pushed_lean(
+    lean: float, other: float, beyond: float, h: float, r: float, curvature: float
+) -> float:
+    """Tilt of an end's normal at a nosing, grousers at another support pushing it back [rad]."""
+    between = other - lean
+    if curvature <= 0.0 or between < PARALLEL:
+        return lean
+    off = stand_off(lean, h, r)
+    back = (stand_off(other, h, r) - off * math.cos(between)) / math.sin(between)
+    x = beyond - off * math.sin(lean) - back * math.cos(lean) - math.sin(lean) / curvature
+    z = off * math.cos(lean) - back * math.sin(lean) + math.cos(lean) / curvature
+    return max(lean, math.atan2(r - x, r + z))
 
 
 def reach_over_edge(radius: float, h: float, s: float) -> float:

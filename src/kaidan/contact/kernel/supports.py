@@ -46,7 +46,9 @@ from kaidan.contact.columns import (
     REAR_Z,
     SIDE,
     SINE,
+    SUPPORT_BEYOND,
     SUPPORT_CURVATURE,
+    SUPPORT_FLAT,
     SUPPORT_IS_ONE,
     SUPPORT_LIFT,
     SUPPORT_NORMAL,
@@ -185,6 +187,8 @@ def place(supports: SupportTable, at: int, x: float, z: float, normal: float) ->
     supports[at, SUPPORT_X] = x
     supports[at, SUPPORT_Z] = z
     supports[at, SUPPORT_NORMAL] = normal
+    supports[at, SUPPORT_BEYOND] = 0.0
+    supports[at, SUPPORT_FLAT] = math.nan
 
 
 def describe(
@@ -204,6 +208,8 @@ def describe(
         on_flat = along >= 0.0 and along <= bodies[part, FLAT]
     radius = bodies[part, R2] if second and not on_flat else bodies[part, R1]
     supports[at, SUPPORT_CURVATURE] = 0.0 if on_flat else 1.0 / max(radius, SHARPEST)
+    if not second:
+        supports[at, SUPPORT_FLAT] = flat_tilt(bodies, part) - poses[row, POSE_PHI]
     if kind == VERTEX:
         supports[at, SUPPORT_PLACE] = NOSING
         supports[at, SUPPORT_POINT] = point
@@ -212,6 +218,11 @@ def describe(
     step_z = ground[point + 1, Z] - ground[point, Z]
     if abs(math.atan2(step_z, step_x)) <= steep:
         supports[at, SUPPORT_PLACE] = TREAD
+        if climbs and ground[point, CONVEX] == 1.0:
+            supports[at, SUPPORT_POINT] = point
+            supports[at, SUPPORT_BEYOND] = (
+                poses[row, POSE_X] + supports[at, SUPPORT_X] - ground[point, X]
+            )
         return
     supports[at, SUPPORT_PLACE] = FACE
     if climbs and step_z > 0.0:
@@ -268,7 +279,7 @@ def stand_alike(supports: SupportTable, slots: int, loads: LoadTable, one: int, 
         nowhere = supports[a, SUPPORT_POINT] == NOWHERE
         if nowhere != (supports[b, SUPPORT_POINT] == NOWHERE):
             return False
-        for column in range(SUPPORT_X, SUPPORT_LIFT + 1):
+        for column in range(SUPPORT_X, SUPPORT_FLAT + 1):
             if column != SUPPORT_POINT and not is_same(supports[a, column], supports[b, column]):
                 return False
     return True
