@@ -167,16 +167,19 @@ def test_of_a_mode_the_smallest_margin_of_all_parts_counts():
         finding(TIP_DOWNHILL, [0.2, 0.1], [0.3, 0.4], failing=CAUTION, step=1),
         finding(TIP_DOWNHILL, [0.0500001, 0.3], [0.5, 0.2], failing=CAUTION, step=2),
         finding(TIP_DOWNHILL, [0.05, nan], [0.6, nan], failing=CAUTION, step=3),
-        finding(ENERGY, [-1.0, -1.0], failing=NO_GO, step=4),
     ]
-    found = _smallest(TIP_DOWNHILL, some)
+    found = _smallest(some)
     assert (found.step, found.failing) == (2, CAUTION)
     assert found.worst.tolist() == [0.05, 0.1]
     assert found.best.tolist() == [0.3, 0.2]
     severe = [*some, finding(TIP_DOWNHILL, [0.9, 0.9], failing=NO_GO)]
-    assert _smallest(TIP_DOWNHILL, severe).failing is NO_GO
-    assert _smallest(TIP_DOWNHILL, some[:1]).failing is NO_GO
-    assert np.isnan(_smallest(TIP_DOWNHILL, some[:1]).worst).all()
+    assert _smallest(severe).failing is NO_GO
+    assert _smallest(some[:1]) is some[0]
+    unknown = _smallest([some[0], some[0]])
+    assert (unknown.step, unknown.failing) == (9, NO_GO)
+    assert np.isnan(unknown.worst).all()
+    one, other = finding(TIP_DOWNHILL, [0.2], step=1), finding(TIP_DOWNHILL, [0.1], step=2)
+    assert _smallest([one, other]).step == 2
 
 
 def of_move(monkeypatch, **given):

@@ -311,9 +311,10 @@ class Rotations(_Table, Sequence[RotationRecord]):
         """Which go on to topple with the momentum gained."""
         return self.table[:, at.TOPPLES] > 0.0
 
-    def __iter__(self) -> Iterator[RotationRecord]:
-        for row in self.table.tolist():
-            yield RotationRecord(
+    @cached_property
+    def _records(self) -> list[RotationRecord]:
+        return [
+            RotationRecord(
                 sense=row[at.ROTATION_SENSE],
                 s=row[at.ROTATION_S],
                 pivot=int(row[at.ROTATION_PIVOT]),
@@ -329,6 +330,11 @@ class Rotations(_Table, Sequence[RotationRecord]):
                 outcome=RotationOutcome(int(row[at.OUTCOME])),
                 pivot_point=(row[at.PIVOT_X], row[at.PIVOT_Z]),
             )
+            for row in self.table.tolist()
+        ]
+
+    def __iter__(self) -> Iterator[RotationRecord]:
+        return iter(self._records)
 
     @overload
     def __getitem__(self, row: int) -> RotationRecord: ...

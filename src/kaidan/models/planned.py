@@ -167,12 +167,14 @@ def findings(question: Question, planned: Planned, *, most: float = math.inf) ->
     needed += [one.required_friction for one in planned.moves]
     of_each = [found.each for found in of_parts]
     of_each += [_of_move(question, one) for one in planned.moves]
-    each = [one for some in of_each for one in some]
-    modes = dict.fromkeys(one.mode for one in each)
+    of_modes: dict[FailureMode, list[Finding]] = {}
+    for some in of_each:
+        for one in some:
+            of_modes.setdefault(one.mode, []).append(one)
     steepest = of_each[hardest(needed)]
     return Findings(
         model=CONTACT.name,
-        each=tuple(sliding_where(steepest, _smallest(mode, each)) for mode in modes),
+        each=tuple(sliding_where(steepest, _smallest(some)) for some in of_modes.values()),
         required_friction=float(np.fmax.reduce(needed)),
         figures=Later(
             lambda: tuple(_together([each for found in of_parts for each in found.figures]))
@@ -184,16 +186,19 @@ def findings(question: Question, planned: Planned, *, most: float = math.inf) ->
     )
 
 
-def _smallest(mode: FailureMode, each: Sequence[Finding]) -> Finding:
-    """Finding of a mode with the smallest margin of all parts, the earliest of those alike."""
-    some = [one for one in each if one.mode is mode]
-    known = [one for one in some if not np.isnan(one.worst).all()] or some
-    first = min(known, key=lambda one: round(float(np.fmin.reduce(one.worst)), 6))
-    severe = any(one.failing is Verdict.NO_GO for one in known)
+def _smallest(some: Sequence[Finding]) -> Finding:
+    """Finding of one mode with the smallest margin of all parts, the earliest of those alike."""
+    if len(some) == 1:
+        return some[0]
+    margins = [one.worst.item() if one.worst.size == 1 else float(np.fmin.reduce(one.worst))
+               for one in some]  # fmt: skip
+    known = [k for k, margin in enumerate(margins) if not math.isnan(margin)] or range(len(some))
+    first = some[min(known, key=lambda k: round(margins[k], 6))]
+    severe = any(some[k].failing is Verdict.NO_GO for k in known)
     return replace(
         first,
-        worst=smallest(one.worst for one in known),
-        best=smallest(one.best for one in known),
+        worst=smallest(some[k].worst for k in known),
+        best=smallest(some[k].best for k in known),
         failing=Verdict.NO_GO if severe else Verdict.CAUTION,
     )
 

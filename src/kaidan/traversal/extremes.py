@@ -95,8 +95,9 @@ def phase_extremes(
     assert seen.margins is not None
     places, own = seen.poses.front_point[:, 0], len(path.poses)
     top = over_the_top(seen, profile, descending, room)
-    closed, came_down = _closed(path, phase), _came_down(path, room, whole)
-    whence = came_down.whence[samples.row]
+    closed = _closed(path, phase)
+    came_down = None if descending else _came_down(path, room, whole)
+    whence = None if came_down is None else came_down.whence[samples.row]
     as_it_is = np.ones(len(seen.poses))
     sudden = {side: _as_on_the_flat(seen, body, side) for side in (-1.0, 1.0)}
     # of a pose between two phases the other one judges
@@ -131,7 +132,7 @@ def phase_extremes(
         (energy, step), steady, uphill_steady = barriers
         judged = rows[~of_criterion[rows]] if whole and name is Phase.TRAVERSE else rows
         downhill_rows = rows[:0] if descending and name is Phase.ENTER else judged
-        if not descending:
+        if came_down is not None:
             downhill_rows = downhill_rows[~came_down.back[samples.row[downhill_rows]]]
         uphill_rows = judged[~top[judged]] if name is Phase.TRAVERSE else rows[:0]
         slides = samples.comes_off[rows] & (name is Phase.LAND)
@@ -165,7 +166,7 @@ def phase_extremes(
                         descending,
                         acceleration,
                         own,
-                        None if descending else whence,
+                        whence,
                     ),
                     _rotated(path, phase, name, side, profile, descending, whole),
                 ),
@@ -237,7 +238,7 @@ def _came_down(path: contact.Path, flat_length: float, whole: bool) -> _CameDown
     rotations = path.rotations
     for chain in together(rotations, flat_length):
         rocks = not whole and rotations.angle[chain].sum() <= ROCKING
-        for record in rotations[chain.start : chain.stop]:
+        for record in list(rotations)[chain.start : chain.stop]:
             pivot = contact.Feature.of(record.pivot)
             on_edge = pivot.kind is contact.FeatureKind.VERTEX
             if record.sense > 0 or not record.arrested or not on_edge:
