@@ -120,7 +120,7 @@ class Outline:
         if min(z - r for _, z, r in self.discs) + self.stance.com_height >= -IN_LINE:
             return ahead
         low = (abs(complex(x, z)) + r for x, z, r in self.discs if x + r > 0.0 and z < 0.0)
-        return max(ahead, *low)
+        return max([ahead, *low])
 
     def turned_round(self) -> Self:
         """Outline with nose and tail swapped, x counting towards the tail."""

@@ -93,6 +93,19 @@ def test_a_flipper_pushed_down_reaches_further_ahead_than_in_line_with_the_floor
         assert outline.lead == outline.reach[1]
 
 
+@pytest.mark.parametrize("angle", [-math.pi / 2, -0.9, -2.5])
+def test_whatever_a_flipper_does_behind_the_nose_reaches_as_far_ahead(angle):
+    """Also where no disc lies ahead of the centroid and below it."""
+    level = robot(com_height=0.06, rear_flippers=FLIPPERS)
+    outline = Outline.of(level, Posture(rear=angle))
+    assert outline.lead == outline.reach[1]
+    arrays = outline.parts.reshape(-1, 3)
+    behind = arrays[arrays[:, 0] - arrays[:, 2] < 0.0]
+    trail = np.hypot(behind[:, 0], behind[:, 1]) + behind[:, 2]
+    assert outline.trail == trail.max()
+    assert outline.turned_round().lead >= outline.reach[0]
+
+
 def test_turned_round_twice_is_the_same():
     outline = Outline.of(robot(front_flippers=FLIPPERS))
     np.testing.assert_array_equal(outline.turned_round().turned_round().parts, outline.parts)
