@@ -461,7 +461,7 @@ def test_sliding_is_known_first_where_grousers_hold_it(answered, otherwise, phas
     held = SimpleNamespace(phase=phase, required=0.3)
     found = SimpleNamespace(status=Status.OK if answered else Status.TOO_LONG)
     over = SimpleNamespace(friction=np.array([0.0, 0.1]), steeper=lambda phase: 0.0)
-    monkeypatch.setattr(module.traction, "holds_otherwise", lambda question: otherwise)
+    monkeypatch.setattr(module.belts, "holds_otherwise", lambda question: otherwise)
     monkeypatch.setattr(module.traction, "supply", lambda driven, traverse, track: held)
     monkeypatch.setattr(module, "spread", lambda *given: over)
     question = question_of()
