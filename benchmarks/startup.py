@@ -2,7 +2,8 @@
 
 The two run in turn, so that a machine that slows down slows both; the median of the ratios counts,
 of the time on the clock and of the processor's. Compiled modules are kept, as an installation has
-them.
+them. Beside them the least that a command of this kind can take: numpy, one option of typer's, one
+class of pydantic's.
 """
 
 import argparse
@@ -16,6 +17,16 @@ from typing import NamedTuple
 from record import finish, options
 
 FLOOR = [sys.executable, "-c", "import numpy, pydantic"]
+LEAST = [sys.executable, "-c", """
+import os
+os.environ |= {"OPENBLAS_NUM_THREADS": "1", "PYDANTIC_DISABLE_PLUGINS": "__all__"}
+import numpy, pydantic, typer
+class Sheet(pydantic.BaseModel):
+    length: float
+def main(length: float = 1.0) -> None:
+    print(Sheet(length=length))
+typer.run(main)
+"""]  # fmt: skip
 RUN = [sys.executable, "-c", "from kaidan.__main__ import main; main()"]
 KEPT = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
 COMMANDS = {
@@ -58,18 +69,27 @@ def seconds(command: list[str]) -> Seconds:
     return Seconds(time.perf_counter() - start, spent)
 
 
+def ratios(name: str, command: list[str], runs: int) -> dict[str, float]:
+    """Medians of what a command takes over what the import takes, by the name of the time."""
+    seconds(command)
+    pairs = [(seconds(command), seconds(FLOOR)) for _ in range(runs)]
+    return {
+        f"{name}, {which}": statistics.median(
+            getattr(run, which) / getattr(floor, which) for run, floor in pairs
+        )
+        for which in Seconds._fields
+    }
+
+
 def main() -> None:
     arguments = options(argparse.ArgumentParser(description=__doc__))
     arguments.add_argument("--runs", type=int, default=15)
     chosen = arguments.parse_args()
     figures = {}
     for name, command in COMMANDS.items():
-        seconds(RUN + command)
-        pairs = [(seconds(RUN + command), seconds(FLOOR)) for _ in range(chosen.runs)]
-        for which in Seconds._fields:
-            ratios = [getattr(run, which) / getattr(floor, which) for run, floor in pairs]
-            figures[f"kaidan {name} / floor, {which}"] = statistics.median(ratios)
+        figures |= ratios(f"kaidan {name} / floor", RUN + command, chosen.runs)
     targets = dict.fromkeys(figures, 1.5)
+    figures |= ratios("one class, one option / floor", LEAST, chosen.runs)
     for name, command in WHOLE.items():
         key = f"kaidan assess, contact model, {name} [s]"
         figures[key] = statistics.median(seconds(RUN + command).clock for _ in range(chosen.runs))

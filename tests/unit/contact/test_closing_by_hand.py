@@ -217,3 +217,18 @@ def test_what_an_end_meets_about_an_edge(less, phi, upon, part, swapped, mirrore
         segment = min(map(case.point, ends))
         assert closed == at.POINT * segment + at.PART * part + kind
     assert first_closing(*given, 0.9 * upon, 0)[:2] == (at.NO_FEATURE, 0.9 * upon)
+
+
+@MIRRORED
+@pytest.mark.parametrize("upon", [0.1, 0.5])
+def test_another_part_meets_what_stays_under_the_line_of_the_pivots_part(upon, mirrored):
+    """A part that hangs 0.5 m under the flat, behind the edge about which the nose goes up."""
+    hanging = [-1.4, ABOVE - 0.5, 0.05, -1.0, ABOVE - 0.5, 0.05]
+    turn = cmath.exp(1j * upon)
+    c = 0.05 + 1j * ABOVE
+    met = EDGE + (c + complex(*hanging[:2]) + 0.05 * cmath.exp(-0.75j * math.pi)) * turn
+    case = Case(plates(met, EDGE), mirrored, [*PARTS, hanging])
+    given = case.ground, case.body, case.edge(EDGE), *case.turned_pose(EDGE + c, 0.0), case.sign
+    closed, angle, _ = first_closing(*given, 1.1 * upon, 0)
+    assert angle == near(upon)
+    assert closed == case.edge(met, 1)
