@@ -115,7 +115,7 @@ def kernel_figures(entries, rng, repeat=30):
     end = 11 * 0.15 * np.cos(np.radians(40)) + 0.8
 
     def motion(g=ground):
-        return entries.drive(g, body, -1.0, end, 0.0, STEP, 0.0, G, 0.0, 0.2, *tables)
+        return entries.drive(g, body, -1.0, end, 0.0, STEP, 0.0, G, 0.0, 0.2, True, *tables)
 
     count = motion()[1]
     table, found = margin_tables(count)
