@@ -375,3 +375,45 @@ def test_the_door_to_the_first_rock(monkeypatch):
         with contact.using_kernel("plain"):
             assert found == contact.first_rock(path, rows, side, own=len(rows))
     assert found.row >= 0
+
+
+def test_every_pose_that_may_be_the_least_is_looked_at(monkeypatch):
+    """Random tilts; of those above the least of all some are looked at too, eight at once."""
+    rng = np.random.default_rng(8)
+    for count in (*range(1, 30), *range(1, 30)):
+        own = rng.uniform(0.0, 1.0, count)
+        more = own + rng.choice([0.0, 0.05, 2.0], count)
+        looked = []
+
+        def pose_tilt(ground, body, poses, margins, row, side, tolerance, hint, more=more, own=own):
+            if tolerance == 0.0:
+                return own[row], 0.0, hint
+            looked.append(row)  # noqa: B023
+            return more[row], 0.0, hint
+
+        monkeypatch.setattr(module, "pose_tilt", pose_tilt)
+        alone, tilt = np.full((2, count + 2), 7.0)
+        module.least_tilts(
+            None, None, "poses", "margins", np.arange(-2, count), np.full(count + 2, 0.1), 2,
+            count + 2, -1.0, np.zeros(count, dtype=int), alone, tilt,
+        )  # fmt: skip
+        assert alone[2:].tolist() == own.tolist()
+        assert tilt[:2].tolist() == [7.0, 7.0]
+        assert tilt.min() == more.min()
+        assert set(np.flatnonzero(own < more.min() - 2e-9)) <= set(looked)
+        assert np.isinf(np.delete(tilt[2:], looked)).all()
+        assert len(looked) <= 8 * math.ceil((own < more.min()).sum() / 8 + 1)
+
+
+def test_ways_beside_all_poses_that_rock_are_marked(kernel):
+    """In whatever order the poses come, and whether the first of them rocks too late."""
+    kernel["way"] = way = Way(METERS, Onto(begin=0.5, end=4.5))
+    for rows, late in (([1, 3], 1), ([3, 1], 3)):
+        alone = np.array([9.0 if row == late else 0.1 for row in rows])
+        beside = np.full(6, 7)
+        module.mark_ways(
+            None, None, way.poses, "margins", np.array(rows), alone, 2, -1.0, np.full(6, -INF),
+            0.2, np.zeros(6, dtype=int), beside,
+        )  # fmt: skip
+        marked = {1: [2, 3], 3: [0, 1]}[late]
+        assert np.flatnonzero(beside).tolist() == marked
