@@ -11,6 +11,7 @@ import pytest
 
 from kaidan.contact import columns as at
 from kaidan.contact.codes import PIECES
+from kaidan.contact.kernel import peak_search
 from kaidan.contact.kernel.peaks import (
     LEAST,
     NEAR,
@@ -204,3 +205,20 @@ def test_a_way_is_cut_into_pieces(seed):
             piece = [way[at.WAY_ROW], group, *s[four], *heights[four], may]
             np.testing.assert_allclose(pieces[cut, k, COLUMNS], piece, rtol=0, atol=1e-12)
     np.testing.assert_array_equal(largest, raised)
+
+
+def test_the_figure_of_a_pose(monkeypatch):
+    """The friction that it requires, infinite where nothing holds; or how little it may tilt."""
+    margins = np.zeros((4, at.MARGIN_COLUMNS))
+    margins[:, peak_search.FRICTION] = 0.4, math.nan, math.inf, -math.inf
+    found = [peak_search.figure_of(None, None, None, margins, row, 0.0, 5) for row in range(4)]
+    assert found == [(0.4, 5), (math.inf, 5), (math.inf, 5), (math.inf, 5)]
+
+    def pose_tilt(ground, body, poses, margins, row, side, tolerance, hint):
+        assert (row, tolerance, hint) == (2, 0.0, 5)
+        return 0.3 * side, 9.0, 8
+
+    monkeypatch.setattr(peak_search, "pose_tilt", pose_tilt)
+    for side in (1.0, -1.0):
+        found = peak_search.figure_of(None, None, None, margins, 2, side, 5)
+        assert found == (-0.3 * side, 8)
