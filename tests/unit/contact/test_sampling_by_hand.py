@@ -64,6 +64,15 @@ def test_where_a_nosing_moves_along_an_end(end):
         return sampling.moves_along_end(path(2, phi=phi, leg=leg, **given), 0)
 
     assert moves((VERTEX, VERTEX), (LEVEL, LEANS))
+    # of three poses the second and the third count
+    later = [codes[VERTEX]] * 2 + [codes[DISC]]
+    for normals, does in (((LEVEL, LEVEL, LEANS), True), ((LEANS, LEVEL, LEVEL), False)):
+        found = path(3, **{end: later, f"{end}_n": normals})
+        assert sampling.moves_along_end(found, 1) == does
+    found = path(3, **{end: [codes[VERTEX], codes[DISC], codes[DISC]],
+                       f"{end}_n": (LEVEL, LEANS, LEANS)})  # fmt: skip
+    assert not sampling.moves_along_end(found, 1)
+    assert not moves((VERTEX, VERTEX), (LEVEL, LEANS), (0.0, -0.3))  # the body turns with it
     assert moves((VERTEX, DISC), (LEVEL, LEANS))
     assert moves((DISC, VERTEX), (LEANS, LEVEL))
     assert not moves((DISC, DISC), (LEVEL, LEANS))
@@ -155,6 +164,7 @@ def sampled(monkeypatch):
             values=values.tolist(), group=group.tolist(), narrow=narrow.tolist(), room=len(rest[-1])
         )
         rows, between, margins = rest[-3:]
+        assert len(rows) == len(between) == len(margins)
         rows[0], between[0, at.POSE_S], margins[0, at.TRACTION] = 1, 1.5, 200.0
         return 1
 
@@ -194,6 +204,9 @@ def test_samples_are_poses_nosings_peaks_and_places_upright(sampled):
     assert asked["points"] == [8, 6]
     assert margins[4:, at.TRACTION].tolist() == [100.0, 100.0, 200.0, 9.8]
     assert asked["room"] == 16 + 4 - 6
+    wide = path(4, s=[0.0, 2.0, 4.0, 6.0], psi=poses[:, at.POSE_PSI])
+    _, asked = sampled(wide, [0] * 4, [(0, 0.5, 8), (2, 5.0, 6)], directions=[HALF, 0.0])
+    assert asked["parts"][0] == pytest.approx([0.25, 0.5])
 
 
 def test_groups_of_friction(sampled):
