@@ -10,7 +10,7 @@ from kaidan.assessment import plan_judged, plan_scores, plan_search
 from kaidan.assessment.plan_hopes import Hope, Search
 from kaidan.assessment.plan_judged import Judged, judged_of, shortened
 from kaidan.assessment.plan_off_angles import OffAngles
-from kaidan.assessment.plan_scores import ENOUGH, ROUNDING, UNKNOWN, Score, Scores
+from kaidan.assessment.plan_scores import ENOUGH, ROUNDING, Score, Scores
 from kaidan.assessment.plan_search import _Candidate, _candidates, _sturdiest
 from kaidan.assessment.plans import Plan
 from kaidan.models.findings import Findings
@@ -61,12 +61,6 @@ def test_the_score_of_a_drive():
     assert of(easy).margin == ENOUGH
     assert of(RATED._replace(required_friction=1.0)).passes is False
     assert of(RATED._replace(required_friction=0.99)).passes is True
-    nobody = scores(friction=None)._score
-    assert UNKNOWN == 1.0
-    assert nobody(RATED._replace(required_friction=9.0)).passes is True
-    assert nobody(RATED._replace(required_friction=0.9)).margin == pytest.approx(
-        math.degrees(math.atan(1.0) - math.atan(0.9))
-    )
 
 
 def test_grousers_hold_in_place_of_friction():
@@ -330,12 +324,11 @@ class Named(SimpleNamespace):
 def sturdiest(monkeypatch):
     """The best of candidates: of each its rank, the worst off its angles, whether it is tried."""
 
-    def of(*each, grousers=False, doubtful=(), sturdier=None, beaten=None, most=None):
+    def of(*each, grousers=False, doubtful=(), sturdier=None, beaten=None):
         search = SimpleNamespace(
             may_hold=lambda plan: plan.question(None) not in doubtful,
-            most_without_friction=lambda plan: (most or {}).get(plan.question(None), ENOUGH),
             question=SimpleNamespace(
-                robot=SimpleNamespace(track=SimpleNamespace(has_grousers=grousers)), surface="known"
+                robot=SimpleNamespace(track=SimpleNamespace(has_grousers=grousers))
             ),
             scores=SimpleNamespace(facing="tail-first", phases=tuple(Phase)), limits=None,
         )  # fmt: skip
@@ -398,10 +391,6 @@ def test_the_sturdiest_of_candidates(sturdiest):
     assert [bar[0] for bar in bars] == [CAUTION, CAUTION]
     assert promised[-1] == "0"
     assert sturdiest((GO, CAUTION, True), (GO, GO, True))[2] == [None]
-    # of two alike (5.7 deg) the one that needs less friction off its angles, where none is stated
-    alike = (CAUTION, CAUTION, True), (CAUTION, CAUTION, True)
-    assert sturdiest(*alike, most={"0": 2.0, "1": 9.0})[0] == "1"
-    assert sturdiest(*alike, most={"0": 2.0, "1": 1.0})[0] == "0"
 
 
 def test_a_plan_that_is_go_at_its_angles_alone_is_made_sturdier(sturdiest):

@@ -19,7 +19,6 @@ from kaidan.assessment.plan_off_angles import (
 from kaidan.assessment.plan_scores import ENOUGH, FAILED, Score
 from kaidan.modes import Phase, Verdict
 from kaidan.robot import Posture
-from kaidan.surface import Surface
 
 ABSOLEM = Robot.named("absolem")
 STAIRS = Stairs(rise=0.17, going=0.29, steps=6)
@@ -205,16 +204,12 @@ def test_a_verdict_is_exceeded_by_a_better_one_alone(searched, verdict, plan, be
 
 @pytest.mark.parametrize("verdict", [None, Verdict.CAUTION])
 @pytest.mark.parametrize("surface", ["unknown", "known"])
-@pytest.mark.parametrize("belt", ["grousers", "smooth"])
-def test_on_grousers_without_a_friction_the_best_at_one_is_taken(
-    monkeypatch, verdict, surface, belt
-):
+def test_without_a_friction_the_best_at_one_is_taken(monkeypatch, verdict, surface):
     stated = SimpleNamespace(
-        surface=None if surface == "unknown" else "known", plannable=True, facing="nose-first",
-        robot=SimpleNamespace(track=SimpleNamespace(has_grousers=belt == "grousers")),
-    )  # fmt: skip
+        surface=None if surface == "unknown" else "known", plannable=True, facing="nose-first"
+    )
     question = SimpleNamespace(tolerance=0.0, best_of=(), changed=lambda **changes: stated)
-    monkeypatch.setattr(module, "_at_unknown_friction", lambda *given: "at one")
+    monkeypatch.setattr(module, "_at_unknown_friction", lambda *given: given[0])
     monkeypatch.setattr(module, "shortened", lambda asked: asked)
     monkeypatch.setattr(
         module, "Search", lambda *given: SimpleNamespace(scores=SimpleNamespace(known=()))
@@ -224,8 +219,7 @@ def test_on_grousers_without_a_friction_the_best_at_one_is_taken(
         module, "_on_the_whole", lambda *given: module.Found("own", "its", True, "short", None)
     )
     found = module.better_than(verdict, question, (-1.0, 1.0), drives="known")
-    at_one = verdict is None and surface == "unknown" and belt == "grousers"
-    assert (found == "at one") == at_one
+    assert (found is verdict) == (surface == "unknown")
 
 
 @pytest.mark.parametrize(
@@ -237,10 +231,26 @@ def test_at_an_unknown_friction_it_holds_as_it_does_at_one_or_without(monkeypatc
     monkeypatch.setattr(module, "found_of", lambda *given, **named: found)
     monkeypatch.setattr(module, "holds_off_its_angles", lambda asked, drives: holds)
     monkeypatch.setattr(module, "judge", lambda asked: ("judged", asked.surface))
-    told = module._at_unknown_friction(question, (-1.0, 1.0), "drives")
+    told = module._at_unknown_friction(None, question, (-1.0, 1.0), "drives")
     assert told.sturdy == (sturdy or holds)
     assert told.findings == ("judged", None)
     assert told.question.surface is told.short.surface is None
+
+
+@pytest.mark.parametrize("than", [Verdict.GO, Verdict.CAUTION, Verdict.NO_GO])
+@pytest.mark.parametrize("comes_to", [Verdict.CAUTION, Verdict.NO_GO])
+def test_without_a_friction_no_plan_is_a_go(monkeypatch, than, comes_to):
+    """So it is better than a NO-GO alone, by what it comes to where none is stated."""
+    question, sought = Question.of(ABSOLEM, STAIRS), []
+    found = module.Found(question, "at one", True, question, "drives")
+    monkeypatch.setattr(module, "found_of", lambda *given, **named: sought.append(1) or found)
+    monkeypatch.setattr(module, "judge", lambda asked: "judged")
+    monkeypatch.setattr(
+        module, "conclude", lambda asked, findings: SimpleNamespace(verdict=comes_to)
+    )
+    told = module._at_unknown_friction(than, question, (-1.0, 1.0), "drives")
+    assert (told is not None) == (than is Verdict.NO_GO and comes_to is Verdict.CAUTION)
+    assert bool(sought) == (than is Verdict.NO_GO)
 
 
 def test_where_no_plan_may_hold_the_best_at_its_angles_is_steadied(monkeypatch):
@@ -271,7 +281,6 @@ def test_where_no_plan_may_hold_the_best_at_its_angles_is_steadied(monkeypatch):
         ((True, 0, 5.0), Verdict.CAUTION, {}, False),
         ((True, -1, 5.0), Verdict.GO, {}, False),
         ((False, 0, 5.0), Verdict.GO, {}, False),
-        ((True, 0, 5.0), Verdict.GO, {"surface": None}, False),
         ((True, 0, 5.0), Verdict.GO, None, False),
     ],
 )
@@ -366,23 +375,6 @@ def test_what_is_no_failure_may_still_be_less_than_go(monkeypatch):
     plan = judged(question=question)
     found = judged_off(plan, None, drives)
     assert (found.worst[0], asked) == (CAUTION, [0])
-
-
-@pytest.mark.parametrize(
-    ("surface", "belt", "most"),
-    [
-        (None, "smooth", 2.0),
-        (Surface.of_friction(1.0), "smooth", ENOUGH),
-        (None, "grousers", ENOUGH),  # they may hold without friction
-    ],
-)
-def test_where_no_friction_is_stated_what_is_left_of_it_off_the_angles_counts(surface, belt, most):
-    track = ABSOLEM.track.model_copy(update={"belt": belt})
-    search = searching({ENTER: {4: 9.0}, LAND: {6: 2.0}})
-    robot = ABSOLEM.model_copy(update={"track": track})
-    search.question = search.question.changed(surface=surface, robot=robot)
-    plan = SimpleNamespace(postures=tuple(zip((ENTER, LAND), degrees(4.0, 6.0), strict=True)))
-    assert search.most_without_friction(plan) == most
 
 
 @pytest.mark.parametrize("model", ["contact", "physics"])

@@ -607,10 +607,10 @@ def test_off_its_angles_the_worst_verdict_counts(ways):
     assert ways([GO, GO], plan, less)[0].tested
 
 
-def searching(*, surface="known", grousers=False, off=None, questions=()):
+def searching(*, grousers=False, off=None, questions=()):
     robot = SimpleNamespace(track=SimpleNamespace(has_grousers=grousers))
     return SimpleNamespace(
-        question=SimpleNamespace(surface=surface, robot=robot), off=off,
+        question=SimpleNamespace(robot=robot), off=off,
         weakest_first=lambda ways: list(questions),
     )  # fmt: skip
 
@@ -643,13 +643,11 @@ def test_which_plans_may_be_better(monkeypatch):
     assert may(candidate(8.6), go)
     for hope in (8.5, 8.4):  # by half a degree it may be better than its scores
         assert not may(candidate(hope), go)
-        assert may(candidate(hope), go, surface=None)
         assert may(candidate(hope), go, grousers=True)
         assert may(candidate(hope), (GO, True, -2, 9.0))
         assert not may(candidate(hope), (GO, True, -1, 9.0))
     for hope, better in ((10.05, False), (10.2, True)):  # nearly alike
         assert may(candidate(hope), go, candidate(10.0)) is better
-        assert may(candidate(hope), go, candidate(10.0), surface=None)
     # where it fails off its angles the weakest way tells
     fails = candidate(off=(True, -1, 0.0))
     for rank, better in ((GO, True), (CAUTION, False)):

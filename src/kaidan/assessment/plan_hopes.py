@@ -87,16 +87,6 @@ class Search:
         """What a plan lets one hope for where its angles are a tolerance off."""
         return self._off(plan, self.scores)
 
-    def most_without_friction(self, plan: Plan) -> float:
-        """Margin that a plan has at most off its angles where no friction is stated [deg].
-
-        It is that of a friction of `UNKNOWN`, so that of two plans the one is better that needs
-        less of it; `ENOUGH` where friction is stated, or grousers may hold without any.
-        """
-        if self.question.surface is not None or self.question.robot.track.has_grousers:
-            return ENOUGH
-        return min(self.scores.off(phase, posture).margin for phase, posture in plan.postures)
-
     def may_hold(self, plan: Plan) -> bool:
         """Whether a plan may be a GO off its angles, by its grousers where they are known."""
         if self._on_belts is None:

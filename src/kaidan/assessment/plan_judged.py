@@ -31,8 +31,6 @@ class Judged(NamedTuple):
     """Whether it gets to the end, whatever the verdict."""
     whole: bool = False
     """Whether its findings are those of the whole terrain, pose by pose."""
-    most: float = ENOUGH
-    """Margin that counts at most [deg]."""
 
     @property
     def merit(self) -> Standing:
@@ -41,7 +39,7 @@ class Judged(NamedTuple):
         falls = self.conclusion.governs in {mode.key for mode in FALLS}
         if math.isnan(margin) or (falls and self.conclusion.verdict is Verdict.NO_GO):
             margin = -90.0  # a fall from less far is no help
-        margin = min(margin, self.most)
+        margin = min(margin, ENOUGH)
         cost = cost_of_drop(self.drop)
         cost += cost_of(self.question.robot, list(self.question.postures.values()))
         return (

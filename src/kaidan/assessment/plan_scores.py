@@ -26,8 +26,6 @@ COARSE = 0.04
 """Arclength between poses while searching [m]; events are located anyway."""
 ENOUGH = 15.0
 """Margin beyond which more is not better [deg]."""
-UNKNOWN = 1.0
-"""Friction by which postures are compared where nobody states one [1]."""
 ROUNDING = 0.05
 """Difference of margins that is none [deg]."""
 MANY = 4096
@@ -228,7 +226,7 @@ class Scores:
 
     @cached_property
     def _friction(self) -> tuple[float, float]:
-        return (UNKNOWN, math.inf) if self.question.surface is None else self.question.friction
+        return self.question.friction
 
     @cached_property
     def _allowances(self) -> tuple[float, float]:
@@ -270,7 +268,7 @@ class Scores:
             rated.belly_touches,
         )
         return Score(
-            passes=math.isinf(high) or slides_at_best >= NO_MARGIN,
+            passes=slides_at_best >= NO_MARGIN,
             failing=-sum(failing),
             margin=min(math.degrees(min(slides, *tips)), ENOUGH),
             drop=-math.degrees(rated.rotation),

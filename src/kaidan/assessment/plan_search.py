@@ -15,10 +15,10 @@ from kaidan.assessment.plan_hopes import LIMITS as LIMITS
 from kaidan.assessment.plan_hopes import Hope, Merit, Search
 from kaidan.assessment.plan_judged import Judged, Standing, judged_of, shortened
 from kaidan.assessment.plan_off_angles import OffAngles, holds_off_its_angles, judged_off
-from kaidan.assessment.plan_scores import UNKNOWN
 from kaidan.assessment.plan_sturdy import Sturdier
 from kaidan.assessment.plans import Plan, words
 from kaidan.assessment.plans import off_angles as off_angles
+from kaidan.assessment.verdict import conclude
 from kaidan.models import judge
 from kaidan.models.findings import Findings
 from kaidan.modes import CONTACT, Facing, Phase, Verdict
@@ -29,6 +29,8 @@ FINALISTS = 3
 """Plans that are driven in one go and judged at most: the best one at its angles too."""
 SLACK = 0.5
 """Margin by which a plan may be better than its scores [deg]."""
+UNKNOWN = 1.0
+"""Friction at which plans are compared where nobody states one [1]."""
 NEARLY = 0.1
 """Difference of two scores from which on both plans are judged [deg]."""
 
@@ -94,8 +96,8 @@ def better_than(
     drives = Drives() if drives is None else drives
     if not stated.plannable:
         return _fixed(stated, facings, drives)
-    if verdict is None and stated.surface is None and stated.robot.track.has_grousers:
-        return _at_unknown_friction(question, limits, drives)
+    if stated.surface is None:
+        return _at_unknown_friction(verdict, question, limits, drives)
     short = shortened(stated)
     beaten = None if verdict is None else (-verdict.rank, True, 0, math.inf)
     plans: list[OffAngles] = []
@@ -117,18 +119,25 @@ def better_than(
     return _on_the_whole(stated, ranked, drives)._replace(tried=tried, ends=ends)
 
 
-def _at_unknown_friction(question: Question, limits: tuple[float, float], drives: Drives) -> Found:
-    """Best plan on grousers where no friction is stated: the best at a friction of `UNKNOWN`.
+def _at_unknown_friction(
+    verdict: Verdict | None, question: Question, limits: tuple[float, float], drives: Drives
+) -> Found | None:
+    """Best plan where no friction is stated: the best at a friction of `UNKNOWN`.
 
-    Without a friction nothing is known to hold, so no plan would be better than another by what
-    its grousers hold.
+    So of two plans the one is better that needs less of it. Without a friction nothing is known to
+    hold: no plan is a GO. None: it has no better verdict than the one given.
     """
+    if verdict is not None and verdict.rank <= Verdict.CAUTION.rank:
+        return None
     found = found_of(question.changed(surface=Surface.of_friction(UNKNOWN)), limits, drives=drives)
     asked = found.question.changed(surface=None)
+    findings = judge(asked)
+    if verdict is not None and conclude(asked, findings).verdict.rank >= verdict.rank:
+        return None
     sturdy = found.sturdy or holds_off_its_angles(asked, drives)
     return found._replace(
         question=asked,
-        findings=judge(asked),
+        findings=findings,
         sturdy=sturdy,
         short=found.short.changed(surface=None),
     )
@@ -217,7 +226,6 @@ def _best_of(
         judged = known.get(each.plan)
         if judged is None:
             judged = _judged_at(each, search, drives, stated if bar is None else None)
-        judged = judged._replace(most=search.most_without_friction(each.plan))
         first = max(first or judged, judged, key=lambda one: one.merit)
         found = judged_off(judged, bar, drives, search)
         if best is None or found.worst > best.worst:
@@ -238,9 +246,7 @@ def _to_steady(search: Search, first: Judged | None) -> Plan | None:
     """
     if first is None:
         return None
-    known = search.question.surface is not None  # else no plan is a GO
-    grips = known and search.question.robot.track.has_grousers
-    hoped = first.conclusion.verdict
+    hoped, grips = first.conclusion.verdict, search.question.robot.track.has_grousers
     if not (hoped is Verdict.GO or (grips and hoped is Verdict.CAUTION)):
         return None
     at = first.question.postures
@@ -264,8 +270,7 @@ def _judged_at(each: _Candidate, search: Search, drives: Drives, stated: Questio
     """
     question = each.plan.question(search.question)
     passes, failing, _ = each.off
-    known = stated is not None and stated.model == CONTACT.name and stated.surface is not None
-    if stated is not None and known and passes and not failing:
+    if stated is not None and stated.model == CONTACT.name and passes and not failing:
         whole = question.changed(terrain=stated.terrain)
         judged = judged_of(question, judge(whole))._replace(whole=True)
         if judged.conclusion.verdict is Verdict.GO:
@@ -320,7 +325,7 @@ def _may_be_better(
     rank = _rank(search, each.hope)
     if rank != -bar[0]:
         return rank < -bar[0]
-    known = search.question.surface is not None and not search.question.robot.track.has_grousers
+    known = not search.question.robot.track.has_grousers
     if known and bar[2] >= -1 and each.hope[2] + SLACK <= bar[3]:
         return False
     if of_best is not None and known and each.hope[2] <= of_best.hope[2] + NEARLY:
