@@ -223,3 +223,18 @@ def test_no_pose_that_holds_is_stepped_over(start):
     found, z, phi, _, _ = settle(ground, body, 2.0, start, 0.0)
     assert found
     assert (z, phi) == pytest.approx((0.25, 0.0), abs=1e-12)
+
+
+@pytest.mark.parametrize("seed", [449, 607])
+def test_both_contacts_touch_where_the_look_for_both_leaves_its_bracket(seed):
+    """Of 7,222 brackets of random robots over random ground those two."""
+    rng = np.random.default_rng(seed)
+    parts, kinds = random_robot(rng, least_radius=0.02)
+    terrain = random_terrain(rng)
+    ground, body = ground_table(terrain), body_table(parts, kinds)
+    for x in rng.uniform(terrain[0, 0] + 3.0, terrain[-1, 0] - 3.0, 2):
+        found, z, phi, *contacts = settle(ground, body, x, rng.uniform(-0.3, 0.3), 0.0)
+        assert found
+        for each in contacts:
+            distance = gap(ground, body, each, x, z, math.cos(phi), math.sin(phi))[0]
+            assert distance == pytest.approx(0.0, abs=1e-12)
