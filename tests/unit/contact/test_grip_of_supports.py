@@ -301,7 +301,8 @@ def test_what_is_not_pushed(change):
 
 def test_no_tip_stands_on_a_tread_but_where_its_end_is_pushed_onto_the_round():
     row = support(ONE, place=at.TREAD, normal=0.0, tread=0.0, curvature=1.0 / RADIUS)
-    assert not tip_at(row[None], 0, 0.0, H, S, W, RN, True, 1.0)[0]
+    found = tip_at(row[None], 0, 0.0, H, S, W, RN, True, 1.0)
+    assert found == (False, 0.0, 0.0, 0.0, 0.0)
     assert tip_at(row[None], 0, -0.3, H, S, W, RN, True, 1.0)[0]
 
 
@@ -438,6 +439,12 @@ def test_of_three_supports_the_better_pair_holds_the_belts():
     better = cones(OTHER, -SLOPE, 0.6, third, -0.2, 0.7)
     assert better > outer
     assert found == pytest.approx([better, better], abs=1e-9)
+    # two of the three frictions alike
+    for frictions in ((0.6, 0.5, 0.5), (0.6, 0.6, 0.5)):
+        belt_margins(rows, 3, load, np.array([0, 1]), *frictions, 0.0, found)
+        pairs = (ONE, -SLOPE, 0.6), (third, -0.2, frictions[1])
+        each = [cones(OTHER, -SLOPE, 0.6, *pair) for pair in pairs]
+        assert found == pytest.approx([max(each)] * 2, abs=1e-9)
 
 
 @pytest.mark.parametrize("rigid", [True, False])
