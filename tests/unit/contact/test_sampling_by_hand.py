@@ -69,8 +69,10 @@ def test_where_a_nosing_moves_along_an_end(end):
     for normals, does in (((LEVEL, LEVEL, LEANS), True), ((LEANS, LEVEL, LEVEL), False)):
         found = path(3, **{end: later, f"{end}_n": normals})
         assert sampling.moves_along_end(found, 1) == does
-    found = path(3, **{end: [codes[VERTEX], codes[DISC], codes[DISC]],
-                       f"{end}_n": (LEVEL, LEANS, LEANS)})  # fmt: skip
+    discs = [codes[VERTEX], codes[DISC], codes[DISC]]
+    found = path(3, **{end: discs, f"{end}_n": (LEVEL, LEVEL, LEANS)})
+    assert not sampling.moves_along_end(found, 1)
+    found = path(3, phi=[0.3, 0.0, 0.0], **{end: later, f"{end}_n": [LEVEL] * 3})
     assert not sampling.moves_along_end(found, 1)
     assert not moves((VERTEX, VERTEX), (LEVEL, LEANS), (0.0, -0.3))  # the body turns with it
     assert moves((VERTEX, DISC), (LEVEL, LEANS))
@@ -206,7 +208,7 @@ def test_samples_are_poses_nosings_peaks_and_places_upright(sampled):
     assert asked["room"] == 16 + 4 - 6
     wide = path(4, s=[0.0, 2.0, 4.0, 6.0], psi=poses[:, at.POSE_PSI])
     _, asked = sampled(wide, [0] * 4, [(0, 0.5, 8), (2, 5.0, 6)], directions=[HALF, 0.0])
-    assert asked["parts"][0] == pytest.approx([0.25, 0.5])
+    assert asked["parts"][2] == pytest.approx([0.25, 0.5])
 
 
 def test_groups_of_friction(sampled):
