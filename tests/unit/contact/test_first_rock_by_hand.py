@@ -354,6 +354,9 @@ def test_a_dip_counts_as_the_pose_before_it(rock, kernel):
     # ways between poses are looked at however many dips there are
     kernel["dips"] = [0, 1], [2.1, 2.95]
     assert rock(Way([2.0, 2.2, 3.0], Onto())) == (pytest.approx(LEFT, abs=PLACE), 1)
+    far = Onto(rocking=contact.ROCKING + 0.07)  # what each rocks onto is its own
+    kernel["dips"] = [0, 1], [3.2, 2.0]
+    assert rock(Way([3.0, 3.5, 5.0], far)) == (pytest.approx(0.1), 1)
     # and comes down from where that came down from
     kernel["dips"] = [1], [2.0]
     way = Way([3.0, 3.5, 5.0], Onto(rocking=contact.ROCKING + 0.07))

@@ -5,9 +5,12 @@ import itertools
 import numpy as np
 import pytest
 
+from contact_cases import stadium
+from kaidan.contact import body_table, ground_table
 from kaidan.contact import columns as at
 from kaidan.contact.kernel import passings
 from kaidan.contact.kernel.passings import (
+    along_flat,
     contacts_change,
     find_passings,
     leads_straight,
@@ -48,6 +51,23 @@ def test_where_contacts_change():
     assert [row for row in range(-1, 10) if contacts_change(found, row)] == [2, 6]
     found[4, at.OUTER_REAR] = 7
     assert [row for row in range(-1, 10) if contacts_change(found, row)] == [2, 3, 4, 6]
+    found[[0, 9], at.CONTACTS] = 1
+    assert [row for row in range(-1, 10) if contacts_change(found, row)] == [0, 2, 3, 4, 6, 8]
+
+
+@pytest.mark.parametrize("radii", [(0.08, 0.08), (0.05, 0.1), (0.12, 0.06)])
+@pytest.mark.parametrize("phi", [0.0, 0.4, -0.7])
+def test_place_along_the_flat(radii, phi):
+    """The flat of a track lies C_N below the centroid, however large its ends are."""
+    body = body_table(stadium(0.6, 0.28, 0.1, *radii))
+    ground = ground_table([(-4, -3), (0.3, 0.2), (4, -3)])
+    point = int(np.argmax(ground[:, 1]))
+    for along, gap in ((0.1, 0.0), (0.5, 0.02), (-0.1, -0.01)):
+        com = (0.3 + 0.2j) - complex(along - 0.32, -0.1 - gap) * np.exp(1j * phi)
+        poses = np.zeros((2, at.POSE_COLUMNS))
+        poses[1, [at.POSE_X, at.POSE_Z, at.POSE_PHI]] = com.real, com.imag, phi
+        found = along_flat(ground, body, poses, 1, 0, point)
+        assert found == pytest.approx((along, gap), abs=1e-12)
 
 
 @pytest.mark.parametrize(("known", "expected"), [(False, [0, 1, 3, 5, 6, 8]), (True, [1, 3, 5, 6])])
