@@ -176,6 +176,9 @@ def test_a_short_way_is_halved_as_often_as_the_longest(lost, kernel, monkeypatch
     monkeypatch.setattr(module, "between_tilt", between_tilt)
     lost(Way([1.4, 1.6, 3.6], Onto()), [1], range(3), least=0.25)
     assert looks == [0] * 23 + [1] * 23
+    looks.clear()
+    lost(Way([1.4, 1.6], Onto()), [1], range(2), least=0.25)
+    assert looks == [0] * 20
 
 
 def test_left_it_is_no_steeper_than_where_it_rocked_nowhere(lost):
@@ -224,7 +227,7 @@ def test_at_one_place_nothing_is_halved_out(lost):
     """Two poses of one place, one of them on the nosing: an exchange of contacts."""
     way = Way([2.0, 2.0], Onto())
     way.hidden = (1,)
-    assert lost(way, [0], [0, 1]) == NOTHING
+    assert lost(way, [0], [0, 1], least=1.0) == NOTHING
 
 
 def test_from_one_nosing_that_it_rocks_onto_to_the_next(lost):
@@ -304,6 +307,10 @@ def test_poses_are_looked_at_as_long_as_they_may_be_the_least(rock):
     way = Way(np.r_[np.linspace(1.6, 2.2, 12), np.linspace(5.0, 30.0, 20)], rocks, leg=range(32))
     rock(way)
     assert set(way.looked_at) == set(range(16))
+    # those that are alike after eight of them are not
+    way = Way([3.0] * 16, leg=range(16))
+    rock(way)
+    assert way.looked_at[:9] == [*range(8), 0]
     # fewer than eight are left
     way = Way([3.0, 4.0, 5.0], leg=range(3))
     rock(way)

@@ -37,6 +37,7 @@ def test_the_path_leads_on_over_a_distance_along_one_line_of_poses():
     found = path(5, s=[0.0, 1.0, 1.0 + 0.9e-8, 1.0 + 2.1e-8, 2.0], leg=[0, 0, 0, 0, 1])
     assert [leads_on(found, row) for row in range(4)] == [True, False, True, False]
     assert not leads_on(path(2, s=[1.0, 0.0]), 0)
+    assert leads_on(path(2, s=[-1.0, 1.0]), 0)
 
 
 def test_the_trailing_end_leaves_an_edge():
@@ -85,6 +86,15 @@ def test_where_a_nosing_moves_along_an_end(end):
     assert moves((VERTEX, VERTEX), (LEANS, LEANS), (0.0, 1.1e-9))
     assert not moves((VERTEX, VERTEX), (LEANS, LEANS), (0.0, 0.9e-9))
     assert not moves((VERTEX, VERTEX), (LEVEL, LEANS), leg=(0, 1))
+    # from the second of three poses to the third
+    for kinds, normals, phi, expected in (
+        ((DISC, DISC, VERTEX), (LEVEL, LEVEL, LEANS), 0.0, True),
+        ((VERTEX, DISC, DISC), (LEVEL, LEVEL, LEANS), 0.0, False),
+        ((VERTEX, VERTEX, VERTEX), (LEANS, LEVEL, LEVEL), 0.0, False),
+        ((VERTEX, VERTEX, VERTEX), (LEVEL, LEVEL, LEVEL), (0.3, 0.0, 0.0), False),
+    ):
+        given = {end: [codes[each] for each in kinds], f"{end}_n": normals}
+        assert sampling.moves_along_end(path(3, phi=phi, **given), 1) is expected
 
 
 @pytest.mark.parametrize(("one", "other", "turn"), [
@@ -222,6 +232,14 @@ def test_groups_of_friction(sampled):
     assert asked["narrow"] == [0] * 4
     corner = path(3, rear=[1 << at.POINT_BITS] * 3, rear_n=[LEVEL, LEANS, LEANS])
     assert sampled(corner, [0] * 3)[1]["narrow"] == [1, 0, 0]
+    corner = path(3, rear=[1 << at.POINT_BITS] * 3, rear_n=[LEVEL, LEVEL, LEANS])
+    assert sampled(corner, [0] * 3)[1]["narrow"] == [0, 1, 0]
+
+
+def test_the_share_at_which_a_nosing_passes(sampled):
+    """Of two metres from a pose to the next half a metre is a quarter."""
+    _, asked = sampled(path(3, s=[1.0, 3.0, 5.0]), [0] * 3, [(1, 3.5, 8)], directions=[0.0])
+    assert asked["parts"][0] == [0.25]
 
 
 @pytest.mark.parametrize("a", [0.7, -0.7])
