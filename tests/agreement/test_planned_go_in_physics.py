@@ -204,6 +204,32 @@ def test_grousers_on_a_small_tip_at_a_face_in_physics(friction, outcome):
     assert Rig(question, speed=SPEED, bars=True).ride().outcome == outcome
 
 
+def pushed_back(friction):
+    """A MARV whose leading end is at a riser's face, 19 mm of grousers off it; hardly any yield."""
+    sheet = Robot.named("marv")
+    belt = {
+        "belt": "grousers",
+        "grouser_height": 0.019,
+        "grouser_spacing": 0.039,
+        "grouser_tip_width": 0.009,
+        "grouser_hardness": 95.0,
+    }
+    return Question.ask(
+        sheet.model_copy(update={"track": sheet.track.model_copy(update=belt)}),
+        Stairs(rise=0.1875, going=0.22, steps=7, nosing_radius_low=0.017, nosing_radius_high=0.017),
+        friction=friction,
+        facing="tail-first",
+        flippers="stowed,35deg/traverse:-25deg,-39deg/land:-28deg,-75deg",
+    )
+
+
+@pytest.mark.parametrize(("friction", "go"), [(0.65, False), (0.80, True)])
+def test_where_grousers_push_an_end_back_it_asks_for_more_friction(friction, go):
+    """docs/theory/grousers.md: with 0.60 a judge with rigid teeth has it stuck at any phase."""
+    question = pushed_back(friction)
+    assert (conclude(question, judge(question)).verdict is Verdict.GO) == go
+
+
 @pytest.mark.parametrize(("seed", "count"), fast_and_slow((21, 2), (21, 60)))
 def test_no_go_fails_or_rocks_near_a_fall(seed, count):
     """What climbs at each of three speeds rocks, and keeps less than the reserve to a fall.
