@@ -326,6 +326,15 @@ def test_the_normals_of_ends_that_are_pushed_back_count():
         rows, 0, 1, *normals, loads(), 0, tip, none, 0.7, 0.7, 0.7, H, S, RN, True, 1.0
     )
     assert found[0] == pytest.approx(held, abs=1e-9)
+    # of the third of three poses too, between others: one stands on one support, one on none
+    empty = np.zeros((2, at.SUPPORT_COLUMNS))
+    three = np.vstack([empty, [support(0.2 + 0.1j, normal=0.3), empty[0]], rows, empty])
+    several = np.empty(8)
+    standing_margins(three, 2, loads(count=4), np.arange(4), 0.7, 0.7, 0.7, *how, several)
+    assert several.tolist() == [*[-math.inf] * 4, *found, *[-math.inf] * 2]
+    # soft grousers push nothing: the tip would stand on a level tread
+    standing_margins(rows, 2, loads(), np.array([0]), 0.7, 0.7, 0.7, H, S, W, RN, False, 1.0, found)
+    assert found[0] == -math.inf
 
 
 # --- how far a tip runs back --------------------------------------------------------------------
