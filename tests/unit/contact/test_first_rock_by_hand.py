@@ -261,10 +261,10 @@ def test_at_the_ends_of_a_path(lost):
 
 
 def test_of_places_that_are_alike_the_first(lost):
-    nosings = [Onto(k + 0.4, k + 0.6, tilt=0.3) for k in range(4)]
-    way = Way([0.5, 1.0, 1.5, 2.0, 2.5, 3.0], *nosings)
-    way.poses[:, at.POSE_PHI] = 0.0
-    assert lost(way, [0, 2, 4], range(6), lowest=0.2) == (pytest.approx(0.13, abs=1e-6), 0)
+    """Left, both nosings leave it at what it rocked nowhere below."""
+    nosings = [Onto(k - 0.03, k + 0.03, rocking=0.04, tilt=0.5) for k in (4.55, 4.65)]
+    way = Way([4.5, 4.55, 4.6, 4.65, 4.7], *nosings)
+    assert lost(way, [1, 3], range(5), least=0.3, lowest=0.32) == (0.32, 1)
 
 
 def test_the_first_rock_by_hand(rock):
@@ -364,6 +364,8 @@ def test_a_dip_counts_as_the_pose_before_it(rock, kernel):
     far = Onto(rocking=contact.ROCKING + 0.07)  # what each rocks onto is its own
     kernel["dips"] = [0, 1], [3.2, 2.0]
     assert rock(Way([3.0, 3.5, 5.0], far)) == (pytest.approx(0.1), 1)
+    kernel["dips"] = [0, 1], [2.9, 2.8]
+    assert rock(Way([3.0, 3.5, 5.0])) == (pytest.approx(0.24), 1)
     # and comes down from where that came down from
     kernel["dips"] = [1], [2.0]
     way = Way([3.0, 3.5, 5.0], Onto(rocking=contact.ROCKING + 0.07))
