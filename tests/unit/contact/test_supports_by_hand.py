@@ -79,7 +79,9 @@ def test_tips_over_an_edge_are_those_of_the_formulas():
     same(kernel.tip_overlap, grousers_at_edges.tip_overlap, R=R, h=h, s=s, lift=lift)
     lean, other = R, 1.5 - R
     pushed = {"lean": lean, "other": other, "beyond": 0.0 * s, "h": h, "r": 0.5 * s}
-    same(kernel.pushed_lean, grousers_at_edges.pushed_lean, **pushed, curvature=1.0 / R)
+    for share in (1.0, 0.02):  # ends of metres too
+        curved = pushed | {"curvature": share / R}
+        same(kernel.pushed_lean, grousers_at_edges.pushed_lean, **curved)
     same(kernel.edge_tilt, grousers_at_edges.edge_tilt, overlap=0.02 - h, r=0.5 * s)
 
 
