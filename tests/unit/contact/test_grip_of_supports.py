@@ -496,3 +496,43 @@ def test_of_all_pairs_that_carry_the_least_counts(rigid):
             )
             assert found[first + slot] == min(expected, all_of_them)
         assert found[first + 4] == -math.inf
+
+
+@pytest.mark.parametrize("rigid", [True, False])
+def test_ends_are_pushed_pair_by_pair(rigid):
+    """Two supports behind and a face ahead; soft grousers push nothing."""
+    how = (H, S, W, RN, rigid, 1.0)
+    rows = np.array([
+        support(-0.2 - 0.2j, normal=-0.6, tread=0.0, curvature=1.0 / RADIUS),
+        support(0.3 + 0.1j, place=at.FACE, normal=-1.3, tread=math.nan, curvature=12.0),
+        support(-0.4 - 0.3j, normal=-0.2, tread=0.0, curvature=1.0 / RADIUS),
+    ])  # fmt: skip
+    rows[:, at.SUPPORT_FLAT], rows[:, at.SUPPORT_BEYOND] = math.nan, 0.004
+    for h in (H, 1.0):
+        assert pushed_normal(rows, 2, 1, h, RN, 1.0) < -0.25
+    load, pushing, found = loads(coulomb=-9.0), H if rigid else 0.0, np.empty(3)
+    standing_margins(rows, 3, load, np.array([0]), 0.9, 0.9, 0.9, *how, found)
+    with_tip = {}
+    for i, j in ((0, 1), (1, 2)):
+        assert carry(rows, 0, i, j, load, 0)
+        normals = {
+            one: pushed_normal(rows, one, other, pushing, RN, 1.0)
+            for one, other in ((i, j), (j, i))
+        }  # fmt: skip
+        tips = {one: tip_at(rows, one, normals[one], *how) for one in (i, j)}
+        for one, other in ((i, j), (j, i)):
+            with_tip[one, other] = margin_standing(
+                rows, one, other, normals[one], normals[other], load, 0, tips[one], tips[other],
+                0.9, 0.9, 0.9, H, S, RN, rigid, 1.0,
+            )  # fmt: skip
+    better = {pair: max(with_tip[pair], with_tip[pair[::-1]]) for pair in ((0, 1), (1, 2))}
+    expected = [
+        min(with_tip[0, 1], better[1, 2]), min(with_tip[1, 0], with_tip[1, 2]),
+        min(with_tip[2, 1], better[0, 1]),
+    ]  # fmt: skip
+    assert not carry(rows, 0, 0, 2, load, 0)
+    for slot in range(3):
+        tip = tip_at(rows, slot, rows[slot, at.SUPPORT_NORMAL], *how)
+        of_all = margin_of_several(rows, slot, 3, -9.0, tip, 0.9, S, rigid, 1.0)
+        assert found[slot] == min(expected[slot], of_all)
+    assert math.isfinite(found[2])
