@@ -435,12 +435,13 @@ def test_a_foot_stays_beside_what_is_farther_off_than_its_arc_bulges(foot, later
 
 @pytest.mark.parametrize("ahead", [-1.0, 1.0])
 @pytest.mark.parametrize("swings", [True, False])
-def test_a_foot_that_swings_out_to_a_piece_and_back_crosses_there(swings, ahead):
-    """Half a turn: its foot runs along half a circle of 1 m, out and back to where it began."""
+@pytest.mark.parametrize("radius", [0.5, 2.0])
+def test_a_foot_that_swings_out_to_a_piece_and_back_crosses_there(radius, swings, ahead):
+    """Half a turn: its foot runs along half a circle, out and back to where it began."""
     beyond = 1e-3 if swings else -1e-3
-    # 1 m over the piece at first, level with it after a quarter turn
-    length, offset = 5.0, beyond - 1.0 if ahead < 0.0 else 6.0 - beyond
-    given = 0.0, 1.0, 0.0, -1.0, 0.0
+    # a radius over the piece at first, level with it after a quarter turn
+    length, offset = 5.0, beyond - radius if ahead < 0.0 else 5.0 + radius - beyond
+    given = 0.0, radius, 0.0, -1.0, 0.0
     expected = crossing_angle(*given, PENETRATED)
     assert expected == near(math.pi / 2)
     found = crossing_angle_on(*given, length, offset, ahead)
