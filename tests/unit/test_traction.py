@@ -110,6 +110,19 @@ def test_going_down_it_slips_on():
     assert f"may slip on up to {answer.traction.slip_mm:.0f} mm" in str(answer)
 
 
+def test_little_friction_to_spare_is_told_of_those_that_go_up():
+    """Rigid teeth got stuck with up to 1.3 times the friction that the rule requires."""
+    needed = asked(**GROUSERS, **HARD).traction.required_friction
+
+    def told(times, **manner):
+        found = assess(robot(**GROUSERS, **HARD), FLIGHT, friction=times * needed, **manner)
+        return any(f"below {1.3 * needed:.2f}" in note for note in found.notes)
+
+    assert [told(times) for times in (0.99, 1.01, 1.29, 1.31)] == [False, True, True, False]
+    assert not told(1.01, direction="down")
+    assert not any("Little" in note for note in asked(friction=0.6).notes)
+
+
 def test_grousers_hold_where_friction_does_not():
     smooth, answer = asked(), asked(**GROUSERS, **HARD)
     assert smooth.findings["slides_down"].holds is False

@@ -10,6 +10,9 @@ if TYPE_CHECKING:
 WORTH_TELLING = 0.02
 """Friction by which the usual grousers need less than smooth belts, from which on it is said
 [1]."""
+SPARE = 1.3
+"""Times the friction required within which rigid teeth got stuck, of robots that go up on their
+grousers (docs/theory/grousers.md, a second judge) [1]."""
 
 
 def usual() -> str:
@@ -39,6 +42,14 @@ def slip(question: "Question", found: "TractionFigures") -> str | None:
     return f"holds on its grousers, may slip {way} up to {found.slip_mm:.0f} mm"
 
 
+def _more_to_be_sure(question: "Question", found: "TractionFigures") -> float | None:
+    """Friction with which no robot got stuck that goes up on its grousers; None: it is there."""
+    if question.direction == "down" or question.surface is None or found.required_friction is None:
+        return None
+    least, sure = min(question.surface.of_parts()), SPARE * found.required_friction
+    return sure if found.required_friction <= least < sure else None
+
+
 def notes(question: "Question", found: "TractionFigures") -> tuple[str, ...]:
     """What the reader must know of friction and grousers."""
     each = []
@@ -50,6 +61,12 @@ def notes(question: "Question", found: "TractionFigures") -> tuple[str, ...]:
             "a nosing. Left and right may hold one after the other, and the robot yaw meanwhile."
         )
     if track.has_grousers:
+        needed = _more_to_be_sure(question, found)
+        if needed is not None:
+            each.append(
+                f"Little friction is to spare: below {needed:.2f} grousers of several belts, or at "
+                "three contacts, may work against one another and the robot get stuck."
+            )
         unknown = [
             name
             for name, value in (
