@@ -400,7 +400,7 @@ def test_advice_of_what_holds_the_robot_seeks_another_plan(monkeypatch):
     ("name", "stairs", "manner"),
     [
         ("absolem", "ibc", {}),
-        pytest.param("absolem", "ada", {}, marks=pytest.mark.slow),
+        ("absolem", "ada", {}),
         pytest.param("marv", "ibc", {}, marks=pytest.mark.slow),
         pytest.param("marv", "ada", {}, marks=pytest.mark.slow),
         ("ozbot-atr", "ibc", {"speed": 0.05}),

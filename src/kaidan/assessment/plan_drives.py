@@ -23,7 +23,7 @@ from kaidan.models.quasi_static import (
     profile_of,
 )
 from kaidan.models.traction import standing_margins
-from kaidan.modes import CONTACT
+from kaidan.modes import CONTACT, Verdict
 from kaidan.outline import Outline
 from kaidan.question import Question
 from kaidan.robot import Posture, Robot
@@ -143,7 +143,7 @@ class Drives:
     def over(
         self, profile: Profile, question: Question, *, sought: Sought = None, **how: Any
     ) -> Traverse:
-        """Traverse of a part, as `driven_over` has it, from poses farther apart.
+        """Traverse of a part, as `driven_over` has it, from poses `FINE` apart if not stated.
 
         Parameters
         ----------
@@ -153,13 +153,14 @@ class Drives:
         sought, **how
             As for `kaidan.traversal.traverse`.
         """
+        how = {"step": FINE} | how
         terrain, body = terrain_key(profile), outline_key(question.outline)
         manner = *_manner(question), *sorted(how.items())
         known = self._known.setdefault((terrain, body, manner), {})
         if sought not in known:
             alike = next(iter(known.values()), None)
             known[sought] = (
-                driven_over(profile, question, step=FINE, sought=sought, **how)
+                driven_over(profile, question, sought=sought, **how)
                 if alike is None
                 else alike.seeking(sought)
             )
@@ -182,17 +183,25 @@ class Drives:
     def rank(self, question: Question) -> int:
         """Rank of a plan's verdict with its sign turned; how far a fall is off is not looked for.
 
-        Larger is better.
+        Larger is better. A GO on grousers is looked at pose by pose.
         """
         found = self._found(question)
-        self._required[_plan_key(question)] = found.required_friction
+        closely = question.robot.track.has_grousers
+        if closely and conclude(question, found).verdict is Verdict.GO:
+            found = self._found(question, step=contact.STEP)
+        if not closely:
+            self._required[_plan_key(question)] = found.required_friction
         return -conclude(question, found).verdict.rank
 
     def required_friction(self, question: Question) -> float:
-        """Friction that a plan requires [1]; infinite: none is enough; NaN: not known."""
+        """Friction that a plan requires [1]; infinite: none is enough; NaN: not known.
+
+        With grousers pose by pose: those that stand differ by more than smooth belts do.
+        """
         key = _plan_key(question)
         if key not in self._required:
-            self._required[key] = self._found(question).required_friction
+            how = {"step": contact.STEP} if question.robot.track.has_grousers else {}
+            self._required[key] = self._found(question, **how).required_friction
         return self._required[key]
 
     def is_no_failure(self, question: Question) -> bool:
@@ -205,13 +214,13 @@ class Drives:
         self._required[_plan_key(question)] = required
         return True
 
-    def _found(self, question: Question) -> Findings:
+    def _found(self, question: Question, **how: Any) -> Findings:
         """Findings of a plan where only the verdict counts, not how far a fall is off."""
         if question.uncertain:
-            return self._judge(question)
+            return self._judge(question, **how)
         d, M = question.allowance_d, question.allowance_M
         sought = question.reserve, d.high + M.high, d.low + M.low
-        return self._judge(question, sought=sought)
+        return self._judge(question, sought=sought, **how)
 
     def _judge(self, question: Question, **how: Any) -> Findings:
         if question.model != CONTACT.name:

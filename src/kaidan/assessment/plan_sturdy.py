@@ -9,10 +9,11 @@ import heapq
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain, islice, product
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from kaidan import contact
 from kaidan.assessment.plan_drives import Drives
 from kaidan.assessment.plan_scores import ENOUGH, FAILED, Score, Scores
 from kaidan.assessment.plans import GENTLE, Plan, off, pressed
@@ -298,27 +299,37 @@ class Sturdier:
         return self._sliding[key]
 
     def _judged(self, phase: Phase, posture: Posture) -> Worth:
-        """What a phase comes to."""
-        basis = self._basis(phase, posture)
-        if basis is None:
-            return OUT
-        found = findings_of(basis.question, basis, most=math.radians(ENOUGH))
-        conclusion = conclude(basis.question, found)
-        return _worth(conclusion.verdict, conclusion.margin)
+        """What a phase comes to; a GO on grousers pose by pose, as `Drives.rank` looks at it."""
+        worth = _judged(self._basis(phase, posture))
+        if worth.holds and self.question.robot.track.has_grousers:
+            return _judged(self._driven_over(phase, posture, step=contact.STEP))
+        return worth
 
     def _basis(self, phase: Phase, posture: Posture) -> Basis | None:
         """A phase driven from a start of its own; None: the centroid is outside."""
         key = phase, posture
         if key not in self._driven:
-            try:
-                alone = self.question.changed(posture=posture)
-            except InputError:
-                self._driven[key] = None
-            else:
-                start, until = self.scores.stretch(phase)
-                found = self.drives.over(self.scores.profile, alone, start=start, until=until)
-                self._driven[key] = Basis(alone, found)
+            self._driven[key] = self._driven_over(phase, posture)
         return self._driven[key]
+
+    def _driven_over(self, phase: Phase, posture: Posture, **how: Any) -> Basis | None:
+        """A phase driven; `how` as for `Drives.over`."""
+        try:
+            alone = self.question.changed(posture=posture)
+        except InputError:
+            return None
+        start, until = self.scores.stretch(phase)
+        found = self.drives.over(self.scores.profile, alone, start=start, until=until, **how)
+        return Basis(alone, found)
+
+
+def _judged(basis: Basis | None) -> Worth:
+    """What a drive comes to."""
+    if basis is None:
+        return OUT
+    found = findings_of(basis.question, basis, most=math.radians(ENOUGH))
+    conclusion = conclude(basis.question, found)
+    return _worth(conclusion.verdict, conclusion.margin)
 
 
 def _lacks(score: Score) -> bool:
