@@ -211,9 +211,12 @@ def test_an_edge_under_the_outer_half_of_an_end(side, order):
     if side > 0:
         line = [(-5, -1), (x - 1e-3, -1), (x, 0), (4, 0)]
     one, other = [[-0.27, 0.0, 0.06], [0.27, 0.0, 0.06]][order]
-    z, feature = touching(ground_table(line), body_table([one + other]), 0.0, 1.0, 0.0)
+    above = [-0.1, 0.5, 0.02, 0.1, 0.5, 0.02]
+    ground, body = ground_table(line), body_table([above, one + other])
+    z, feature = touching(ground, body, 0.0, 1.0, 0.0)
     assert z == pytest.approx(math.sqrt(0.06**2 - 0.03**2), abs=1e-12)
     assert feature & 3 == 0
+    assert gap(ground, body, feature, 0.0, z, 1.0, 0.0)[0] == pytest.approx(0.0, abs=1e-12)
 
 
 @pytest.mark.parametrize("start", [0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 1.0, 1.1])
