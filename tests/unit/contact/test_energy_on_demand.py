@@ -5,7 +5,9 @@ import pytest
 
 from contact_cases import random_robot, steps
 from kaidan import contact
+from kaidan.contact import ROCKING
 from kaidan.contact import columns as at
+from kaidan.contact.kernel.reserves import barrier
 from kaidan.outline import Outline
 from kaidan.robot import Posture, Robot, Track
 from kaidan.terrain.profile import Profile
@@ -54,6 +56,28 @@ def test_energy_is_never_less_than_the_pivots():
         assert set(np.unique(margins.energy_side)) <= {-1.0, 1.0}
         bounded = margins.bounded
         assert (margins.energy[bounded] >= side[bounded] - 1e-9).all()  # m, rounding
+
+
+def test_energy_is_the_smaller_of_both_sides():
+    """Each side's about its own outer contact."""
+    second = 0
+    for seed in range(30):
+        run = run_of(seed)
+        poses, margins, hint = run.poses.table, run.margins.table, 0
+        for row in range(0, len(poses), 7):
+            place = poses[row, [at.POSE_X, at.POSE_Z, at.POSE_PHI]]
+            rises = []
+            for outer, side in ((at.OUTER_REAR, 1.0), (at.OUTER_FRONT, -1.0)):
+                pivot = int(margins[row, outer])
+                _, rise, _, hint = barrier(
+                    run.ground.table, run.body.table, pivot, *place, side,
+                    margins[row, at.TILT], ROCKING, hint,
+                )  # fmt: skip
+                rises.append(rise)
+            assert margins[row, at.ENERGY] == pytest.approx(min(rises), abs=1e-12)
+            back, front = np.abs(margins[row, [at.BACK_RISE, at.FRONT_RISE]])
+            second += back <= front < rises[0] and rises[1] < rises[0]
+    assert second > 3, "the front is looked at second, and falls first"
 
 
 def test_energy_needs_margins():
