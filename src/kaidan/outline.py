@@ -8,7 +8,7 @@ the belly (a line).
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from typing import Self
 
@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from kaidan.contact import BELLY, FLIPPER, TRACK
 from kaidan.mechanics.footprint import Footprint
 from kaidan.robot import FlipperPair, Payload, Posture, Robot, Stance
-from kaidan.robot.robot import IN_LINE
+from kaidan.robot.robot import IN_LINE, REMEMBERED
+from kaidan.sheet import Itself
 
 Array = NDArray[np.float64]
 Disc = tuple[float, float, float]
@@ -63,34 +64,12 @@ class Outline:
         """
         return self.gyration * (math.sqrt(0.5) if self.gyration_estimated else 1.0)
 
-    @classmethod
+    @staticmethod
     def of(
-        cls, robot: Robot, posture: Posture | None = None, payload: Iterable[Payload] = ()
-    ) -> Self:
+        robot: Robot, posture: Posture | None = None, payload: Iterable[Payload] = ()
+    ) -> "Outline":
         """Outline of a robot in a posture under its payload."""
-        posture = posture or Posture()
-        stance = robot.stance(posture, payload)
-        front_tip = stance.com_from_front - stance.front_extension
-        rear_tip = front_tip - robot.track.flat_length
-        bottom = -stance.com_height
-        discs = _main_track(robot, rear_tip, front_tip, bottom)
-        kinds = [TRACK] * len(discs)
-        ends = (
-            ("rear", robot.rear_flippers, rear_tip, -1.0),
-            ("front", robot.front_flippers, front_tip, 1.0),
-        )
-        for end, pair, tip, outward in ends:
-            if pair is not None:
-                discs.append(_flipper(pair, getattr(posture, end), tip, outward, bottom))
-                kinds.append(FLIPPER)
-        if robot.track.belly_clearance is not None:
-            height = bottom + robot.track.belly_clearance
-            discs.append((rear_tip, height, 0.0, front_tip, height, 0.0))
-            kinds.append(BELLY)
-        gyration = None
-        if robot.inertia is not None and robot.mass is not None:
-            gyration = math.sqrt(robot.inertia / robot.mass)
-        return cls(np.array(discs), np.array(kinds, dtype=np.int64), stance, gyration)
+        return outline_of(Itself(robot), posture or Posture(), *payload)
 
     @cached_property
     def discs(self) -> list[Disc]:
@@ -126,6 +105,37 @@ class Outline:
         """Outline with nose and tail swapped, x counting towards the tail."""
         swapped = self.parts[:, [3, 4, 5, 0, 1, 2]] * np.array([-1.0, 1.0, 1.0, -1.0, 1.0, 1.0])
         return replace(self, parts=swapped)
+
+
+@lru_cache(maxsize=REMEMBERED)
+def outline_of(itself: Itself[Robot], posture: Posture, *payload: Payload) -> Outline:
+    """Outline of a robot, remembered: a search meets the same postures again and again."""
+    robot = itself.sheet
+    stance = robot.stance(posture, payload)
+    front_tip = stance.com_from_front - stance.front_extension
+    rear_tip = front_tip - robot.track.flat_length
+    bottom = -stance.com_height
+    discs = _main_track(robot, rear_tip, front_tip, bottom)
+    kinds = [TRACK] * len(discs)
+    ends = (
+        ("rear", robot.rear_flippers, rear_tip, -1.0),
+        ("front", robot.front_flippers, front_tip, 1.0),
+    )
+    for end, pair, tip, outward in ends:
+        if pair is not None:
+            discs.append(_flipper(pair, getattr(posture, end), tip, outward, bottom))
+            kinds.append(FLIPPER)
+    if robot.track.belly_clearance is not None:
+        height = bottom + robot.track.belly_clearance
+        discs.append((rear_tip, height, 0.0, front_tip, height, 0.0))
+        kinds.append(BELLY)
+    gyration = None
+    if robot.inertia is not None and robot.mass is not None:
+        gyration = math.sqrt(robot.inertia / robot.mass)
+    parts, of_kinds = np.array(discs), np.array(kinds, dtype=np.int64)
+    for array in (parts, of_kinds):
+        array.flags.writeable = False
+    return Outline(parts, of_kinds, stance, gyration)
 
 
 def footprint_of(robot: Robot, outline: Outline) -> Footprint:

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from functools import cache
 from types import NoneType
-from typing import Any, ClassVar, Literal, Self, get_args, get_origin
+from typing import Any, ClassVar, Generic, Literal, Self, TypeVar, get_args, get_origin
 
 from pydantic import (
     BaseModel,
@@ -211,6 +211,29 @@ class Sheet(BaseModel):
         lines: list[str] = []
         _write_table(self.model_dump(exclude_defaults=True), (), lines)
         return "\n".join(lines).strip() + "\n"
+
+
+AnySheet = TypeVar("AnySheet", bound=Sheet)
+
+
+class Itself(Generic[AnySheet]):
+    """A sheet as a key: the same if it is the same object, because it takes long to compare two.
+
+    Parameters
+    ----------
+    sheet : Sheet
+    """
+
+    __slots__ = ("sheet",)
+
+    def __init__(self, sheet: AnySheet) -> None:
+        self.sheet = sheet
+
+    def __hash__(self) -> int:
+        return id(self.sheet)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Itself) and other.sheet is self.sheet
 
 
 @cache

@@ -75,7 +75,7 @@ def test_friction_and_drive_at_a_yaw(found):
     body = float(body_inclination(theta_s=theta, psi=YAW))
     spare = math.asin(150.0 / (20.0 * G)) - body
     assert modes[DRIVE].worst == pytest.approx([spare, spare - 0.03])
-    assert judged.figures == (pytest.approx(0.1 * YAW),)
+    assert tuple(judged.figures) == (pytest.approx(0.1 * YAW),)
 
 
 def test_braking_more_than_the_slope_does_it_slides_up(found):

@@ -223,10 +223,11 @@ def first_order(drawn: Drawn, values: Array) -> float:
     if longer:
         slices.insert(0, ordered[:ends].reshape(longer, size + 1))
     sizes = np.repeat([size + 1, size], [longer, SLICES - longer])
-    means, variances = (
-        np.concatenate([getattr(each, name)(axis=1) for each in slices]) for name in ("mean", "var")
-    )
-    within = float(np.sum(sizes * variances) / sizes.sum())
-    between = float(np.sum(sizes * (means - values.mean()) ** 2) / sizes.sum())
+    of_slices = [each.mean(axis=1) for each in slices]
+    squares = [(each - mean[:, None]) ** 2 for each, mean in zip(slices, of_slices, strict=True)]
+    variances = np.concatenate([each.mean(axis=1) for each in squares])
+    means = np.concatenate(of_slices)
+    within = float((sizes * variances).sum() / len(values))
+    between = float((sizes * (means - values.mean()) ** 2).sum() / len(values))
     chance = within * SLICES / len(values)
     return min(max((between - chance) / variance, 0.0), 1.0)

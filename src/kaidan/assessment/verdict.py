@@ -34,6 +34,7 @@ from kaidan.question import Question
 
 WAIVED = (*TIPS, ROTATION)
 """Modes that an operator who accepts an arrested rotation waives, where the robot arrives."""
+_LISTED = {key: place for place, key in enumerate(FAILURE_MODES)}
 FALL = math.pi / 2
 """Margin of a robot of which no slope makes it fail [rad]."""
 
@@ -129,6 +130,9 @@ def _accepted(question: Question, each: tuple[Finding, ...]) -> list[Finding]:
 
 def _beyond(each: list[Finding], risk: float, *, best: bool = False) -> bool:
     """Whether more samples than the accepted share fail by any of the findings."""
+    rows = [one.best if best else one.worst for one in each]
+    if all(len(row) == 1 for row in rows):  # of one sample no share is accepted
+        return any(row.item() <= 0 for row in rows)
     return failing_beyond((one.fails(best=best) for one in each), risk)
 
 
@@ -142,7 +146,7 @@ def _doubts(each: list[Finding], question: Question) -> list[Finding]:
 
 def _order(one: Finding, question: Question, *, best: bool = False) -> tuple[int, float, int]:
     """Order of what fails: margins of slope first, the smallest first; then as they are listed."""
-    listed = list(FAILURE_MODES.values()).index(one.mode)
+    listed = _LISTED[one.mode.key]
     if one.mode is UNWEIGHED:  # before what follows from it
         return -1, 0.0, listed
     if one.mode.unit != "rad":

@@ -80,7 +80,10 @@ def _loaded(x: Number, x_z: Number) -> Number:
     loaded = np.isfinite(x) & np.isfinite(x_z)
     for _ in range(np.shape(x)[-1]):
         share, _ = _springs(x, x_z, loaded)
-        loaded = loaded & (share >= -ROUNDING)
+        kept = loaded & (share >= -ROUNDING)
+        if np.array_equal(kept, loaded):
+            break
+        loaded = kept
     return loaded
 
 

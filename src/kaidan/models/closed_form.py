@@ -13,7 +13,7 @@ from kaidan.mechanics.slipping import required_friction
 from kaidan.models import acceleration
 from kaidan.models.closed_form_figures import Basis, figures_of
 from kaidan.models.drive_limits import steepest_for_drive
-from kaidan.models.findings import Array, Finding, Findings, at_risk
+from kaidan.models.findings import Array, Finding, Findings, Later, at_risk
 from kaidan.models.samples import Draws, draws, nominal
 from kaidan.modes import CLOSED_FORM, DRIVE, FORMULAS, TIPS, Verdict
 from kaidan.question import Question
@@ -72,13 +72,13 @@ def judge(question: Question, *, known: Findings | None = None) -> Findings:
         )
         for i, mode in enumerate(MODES)
     )
-    figures = figures_of(question, flight, basis)
+    figures = Later(lambda: (figures_of(question, flight, basis),))
     return Findings(
         model=CLOSED_FORM.name,
         each=found,
         required_friction=needed,
-        figures=(figures,),
-        notes=text.notes(question, flight, figures),
+        figures=figures,
+        notes=Later(lambda: text.notes(question, flight, figures[0])),
         basis=basis,
     )
 

@@ -34,7 +34,7 @@ from kaidan.mechanics.oblique_support import (
 )
 from kaidan.models.closed_form import no_regular_flight
 from kaidan.models.drive_limits import steepest_for_drive
-from kaidan.models.findings import Array, Finding, Findings, each_at_risk
+from kaidan.models.findings import Array, Finding, Findings, Later, each_at_risk
 from kaidan.models.samples import Draws, draws, nominal
 from kaidan.modes import (
     DRIVE,
@@ -123,7 +123,7 @@ def judge(question: Question, *, known: Findings | None = None) -> Findings:
             energy_finding(question, energy),
         ),
         required_friction=needed,
-        figures=(figures_of(question, flight, energy),),
+        figures=Later(lambda: (figures_of(question, flight, energy),)),
         notes=(FLIGHT_ALONE,),
         basis=flight,
     )

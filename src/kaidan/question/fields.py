@@ -140,7 +140,7 @@ class QuestionFields(Sheet):
             return self.terrain
         return self.profile.as_stairs(self.terrain_name)
 
-    @property
+    @cached_property
     def flights(self) -> tuple[Stairs, ...]:
         """Sheets of its flights from bottom to top; none of a profile."""
         flights = self.terrain if isinstance(self.terrain, tuple) else (self.terrain,)

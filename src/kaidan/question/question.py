@@ -1,6 +1,7 @@
 """The question as a sheet: made of what people write, changed, and what follows from it."""
 
 import math
+from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
 
@@ -230,8 +231,8 @@ class Question(QuestionFields):
         fields = {name: getattr(self, name) for name in type(self).model_fields}
         return type(self)(**fields | changes)
 
-    @property
-    def postures(self) -> dict[Phase, Posture]:
+    @cached_property
+    def postures(self) -> Mapping[Phase, Posture]:
         """Posture of each phase."""
         at, found = self.posture, {}
         changes = {Phase(each.before): each.posture for each in self.changes}
@@ -301,7 +302,7 @@ class Question(QuestionFields):
         """Whether the nose points up the stairs."""
         return (self.direction == "up") == (self.facing == "nose-first")
 
-    @property
+    @cached_property
     def friction(self) -> tuple[float, float]:
         """Static friction of nosings in the worst and in the best case [1]; NaN: not stated."""
         if self.surface is None:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Mapping
+from functools import lru_cache
 from typing import Any, ClassVar, NamedTuple, Self
 
 from pydantic import Field
@@ -13,7 +14,7 @@ from kaidan.robot.drive import Drive
 from kaidan.robot.flippers import FlipperPair, Posture
 from kaidan.robot.masses import CentroidRange, Payload, State, Uncertainty
 from kaidan.robot.track import Track
-from kaidan.sheet import Sheet, model_validator, quantity
+from kaidan.sheet import Itself, Sheet, model_validator, quantity
 
 
 class Stance(NamedTuple):
@@ -48,6 +49,8 @@ TURNING_MOVES = 9
 FALL_RESERVE = math.radians(8.0)
 """Tilt to the fall that a robot must keep where it rocks and the sheet states none [rad]: it parts
 the climbs of the paper's rig from its falls (docs/decisions.md)."""
+REMEMBERED = 1024
+"""So many stances are remembered."""
 
 
 class Robot(Sheet):
@@ -239,7 +242,9 @@ class Robot(Sheet):
             A posture for flippers the robot does not have, a payload on a robot of unknown
             mass, or a centroid that ends up outside the robot.
         """
-        posture = posture or Posture()
+        return stance_of(Itself(self), posture or Posture(), *payload)
+
+    def _stance(self, posture: Posture, payload: tuple[Payload, ...]) -> Stance:
         forward, up = self._shift(posture.state)
         mass, moment_x, moment_z = self.mass, 0.0, 0.0
         extension = {"front": 0.0, "rear": 0.0}
@@ -262,7 +267,6 @@ class Robot(Sheet):
             outward = arm * (math.cos(angle) - math.cos(pair.stowed_angle))
             moment_x += outward if end == "rear" else -outward
             moment_z += arm * (math.sin(angle) - math.sin(pair.stowed_angle))
-        payload = tuple(payload)
         if payload and mass is None:
             raise InputError(
                 f"robot {self.name!r}: mass is not published, so a payload cannot be placed; "
@@ -316,3 +320,9 @@ class Robot(Sheet):
         """Pairs of flippers that the robot has, by end: "front", "rear"."""
         pairs: dict[str, Any] = {"front": self.front_flippers, "rear": self.rear_flippers}
         return {end: pair for end, pair in pairs.items() if pair is not None}
+
+
+@lru_cache(maxsize=REMEMBERED)
+def stance_of(itself: Itself[Robot], posture: Posture, *payload: Payload) -> Stance:
+    """Stance of a robot, remembered: a search meets the same postures again and again."""
+    return itself.sheet._stance(posture, payload)

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kaidan.errors import InputError, shown
+from kaidan.sheet import Itself
 from kaidan.terrain.doubt import (
     covariance_as_stated,
     covariance_of_steps,
@@ -27,18 +28,6 @@ from kaidan.terrain.stairs import Stairs
 from kaidan.terrain.stairs_uncertainty import StairsUncertainty
 
 Array = NDArray[np.float64]
-
-
-class _Themselves(tuple[Stairs, ...]):
-    """Flights, the same if they are the same objects: what sheets say takes long to compare."""
-
-    __slots__ = ()
-
-    def __hash__(self) -> int:
-        return hash(tuple(map(id, self)))
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Themselves) and [*map(id, self)] == [*map(id, other)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,12 +84,13 @@ class Profile:
         """
         if not flights:
             raise InputError("profile: no flight of stairs was given")
-        return cls._of_flights(_Themselves(flights))
+        return cls._of_flights(*map(Itself, flights))
 
     @classmethod
     @lru_cache(maxsize=64)
-    def _of_flights(cls, flights: "_Themselves") -> Self:
+    def _of_flights(cls, *themselves: Itself[Stairs]) -> Self:
         """The same, remembered: changed questions have one terrain."""
+        flights = [each.sheet for each in themselves]
         points, nosings, covariance = line_of_flights(flights)
         return cls(
             points=points,
