@@ -160,8 +160,10 @@ def compare(
         for robot in known
     ]
     first = questions[0]
-    with _judging(questions, workers) as judging:
-        cells = [next(judging) for _ in progress(questions, "traverses judged")]
+    # a plan of many flippers takes longest: at the end short cells keep all processes at work
+    longest = sorted(range(len(questions)), key=lambda at: -len(questions[at].robot.flippers()))
+    with _judging([questions[at] for at in longest], workers) as judging:
+        judged = {at: next(judging) for at in progress(longest, "traverses judged")}
     directions = {each.direction for each in questions}
     return Comparison(
         model=first.model,
@@ -172,7 +174,7 @@ def compare(
         surface=first.surface.name if first.surface else None,
         robots=[robot.name for robot in known],
         stairs=[flight.name for flight in flights],
-        cells=cells,
+        cells=[judged[at] for at in range(len(questions))],
         without_centroid=[_no_centroid(name.strip().lower()) for name in apart],
         belts_open=[
             each.robot.name
