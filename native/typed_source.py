@@ -143,7 +143,9 @@ def _compiled(
     declared = types.declarations(tree)
     if change:
         tree = change.function(tree, types, function)
-    typing = _Typing(module, functions, widths, stored | set(hints), change is not None)
+    typing = _Typing(
+        module, functions, widths, types.known, stored | set(hints), change is not None
+    )
     body = tree.body[1:] if ast.get_docstring(tree) else tree.body
     lines = [ast.unparse(ast.fix_missing_locations(typing.visit(each))) for each in body]
     lines = [*declared, *lines]
@@ -302,10 +304,10 @@ class _Typing(ast.NodeTransformer):
 
     def __init__(
         self, module: ModuleType, functions: dict[str, Any], widths: dict[str, int | None],
-        local: set[str], checked: bool,
+        kinds: dict[str, str], local: set[str], checked: bool,
     ) -> None:  # fmt: skip
         self.module, self.functions, self.widths, self.local = module, functions, widths, local
-        self.checked = checked
+        self.kinds, self.checked = kinds, checked
 
     def visit_Assign(self, node: ast.Assign) -> ast.AST:
         value, target = node.value, node.targets[0]
@@ -354,7 +356,7 @@ class _Typing(ast.NodeTransformer):
             assert node.slice.upper is not None
             first, last = (ast.unparse(self.visit(e)) for e in (node.slice.lower, node.slice.upper))
             at = f"{node.value.id}.at + ({first}) * {width}"
-            kind = self._kind(node.value.id)
+            kind = self.kinds[node.value.id]
             return ast.Name(f"{kind}({at}, ({last}) - ({first}))", ast.Load())
         index = node.slice
         if isinstance(index, ast.Tuple):
@@ -368,9 +370,6 @@ class _Typing(ast.NodeTransformer):
             index = ast.Call(ast.Name("checked_index", ast.Load()), [index, count], [])
         at = ast.Attribute(node.value, "at", ast.Load())
         return ast.Subscript(at, index, node.ctx)
-
-    def _kind(self, name: str) -> str:
-        return "Indices" if name == "rows" else "Table"
 
 
 def _constant(value: float) -> ast.AST:

@@ -7,9 +7,11 @@ from amounts import fast_and_slow
 from contact_cases import LANDING, random_robot, random_terrain
 from kaidan.contact import (
     Job,
+    Manner,
+    Sampled,
     Status,
     arrives,
-    first_rock,
+    extremes_of,
     samples_of,
     stand_in_turn,
     traverse,
@@ -35,19 +37,29 @@ def same(plain, native):
 
 
 def same_between(path, seed, acceleration):
-    """Likewise what is looked for between poses: samples of phases, and the first rock."""
+    """Likewise what is looked for between poses: samples of phases, and the phases' extremes."""
     rng = np.random.default_rng(seed)
     count = len(path.poses)
     phase = np.sort(rng.integers(0, 3, count))
-    rows = np.sort(rng.choice(count, size=max(count // 2, 1), replace=False))
     whence = np.where(rng.random(count) < 0.3, path.inclination + 0.1, -np.inf)
-    side, own = (1.0, -1.0)[seed % 2], max(count - seed % 3, 1)
+    back, corner = rng.random((2, count)) < 0.2
+    middle = float(np.median(path.poses.front_point[:, 0]))
+    manner = Manner(
+        descending=seed % 2 == 1, whole=seed % 3 == 0, counts=tuple(rng.permutation(3)),
+        tops=[(middle + 0.1, np.inf, -np.inf, np.inf)], flights=[(middle - 0.5, middle)],
+        nosings=np.array([middle]), height=0.1, gyration=0.2, acceleration=acceleration,
+    )  # fmt: skip
     found = []
     for kernel in ("plain", "native"):
         with using_kernel(kernel):
             seen = samples_of(path, phase, 1e-7, acceleration=acceleration)
-            rock = first_rock(path, rows, side, own=own, whence=whence, acceleration=acceleration)
-            found.append((seen.rows, seen.path.poses.table, seen.path.margins.table, rock))
+            margins, lasts = seen.path.margins, np.arange(len(seen.rows)) % 5 > 0
+            samples = Sampled(
+                seen.path, seen.rows, lasts, np.abs(margins.required_friction),
+                np.abs(margins.traction), np.arange(len(seen.rows)) % 7 == 0,
+            )  # fmt: skip
+            extremes = extremes_of(samples, phase, corner, whence, back, manner)
+            found.append((seen.rows, seen.path.poses.table, margins.table, *extremes))
     for one, other in zip(*found, strict=True):
         np.testing.assert_array_equal(one, other)
 

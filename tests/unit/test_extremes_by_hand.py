@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from kaidan import contact
 from kaidan.contact import Feature, FeatureKind, Placement
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
@@ -13,15 +14,15 @@ from kaidan.traversal import Phase, extremes
 from kaidan.traversal.brief import by_how_long
 from kaidan.traversal.extremes import (
     Rise,
-    _as_on_the_flat,
     _came_down,
     _CameDown,
+    _flights,
     _least_rise,
-    _on_a_flight,
-    _rock,
     _rotated,
+    _Way,
     phase_extremes,
 )
+from kaidan.traversal.phases import top_zones
 from kaidan.traversal.rotations import ROCKING
 
 G = 9.80665
@@ -34,190 +35,135 @@ class Rows(SimpleNamespace):
         return len(self.front_point)
 
 
-class Margins(SimpleNamespace):
-    def __getitem__(self, rows):
-        return Margins(**{name: values[rows] for name, values in vars(self).items()})
-
-
 PHASE = np.array(["enter"] * 2 + ["traverse"] * 4 + ["land"] * 2)
-CLOSED = {Phase.ENTER: [0, 1], Phase.TRAVERSE: [2, 3, 4, 5, 6], Phase.LAND: [5, 6, 7]}
-PLACES = NOSINGS[0, 0] + np.array([-0.5, -0.4, 0.1, 0.15, 0.2, 0.65, 0.6, 0.8, 0.11, 0.66])
-COUNT = len(PLACES)
-"""Eight poses, and two between, after the fourth and the sixth."""
+BODY = SimpleNamespace(stance=SimpleNamespace(flat_length=0.5, com_height=0.1), least_gyration=0.2)
+
+
+def found(**more):
+    """Figures of a phase, each place of the energies at a nosing of its own."""
+    usual = dict.fromkeys(contact.Extreme._fields, math.nan) | {
+        "poses": 4.0, "friction": 0.5, "friction_place": NOSINGS[2, 0], "static_margin": 0.2,
+        "traction": 4.0, "belly": 0.0, "energy": 0.002, "energy_place": NOSINGS[1, 0],
+        "steadiness": 0.0015, "steadiness_place": NOSINGS[0, 0], "uphill": math.inf,
+        "tilt_downhill": 0.2, "tilt_downhill_place": NOSINGS[2, 0], "tilt_uphill": math.inf,
+    }  # fmt: skip
+    return contact.Extreme(**(usual | more))
 
 
 @pytest.fixture
-def looked_at(monkeypatch):
-    """Extremes, and rows that are looked at: of each phase for each kind of figure and side."""
+def told(monkeypatch):
+    """Extremes of a path by what the kernel finds, and what it is asked."""
 
-    def mark(*rows):
-        marked = np.zeros(COUNT, dtype=np.bool_)
-        marked[list(rows)] = True
-        return marked
+    def of(*each, descending=False, whole=True, rises=(), profile=STEPS):
+        asked = {}
 
-    seen = SimpleNamespace(
-        poses=Rows(front_point=np.c_[PLACES, np.full(COUNT, -7.0)]),
-        margins=Margins(
-            front=np.arange(COUNT) + 0.5, back=np.arange(COUNT) + 0.25, belly_touches=mark()
-        ),
-    )
-    samples = SimpleNamespace(
-        row=np.array([0, 1, 2, 3, 4, 5, 6, 7, 3, 5]),
-        lasts=~mark(4),
-        path=seen,
-        comes_off=mark(1, 7),
-        friction=np.array([0.1, 0.9, 0.2, 0.3, 9.0, 0.4, 0.5, 0.8, 0.3, 0.4]),
-        traction=np.array([0.1, 0.2, 0.2, 0.3, 9.0, 0.4, 0.5, 0.8, 0.3, 0.4]),
-    )
-    rows = {name: np.isin(np.arange(8), some) for name, some in CLOSED.items()}
+        def extremes_of(samples, phase, corner, whence, back, manner):
+            asked.update(manner._asdict(), phase=phase.tolist(), whence=whence, back=back)
+            assert (samples, corner) == ("samples", "corners")
+            return each
 
-    def of(*, descending=False, whole=True, rises=(), profile=STEPS):
-        asked = []
-
-        def energy(path, rows, side, weights):
-            asked.append(("energy", side, rows.tolist()))
-            return (0.002 * weights[0], PLACES[rows[0]]) if len(rows) else (math.inf, math.nan)
-
-        def rock(path, rows, side, *given):
-            asked.append(("rock", side, rows.tolist()))
-            whence = given[4] if len(given) > 4 else None
-            # towards the downhill end alone, on the way up
-            assert (whence is not None) == (side > 0 and not descending)
-            assert whence is None or whence.tolist() == [0, 1, 2, 3, 4, 5, 6, 7, 3, 5]
-            return math.inf, 0
-
-        def rotated(path, phase, name, side, *given):
-            asked.append(("rotated", side))
-            return 0.1 * side, 5
-
-        for name, found in {
-            "samples_of": lambda *given: samples,
+        for name, stands in {
+            "samples_of": lambda path, phase, acceleration: "samples",
+            "corners": lambda path: "corners",
             "_chain_angles": lambda *given: [(0, 0.3), (2, 0.1), (3, 0.2)],
-            "over_the_top": lambda *given: mark(6, 7, 9),
-            "_closed": lambda *given: rows,
-            "_came_down": lambda *given: _CameDown(np.arange(8.0), mark(3)[:8]),
-            "_on_a_flight": lambda *given: mark(2, 8),
-            "_least_energy": energy,
-            "_as_on_the_flat": lambda path, body, side: np.full(COUNT, 0.5 + 0.25 * side),
-            "_rock": rock,
-            "_rotated": rotated,
+            "_came_down": lambda path, room, whole: _CameDown(np.arange(8.0), np.arange(8) == 3),
+            "_rotated": lambda way, name, side: (0.1 * side, 5),
         }.items():
-            monkeypatch.setattr(extremes, name, found)
+            monkeypatch.setattr(extremes, name, stands)
+        monkeypatch.setattr(contact, "extremes_of", extremes_of)
         path = SimpleNamespace(poses=Rows(front_point=np.zeros((8, 2))))
-        body = SimpleNamespace(stance=SimpleNamespace(flat_length=0.5))
-        found = phase_extremes(path, profile, PHASE, descending, 0.0, rises, body, whole)
-        energies, *others = (
-            [each[1:] for each in asked if each[0] == kind]
-            for kind in ("energy", "rock", "rotated")
-        )
-        assert energies[::3] == energies[1::3]  # as it is, and as if it were about the flat
-        return found, [[each for k, each in enumerate(energies) if k % 3], *others]
+        given = path, profile, PHASE, descending, 0.7, rises, BODY, whole
+        return phase_extremes(*given), asked
 
     return of
 
 
-def test_which_poses_count_on_the_way_up(looked_at):
-    """Traversing a flat judges by nosings, and poses where it is on no flight; a pose that comes
-    back is none that falls, uphill none over the top.
+def test_what_the_kernel_is_asked(told):
+    _, asked = told(None, None, None)
+    assert asked["phase"] == [0, 0, 1, 1, 1, 1, 2, 2]
+    assert (asked["descending"], asked["whole"], asked["acceleration"]) == (False, True, 0.7)
+    assert (asked["height"], asked["gyration"]) == (0.1, 0.2)
+    assert asked["nosings"].tolist() == NOSINGS[:, 0].tolist()
+    assert asked["tops"] == top_zones(STEPS, False, 0.5)
+    (flight,) = asked["flights"]
+    assert flight == pytest.approx((NOSINGS[0, 0] - 1e-6, NOSINGS[2, 0] + 1e-6), abs=1e-12)
+    assert asked["whence"].tolist() == list(range(8))
+    assert np.flatnonzero(asked["back"]).tolist() == [3]
+    # on the way down gravity towards the downhill end returns nothing
+    _, asked = told(None, None, None, descending=True)
+    assert np.isinf(asked["whence"]).all()
+    assert not asked["back"].any()
+
+
+def test_which_poses_count_for_the_energy(told):
+    """Where nosings carry, none traversing, and landing those beside them; none over the edge of
+    the landing above.
     """
-    found, (energy, rock, rotated) = looked_at()
-    assert [each.phase for each in found] == list(Phase)
-    on, lands = [2, 3, 5, 6, 8, 9], [5, 6, 7, 9]
-    assert energy == [
-        (1.0, [0, 1]), (-1.0, []), (1.0, on), (-1.0, [2, 3, 5, 8]), (1.0, lands), (-1.0, []),
-    ]  # fmt: skip
-    assert rock == [
-        (1.0, [0, 1]),
-        (-1.0, []),
-        (1.0, [5, 9]),
-        (-1.0, [3, 5]),
-        (1.0, lands),
-        (-1.0, []),
-    ]
-    assert rotated == [(1.0,), (-1.0,)] * 3
-    enter, traverse, land = found
-    assert (traverse.energy_margin, traverse.energy_margin_step) == (0.002, 1)
-    assert land.energy_margin_step == 3
-    assert (traverse.steadiness, traverse.uphill_steadiness) == ((0.0015, 1), (0.0005, 1))
-    assert land.uphill_steadiness == (math.inf, 0)
+    none, beside, every = contact.NO_POSE, contact.BESIDE_NOSINGS, contact.EVERY_POSE
+    rises = Rise(True, 0.001, 2, Phase.TRAVERSE), Rise(True, 0.005, 3, Phase.LAND)
+    level = Profile.of_points([(-3, 0), (3, 0)])
+    for how, counts in (
+        ({}, (every, every, every)),
+        ({"rises": rises}, (every, none, beside)),
+        ({"rises": rises[1:]}, (every, every, beside)),
+        ({"descending": True}, (none, every, every)),
+        ({"descending": True, "profile": level}, (every, every, every)),
+    ):
+        assert told(None, None, None, **how)[1]["counts"] == counts
+
+
+def test_figures_of_each_phase(told):
+    """By name, with the step at each place; of a phase without a pose none."""
+    (enter, land), _ = told(found(), None, found(slides_below=0.8, belly=1.0))
+    assert (enter.phase, land.phase) == (Phase.ENTER, Phase.LAND)
+    assert (enter.required_friction, enter.required_friction_step) == (0.5, 3)
+    assert (enter.slides_below, land.slides_below) == (None, 0.8)
+    assert (enter.energy_margin, enter.energy_margin_step) == (0.002, 2)
+    assert enter.steadiness == (0.0015, 1)
+    assert enter.uphill_steadiness == (math.inf, 0)
+    assert (enter.static_margin, enter.traction_over_weight) == (0.2, 4.0 / G)
+    assert (enter.largest_rotation, land.largest_rotation) == (0.3, 0.0)
+    assert (enter.belly_touches, land.belly_touches) == (False, True)
+    # a rotation that nothing arrests is the lesser tilt
     assert (enter.tilt_downhill, enter.tilt_uphill) == ((0.1, 5), (-0.1, 5))
-    assert [each.static_margin for each in found] == [0.25, 2.25, 5.25]
-    # only landing the trailing end slides down what it comes off
-    assert (enter.required_friction, enter.slides_below) == (0.9, None)
-    assert (traverse.required_friction, traverse.required_friction_step) == (0.5, 3)
-    assert (land.required_friction, land.slides_below) == (0.5, 0.8)
-    assert [each.traction_over_weight * G for each in found] == pytest.approx([0.2, 0.5, 0.5])
-    assert [each.largest_rotation for each in found] == [0.3, 0.2, 0.0]
+    less = told(found(tilt_downhill=0.05), None, None)[0][0]
+    assert less.tilt_downhill == (0.05, 3)
+    down = told(found(), None, None, descending=True)[0][0]
+    assert (down.required_friction_step, down.energy_margin_step) == (1, 2)
+    assert (down.tilt_downhill, down.tilt_uphill) == ((-0.1, 5), (0.1, 5))
 
 
-def test_where_no_flat_carries_every_pose_is_judged(looked_at):
-    rock = looked_at(whole=False)[1][1]
-    assert rock[2:4] == [(1.0, [2, 5, 6, 9]), (-1.0, [2, 3, 5, 8])]
+def test_the_largest_rotation_of_a_phase(told):
+    (flight,), _ = told(None, found(), None)
+    assert flight.largest_rotation == 0.2
 
 
-def test_where_nosings_carry_their_rises_count(looked_at):
-    """Traversing those alone, landing poses too, but for one with its contact at a nosing."""
+def test_where_nosings_carry_their_rises_count(told):
+    """Of a rise and the least of poses the smaller one."""
     rises = (
         Rise(True, 0.001, 2, Phase.TRAVERSE), Rise(False, 0.004, 3, Phase.TRAVERSE),
-        Rise(True, 0.005, 3, Phase.LAND),
+        Rise(True, 0.0018, 3, Phase.LAND),
     )  # fmt: skip
-    found, (energy, *_) = looked_at(rises=rises)
-    assert PLACES[6] == NOSINGS[2, 0]
-    assert energy[2:] == [(1.0, []), (-1.0, []), (1.0, [5, 7, 9]), (-1.0, [])]
-    _, traverse, land = found
-    assert (traverse.energy_margin, traverse.energy_margin_step) == (0.001, 2)
-    assert (land.energy_margin, land.energy_margin_step) == (0.002, 3)
-    assert (traverse.steadiness, traverse.uphill_steadiness) == ((0.001, 2), (0.004, 3))
-    assert land.steadiness == (0.0015, 3)
+    on = found(uphill=0.0005, uphill_place=NOSINGS[0, 0])
+    (enter, flight, land), _ = told(found(), on, found(), rises=rises)
+    assert (enter.energy_margin, enter.energy_margin_step) == (0.002, 2)
+    assert (flight.energy_margin, flight.energy_margin_step) == (0.001, 2)
+    assert (flight.steadiness, flight.uphill_steadiness) == ((0.001, 2), (0.0005, 1))
+    assert (land.energy_margin, land.energy_margin_step) == (0.0018, 3)
+    assert land.steadiness == (0.0015, 1)
 
 
-def test_a_rise_as_one_about_the_flat():
-    """By hand: radius of gyration 0.2 m, centroid 0.1 m above the flat, so a sudden stop leaves
-    1/5 of its energy to a rotation about the flat. 0.2 m above the line of a belt: 1/2; behind it,
-    where the belt pulls through the centroid: none.
-    """
-    body = SimpleNamespace(least_gyration=0.2, stance=SimpleNamespace(com_height=0.1))
-    half = math.sqrt(0.5)
-    path = SimpleNamespace(
-        x=np.zeros(3),
-        z=np.full(3, 0.3),
-        poses=SimpleNamespace(
-            rear_point=np.array([(-0.2, 0.2), (-0.2, 0.1), (-0.3, 0.0)]),
-            rear_normal=np.array([(0.0, 1.0), (0.0, 1.0), (-half, half)]),
-            front_point=np.array([(0.3, 0.2), (0.1, 0.3), (0.2, 0.3 - 0.2 * math.sqrt(0.5))]),
-            front_normal=np.array([(0.0, 1.0), (-1.0, 0.0), (0.0, 1.0)]),
-        ),
-    )
-    found = _as_on_the_flat(path, body, 1.0)
-    assert found[:2] == pytest.approx([1.0, 0.4])
-    assert found[2] > 1e5
-    # uphill: a face 0.1 m ahead, against which the belt pulls upward; and 0.1414 m: 1/3
-    assert _as_on_the_flat(path, body, -1.0) == pytest.approx([1.0, 1.0, 0.6])
-
-
-def test_which_poses_count_on_the_way_down(looked_at):
-    """Over the edge of the landing above it has to rotate: no pose there counts."""
-    found, (energy, rock, rotated) = looked_at(descending=True)
-    assert energy[:3] == [(-1.0, []), (1.0, []), (-1.0, [2, 3, 5, 6, 8, 9])]
-    assert rock[:4] == [(-1.0, []), (1.0, []), (-1.0, [3, 5, 9]), (1.0, [3, 5])]
-    assert rotated == [(-1.0,), (1.0,)] * 3
-    assert [each.static_margin for each in found] == [0.5, 2.5, 5.5]
-    level = Profile.of_points([(-3, 0), (3, 0)])
-    assert looked_at(descending=True, profile=level)[1][0][:2] == [(-1.0, [0, 1]), (1.0, [])]
-
-
-def test_poses_on_a_flight_by_hand():
+def test_flights_by_hand():
     """Nosings 0.3, 0.6 and 0.3 m apart under a flat of 0.5 m: two flights of two."""
-    nosings = np.array([(0.0, 0.0), (0.3, 0.0), (0.9, 0.0), (1.2, 0.0)])
-    rear = np.array([0.0, -1e-5, 0.1, 0.1, 0.35, 0.9 - 1e-7, 1.0])
-    front = np.array([0.3 + 1e-7, 0.2, 0.3 + 1e-5, 0.2, 0.8, 1.2, 1.3])
-    path = SimpleNamespace(
-        poses=SimpleNamespace(
-            rear_point=np.c_[rear, np.full(7, 0.2)], front_point=np.c_[front, np.full(7, 0.2)]
-        )
-    )
-    found = _on_a_flight(path, SimpleNamespace(nosings=nosings), 0.5)
-    assert found.tolist() == [True, False, False, True, False, True, False]
+    rows = [(0.0, 0.1), (0.3, 0.2), (0.9, 0.3), (1.2, 0.4)]
+    points = [(-2.0, 0.0)]
+    for x, z in rows:
+        points += [(x, points[-1][1]), (x, z)]
+    profile = Profile.of_points([*points, (3.0, 0.4)])
+    assert profile.nosings.tolist() == [list(each) for each in rows]
+    one, two = _flights(profile, 0.5)
+    assert one == pytest.approx((-1e-6, 0.3 + 1e-6), abs=1e-12)
+    assert two == pytest.approx((0.9 - 1e-6, 1.2 + 1e-6), abs=1e-12)
 
 
 def code(point, kind=FeatureKind.VERTEX):
@@ -312,7 +258,7 @@ def test_rotations_that_no_nosing_under_a_flat_arrests():
             poses=Rows(front_point=np.c_[places, 0 * places], rear=rear, front=front),
             is_on_flat=lambda code, row: (code, row) in on_flat,
         )  # fmt: skip
-        return _rotated(path, phase, name, side, STEPS, False, whole)
+        return _rotated(_Way(path, STEPS, phase, False, whole), name, side)
 
     two = [(3, 1, 0.1), (1, 1, 0.3), (2, -1, 0.4)]
     assert rotated(two, 1.0) == (-0.3, 2)
@@ -327,14 +273,15 @@ def test_rotations_that_no_nosing_under_a_flat_arrests():
     assert rotated([(0, 1, 0.8), (4, 1, 0.9), (3, 1, 0.2)], 1.0) == (-0.2, 3)
 
 
-def test_the_step_of_the_least_rise_and_of_the_first_rock(monkeypatch):
+def test_the_step_of_the_least_rise():
     rises = [Rise(True, 0.2, 4, Phase.LAND), Rise(True, 0.2 + 5e-10, 2, Phase.LAND)]
     assert _least_rise(rises, downhill=True) == (0.2, 2)
     assert _least_rise(rises, downhill=False) == (math.inf, 0)
-    path = SimpleNamespace(poses=Rows(front_point=np.c_[NOSINGS[:, 0] + 0.01, [9.0] * 3]))
-    for row, step in ((0, 1), (2, 3), (-1, 0)):
-        monkeypatch.setattr(extremes.contact, "first_rock", lambda *given, r=row, **more: (0.1, r))
-        assert _rock(path, np.arange(3), 1.0, STEPS, False, 0.0, 3) == (0.1, step)
+
+
+def test_the_step_of_a_place():
+    way = _Way(None, STEPS, PHASE, False, True)
+    assert [way.step(x) for x in (NOSINGS[0, 0] + 0.01, math.nan, 9.0)] == [1, 0, 3]
 
 
 def braked(*runs, more=(), up=False, climbing=(), legs=False):

@@ -1,9 +1,7 @@
 """Extremes of each phase, by hand: Kenaf of the paper (L 470, C_L 196, C_N 71, R 65 mm)."""
 
 import math
-from types import SimpleNamespace
 
-import numpy as np
 import pytest
 
 from kaidan.outline import Outline
@@ -12,7 +10,7 @@ from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Phase, extremes, traverse
 from kaidan.traversal.criterion import Criterion, Loss
-from kaidan.traversal.extremes import Rise, _closed, rises_about_stays
+from kaidan.traversal.extremes import Rise, rises_about_stays
 from kaidan.traversal.samples import samples_of
 
 G = 9.80665
@@ -217,23 +215,3 @@ def test_rises_about_the_contact_that_stays_by_hand():
     )
     down = rises_about_stays(Criterion(each), True)  # the upper landing is where it enters
     assert [one.phase for one in down] == [Phase.TRAVERSE, Phase.ENTER, Phase.TRAVERSE]
-
-
-def test_between_two_phases_a_pose_is_of_both():
-    """Where a contact runs over a corner one pose ends the one and begins the other."""
-    phase = np.array(["enter", "enter", "traverse", "traverse", "land", "land"])
-    rear = np.array([1, 1, 2, 2, 2, 3])
-    path = SimpleNamespace(
-        poses=SimpleNamespace(rear=rear, front=rear, leads_on=np.ones(5, dtype=bool))
-    )
-    path.poses = type("Poses", (SimpleNamespace,), {"__len__": lambda _: 6})(**vars(path.poses))
-    found = {each: rows.tolist() for each, rows in _closed(path, phase).items()}
-    # the names change at the third pose and at the last: only the third borders on another phase
-    assert found == {
-        Phase.ENTER: [True, True, True, False, False, False],
-        Phase.TRAVERSE: [False, False, True, True, False, False],
-        Phase.LAND: [False, False, False, False, True, True],
-    }
-    phase[1:3] = "traverse", "land"  # before it and behind it
-    found = {each: rows.tolist() for each, rows in _closed(path, phase).items()}
-    assert found[Phase.TRAVERSE] == [False, True, True, True, False, False]

@@ -11,9 +11,9 @@ from kaidan.terrain.profile import Profile
 from kaidan.traversal.phases import (
     flights_span,
     landing_zones,
-    over_the_top,
     phases_of,
     step_at,
+    top_zones,
     uneven_span,
 )
 
@@ -66,6 +66,15 @@ class Poses(SimpleNamespace):
         return len(self.rear_point)
 
 
+def over_the_top(path, profile, descending):
+    """Poses whose uppermost contact stands in one of the zones."""
+    upper = path.poses.rear_point if descending else path.poses.front_point
+    zones = top_zones(profile, descending, ROOM)
+    return [
+        any(x_0 <= x <= x_1 and z_0 <= z <= z_1 for x_0, x_1, z_0, z_1 in zones) for x, z in upper
+    ]
+
+
 def driven(rows, descending):
     """Path with contacts alone, and the profile as driven."""
     sign = np.array([-1.0 if descending else 1.0, 1.0])
@@ -78,7 +87,7 @@ def driven(rows, descending):
 def test_phases_over_two_flights(rows, descending):
     path, profile = driven(rows, descending)
     assert phases_of(path, profile, descending, ROOM).tolist() == [row[2] for row in rows]
-    assert over_the_top(path, profile, descending, ROOM).tolist() == [row[3] for row in rows]
+    assert over_the_top(path, profile, descending) == [row[3] for row in rows]
 
 
 @pytest.mark.parametrize(("rows", "descending"), [(UP, False), (DOWN, True)])
@@ -97,7 +106,7 @@ def test_on_a_rough_profile_a_nosing_is_met_within_its_roughness():
     for roughness, over in ((0.003, True), (0.001, False)):
         path, _ = driven(rows, False)
         rough = replace(PROFILE, roughness=roughness)
-        assert over_the_top(path, rough, False, ROOM).tolist() == [over]
+        assert over_the_top(path, rough, False) == [over]
         assert phases_of(path, rough, False, ROOM).tolist() == ["land" if over else "traverse"]
 
 
@@ -135,16 +144,27 @@ def test_where_the_flight_begins_and_ends():
 
 def test_where_the_front_stands_of_a_robot_that_lands():
     on, up = 1e-6, math.inf
-    assert landing_zones(PROFILE, False, ROOM) == [
+    assert landing_zones(PROFILE, False, ROOM) == (
         pytest.approx((2.2 + on, up, -up, up)), pytest.approx((2.2 - on, up, 0.6 - on, 0.6 + on)),
         pytest.approx((0.6 - on, 1.6 - on, -up, 0.4 - on)),
-    ]  # fmt: skip
+    )  # fmt: skip
+
+
+def test_a_landing_has_no_top_at_its_end():
+    """On the next riser, as high as the next nosing, or at the next edge going down: exactly."""
+    (*_, (_, x, _, z)) = top_zones(PROFILE, False, ROOM)
+    assert np.nextafter([x, z], 9.0).tolist() == [1.6 - 1e-6, 0.4 - 1e-6]
+    down = PROFILE.reflected()
+    (*_, (_, x, _, z)) = top_zones(down, True, ROOM)
+    assert x == -0.6 + 1e-6
+    assert np.nextafter(z, 9.0) == 0.4 - 1e-6
+    assert top_zones(Profile.of_points([(0, 0), (2, 0)]), False, ROOM) == ()
 
 
 def test_one_nosing_has_a_top():
     kerb = Profile.of_points([(-2, 0), (0, 0), (0, 0.1), (2, 0.1)])
     path, _ = driven([((-0.6, 0), (-0.1, 0)), ((-0.4, 0), (0, 0.1)), ((0, 0.1), (0.5, 0.1))], False)
-    assert over_the_top(path, kerb, False, ROOM).tolist() == [False, True, True]
+    assert over_the_top(path, kerb, False) == [False, True, True]
 
 
 def test_steps_from_the_bottom():

@@ -154,7 +154,7 @@ def test_what_is_asked_of_the_kernel(monkeypatch):
         return SimpleNamespace(status=np.array([0, 1, 0]), **dict.fromkeys(names, nothing))
 
     monkeypatch.setattr(contact, "rate_many", rate_many)
-    monkeypatch.setattr(rating, "landing_zones", lambda driven, descending, room: [(1.0,) * 4])
+    monkeypatch.setattr(rating, "landing_zones", lambda driven, descending, room: ((1.0,) * 4,))
     monkeypatch.setattr(rating, "refuse_too_long", lambda *given: refused.append(given))
     longer = Outline.of(Robot.named("kenaf").model_copy(update={"track": LONGER}))
     start = Placement(0.4, 0.3, 0.3)

@@ -1,9 +1,12 @@
 """Quasi-static contact of a tracked robot with any two-dimensional profile, numbers only."""
 
-from kaidan.contact.between import Between, Rock, first_rock, samples_of
+from kaidan.contact.between import Between, samples_of
 from kaidan.contact.codes import (
     BELLY,
+    BESIDE_NOSINGS,
+    EVERY_POSE,
     FLIPPER,
+    NO_POSE,
     ROCKING,
     TRACK,
     Event,
@@ -15,6 +18,7 @@ from kaidan.contact.codes import (
     Status,
 )
 from kaidan.contact.contacts import Contact, PairForces, pair_forces, spring_loads
+from kaidan.contact.extremes import Extreme, Manner, Sampled, extremes_of
 from kaidan.contact.heights import TouchingHeights, touching_heights
 from kaidan.contact.margin_records import Job, Margins, Summaries
 from kaidan.contact.nosings import nosings_passed
@@ -49,7 +53,10 @@ from kaidan.contact.traversing import STEP, arrives, plain_seconds, traverse, tr
 
 __all__ = [
     "BELLY",
+    "BESIDE_NOSINGS",
+    "EVERY_POSE",
     "FLIPPER",
+    "NO_POSE",
     "ONE_PLACE",
     "ROCKING",
     "STEP",
@@ -61,12 +68,14 @@ __all__ = [
     "Event",
     "EventRecord",
     "Events",
+    "Extreme",
     "Feature",
     "FeatureKind",
     "FeatureTable",
     "Ground",
     "Grousers",
     "Job",
+    "Manner",
     "Margins",
     "PairForces",
     "PartKind",
@@ -74,10 +83,10 @@ __all__ = [
     "Placement",
     "Poses",
     "Ratings",
-    "Rock",
     "RotationOutcome",
     "RotationRecord",
     "Rotations",
+    "Sampled",
     "Settled",
     "Status",
     "Summaries",
@@ -85,7 +94,7 @@ __all__ = [
     "TouchingHeights",
     "arrives",
     "body_table",
-    "first_rock",
+    "extremes_of",
     "ground_of",
     "ground_table",
     "held_while_slipping",

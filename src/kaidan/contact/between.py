@@ -1,8 +1,7 @@
-"""Poses between two of a path at which a figure may be the largest, and the first rock."""
+"""Poses between two of a path at which a figure may be the largest."""
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +10,7 @@ from kaidan.contact.nosings import nosings_passed
 from kaidan.contact.path import TOUCH, Path
 from kaidan.contact.scratch import peak_scratch, sample_scratch
 from kaidan.contact.switch import kernel
-from kaidan.contact.tables import FloatArray, IntArray
+from kaidan.contact.tables import IntArray
 from kaidan.mechanics import STANDARD_GRAVITY
 
 GROUPS = 4
@@ -25,15 +24,6 @@ class Between(NamedTuple):
     """Those poses with their margins."""
     rows: IntArray
     """Of the pose before each."""
-
-
-class Rock(NamedTuple):
-    """Pose at which the least tilt of gravity makes the robot rotate."""
-
-    tilt: float
-    """Less what the robot rocks before [rad]; infinite: no pose was looked at."""
-    row: int
-    """Of the pose; -1: none."""
 
 
 def samples_of(
@@ -76,48 +66,3 @@ def samples_of(
     )  # fmt: skip
     found = path.with_poses(poses[:total].copy(), margins[:total].copy())
     return Between(found, rows[:total].copy())
-
-
-def first_rock(
-    path: Path, rows: IntArray, side: float, *, own: int, whence: FloatArray | None = None,
-    acceleration: float = 0.0, gravity: float = STANDARD_GRAVITY,
-) -> Rock:  # fmt: skip
-    """Least tilt of gravity at which some poses rotate by more than rocking, to one side.
-
-    See :func:`kaidan.contact.kernel.first_rock.first_rock`.
-
-    Parameters
-    ----------
-    path
-        With margins.
-    rows
-        Which poses, ascending.
-    side
-        +1 back, -1 front.
-    own
-        Poses at the head of the path that follow one another; the rest lie between two of them.
-    whence
-        Inclination from which each pose of the path came down by rocking [rad]: gravity tilted back
-        returns it there, and that is rocking too. Minus infinity: from none, which is so of all
-        without it.
-    acceleration, gravity
-        As for :meth:`Path.margins_of`.
-    """
-    if path.margins is None:
-        raise ValueError("traverse: tilts need with_margins=True")
-    if len(rows) == 0:
-        return Rock(math.inf, -1)
-    size = len(path.poses)
-    scratch = peak_scratch(size, 1)
-    most = size + len(scratch.rows)
-    group, narrow, at, pose, beside = np.empty((5, most), dtype=np.int64)
-    reach, alone, tilt = np.empty((3, most))
-    if whence is None:
-        whence = np.full(size, -math.inf)
-    return Rock(
-        *kernel().first_rock(
-            path.ground.table, path.body.table, path.poses.table, path.margins.table, rows, own,
-            side, whence, acceleration, gravity, TOUCH, np.empty(size), group, narrow, at, pose,
-            reach, alone, tilt, beside, *scratch,
-        )
-    )  # fmt: skip

@@ -27,6 +27,8 @@ from kaidan.contact.columns import (
 #: Rotation that counts as rocking [rad]: the paper's rig turned that far by the yield of its
 #: tracks, and held.
 ROCKING = math.radians(2.6)
+#: Which poses of a phase count for its energy: none; those with no nosing at the front; all.
+NO_POSE, BESIDE_NOSINGS, EVERY_POSE = range(3)
 #: Pieces into which a way between two poses is cut, on which a figure may be the largest.
 PIECES = 8
 #: Such ways of a group of poses that are cut together, the most promising first, and how many times

@@ -143,3 +143,16 @@ LOAD_COLUMNS = 3
     GROUSER_TREADS, GROUSER_FACES, GROUSER_BEST,
 ) = range(9)  # fmt: skip
 GROUSER_COLUMNS = 9
+
+# Extremes, a row a phase: number of poses; required friction [1] and the place of the front contact
+# there [m]; friction below which the trailing end slides down as the robot lands (NaN: it leaves no
+# edge) [1]; static margin [m]; tractive force over mass [N/kg]; whether the belly carries; then
+# each with the place of the front contact: rise that a fall downhill needs, the same about the flat
+# by one sudden stop, and uphill [m], tilt of gravity to the first rock downhill and uphill [rad].
+(
+    EXTREME_POSES, EXTREME_FRICTION, EXTREME_FRICTION_X, EXTREME_SLIDES, EXTREME_STATIC,
+    EXTREME_TRACTION, EXTREME_BELLY, EXTREME_ENERGY, EXTREME_ENERGY_X, EXTREME_STEADY,
+    EXTREME_STEADY_X, EXTREME_UPHILL, EXTREME_UPHILL_X, EXTREME_TILT_DOWNHILL,
+    EXTREME_TILT_DOWNHILL_X, EXTREME_TILT_UPHILL, EXTREME_TILT_UPHILL_X,
+) = range(17)  # fmt: skip
+EXTREME_COLUMNS = 17

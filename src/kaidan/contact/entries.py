@@ -40,6 +40,7 @@ KERNEL_MODULES = (
     "peak_search",
     "sampling",
     "first_rock",
+    "extremes",
     "standing",
     "impact",
     "holding",

@@ -163,38 +163,6 @@ class Path:
             )
         return self.margins.energy[chosen], self.margins.energy_side[chosen]
 
-    def least_energy(
-        self, rows: IntArray, side: float, weights: FloatArray, tie: float
-    ) -> tuple[float, int]:
-        """Smallest weighted rise of the centroid that a fall to one side needs, of some poses.
-
-        Parameters
-        ----------
-        rows
-            Shape (k,): rows of the poses, ascending, one at least.
-        side
-            +1 back, -1 front.
-        weights
-            Of the rise at each pose of the path [1].
-        tie
-            Difference of rises that is none [m].
-
-        Returns
-        -------
-        rise : float
-            Of the smaller barrier along the flow or about the pivot of that side, whichever is
-            more [m].
-        row : int
-            The first pose that needs no more.
-        """
-        if self.margins is None:
-            raise ValueError("traverse: energy needs with_margins=True")
-        least, row = kernel().least_flow_energy(
-            self.ground.table, self.body.table, self.poses.table, self.margins.table, rows, side,
-            weights, tie, np.empty(len(rows), dtype=np.int64), np.empty(len(rows)),
-        )  # fmt: skip
-        return least, row if row >= 0 else int(rows[0])
-
     def contacts_at(self, place: Placement, touch: float = 1e-7) -> tuple[Contact, ...]:
         """Contacts of the robot at a place: gaps up to ``touch`` [m]."""
         return contacts_of(self.ground.table, self.body.table, *place, touch)

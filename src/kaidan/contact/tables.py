@@ -26,6 +26,7 @@ from kaidan.contact.columns import (
     CONVEX,
     DISC,
     EVENT_COLUMNS,
+    EXTREME_COLUMNS,
     FLIGHT_COLUMNS,
     GROUND_COLUMNS,
     GROUSER_COLUMNS,
@@ -78,6 +79,7 @@ SupportTable = Annotated[FloatArray, SUPPORT_COLUMNS]
 LoadTable = Annotated[FloatArray, LOAD_COLUMNS]
 GrouserTable = Annotated[FloatArray, GROUSER_COLUMNS]
 SettledTable = Annotated[FloatArray, SETTLED_COLUMNS]
+ExtremeTable = Annotated[FloatArray, EXTREME_COLUMNS]
 WayTable = Annotated[FloatArray, WAY_COLUMNS]
 #: Numbers that belong together, in the kernel: four, or x, z, cosine, sine and a point, or x, z and
 #: inclination, tangent (3) of the line of poses, rear and front contact, or of a part's side

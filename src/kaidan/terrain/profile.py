@@ -210,7 +210,7 @@ class Profile:
         doubt = np.empty((0, 0)) if self.covariance is None else self.covariance
         tables = (each + 0.0 for each in (self.points, self.nosings, doubt))  # no zero with a minus
         of_tables = tuple((each.shape, each.tobytes()) for each in tables)
-        return self.name, self.overhangs, self.open_risers, of_tables
+        return self.name, self.overhangs, self.open_risers, self.roughness, of_tables
 
     def as_stairs(self, name: str) -> Stairs | None:
         """Steps as a measured flight; None where the profile has no such steps.

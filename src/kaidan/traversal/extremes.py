@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -10,13 +11,12 @@ from numpy.typing import NDArray
 
 from kaidan import contact
 from kaidan.mechanics import STANDARD_GRAVITY
-from kaidan.mechanics.measures import sudden_stop_height
 from kaidan.outline import Outline
 from kaidan.terrain.profile import Profile
 from kaidan.traversal.criterion import Criterion
-from kaidan.traversal.phases import Phase, over_the_top, step_at
+from kaidan.traversal.phases import ROOMS, Phase, step_at, top_zones
 from kaidan.traversal.rotations import ROCKING, together
-from kaidan.traversal.samples import corners, samples_of
+from kaidan.traversal.samples import corners, numbers_of, samples_of
 from kaidan.traversal.static_criterion import flights_of
 
 _TIE = 1e-9
@@ -89,131 +89,112 @@ def phase_extremes(
 ) -> tuple[PhaseExtremes, ...]:
     """Extreme figures of each phase that the traverse has, in their order."""
     room = body.stance.flat_length
+    way = _Way(path, profile, phase, descending, whole)
+    each = contact.extremes_of(
+        samples_of(path, phase, acceleration),
+        numbers_of(phase),
+        corners(path),
+        *(_nowhere(path) if descending else _came_down(path, room, whole)),
+        contact.Manner(
+            descending=descending,
+            whole=whole,
+            counts=_counts(profile, descending, rises),
+            tops=top_zones(profile, descending, room),
+            flights=_flights(profile, room),
+            nosings=profile.nosings[:, 0].copy(),
+            height=body.stance.com_height,
+            gyration=body.least_gyration,
+            acceleration=acceleration,
+        ),
+    )
     rotated = _chain_angles(path, room)
-    samples = samples_of(path, phase, acceleration)
-    seen = samples.path
-    assert seen.margins is not None
-    places, own = seen.poses.front_point[:, 0], len(path.poses)
-    top = over_the_top(seen, profile, descending, room)
-    closed = _closed(path, phase)
-    came_down = None if descending else _came_down(path, room, whole)
-    whence = None if came_down is None else came_down.whence[samples.row]
-    as_it_is = np.ones(len(seen.poses))
-    sudden = {side: _as_on_the_flat(seen, body, side) for side in (-1.0, 1.0)}
-    # of a pose between two phases the other one judges
-    of_criterion = _on_a_flight(seen, profile, room) | (phase[samples.row] != Phase.TRAVERSE.value)
-    at_nosing = _at_nosing(places, profile) if rises else np.zeros(0, dtype=np.bool_)
-    on_belly = seen.margins.belly_touches
-    extremes = []
-    for name in Phase:
-        rows = np.flatnonzero(closed[name][samples.row] & samples.lasts)
-        if len(rows) == 0:
-            continue
-        margins, side = (seen.margins.front, -1.0) if descending else (seen.margins.back, 1.0)
-        of_rises = [each for each in rises if each.phase is name]
-        posed = np.ones(len(rows), dtype=np.bool_)
-        if of_rises:  # where nosings carry, the criterion's contacts count, not those of a moment
-            posed[:] = name is not Phase.TRAVERSE
-            posed &= ~at_nosing[rows]
-        if descending and name is Phase.ENTER and not profile.is_level:
-            # the edge of the landing obliges it to rotate
-            posed[:] = False
-        uphill = rows[posed & ~top[rows]] if name is Phase.TRAVERSE else rows[:0]
-        barriers = []
-        for counts, to, weights in (
-            (rows[posed], side, as_it_is),
-            (rows[posed], side, sudden[side]),
-            (uphill, -side, sudden[-side]),
-        ):
-            flat = _least_rise(of_rises, downhill=to == side)
-            least, at = _least_energy(seen, counts, to, weights)
-            there = least < flat[0]
-            barriers.append((least, step_at(profile, at, descending)) if there else flat)
-        (energy, step), steady, uphill_steady = barriers
-        judged = rows[~of_criterion[rows]] if whole and name is Phase.TRAVERSE else rows
-        downhill_rows = rows[:0] if descending and name is Phase.ENTER else judged
-        if came_down is not None:
-            downhill_rows = downhill_rows[~came_down.back[samples.row[downhill_rows]]]
-        uphill_rows = judged[~top[judged]] if name is Phase.TRAVERSE else rows[:0]
-        slides = samples.comes_off[rows] & (name is Phase.LAND)
-        friction = samples.friction[rows]
-        held = np.where(slides, 0.0, friction)
-        hardest = int(np.flatnonzero(held >= held.max() - _TIE)[0])  # inf - _TIE is inf
-        extremes.append(
-            PhaseExtremes(
-                phase=name,
-                required_friction=float(held[hardest]),
-                slides_below=float(friction[slides].max()) if slides.any() else None,
-                required_friction_step=step_at(profile, float(places[rows[hardest]]), descending),
-                energy_margin=energy,
-                energy_margin_step=step,
-                steadiness=steady,
-                uphill_steadiness=uphill_steady,
-                static_margin=float(np.fmin.reduce(margins[rows])),
-                traction_over_weight=float(
-                    np.fmax.reduce(np.where(slides, 0.0, samples.traction[rows]))
-                )
-                / STANDARD_GRAVITY,
-                largest_rotation=max(
-                    (angle for at, angle in rotated if phase[at] == name.value), default=0.0
-                ),
-                tilt_downhill=min(
-                    _rock(
-                        seen,
-                        downhill_rows,
-                        side,
-                        profile,
-                        descending,
-                        acceleration,
-                        own,
-                        whence,
-                    ),
-                    _rotated(path, phase, name, side, profile, descending, whole),
-                ),
-                tilt_uphill=min(
-                    _rock(seen, uphill_rows, -side, profile, descending, acceleration, own),
-                    _rotated(path, phase, name, -side, profile, descending, whole),
-                ),
-                belly_touches=bool(on_belly[rows].any()),
-            )
+    return tuple(
+        _of_phase(way, name, found, [one for one in rises if one.phase is name], rotated)
+        for name, found in zip(Phase, each, strict=True)
+        if found is not None
+    )
+
+
+class _Way(NamedTuple):
+    """A path over a profile, with its phases."""
+
+    path: contact.Path
+    profile: Profile
+    phase: NDArray[np.str_]
+    descending: bool
+    whole: bool
+
+    def step(self, place: float) -> int:
+        """Step at a place of the front contact [m]; 0 where nothing was looked at."""
+        return 0 if math.isnan(place) else step_at(self.profile, place, self.descending)
+
+
+def _of_phase(
+    way: _Way,
+    name: Phase,
+    found: contact.Extreme,
+    rises: Sequence[Rise],
+    rotated: Sequence[tuple[int, float]],
+) -> PhaseExtremes:
+    """Extreme figures of a phase: of its poses, of rises about nosings, of rotations."""
+    downhill, uphill = (_least_rise(rises, downhill=each) for each in (True, False))
+    energy, steady, uphill_steady = (
+        (least, way.step(place)) if least < rise[0] else rise
+        for least, place, rise in (
+            (found.energy, found.energy_place, downhill),
+            (found.steadiness, found.steadiness_place, downhill),
+            (found.uphill, found.uphill_place, uphill),
         )
-    return tuple(extremes)
+    )
+    side = -1.0 if way.descending else 1.0
+    turns = [angle for at, angle in rotated if way.phase[at] == name.value]
+    return PhaseExtremes(
+        phase=name,
+        required_friction=found.friction,
+        required_friction_step=way.step(found.friction_place),
+        slides_below=None if math.isnan(found.slides_below) else found.slides_below,
+        energy_margin=energy[0],
+        energy_margin_step=energy[1],
+        steadiness=steady,
+        uphill_steadiness=uphill_steady,
+        static_margin=found.static_margin,
+        traction_over_weight=found.traction / STANDARD_GRAVITY,
+        largest_rotation=max(turns, default=0.0),
+        tilt_downhill=min(
+            (found.tilt_downhill, way.step(found.tilt_downhill_place)), _rotated(way, name, side)
+        ),
+        tilt_uphill=min(
+            (found.tilt_uphill, way.step(found.tilt_uphill_place)), _rotated(way, name, -side)
+        ),
+        belly_touches=found.belly > 0.0,
+    )
 
 
-def _on_a_flight(path: contact.Path, profile: Profile, room: float) -> NDArray[np.bool_]:
-    """Poses whose contacts stand on one flight, which the criterion on nosings judges.
+def _counts(profile: Profile, descending: bool, rises: Sequence[Rise]) -> tuple[int, int, int]:
+    """Which poses of each phase count for its energy.
+
+    Where nosings carry, the criterion's contacts count, not those of a moment; and the edge of the
+    landing above obliges the robot to rotate.
+    """
+    counts = dict.fromkeys(Phase, contact.EVERY_POSE)
+    for each in rises:
+        on_flight = each.phase is Phase.TRAVERSE
+        counts[each.phase] = contact.NO_POSE if on_flight else contact.BESIDE_NOSINGS
+    if descending and not profile.is_level:
+        counts[Phase.ENTER] = contact.NO_POSE
+    enter, traverse, land = counts.values()
+    return enter, traverse, land
+
+
+@lru_cache(maxsize=ROOMS)
+def _flights(profile: Profile, room: float) -> tuple[tuple[float, float], ...]:
+    """Where the contacts stand on each flight, which the criterion on nosings judges [m].
 
     Steps as long as the flat, or longer, are no flight to it, but landings of one step each.
     """
-    rear, front = path.poses.rear_point[:, 0], path.poses.front_point[:, 0]
-    found = np.zeros(len(rear), dtype=np.bool_)
-    for first, last in flights_of(profile.nosings, room):
-        begin, end = profile.nosings[[first, last], 0]
-        found |= (rear >= begin - _PLACE) & (front <= end + _PLACE)
-    return found
-
-
-def _at_nosing(places: NDArray[np.float64], profile: Profile) -> NDArray[np.bool_]:
-    """Places at which a nosing stands, to the last digit."""
-    nosings = np.append(profile.nosings[:, 0], math.inf)
-    return np.asarray(nosings[np.searchsorted(nosings[:-1], places)] == places)
-
-
-def _closed(path: contact.Path, phase: NDArray[np.str_]) -> dict[Phase, NDArray[np.bool_]]:
-    """Poses of each phase, with the pose between two phases in both.
-
-    A phase ends where a contact is exchanged, with a pose on either side; or where one runs over a
-    corner of the ground and takes its name, with one pose.
-    """
-    corner = corners(path)
-    closed = {}
-    for name in Phase:
-        rows = phase == name.value
-        beside = np.zeros_like(rows)
-        beside[1:] |= rows[:-1]
-        beside[:-1] |= rows[1:]
-        closed[name] = rows | (corner & beside)
-    return closed
+    x = profile.nosings[:, 0].tolist()
+    runs = flights_of(profile.nosings, room)
+    return tuple((x[first] - _PLACE, x[last] + _PLACE) for first, last in runs)
 
 
 class _CameDown(NamedTuple):
@@ -255,33 +236,10 @@ def _came_down(path: contact.Path, flat_length: float, whole: bool) -> _CameDown
     return _CameDown(whence, back)
 
 
-def _as_on_the_flat(path: contact.Path, body: Outline, side: float) -> NDArray[np.float64]:
-    """Rise about the flat over that about the outermost contact, of one sudden stop, each pose."""
-    poses = path.poses
-    point, normal = (
-        (poses.rear_point, poses.rear_normal)
-        if side > 0
-        else (poses.front_point, poses.front_normal)
-    )
-    lever = (path.x - point[:, 0]) * normal[:, 0] + (path.z - point[:, 1]) * normal[:, 1]
-    flat, here = (
-        sudden_stop_height(v=1.0, lever=each, gyration=body.least_gyration)
-        for each in (body.stance.com_height, lever)
-    )
-    return np.asarray(flat / np.maximum(here, _PLACE * flat))
-
-
-def _least_energy(
-    path: contact.Path,
-    rows: NDArray[np.int64],
-    side: float,
-    weights: NDArray[np.float64],
-) -> tuple[float, float]:
-    """Smallest weighted rise that a fall to one side needs [m], and at which contact."""
-    if len(rows) == 0:
-        return math.inf, math.nan
-    least, row = path.least_energy(rows, side, weights, _TIE)
-    return least, float(path.poses.front_point[row, 0])
+def _nowhere(path: contact.Path) -> _CameDown:
+    """The same of a path on which gravity tilted towards the downhill end returns nothing."""
+    count = len(path.poses)
+    return _CameDown(np.full(count, -np.inf), np.zeros(count, dtype=np.bool_))
 
 
 def rises_about_stays(criterion: Criterion, descending: bool) -> tuple[Rise, ...]:
@@ -298,38 +256,23 @@ def rises_about_stays(criterion: Criterion, descending: bool) -> tuple[Rise, ...
     )
 
 
-def _rock(
-    path: contact.Path, rows: NDArray[np.int64], side: float, profile: Profile, descending: bool,
-    acceleration: float, own: int, whence: NDArray[np.float64] | None = None,
-) -> tuple[float, int]:  # fmt: skip
-    """Least tilt at which some poses rotate to one side [rad], and the step."""
-    tilt, row = contact.first_rock(
-        path, rows, side, own=own, acceleration=acceleration, whence=whence
-    )
-    if row < 0:
-        return tilt, 0
-    return tilt, step_at(profile, float(path.poses.front_point[row, 0]), descending)
-
-
-def _rotated(
-    path: contact.Path, phase: NDArray[np.str_], name: Phase, side: float, profile: Profile,
-    descending: bool, whole: bool,
-) -> tuple[float, int]:  # fmt: skip
+def _rotated(way: _Way, name: Phase, side: float) -> tuple[float, int]:
     """Rotation on the flight to one side that no nosing under a flat arrests, and the step.
 
     As a tilt it is negative. An end that arrests it on a nosing or a tread is no carrier: the
     paper's rig fell where one would have arrested it.
     """
     least = math.inf, 0
-    if name is not Phase.TRAVERSE or whole:
+    if name is not Phase.TRAVERSE or way.whole:
         return least
+    path = way.path
     for record in path.rotations:
         row = path.row_before(record.s)
-        if record.sense * side <= 0 or phase[row] != name.value or row + 1 >= len(path.poses):
+        if record.sense * side <= 0 or way.phase[row] != name.value or row + 1 >= len(path.poses):
             continue
         arrests = path.poses.rear if record.sense > 0 else path.poses.front
         if not path.is_on_flat(int(arrests[row + 1]), row + 1):
-            at = step_at(profile, float(path.poses.front_point[row, 0]), descending)
+            at = way.step(float(path.poses.front_point[row, 0]))
             least = min(least, (-record.angle, at))
     return least
 

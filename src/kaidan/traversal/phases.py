@@ -11,9 +11,13 @@ from kaidan.modes import Phase as Phase
 from kaidan.terrain.profile import Profile
 
 Array = NDArray[np.float64]
+Zone = tuple[float, float, float, float]
+"""Places of a contact: smallest and largest x, smallest and largest z [m]."""
 
 REMEMBERED = 16
 """Profiles of which spans and the like are remembered: one is driven again and again."""
+ROOMS = 64
+"""Profiles with a length of a flat of which landings are."""
 _ON = 1e-6
 _LEVEL = 1e-9
 """Height by which points of level ground may differ [m]: rounding."""
@@ -83,17 +87,16 @@ def phases_of(
     return phase
 
 
-def landing_zones(
-    profile: Profile, descending: bool, room: float
-) -> list[tuple[float, float, float, float]]:
-    """Where the front contact stands of a robot that lands: smallest and largest x and z [m]."""
+@lru_cache(maxsize=ROOMS)
+def landing_zones(profile: Profile, descending: bool, room: float) -> tuple[Zone, ...]:
+    """Where the front contact stands of a robot that lands."""
     on, end = profile.roughness + _ON, float(profile.points[-1, 1])
     _, last = flights_span(profile, descending)
     zones = [(last + on, math.inf, -math.inf, math.inf), (last - on, math.inf, end - on, end + on)]
     for (x_0, z_0), (x_1, z_1) in _between(profile, room):
         # its end is where the next flight begins: on its first riser, or going down its edge
         zones.append((x_0 - _ON, x_1 - _ON, -math.inf, (z_0 if descending else z_1) - _ON))
-    return zones
+    return tuple(zones)
 
 
 def _without_gaps(some: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -105,11 +108,12 @@ def _without_gaps(some: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return filled
 
 
-def _between(profile: Profile, room: float) -> list[Array]:
+@lru_cache(maxsize=ROOMS)
+def _between(profile: Profile, room: float) -> tuple[Array, ...]:
     """Nosings (2, 2) behind and ahead of each landing between flights [m]."""
     x = profile.nosings[:, 0]
     wide = np.flatnonzero(x[1:] - x[:-1] >= room)
-    return [profile.nosings[k : k + 2] for k in wide]
+    return tuple(profile.nosings[k : k + 2] for k in wide)
 
 
 def _on_landing(points: Array, ends: Array, descending: bool) -> NDArray[np.bool_]:
@@ -119,31 +123,26 @@ def _on_landing(points: Array, ends: Array, descending: bool) -> NDArray[np.bool
     return np.asarray(along & (points[:, 1] < above - _ON))
 
 
-def _at_its_end(points: Array, ends: Array) -> NDArray[np.bool_]:
-    """Which points lie where the next flight begins: on its first riser, or going down its edge."""
-    return np.asarray(points[:, 0] >= ends[1, 0] - _ON)
-
-
 def step_at(profile: Profile, x: float, descending: bool) -> int:
     """Nosing number from the bottom at a place along the profile."""
     passed = profile.step_of(x)
     return len(profile.nosings) - passed + 1 if descending and passed else passed
 
 
-def over_the_top(
-    path: contact.Path, profile: Profile, descending: bool, room: float
-) -> NDArray[np.bool_]:
-    """Poses whose uppermost contact is a flight's last nosing or beyond: no other will come."""
+@lru_cache(maxsize=ROOMS)
+def top_zones(profile: Profile, descending: bool, room: float) -> tuple[Zone, ...]:
+    """Where the uppermost contact stands on a flight's last nosing or beyond: no other will come.
+
+    A landing between two flights ends where the next one begins.
+    """
     if len(profile.nosings) == 0:
-        return np.zeros(len(path.poses), dtype=np.bool_)
-    upper = path.poses.rear_point if descending else path.poses.front_point
+        return ()
     on = profile.roughness + _ON
-    over = (
-        upper[:, 0] <= profile.nosings[0, 0] + on
-        if descending
-        else upper[:, 0] >= profile.nosings[-1, 0] - on
-    )
-    for ends in _between(profile, room):
-        here = _on_landing(upper, ends, descending)
-        over = over | (here if descending else here & ~_at_its_end(upper, ends))
-    return np.asarray(over)
+    first, last = float(profile.nosings[0, 0]) + on, float(profile.nosings[-1, 0]) - on
+    up = math.inf
+    zones = [(-up, first, -up, up) if descending else (last, up, -up, up)]
+    for (x_0, z_0), (x_1, z_1) in _between(profile, room):
+        ends = x_1 + _ON if descending else math.nextafter(x_1 - _ON, -up)
+        above = math.nextafter((z_0 if descending else z_1) - _ON, -up)
+        zones.append((x_0 - _ON, ends, -up, above))
+    return tuple(zones)

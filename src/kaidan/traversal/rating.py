@@ -22,11 +22,11 @@ from kaidan.traversal.driving import (
 )
 from kaidan.traversal.grip import treads_of
 from kaidan.traversal.nosing_events import TOUCH
-from kaidan.traversal.phases import landing_zones
+from kaidan.traversal.phases import Zone, landing_zones
 from kaidan.traversal.rotations import slopes_of_flights
 
 Array = NDArray[np.float64]
-Zones = tuple[tuple[float, float, float, float], ...]
+Zones = tuple[Zone, ...]
 """Places of the front contact at which a robot lands, see `landing_zones`."""
 
 
@@ -119,7 +119,7 @@ def rate(
     """
     driven = profile.reflected() if descending else profile
     lengths = [each.outline.stance.flat_length for each in parts]
-    zones_of = {each: tuple(landing_zones(driven, descending, each)) for each in set(lengths)}
+    zones_of = {each: landing_zones(driven, descending, each) for each in set(lengths)}
     together: dict[Zones, list[int]] = {}
     for k, length in enumerate(lengths):
         together.setdefault(zones_of[length], []).append(k)

@@ -13,8 +13,6 @@ that runs over a corner, a nosing that comes under the flat or leaves it), and t
 between two poses.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,31 +22,12 @@ from kaidan.traversal.nosing_events import TOUCH
 from kaidan.traversal.phases import Phase
 
 Array = NDArray[np.float64]
-Rows = NDArray[np.int64]
 
 _ALIKE = 1e-9
 """Difference of two directions that is rounding [rad]."""
 
 
-class Samples(NamedTuple):
-    """Poses of a path, and those between them at which extremes may lie."""
-
-    path: contact.Path
-    """Its own poses first."""
-    row: Rows
-    """Row of the path that each is, or of which it has the phase."""
-    lasts: NDArray[np.bool_]
-    """Whether the robot stands so for a while: not in the midst of an exchange of contacts."""
-    friction: Array
-    """Required friction [1]; infinite where nothing holds."""
-    traction: Array
-    """Tractive force along the path over mass, without its sign [N/kg]; of a brief braking by how
-    long it lasts."""
-    comes_off: NDArray[np.bool_]
-    """Whether the trailing end leaves an edge, see `trailing_end_leaves`."""
-
-
-def samples_of(path: contact.Path, phase: NDArray[np.str_], acceleration: float) -> Samples:
+def samples_of(path: contact.Path, phase: NDArray[np.str_], acceleration: float) -> contact.Sampled:
     """Poses at which the extremes of a path may lie.
 
     Parameters
@@ -62,18 +41,18 @@ def samples_of(path: contact.Path, phase: NDArray[np.str_], acceleration: float)
 
     Returns
     -------
-    Samples
+    contact.Sampled
+        Friction infinite where nothing holds; traction of a brief braking by how long it lasts.
     """
     count = len(path.poses)
-    number = (phase != Phase.ENTER.value) + (phase == Phase.LAND.value).astype(np.int64)
-    found = contact.samples_of(path, number, TOUCH, acceleration=acceleration)
+    found = contact.samples_of(path, numbers_of(phase), TOUCH, acceleration=acceleration)
     seen, row = found.path, found.rows
     assert seen.margins is not None
     # between two phases stands a pose of both: what follows on it is of the second
     row[count:] += corners(path)[row[count:]]
     lasts = np.ones(len(row), dtype=np.bool_)
     lasts[:count] = lasting(path)
-    return Samples(
+    return contact.Sampled(
         path=seen,
         row=row,
         lasts=lasts,
@@ -81,6 +60,12 @@ def samples_of(path: contact.Path, phase: NDArray[np.str_], acceleration: float)
         traction=by_how_long(path, np.abs(seen.margins.traction), row),
         comes_off=trailing_end_leaves(seen),
     )
+
+
+def numbers_of(phase: NDArray[np.str_]) -> NDArray[np.int64]:
+    """Phases as numbers: 0 enters, 1 traverses, 2 lands."""
+    lands = (phase == Phase.LAND.value).astype(np.int64)
+    return np.asarray(lands + (phase != Phase.ENTER.value))
 
 
 def lasting(path: contact.Path) -> NDArray[np.bool_]:

@@ -8,6 +8,7 @@ from kaidan import contact
 from kaidan.contact import ROCKING
 from kaidan.contact import columns as at
 from kaidan.contact.kernel.reserves import barrier
+from kaidan.contact.switch import kernel
 from kaidan.outline import Outline
 from kaidan.robot import Posture, Robot, Track
 from kaidan.terrain.profile import Profile
@@ -133,7 +134,10 @@ def test_the_least_energy_is_worked_out_only_where_it_may_be(seed, low, side):
     weights = np.random.default_rng(seed).uniform(low, 1.0, len(whole.poses))
     pivot = (weights * (whole.margins.back_rise if side > 0 else whole.margins.front_rise))[rows]
     needed = np.maximum((weights * whole.margins.energy)[rows], pivot)
-    least, row = bare.least_energy(rows, side, weights, 1e-9)
+    least, row = kernel().least_flow_energy(
+        bare.ground.table, bare.body.table, bare.poses.table, bare.margins.table, rows, side,
+        weights, 1e-9, np.empty(len(rows), dtype=np.int64), np.empty(len(rows)),
+    )  # fmt: skip
     assert least == needed.min()
     assert row == rows[np.flatnonzero(needed <= least + 1e-9)[0]]
     known = ~np.isnan(bare.margins.energy)
@@ -143,8 +147,3 @@ def test_the_least_energy_is_worked_out_only_where_it_may_be(seed, low, side):
     before = np.minimum.accumulate(np.r_[np.inf, needed[order]])[:-1]
     assert known[rows[order]].tolist() == (pivot[order] < before + 1e-9).tolist()
     assert known.sum() < len(rows)
-
-
-def test_without_margins_the_least_energy_refuses():
-    with pytest.raises(ValueError, match="energy needs with_margins"):
-        run_of(0, with_margins=False).least_energy(np.arange(3), 1.0, np.ones(3), 1e-9)

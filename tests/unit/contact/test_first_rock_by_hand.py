@@ -374,26 +374,6 @@ def test_a_dip_counts_as_the_pose_before_it(rock, kernel):
         assert found[0] == pytest.approx(tilt)
 
 
-def test_the_door_to_the_first_rock(monkeypatch):
-    """Of no pose, of a path without margins, and of all where none came down."""
-    floor = [[-4, 0], [0, 0], [0, 0.1], [4, 0.1]]
-    robot = [[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]]
-    path = contact.traverse(floor, robot, -0.6, 0.5)
-    none = np.empty(0, dtype=np.int64)
-    assert contact.first_rock(path, none, 1.0, own=3) == NOTHING
-    bare = contact.traverse(floor, robot, -0.6, 0.5, with_margins=False)
-    with pytest.raises(ValueError, match="tilts need with_margins=True"):
-        contact.first_rock(bare, none, 1.0, own=3)
-    rows = np.arange(len(path.poses))
-    for side in (1.0, -1.0):
-        found = contact.first_rock(path, rows, side, own=len(rows))
-        back = np.full(len(rows), -INF)
-        assert found == contact.first_rock(path, rows, side, own=len(rows), whence=back)
-        with contact.using_kernel("plain"):
-            assert found == contact.first_rock(path, rows, side, own=len(rows))
-    assert found.row >= 0
-
-
 def test_every_pose_that_may_be_the_least_is_looked_at(monkeypatch):
     """Random tilts; of those above the least of all some are looked at too, eight at once."""
     rng = np.random.default_rng(8)

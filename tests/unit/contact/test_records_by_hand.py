@@ -10,7 +10,6 @@ import pytest
 from kaidan import contact
 from kaidan.contact import columns as at
 from kaidan.contact import heights, rating, scratch, steepest, supports, traversing
-from kaidan.contact import path as paths
 from kaidan.contact.codes import (
     Feature,
     FeatureKind,
@@ -343,22 +342,6 @@ def test_tilted_gravity_and_the_room_for_a_way(tilt, driven):
 def test_what_is_no_way(x_end, step, text):
     with pytest.raises(ValueError, match=text):
         contact.traverse(KERB, ROBOT, -0.6, x_end, step=step)
-
-
-def test_of_energies_that_are_all_infinite_the_first_pose_is_told(monkeypatch):
-    margins = Margins(table(at.MARGIN_COLUMNS, 3, BACK_RISE=(0.3, 0.1, 0.2), FRONT_RISE=1.0))
-    path, given = path_of(s=(0.0, 1.0, 2.0), margins=margins), []
-
-    def least(ground, body, poses, of, rows, side, weights, tie, order, pivots):
-        given.append((rows.tolist(), weights.tolist(), side, len(order), len(pivots)))
-        return answer
-
-    monkeypatch.setattr(paths, "kernel", lambda: SimpleNamespace(least_flow_energy=least))
-    rows, weights = np.array([0, 2]), np.array([1.0, 0.5, 0.2])
-    for answer, row in (((0.1, 0), 0), ((0.1, 2), 2), ((math.inf, -1), 0)):
-        assert path.least_energy(rows, 1.0, weights, 1e-9) == (answer[0], row)
-    path.least_energy(rows, -1.0, weights, 1e-9)
-    assert given[::3] == [([0, 2], [1.0, 0.5, 0.2], side, 2, 2) for side in (1.0, -1.0)]
 
 
 @pytest.mark.parametrize("climbs", [True, False])

@@ -62,7 +62,7 @@ from kaidan.contact.kernel.driver import drive
 from kaidan.contact.kernel.holding import find_standing, least_held
 from kaidan.contact.kernel.impact import impact_speed
 from kaidan.contact.kernel.margins import pose_margins
-from kaidan.contact.kernel.sampling import leaves_edge
+from kaidan.contact.kernel.sampling import in_zone, leaves_edge
 from kaidan.contact.tables import (
     BodyTable,
     ContactTable,
@@ -89,14 +89,7 @@ FOLLOWS = 0.01
 
 def comes_off(poses: PoseTable, row: int, zones: ZoneTable) -> bool:
     """Whether the trailing end leaves an edge on the way down, the front on a landing."""
-    if not leaves_edge(poses, row):
-        return False
-    x = poses[row, FRONT_X]
-    z = poses[row, FRONT_Z]
-    for k in range(zones.shape[0]):
-        if zones[k, 0] <= x and x <= zones[k, 1] and zones[k, 2] <= z and z <= zones[k, 3]:
-            return True
-    return False
+    return leaves_edge(poses, row) and in_zone(zones, poses[row, FRONT_X], poses[row, FRONT_Z])
 
 
 def row_before(poses: PoseTable, count: int, s: float) -> int:

@@ -47,6 +47,7 @@ from kaidan.contact.tables import (
     PassedTable,
     PoseTable,
     WayTable,
+    ZoneTable,
 )
 
 #: Share of the largest friction of a phase above which a peak is not looked for [1].
@@ -67,6 +68,14 @@ def leaves_edge(poses: PoseTable, row: int) -> bool:
     flat = max(-poses[row, POSE_PHI], 0.0)
     leans: bool = poses[row, REAR_LEAN] > flat + ROUNDING
     return leans and math.sin(poses[row, POSE_PSI]) < 0.0
+
+
+def in_zone(zones: ZoneTable, x: float, z: float) -> bool:
+    """Whether a place lies in one of some zones."""
+    for k in range(zones.shape[0]):
+        if zones[k, 0] <= x and x <= zones[k, 1] and zones[k, 2] <= z and z <= zones[k, 3]:
+            return True
+    return False
 
 
 def turns_at_end(poses: PoseTable, row: int, feature: int, n_x: int, n_z: int) -> bool:
