@@ -26,7 +26,7 @@ def plan(**given):
 
 
 def change(margin, torque, friction=0.1):
-    return SimpleNamespace(best=margin, spare_torque=torque, required_friction=friction)
+    return SimpleNamespace(best=margin, spare_torque=torque, required=friction)
 
 
 @pytest.fixture
@@ -47,7 +47,7 @@ def required(monkeypatch):
             return SimpleNamespace(moves=moves, arrived=arrived)
 
         monkeypatch.setattr(module.planned, "drive", drive)
-        monkeypatch.setattr(module, "standing_margins", lambda question, one: (-1.0, one.best))
+        monkeypatch.setattr(module, "standing", lambda question, one: one)
         return friction_without_failure(question, moved="known moves")
 
     return of

@@ -12,6 +12,7 @@ from kaidan.models.contact_figures import ContactFigures, Grades, PhaseFigures, 
 from kaidan.models.findings import Finding, Findings
 from kaidan.models.planned import Part, Planned, _of_move, _smallest, _together, findings
 from kaidan.models.quasi_static import profile_of
+from kaidan.models.traction import Standing
 from kaidan.modes import (
     ENERGY,
     FLIPPER_TORQUE,
@@ -40,8 +41,7 @@ def finding(mode, worst, best=None, **more):
 
 def change(**given):
     usual = {"stands": True, "rocks": 0.0, "before": Phase.LAND, "energy": 0.05,
-             "spare_torque": math.nan, "required_friction": 0.4,
-             "tilt": lambda side: math.inf,
+             "spare_torque": math.nan, "tilt": lambda side: math.inf,
              "path": SimpleNamespace(poses=[1])}  # fmt: skip
     return SimpleNamespace(**(usual | given))
 
@@ -120,7 +120,7 @@ def test_a_tilt_on_the_way_of_a_change_counts_less_the_allowances():
         (QUESTION.changed(direction="down"), Phase.LAND, 0.2 - d.high),
         (QUESTION.changed(direction="down"), Phase.TRAVERSE, None),
     ):
-        found = _of_move(asked, change(before=before, tilt=tilts.get))
+        found = _of_move(asked, change(before=before, tilt=tilts.get), None)
         (tips,) = [each for each in found if each.mode is TIP_DOWNHILL] or [None]
         assert (tips is None) == (least is None)
         if tips is not None:
@@ -133,7 +133,9 @@ def test_a_tilt_on_the_way_less_the_least_of_the_allowances_is_the_best_case():
     d, M = ({"low": low, "high": high} for low, high in ((0.01, 0.02), (0.03, 0.05)))
     asked = QUESTION.changed(theta_d=d, theta_M=M)
     (tips,) = [
-        each for each in _of_move(asked, change(tilt=lambda side: 0.3)) if each.mode is TIP_DOWNHILL
+        each
+        for each in _of_move(asked, change(tilt=lambda side: 0.3), None)
+        if each.mode is TIP_DOWNHILL
     ]
     assert tips.worst == pytest.approx([0.3 - 0.02 - 0.05])
     assert tips.best == pytest.approx([0.3 - 0.01 - 0.03])
@@ -182,22 +184,24 @@ def test_of_a_mode_the_smallest_margin_of_all_parts_counts():
     assert _smallest([one, other]).step == 2
 
 
-def of_move(monkeypatch, **given):
-    monkeypatch.setattr(module.traction, "standing_margins", lambda question, move: (0.1, 0.3))
+HELD = Standing(worst=0.1, best=0.3, required=0.5)
+
+
+def of_move(standing=HELD, **given):
     question = SimpleNamespace(direction="up", kinetic_height=0.01)
-    return {one.mode: one for one in _of_move(question, change(**given))}
+    return {one.mode: one for one in _of_move(question, change(**given), standing)}
 
 
-def test_findings_of_a_change(monkeypatch):
-    found = of_move(monkeypatch)
+def test_findings_of_a_change():
+    found = of_move()
     assert list(found) == [POSTURE_CHANGE, SLIDES_DOWN, ENERGY]
     assert {one.phase for one in found.values()} == {Phase.LAND}
     assert (found[POSTURE_CHANGE].worst, found[POSTURE_CHANGE].failing) == (math.inf, CAUTION)
     slides = found[SLIDES_DOWN]
     assert (slides.worst.tolist(), slides.best.tolist()) == ([0.1], [0.3])
     assert (found[ENERGY].worst.tolist(), found[ENERGY].failing) == ([pytest.approx(0.04)], CAUTION)
-    assert of_move(monkeypatch, spare_torque=-3.0)[FLIPPER_TORQUE].worst == -3.0
-    assert list(of_move(monkeypatch, path=SimpleNamespace(poses=[]))) == [POSTURE_CHANGE]
+    assert of_move(spare_torque=-3.0)[FLIPPER_TORQUE].worst == -3.0
+    assert list(of_move(None)) == [POSTURE_CHANGE]
 
 
 @pytest.mark.parametrize(
@@ -209,8 +213,8 @@ def test_findings_of_a_change(monkeypatch):
         (False, 1.0, -math.inf, NO_GO),
     ],
 )
-def test_where_it_does_not_stand_or_rocks(stands, rocks, margin, failing, monkeypatch):
-    found = of_move(monkeypatch, stands=stands, rocks=rocks)[POSTURE_CHANGE]
+def test_where_it_does_not_stand_or_rocks(stands, rocks, margin, failing):
+    found = of_move(stands=stands, rocks=rocks)[POSTURE_CHANGE]
     assert (found.worst.tolist(), found.best.tolist()) == ([margin], [margin])
     assert found.failing is failing
 
@@ -235,12 +239,19 @@ def test_findings_of_parts_and_changes(monkeypatch):
         return parts[basis.traverse]
 
     monkeypatch.setattr(module, "findings_of", judged)
-    monkeypatch.setattr(module, "_of_move", lambda question, each: (finding(ENERGY, 0.01),))
+    held = {}
+    monkeypatch.setattr(module.traction, "standing", lambda question, each: held[each.before])
+    monkeypatch.setattr(module, "_of_move", lambda question, each, standing: (
+        finding(ENERGY, 0.01 if standing is held.get(each.before) else math.nan),
+    ))  # fmt: skip
     alone = [QUESTION.changed(posture=Posture(front=each), changes=()) for each in (0.1, 0.5)]
     driven = tuple(Part(*each) for each in zip(alone, parts, strict=True))
 
-    def of(question, needed=0.4):
-        return findings(question, Planned(QUESTION, driven, (change(required_friction=needed),)))
+    def of(question, needed=0.4, **given):
+        held[Phase.LAND] = Standing(worst=0.1, best=0.3, required=needed)
+        if given:
+            held.clear()
+        return findings(question, Planned(QUESTION, driven, (change(**given),)))
 
     found = of(QUESTION)
     modes = {one.mode: one for one in found.each}
@@ -251,6 +262,9 @@ def test_findings_of_parts_and_changes(monkeypatch):
     assert found.notes[:] == ("one", "two", "three")
     assert asked == alone
     assert of(QUESTION, 0.9).required_friction == 0.9
+    nowhere = of(QUESTION, path=SimpleNamespace(poses=[]))  # it stands in no pose of the change
+    assert nowhere.required_friction == 0.7
+    assert nowhere.of(ENERGY).worst == 0.01
     # a changed question, that has the same traverse
     asked.clear()
     other = QUESTION.changed(surface=Surface.of_friction(0.5))

@@ -11,7 +11,7 @@ from kaidan.contact import Placement, settle
 from kaidan.errors import InputError
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.models import judge, planned
-from kaidan.models.traction import standing_margins
+from kaidan.models.traction import standing
 from kaidan.modes import FLIPPER_TORQUE, POSTURE_CHANGE, SLIDES_DOWN, Phase
 from kaidan.outline import Outline
 from kaidan.question import Question
@@ -295,7 +295,8 @@ def test_the_poses_of_a_change_are_those_of_each_posture_alone():
         assert each.energy == pytest.approx(alone.margins.energy[0], abs=1e-9)
     needed = max(math.atan(each.required_friction) for each in change.poses)
     expected = [math.atan(mu) - needed for mu in (0.6, 1.0)]
-    assert standing_margins(asked, change) == pytest.approx(expected, abs=1e-12)
+    required = math.tan(needed)
+    assert standing(asked, change) == pytest.approx((*expected, required), abs=1e-12)
 
 
 @pytest.mark.parametrize("friction", [None, 0.3])

@@ -10,7 +10,7 @@ from kaidan.models import traction as module
 from kaidan.models.belts import strength_margin
 from kaidan.models.traction import (
     Supply,
-    standing_margins,
+    standing,
     supplies,
     supply,
     together,
@@ -95,14 +95,14 @@ def grousers(monkeypatch):
 def test_grousers_hold_in_the_worst_of_cases_after_a_slip():
     """Least 0 at the fourth pose. It slips where friction does not hold, but grousers do."""
     grip = Holding()
-    found = supply(asked(), driven(grip), track())
+    found = supply(asked(surface(differs=True)), driven(grip), track())
     each = pytest.approx((0.5, 0.7, 0.6))  # of rigid ones, and of soft ones as of a smooth belt
     assert grip.asked == [each, each, (0.06, pytest.approx(0.8 * 0.5))]
     assert found == Supply(0.0, pytest.approx(0.5), Phase.TRAVERSE, 3, 0.06, {Phase.TRAVERSE: 2e-3})
     smooth = supply(asked(), driven(), track(grousers=False))
     assert smooth[:4] == (-0.2, pytest.approx(math.tan(math.atan(0.5) + 0.2)), Phase.TRAVERSE, 3)
     assert smooth[4:] == (0.0, {})
-    best = supply(asked(), driven(grip), track(), best=True)
+    best = supply(asked(surface(differs=True)), driven(grip), track(), best=True)
     assert grip.asked[3] == pytest.approx((0.8, 1.0, 0.9))
     assert best.required == pytest.approx(0.8)
 
@@ -123,8 +123,22 @@ def test_going_down_a_slip_that_passes_over_what_nothing_holds_is_longer(passed,
     assert found.heights == {Phase.TRAVERSE: pytest.approx(height)}
 
 
+@pytest.mark.parametrize(("stated", "margin"), [(True, math.atan(0.5) - 0.4), (False, -0.4)])
+def test_friction_is_what_rigid_grousers_need_not_what_they_lack_at_another(stated, margin):
+    """By hand: with an angle of friction phi they hold phi / 2 - 0.2 at the third pose."""
+
+    class AtAFace(Holding):
+        def with_grousers(self, phi, each, alone, *, passing=True):
+            return np.where(np.arange(6) == 2, 0.5 * phi[0] - 0.2, phi[0])
+
+    found = supply(asked(stated=stated), driven(AtAFace()), track())
+    assert found.margin == pytest.approx(margin, abs=1e-5)
+    assert found.required == pytest.approx(math.tan(0.4), abs=1e-5)
+    assert found.step == 3
+
+
 def test_of_a_phase_alone():
-    enter = supply(asked(), driven(), track(), phase=Phase.ENTER)
+    enter = supply(asked(surface(differs=True)), driven(), track(), phase=Phase.ENTER)
     assert enter == (0.1, pytest.approx(math.tan(math.atan(0.5) - 0.1)), Phase.ENTER, 1, 0.0, {})
     none = supply(asked(), driven(), track(), phase=Phase.LAND)  # passing, and coming off
     assert none[2:] == (None, None, 0.0, {})
@@ -187,35 +201,30 @@ def test_grousers_that_do_not_bear_half_of_the_traction():
 
 
 @pytest.mark.parametrize(
-    ("rigid", "first", "gains", "enough", "looks"),
+    ("first", "gains", "enough", "looks"),
     [
-        (False, 0.5, (), 0.5, 0),  # soft ones: cones that all grow alike
-        (True, 0.5, (-0.1, -0.02, 0.0), 0.62, 3),
-        (True, 1.3, (-0.1, -0.02, 0.0), 1.42, 3),
-        (True, 1.5, (-0.1,), 1.6, 1),  # beyond a right angle none is
-        (True, 1.6, (), 1.6, 0),
-        (True, 0.0, (), 0.0, 0),
-        (True, -0.1, (), -0.1, 0),
-        (True, 0.5, (0.3, -0.1, 1e-9, -0.2), 0.3, 3),
+        (0.5, (0.0,), 0.5, 1),  # soft ones: cones that all grow alike
+        (0.5, (-0.1, -0.02, 0.0), 0.62, 3),
+        (1.3, (-0.1, -0.02, 0.0), 1.42, 3),
+        (1.5, (-0.1,), 1.6, 1),  # beyond a right angle none is
+        (1.6, (), 1.6, 0),
+        (0.0, (), 0.0, 0),
+        (-0.1, (), -0.1, 0),
+        (0.5, (0.3, -0.1, 1e-9, -0.2), 0.3, 3),
     ],
 )
-def test_what_rigid_grousers_lack_is_added_until_nothing_is(
-    rigid, first, gains, enough, looks, monkeypatch
-):
-    """Of the poses that count; each look says what the least of them still lacks."""
+def test_what_rigid_grousers_lack_is_added_until_nothing_is(first, gains, enough, looks):
+    """Each look says what there is to spare, and where that is least."""
     left, asked_for = list(gains), []
 
-    def held(grip, phi, cases):
-        assert len(set(phi)) == 1
-        asked_for.append(phi[0])
-        return np.array([-9.0, left.pop(0), 0.7]), None
+    def spare(phi):
+        asked_for.append(phi)
+        return left.pop(0), len(asked_for)
 
-    monkeypatch.setattr(module, "_held", held)
-    cases = (SimpleNamespace(rigid=False), SimpleNamespace(rigid=rigid))
-    rows = np.array([False, True, True])
-    angle, at = module._enough("grip", first, cases, rows, 7)
+    angle, at = module._enough(spare, first, 7)
     assert angle == pytest.approx(enough, abs=1e-6)
-    assert at == (1 if looks else 7)
+    assert at == (looks or 7)
+    assert asked_for[:1] == ([first] if looks else [])
     assert len(asked_for) == looks
 
 
@@ -256,18 +265,40 @@ def test_while_it_stands(direction, monkeypatch):
     def of(move, *given, **belt):
         question = asked(*given, **belt)
         question.direction = direction
-        return standing_margins(question, move)
+        question.friction = tuple(each[0] for each in FRICTIONS.values())
+        if question.surface is None:
+            question.friction = math.nan, math.nan
+        return standing(question, move)
 
     monkeypatch.setattr(module, "Grip", made)
     move = SimpleNamespace(path="its path", required_friction=0.6)
-    assert all(map(math.isnan, of(move, stated=False)))
+    unknown = of(move, stated=False, grousers=False)
+    assert unknown == pytest.approx((math.nan, math.nan, 0.6), nan_ok=True)
     smooth = [math.atan(each) - math.atan(0.6) for each in (0.5, 0.8)]
-    assert of(move, grousers=False) == pytest.approx(smooth)
+    assert of(move, grousers=False) == pytest.approx((*smooth, 0.6))
     alone = tuple(math.atan(each) - 0.3 for each in (0.5, 0.8))
-    assert of(move, surface(differs=True), grousers=False) == pytest.approx(alone)
-    assert of(move) == (0.0, 0.0)
-    assert of(move, strength=12.0) == (0.0, 0.0)
-    assert of(move, strength=9.0) == pytest.approx(alone)  # half the weight is 9.81 N
+    of_parts = of(move, surface(differs=True), grousers=False)
+    assert of_parts == pytest.approx((*alone, math.tan(0.3)))
+    assert of(move) == (0.0, 0.0, pytest.approx(0.5))
+    assert of(move, strength=12.0) == (0.0, 0.0, pytest.approx(0.5))
+    weak = of(move, strength=9.0)  # half the weight is 9.81 N
+    assert weak == pytest.approx((*alone, math.tan(0.3)))
+
+
+@pytest.mark.parametrize(("lacks", "face", "required"), [(0.3, 1.0, 0.3), (0.3, 0.5, 0.6),
+                                                         (-0.1, 1.0, 0.0)])  # fmt: skip
+def test_friction_that_is_needed_to_stand_is_told_where_nobody_stated_it(
+    lacks, face, required, monkeypatch
+):
+    """By hand: at a riser's face the cone of rigid grousers grows by half of what friction does."""
+    spare = lambda question, grip, phi, **best: face * phi[0] - lacks  # noqa: E731
+    monkeypatch.setattr(module, "_standing", spare)
+    monkeypatch.setattr(module, "Grip", lambda path, **how: None)
+    question = asked(stated=False)
+    found = standing(question, SimpleNamespace(path="its path"))
+    assert found.required == pytest.approx(math.tan(required), abs=1e-5)
+    assert math.isnan(found.worst)
+    assert math.isnan(found.best)
 
 
 def figures(**given):

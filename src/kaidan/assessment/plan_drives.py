@@ -22,7 +22,7 @@ from kaidan.models.quasi_static import (
     findings_of,
     profile_of,
 )
-from kaidan.models.traction import standing_margins
+from kaidan.models.traction import standing
 from kaidan.modes import CONTACT, Verdict
 from kaidan.outline import Outline
 from kaidan.question import Question
@@ -73,13 +73,12 @@ def friction_without_failure(
     needed: list[float] = []
     over = partial(_passed, reserve=question.reserve, needed=needed)
     planned_ = planned.drive(question, over=over, moved=moved)
-    fails = any(
-        standing_margins(question, each)[1] <= 0.0 or each.spare_torque <= 0.0
-        for each in planned_.moves
-    )
-    if fails or not planned_.arrived:
+    if not planned_.arrived or any(each.spare_torque <= 0.0 for each in planned_.moves):
         return math.nan
-    return max([*needed, *(each.required_friction for each in planned_.moves)])
+    moves = [standing(question, each) for each in planned_.moves]
+    if any(each.best <= 0.0 for each in moves):
+        return math.nan
+    return max([*needed, *(each.required for each in moves)])
 
 
 def _passed(

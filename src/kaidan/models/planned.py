@@ -164,9 +164,11 @@ def findings(question: Question, planned: Planned, *, most: float = math.inf) ->
     if outside:
         return Findings(model=CONTACT.name, outside=outside, basis=basis)
     needed = [found.required_friction for found in of_parts]
-    needed += [one.required_friction for one in planned.moves]
     of_each = [found.each for found in of_parts]
-    of_each += [_of_move(question, one) for one in planned.moves]
+    for change in planned.moves:
+        standing = traction.standing(question, change) if len(change.path.poses) else None
+        needed.append(math.nan if standing is None else standing.required)
+        of_each.append(_of_move(question, change, standing))
     of_modes: dict[FailureMode, list[Finding]] = {}
     for some in of_each:
         for one in some:
@@ -203,15 +205,16 @@ def _smallest(some: Sequence[Finding]) -> Finding:
     )
 
 
-def _of_move(question: Question, each: Move) -> tuple[Finding, ...]:
+def _of_move(
+    question: Question, each: Move, standing: traction.Standing | None
+) -> tuple[Finding, ...]:
     """Findings of a change of posture: whether it stands, with what friction, energy, torque."""
     margin = -math.inf if not each.stands or each.rocks > ROCKING else math.inf
     failing = Verdict.CAUTION if each.stands else Verdict.NO_GO
     certain = partial(Finding.certain, phase=each.before, model=CONTACT.name)
     found = [certain(POSTURE_CHANGE, margin, failing=failing)]
-    if len(each.path.poses):
-        margins = traction.standing_margins(question, each)
-        worst, best = (np.array([margin]) for margin in margins)
+    if standing is not None:
+        worst, best = np.array([standing.worst]), np.array([standing.best])
         slides = certain(SLIDES_DOWN, 0.0)
         energy = certain(ENERGY, each.energy - question.kinetic_height, failing=Verdict.CAUTION)
         found += [replace(slides, worst=worst, best=best), energy]

@@ -1,7 +1,7 @@
 """How friction and grousers hold a robot on its traverse, in the worst and in the best case."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +16,7 @@ from kaidan.models.traction_figures import USUAL, TractionFigures
 from kaidan.modes import CONTACT, GROUSER_SPEED, Phase, Verdict
 from kaidan.question import Question
 from kaidan.robot import Track
+from kaidan.surface import Surface
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Traverse
 from kaidan.traversal.grip import Grip
@@ -35,6 +36,9 @@ MOST_LOOKS = 20
 _LITTLE = 1e-6
 """What it may still lack [rad]."""
 
+Cones = tuple[float, float, float]
+"""Angles of friction of nosings, treads and riser faces [rad]."""
+
 
 class Supply(NamedTuple):
     """How friction and grousers hold the robot on a traverse, in one case."""
@@ -52,39 +56,56 @@ class Supply(NamedTuple):
     """Kinetic-energy height of that slip in each phase with one [m]."""
 
 
-def standing_margins(question: Question, move: Move) -> tuple[float, float]:
-    """Angle by which friction may be less while the robot stands and its posture changes [rad].
+class Standing(NamedTuple):
+    """How friction and grousers hold the robot while it stands and its posture changes.
 
     With grousers it stands on those that hold it already, so it does not slip back first.
+    """
+
+    worst: float
+    """Angle by which friction may be less [rad]; NaN: nobody stated friction."""
+    best: float
+    """The same with every range at its favourable end [rad]."""
+    required: float
+    """Least friction, the same everywhere [1]; infinite: none is enough."""
+
+
+def standing(question: Question, move: Move) -> Standing:
+    """How friction and grousers hold the robot while its posture changes.
 
     Parameters
     ----------
     question : Question
-        Friction that nobody stated is not known: NaN.
     move : Move
         In which it stands at least once.
 
     Returns
     -------
-    worst, best
-        With every range at its unfavourable, and at its favourable end.
+    Standing
     """
     surface = question.surface
-    if surface is None:
-        return math.nan, math.nan
-    if not (surface.differs or question.robot.track.has_grousers):
-        needed = math.atan(move.required_friction)
-        worst, best = (math.atan(surface.of_parts(best=each)[0]) - needed for each in (False, True))
-        return worst, best
+    if not (question.robot.track.has_grousers or (surface is not None and surface.differs)):
+        required = move.required_friction
+        worst, best = (math.atan(mu) - math.atan(required) for mu in question.friction)
+        return Standing(worst, best, required)
     grip = Grip(move.path, descending=question.direction == "down", acceleration=0.0)
-    return _standing(question, grip, best=False), _standing(question, grip, best=True)
+
+    def spare(phi: float) -> tuple[float, int]:
+        return _standing(question, grip, (phi,) * 3), 0
+
+    phi = _cones(surface, best=False)
+    needed = phi[0] - _standing(question, grip, phi)
+    if surface is None or not surface.differs:
+        needed, _ = _enough(spare, needed, 0)
+    needed = max(needed, 0.0)
+    if surface is None:
+        return Standing(math.nan, math.nan, _friction_of(needed))
+    best = _standing(question, grip, _cones(surface, best=True), best=True)
+    return Standing(phi[0] - needed, best, _friction_of(needed))
 
 
-def _standing(question: Question, grip: Grip, *, best: bool) -> float:
-    assert question.surface is not None
+def _standing(question: Question, grip: Grip, phi: Cones, *, best: bool = False) -> float:
     track = question.robot.track
-    nosings, treads, faces = question.surface.of_parts(best=best)
-    phi = math.atan(nosings), math.atan(treads), math.atan(faces)
     cases = grousers_of(question, track, best=best) if bears(question, track) else ()
     each = [
         grip.at_once(phi, one, alone)
@@ -160,8 +181,8 @@ def supply(
     Supply
     """
     surface, grip = question.surface, found.grip
-    frictions = (0.0,) * 3 if surface is None else surface.of_parts(best=best)
-    phi = math.atan(frictions[0]), math.atan(frictions[1]), math.atan(frictions[2])
+    phi = _cones(surface, best=best)
+    sliding = SLIDING * math.tan(min(phi))
     bearing = bears(question, track, found)
     cases = grousers_of(question, track, best=best) if bearing else ()
     held, alone = _held(grip, phi, cases)
@@ -170,30 +191,34 @@ def supply(
         rows &= found.phase_of_pose == phase.value
     if not rows.any():
         return Supply(math.nan, math.nan, None, None, 0.0, {})
-    chosen = np.where(rows, held, np.inf)
-    at = int(np.argmin(chosen))
+    margin, at = _least(np.where(rows, held, np.inf))
     slipping = rows & (alone <= 0.0) & (held > 0.0)
     slip, heights = 0.0, {}
     if slipping.any():
         slip = max(each.spacing for each in cases)
-        kinetic = grip.slip_heights(slip, mu_k=SLIDING * min(frictions))
+        kinetic = grip.slip_heights(slip, mu_k=sliding)
         if found.descending:
             passes = slipping & (_held(grip, phi, cases, passing=False)[0] <= 0.0)
             if passes.any():
                 slip *= 2.0
-                farther = grip.slip_heights(slip, mu_k=SLIDING * min(frictions))
+                farther = grip.slip_heights(slip, mu_k=sliding)
                 kinetic = np.where(passes, farther, kinetic)
         for each in Phase:
             here = slipping & (found.phase_of_pose == each.value)
             if here.any():
                 heights[each] = float(kinetic[here].max())
-    margin = float(chosen[at])
     missing = phi[0] - margin
-    if surface is None:
-        missing, at = _enough(grip, missing, cases, rows, at)
+    alike = surface is None or not surface.differs
+    if alike and any(each.rigid for each in cases):
+
+        def spare(phi: float) -> tuple[float, int]:
+            return _least(np.where(rows, _held(grip, (phi,) * 3, cases)[0], np.inf))
+
+        missing, at = _enough(spare, missing, at)
+        margin = phi[0] - missing
     return Supply(
         margin=margin,
-        required=math.tan(missing) if missing < math.pi / 2 else math.inf,
+        required=_friction_of(missing),
         phase=Phase(str(found.phase_of_pose[at])),
         step=step_at(found.profile, float(found.path.poses.front_point[at, 0]), found.descending),
         slip=slip,
@@ -214,15 +239,22 @@ def gripping(question: Question) -> Gripping | None:
         return None
     cases = []
     for best in (False, True):
-        nosings, treads, faces = surface.of_parts(best=best)
-        phi = math.atan(nosings), math.atan(treads), math.atan(faces)
+        phi = _cones(surface, best=best)
         cases += [Case(one, phi, best) for one in grousers_of(question, track, best=best)]
     return tuple(cases)
 
 
+def _cones(surface: Surface | None, *, best: bool) -> Cones:
+    """Angles of friction of a surface; none where nobody stated friction."""
+    if surface is None:
+        return 0.0, 0.0, 0.0
+    nosings, treads, faces = surface.of_parts(best=best)
+    return math.atan(nosings), math.atan(treads), math.atan(faces)
+
+
 def _held(
     grip: Grip,
-    phi: tuple[float, float, float],
+    phi: Cones,
     cases: tuple[Grousers, ...],
     *,
     passing: bool = True,
@@ -237,28 +269,44 @@ def _held(
     return np.minimum.reduce(held), np.minimum.reduce(by_friction)
 
 
+def _least(held: NDArray[np.float64]) -> tuple[float, int]:
+    at = int(np.argmin(held))
+    return float(held[at]), at
+
+
 def _enough(
-    grip: Grip, angle: float, cases: tuple[Grousers, ...], rows: NDArray[np.bool_], at: int
+    spare: Callable[[float], tuple[float, int]], angle: float, at: int
 ) -> tuple[float, int]:
     """Angle of friction that is just enough [rad], and at which pose.
 
     The first angle is what cones lack that all grow alike. At a riser's face the cone of rigid
     grousers grows less, so what is still lacking is added until nothing is.
+
+    Parameters
+    ----------
+    spare : callable
+        What there is to spare with an angle of friction, the same everywhere [rad], and where.
+    angle : float
+        The first angle [rad].
+    at : int
+        The first pose.
     """
     for _ in range(MOST_LOOKS):
-        if not 0.0 < angle < math.pi / 2 or not any(each.rigid for each in cases):
+        if not 0.0 < angle < math.pi / 2:
             break
-        chosen = np.where(rows, _held(grip, (angle,) * 3, cases)[0], np.inf)
-        at = int(np.argmin(chosen))
-        angle -= float(chosen[at])
-        if abs(chosen[at]) < _LITTLE:
+        left, at = spare(angle)
+        angle -= left
+        if abs(left) < _LITTLE:
             break
     return angle, at
 
 
-def _by_friction(
-    grip: Grip, phi: tuple[float, float, float], cases: tuple[Grousers, ...]
-) -> list[NDArray[np.float64]]:
+def _friction_of(angle: float) -> float:
+    """Friction of an angle [1]; infinite where it is a right angle or more."""
+    return math.tan(angle) if angle < math.pi / 2 else math.inf
+
+
+def _by_friction(grip: Grip, phi: Cones, cases: tuple[Grousers, ...]) -> list[NDArray[np.float64]]:
     """What each case of grousers holds where none of them stands."""
     known: dict[float, NDArray[np.float64]] = {}
     heights = [each.height if each.rigid else 0.0 for each in cases]
