@@ -165,6 +165,23 @@ def test_steps_of_the_drive_change_nothing_that_counts(robot, flight):
         assert one == pytest.approx(two, rel=0.02)
 
 
+@pytest.mark.parametrize("step", [0.005, 0.0075, 0.012])
+def test_driven_upright_it_falls_there_wherever_its_poses_lie(step):
+    """A robot that is driven up the first riser until it stands upright has fallen. From some poses
+    one step leads from short of that to where its centroid is over its tail, of which the tilt to
+    the first rock is 0. By hand, upright: the centroid lies ahead of the centre of the tail's end
+    by its radius less the centroid's height over the flat, and above it by the distance along it.
+    """
+    track = Track(flat_length=0.64609, front_radius=0.04482, rear_radius=0.10744)
+    robot = Robot(name="r", com_from_front=0.449, com_height=0.105, track=track)
+    flight = Profile.of_stairs(Stairs(rise=0.10234, going=0.15588, steps=4))
+    found = driven(flight, Outline.of(robot), step=step)
+    assert found.status is contact.Status.FELL_BACKWARD
+    assert found.path.inclination[-1] == pytest.approx(math.pi / 2, abs=1e-4)  # as nearly it is cut
+    upright = math.atan2(0.10744 - 0.105, 0.10744 + 0.64609 - 0.449)
+    assert found.downhill_margin == pytest.approx(upright, abs=1e-4)
+
+
 @SETTINGS
 @given(robots, st.floats(0.2, 0.9))
 def test_grade_one_up_nose_first_is_down_tail_first(robot, angle):

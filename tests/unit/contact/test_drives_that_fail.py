@@ -201,15 +201,19 @@ def test_what_happens_where_it_arrives_counts_no_more(monkeypatch, short):
     ("x_end", "cut", "ends"),
     [(0.9, 0.305, False), (0.305, 0.3, False), (0.304, 0.3045, True), (0.3, 0.305, False)],
 )
-def test_a_step_that_leads_beyond_upright_is_cut_there(monkeypatch, x_end, cut, ends):
-    """It ends where the robot stands upright; whether it arrives is told of where it ends then."""
+@pytest.mark.parametrize("beyond", [Advance.NOTHING, Advance.OVER_REAR, FRONT])
+def test_a_step_that_leads_beyond_upright_is_cut_there(monkeypatch, beyond, x_end, cut, ends):
+    """It ends where the robot stands upright, whatever comes after that; whether it arrives is told
+    of where it ends then.
+    """
     calls = []
 
     def advance(ground, body, here, ds, *rest):
         calls.append(ds)
         phi = here[2] + 10.0 * ds
         x = here[0] + ds if phi > driver.UPRIGHT + 1e-9 else cut
-        return Advance.NOTHING, (x, 5.0, phi, *here[3:]), 0, ds
+        what = beyond if phi > driver.UPRIGHT + 1e-9 else Advance.NOTHING
+        return what, (x, 5.0, phi, *here[3:]), 0, ds
 
     monkeypatch.setattr(driver, "advance", advance)
     here = (0.3, -5.0, 1.55, *STARTS[3:])

@@ -73,7 +73,7 @@ def step_on(
             what, there, hint, ds = advance(
                 ground, body, at, ds * part, thinnest, a, g, kappa_g, hint
             )
-    if what == Advance.NOTHING and abs(there[2]) > UPRIGHT:
+    if abs(there[2]) > UPRIGHT > abs(at[2]):
         part = (UPRIGHT - abs(at[2])) / (abs(there[2]) - abs(at[2]))
         what, there, hint, ds = advance(ground, body, at, ds * part, thinnest, a, g, kappa_g, hint)
         ends = there[0] >= x_end and at[0] < x_end
