@@ -4,14 +4,13 @@ Numbers that do not exist are None: NaN and infinity become None when an answer 
 what it holds, what its JSON says and what is read back are equal.
 """
 
-import json
 import math
 import re
 from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib import import_module
 from itertools import pairwise
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, Self, cast
 
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
@@ -28,11 +27,26 @@ class Part(BaseModel):
     """A part of an answer: frozen fields, each with its meaning and unit in its docstring."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+    shown_as: ClassVar[str] = ""
+    """Field of an assessment that it is, where a model found it."""
 
     @model_validator(mode="before")
     @classmethod
     def _plain_values(cls, data: Any) -> Any:
         return plain(data)
+
+    @classmethod
+    def made(cls, **fields: Any) -> Self:
+        """Part of all its fields, each of its type already: none is validated.
+
+        Numbers are made plain; tuples, tables and parts are taken as they are.
+        """
+        assert fields.keys() == cls.model_fields.keys()
+        values: dict[str, Any] = {
+            name: value if isinstance(value, tuple | dict) else plain(value)
+            for name, value in fields.items()
+        }
+        return cast(Self, cls.model_construct(None, **values))
 
     @classmethod
     def __get_pydantic_json_schema__(cls, core: Any, handler: Any) -> Any:
@@ -93,6 +107,8 @@ class Answer(Part):
 
     def to_json(self) -> str:
         """One JSON object, indented, in ASCII."""
+        import json
+
         return json.dumps(self.to_dict(), indent=2, allow_nan=False)
 
     @classmethod

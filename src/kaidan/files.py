@@ -2,7 +2,6 @@
 
 import csv
 import io
-import json
 import os
 import secrets
 from collections.abc import Iterable, Iterator, Mapping
@@ -35,6 +34,8 @@ def format_of(path: Path, formats: tuple[str, ...], what: str) -> str:
 
 def json_text(value: Any) -> str:
     """Indented JSON in ASCII; arrays become lists, NaN and infinity become null."""
+    import json
+
     return json.dumps(plain(value), indent=2, allow_nan=False) + "\n"
 
 

@@ -10,6 +10,7 @@ from typing import Literal
 
 Direction = Literal["up", "down"]
 Facing = Literal["nose-first", "tail-first"]
+PhaseName = Literal["enter", "traverse", "land"]
 
 
 class Verdict(StrEnum):

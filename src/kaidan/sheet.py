@@ -4,7 +4,6 @@ From that one place come the validation, the texts of the errors, the JSON schem
 TOML files and the tables of the documentation.
 """
 
-import json
 import tomllib
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
@@ -204,6 +203,8 @@ class Sheet(BaseModel):
 
     def to_json(self) -> str:
         """One JSON object, indented, in ASCII."""
+        import json
+
         return json.dumps(self.model_dump(mode="json"), indent=2, allow_nan=False)
 
     def to_toml(self) -> str:

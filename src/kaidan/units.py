@@ -46,11 +46,9 @@ _DECIMAL = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?"
 _NUMBER = rf"[+-]?(?:\d+(?:\s+|-){_FRACTION}|{_FRACTION}|{_DECIMAL})(?![\d/])"
 _UNIT = r"(?:[^\W\d_][\w/^]*(?: m(?:\^?2)?)?|[^\w\s.,;:+*/^-])"
 _QUANTITY = re.compile(rf"\s*({_NUMBER})\s*({_UNIT})?\s*", re.ASCII)
-_RANGE = re.compile(
-    rf"\s*({_NUMBER})\s*({_UNIT})?(?:\s*(?:\.\.|[-–—])\s*|\s+to\s+)({_NUMBER})\s*({_UNIT})?\s*",
-    re.ASCII,
-)
-_DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d+\s*(?:[^\W\d].*)?", re.ASCII)
+# compiled when they are first needed: few commands state a range
+_RANGE = rf"\s*({_NUMBER})\s*({_UNIT})?(?:\s*(?:\.\.|[-–—])\s*|\s+to\s+)({_NUMBER})\s*({_UNIT})?\s*"
+_DECIMAL_COMMA = r"\s*[+-]?\d+,\d+\s*(?:[^\W\d].*)?"
 _LONGEST = 100
 """Longest text of a quantity; more is refused unread."""
 
@@ -116,7 +114,7 @@ def parse_range(text: str, kind: str, *, option: str) -> tuple[float, float]:
     (0.1905, 0.1905)
     """
     single = len(text) > _LONGEST or _QUANTITY.fullmatch(text)
-    match = None if single else _RANGE.fullmatch(text)
+    match = None if single else re.fullmatch(_RANGE, text, re.ASCII)
     if match is None:
         low, dots, high = text.partition("..")
         if dots and not (low.strip() and high.strip()):
@@ -253,7 +251,7 @@ def _number(text: str) -> float:
 
 def _no_quantity(text: str, kind: str) -> str:
     """What is wrong with a text that is no quantity, and what to write."""
-    if len(text) <= _LONGEST and _DECIMAL_COMMA.fullmatch(text):
+    if len(text) <= _LONGEST and re.fullmatch(_DECIMAL_COMMA, text, re.ASCII):
         return f"has a decimal comma; write {text.strip().replace(',', '.')}"
     if kind == "number":
         return "is not a plain number such as 0.8"

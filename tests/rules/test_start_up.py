@@ -130,11 +130,33 @@ def test_every_command_is_found_by_its_name():
         assert name in typer.main.get_command(cli.app_for([name])).commands
 
 
+FIGURES = {
+    "closed_form_figures",
+    "contact_figures",
+    "dynamic_figures",
+    "landing_figures",
+    "support_polygon",
+    "traction_figures",
+}
+"""Modules of `kaidan.models` with figures of an answer: pydantic makes classes of each."""
+
+
+def figures(modules):
+    found = {name.removeprefix("kaidan.models.") for name in modules}
+    return found & FIGURES
+
+
 def test_a_question_to_the_closed_form_loads_no_contact_model():
     modules = imported(RUN, *ASSESS, "--model", "closed-form")[1]
     assert "kaidan.models.closed_form" in modules
     for name in ("kaidan.contact", "kaidan.traversal", "kaidan.physics", "kaidan.models.spread"):
         assert name not in modules
+    assert figures(modules) == {"closed_form_figures"}
+
+
+def test_a_question_to_the_contact_model_loads_no_figures_of_others():
+    modules = imported(RUN, *ASSESS)[1]
+    assert figures(modules) == {"contact_figures", "support_polygon", "traction_figures"}
 
 
 def test_a_command_loads_its_own_module_alone():

@@ -158,7 +158,7 @@ def test_in_doubt_friction_may_be_more_than_any_surface_has(monkeypatch):
 
 def test_grousers_where_there_are_none_and_where_nobody_says():
     """Of belts that are smooth with the usual figures, of others with none."""
-    usual = traction_advice.USUAL
+    usual = traction_advice.USUAL_GROUSERS
 
     def of(surface=KENAF.surface, **track):
         belts = KENAF.robot.track.model_copy(update=track)
@@ -168,7 +168,7 @@ def test_grousers_where_there_are_none_and_where_nobody_says():
         return list(traction_advice.grousers(asked))
 
     for belt, change, height, spacing in (
-        ("smooth", text.grousers(), usual.grouser_height, usual.grouser_spacing),
+        ("smooth", text.grousers(), usual["grouser_height"], usual["grouser_spacing"]),
         (None, text.state_grousers(), None, None),
     ):
         for surface in (KENAF.surface, None):

@@ -13,7 +13,6 @@ from kaidan.models import traction as module
 from kaidan.models.belts import HEIGHT, SPACING, TIP_WIDTH, YIELD, grousers_of, nosing_radii
 from kaidan.models.traction import (
     FASTEST,
-    USUAL,
     Supplies,
     Supply,
     figures_of,
@@ -140,7 +139,8 @@ def test_usual_grousers_are_told_where_nothing_is_stated_and_none_are_there(belt
     found = figures_of(question, SimpleNamespace(phases=()), 0.5, None, Phase.LAND)
     told = belt != "grousers" and not stated
     assert found.usual_required_friction == (0.3 if told else None)
-    assert usual == [(USUAL, Phase.LAND)] * told
+    belts = Track(flat_length=1.0, grouser_height=0.010, grouser_spacing=0.040)
+    assert usual == [(belts, Phase.LAND)] * told
     assert found.belt == (belt or "not stated")
     assert (found.required_friction, found.phase, found.step) == (0.5, None, None)
     assert (found.slip_mm, found.slip_heights_mm) == (None, {})

@@ -134,7 +134,6 @@ def test_the_plan_of_an_answer():
         for each in ((), (Finding.certain(POSTURE_TOLERANCE, -1.0, model=""),))
     )
     land = {"before": "land", "posture": HIGH}
-    assert plan_of_answer(asked(tolerance=0.0), nothing, None) is None
     plan = plan_of_answer(asked(), nothing, None)
     assert (plan.found, plan.tried, plan.holds_within_deg) == (False, None, pytest.approx(2.0))
     assert plan_of_answer(asked(), fails, None).holds_within_deg == 0.0

@@ -19,6 +19,7 @@ from kaidan.models.traction_figures import TractionFigures
 from kaidan.modes import Phase
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
+from kaidan.traversal.rating import Case
 
 G = 9.80665
 STEPS = Profile.of_stairs(Stairs(rise=0.1, going=0.3, steps=3))
@@ -159,9 +160,7 @@ def test_belts_by_cases_where_grousers_hold_and_bear(stated, holds, bear, monkey
         return
     cases = module.grousers_of(None, None, best=False)
     angles = {best: tuple(map(math.atan, each)) for best, each in FRICTIONS.items()}
-    assert found == tuple(
-        module.Case(one, angles[best], best) for best in (False, True) for one in cases
-    )
+    assert found == tuple(Case(one, angles[best], best) for best in (False, True) for one in cases)
 
 
 def test_a_grouser_stands_at_no_more_than_all_phases():

@@ -6,8 +6,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from kaidan.assessment.answer import Assessment as Assessment
 from kaidan.assessment.answer import Change, fill_in
-from kaidan.assessment.plan import plan_of
-from kaidan.assessment.unweighed import stretches
 from kaidan.assessment.verdict import conclude
 from kaidan.models import judge
 from kaidan.models.findings import Finding, Findings
@@ -15,7 +13,9 @@ from kaidan.modes import POSTURE_TOLERANCE, Verdict
 from kaidan.question import Question
 
 if TYPE_CHECKING:
+    from kaidan.assessment.plan import PlanShown
     from kaidan.assessment.plan_search import Found
+    from kaidan.assessment.unweighed import CentroidShown
 
 
 def assess(robot: Any, stairs: Any = None, **manner: Any) -> Assessment:
@@ -161,12 +161,21 @@ def judged(
         from kaidan.assessment.advice import what_would_help
 
         changes = what_would_help(question, found, conclusion, measure, search=search)
-    ranged = question.robot.com_range is not None and advice
+    plan: PlanShown | None = None
+    if search is not None or question.changes or question.tolerance:
+        from kaidan.assessment.plan import plan_of
+
+        plan = plan_of(question, found, search)
+    centroid: CentroidShown | None = None
+    if question.robot.com_range is not None and advice:
+        from kaidan.assessment.unweighed import stretches
+
+        centroid = stretches(question, found)
     return fill_in(
         question,
         found,
         conclusion,
-        plan=plan_of(question, found, search),
+        plan=plan,
         reason=verdicts.reason(question, found, conclusion),
         notes=(
             *verdicts.notes(question, found, conclusion),
@@ -174,5 +183,5 @@ def judged(
         ),
         what_would_help=changes,
         to_measure=measure,
-        centroid=stretches(question, found) if ranged else None,
+        centroid=centroid,
     )

@@ -1,34 +1,38 @@
 """The answer of `kaidan.assess`: verdict, findings by failure mode, what would help."""
 
 import math
-from typing import Any, ClassVar, Literal
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
 from kaidan.allowance import AllowanceShown
 from kaidan.answer import Answer, Part
-from kaidan.assessment.limits import Limit, limits
 from kaidan.assessment.measuring import Measurement
-from kaidan.assessment.plan import PlanShown
-from kaidan.assessment.unweighed import CentroidShown
 from kaidan.assessment.verdict import Conclusion
 from kaidan.mechanics import STANDARD_GRAVITY
-from kaidan.models.closed_form_figures import ClosedFormFigures
-from kaidan.models.contact_figures import ContactFigures, PhaseName
-from kaidan.models.dynamic_figures import PhysicsFigures
 from kaidan.models.findings import Finding, Findings, at_risk
-from kaidan.models.landing_figures import LandingTurn, LandingTurns
-from kaidan.models.support_polygon import SupportPolygonFigures
-from kaidan.models.traction_figures import TractionFigures
 from kaidan.modes import (
     FAILURE_MODES,
     FALL_DOWNHILL,
     FALL_UPHILL,
     TIP_DOWNHILL,
     TIP_UPHILL,
+    PhaseName,
     Verdict,
 )
 from kaidan.question import Question
+
+if TYPE_CHECKING:
+    from kaidan.assessment.limits import Limit
+    from kaidan.assessment.plan import PlanShown
+    from kaidan.assessment.unweighed import CentroidShown
+    from kaidan.models.closed_form_figures import ClosedFormFigures
+    from kaidan.models.contact_figures import ContactFigures
+    from kaidan.models.dynamic_figures import PhysicsFigures
+    from kaidan.models.landing_figures import LandingTurn
+    from kaidan.models.support_polygon import SupportPolygonFigures
+    from kaidan.models.traction_figures import TractionFigures
 
 VerdictName = Literal["go", "caution", "no-go", "outside-model"]
 
@@ -150,21 +154,21 @@ class Assessment(Answer):
     """C_N, payload and flippers included [m]."""
     mass_kg: float | None
     """Mass with payload [kg]."""
-    centroid: CentroidShown | None
+    centroid: "CentroidShown | None"
     """What each place of a centroid that nobody measured would come to; null if it was measured."""
-    contact: ContactFigures | None
+    contact: "ContactFigures | None"
     """What the contact model knows beside the margins; null if another model answers."""
-    traction: TractionFigures | None
+    traction: "TractionFigures | None"
     """What the contact model knows of friction and grousers; null if another model answers."""
-    closed_form: ClosedFormFigures | None
+    closed_form: "ClosedFormFigures | None"
     """What the closed form knows; null if another model answers, or it does not apply."""
-    support_polygon: SupportPolygonFigures | None
+    support_polygon: "SupportPolygonFigures | None"
     """What the support polygon of both tracks knows; null without the tracks' distance."""
-    physics: PhysicsFigures | None
+    physics: "PhysicsFigures | None"
     """What the trial in MuJoCo knows; null if another model answers."""
-    turns: tuple[LandingTurn, ...]
+    turns: "tuple[LandingTurn, ...]"
     """How it turns on each landing where the way turns, from bottom to top; empty: on none."""
-    plan: PlanShown | None
+    plan: "PlanShown | None"
     """What to do with flippers, arm or payload, and which end leads; null where one posture was
     stated."""
     what_would_help: tuple[Change, ...]
@@ -172,7 +176,7 @@ class Assessment(Answer):
     to_measure: tuple[Measurement, ...]
     """What to measure next: which doubt the margin feels most, that first; empty where every input
     is exact, or nobody looked for advice."""
-    limits: tuple[Limit, ...]
+    limits: "tuple[Limit, ...]"
     """What limits the robot here, where the verdict is no go: figures of the stairs that are more
     than it takes, and what it would need."""
     notes: tuple[str, ...]
@@ -191,6 +195,22 @@ class Assessment(Answer):
         from kaidan.text.assessment import short
 
         return short(self)
+
+    @classmethod
+    def model_rebuild(cls, **manner: Any) -> bool | None:
+        """Complete the class for what validates, writes or describes it.
+
+        An answer that is made and printed needs none of the figures of other models.
+        """
+        parts = {name: getattr(import_module(of), name) for name, of in _PARTS.items()}
+        return super().model_rebuild(**manner | {"_types_namespace": parts})
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> Any:
+        """Schema for what holds an answer, which needs the class to be complete."""
+        if not cls.__pydantic_fields_complete__:
+            cls.model_rebuild()
+        return handler(source)
 
     @property
     def exit_code(self) -> int:
@@ -211,6 +231,18 @@ class Assessment(Answer):
         return "tail" if downhill == self.question.nose_up else "nose"
 
 
+_PARTS = {
+    "CentroidShown": "kaidan.assessment.unweighed",
+    "ClosedFormFigures": "kaidan.models.closed_form_figures",
+    "ContactFigures": "kaidan.models.contact_figures",
+    "LandingTurn": "kaidan.models.landing_figures",
+    "Limit": "kaidan.assessment.limits",
+    "PhysicsFigures": "kaidan.models.dynamic_figures",
+    "PlanShown": "kaidan.assessment.plan",
+    "SupportPolygonFigures": "kaidan.models.support_polygon",
+    "TractionFigures": "kaidan.models.traction_figures",
+}
+"""Modules of the parts that not every answer has."""
 _OVER_DOWNHILL = {
     TIP_DOWNHILL.key: True,
     TIP_UPHILL.key: False,
@@ -225,17 +257,18 @@ def fill_in(
     found: Findings,
     conclusion: Conclusion,
     *,
-    plan: PlanShown | None,
+    plan: "PlanShown | None",
     reason: str,
     notes: tuple[str, ...],
     what_would_help: tuple[Change, ...],
     to_measure: tuple[Measurement, ...] = (),
-    centroid: CentroidShown | None = None,
+    centroid: "CentroidShown | None" = None,
 ) -> Assessment:
     """Answer of a question from what a model found and what it comes to."""
     stance, flight, risk = question.stance, question.steepest_flight, question.risk
     angle = None if flight is None else flight.angle
-    return Assessment(
+    figures: dict[str, Any] = {each.shown_as: each for each in found.figures}
+    return Assessment.made(
         question=question,
         verdict=conclusion.verdict.value,
         governs=str(conclusion.governs),
@@ -267,27 +300,24 @@ def fill_in(
         com_height_m=stance.com_height,
         mass_kg=stance.mass,
         centroid=centroid,
-        contact=_of(found, ContactFigures),
-        traction=_of(found, TractionFigures),
-        closed_form=_of(found, ClosedFormFigures),
-        support_polygon=_of(found, SupportPolygonFigures),
-        physics=_of(found, PhysicsFigures),
-        turns=_turns(found),
+        contact=figures.get("contact"),
+        traction=figures.get("traction"),
+        closed_form=figures.get("closed_form"),
+        support_polygon=figures.get("support_polygon"),
+        physics=figures.get("physics"),
+        turns=figures["turns"].turns if "turns" in figures else (),
         plan=plan,
         what_would_help=what_would_help,
         to_measure=to_measure,
-        limits=() if conclusion.verdict is Verdict.GO else limits(question),
+        limits=() if conclusion.verdict is Verdict.GO else _limits(question),
         notes=notes,
     )
 
 
-def _of(found: Findings, kind: type[Any]) -> Any:
-    return next((each for each in found.figures if isinstance(each, kind)), None)
+def _limits(question: Question) -> "tuple[Limit, ...]":
+    from kaidan.assessment.limits import limits
 
-
-def _turns(found: Findings) -> tuple[LandingTurn, ...]:
-    of: LandingTurns | None = _of(found, LandingTurns)
-    return () if of is None else of.turns
+    return limits(question)
 
 
 def _interval(conclusion: Conclusion) -> tuple[float, float] | None:

@@ -4,9 +4,8 @@ import math
 from typing import TYPE_CHECKING
 
 from kaidan.answer import Part
-from kaidan.models.contact_figures import PhaseName
 from kaidan.models.findings import Findings
-from kaidan.modes import POSTURE_TOLERANCE, Facing, Phase
+from kaidan.modes import POSTURE_TOLERANCE, Facing, Phase, PhaseName
 from kaidan.question import Question
 
 if TYPE_CHECKING:
@@ -62,8 +61,8 @@ class PlanShown(Part):
         return not others and not {first.front_deg, first.rear_deg, first.state} - {None}
 
 
-def plan_of(question: Question, found: Findings, search: "Found | None") -> PlanShown | None:
-    """Plan of an answer; None where one posture was stated, and no tolerance of its angles.
+def plan_of(question: Question, found: Findings, search: "Found | None") -> PlanShown:
+    """Plan of an answer, of one posture too.
 
     Parameters
     ----------
@@ -74,8 +73,6 @@ def plan_of(question: Question, found: Findings, search: "Found | None") -> Plan
     search : Found, optional
         What a search came upon.
     """
-    if search is None and not question.changes and not question.tolerance:
-        return None
     moves = getattr(getattr(found.basis, "traverse", None), "moves", ())
     laid = {each for one in question.postures.values() for each in (one.front, one.rear)}
     holds = question.tolerance if found.of(POSTURE_TOLERANCE) is None else 0.0

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from kaidan.assessment.verdict import Conclusion
 from kaidan.models import judge
 from kaidan.models.findings import Findings
-from kaidan.models.traction_figures import USUAL
 from kaidan.modes import DRIVE, SUPPLIES, Undecided, Verdict
 from kaidan.question import Question
+from kaidan.robot.track import USUAL_GROUSERS
 from kaidan.sheet import bounds
 from kaidan.surface import Surface
 from kaidan.terrain.stairs import Stairs
@@ -85,7 +85,7 @@ def grousers(question: Question) -> Iterator[Candidate]:
     known = track.belt is not None
     update: dict[str, Any] = {"belt": "grousers"}
     if known:
-        update |= {name: getattr(USUAL, name) for name in ("grouser_height", "grouser_spacing")}
+        update |= USUAL_GROUSERS
     robot = question.robot.model_copy(update={"track": track.model_copy(update=update)})
     change = text.grousers() if known else text.state_grousers()
     # with no friction stated no plan is a GO

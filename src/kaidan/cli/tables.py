@@ -1,7 +1,6 @@
 """Text, tables and JSON on standard output, whatever the screen can show."""
 
 import io
-import json
 import sys
 from collections.abc import Sequence
 from typing import Any
@@ -29,4 +28,6 @@ def echo_table(
 
 def echo_json(value: Any) -> None:
     """Print one JSON object, in ASCII."""
+    import json
+
     typer.echo(json.dumps(value, indent=2, allow_nan=False))

@@ -8,12 +8,13 @@ from numpy.typing import NDArray
 
 from kaidan.mechanics.margin import centroid_margin_downhill, centroid_margin_uphill
 from kaidan.mechanics.margins import margins
-from kaidan.mechanics.plane import contact_count, two_contacts_remain
+from kaidan.mechanics.plane import two_contacts_remain
 from kaidan.mechanics.slipping import required_friction
 from kaidan.models import acceleration
 from kaidan.models.closed_form_figures import Basis, figures_of
 from kaidan.models.drive_limits import steepest_for_drive
 from kaidan.models.findings import Array, Finding, Findings, Later, at_risk
+from kaidan.models.regular_flight import no_regular_flight
 from kaidan.models.samples import Draws, draws, nominal
 from kaidan.modes import CLOSED_FORM, DRIVE, FORMULAS, TIPS, Verdict
 from kaidan.question import Question
@@ -22,8 +23,6 @@ from kaidan.text import closed_form as text
 
 MODES = (*FORMULAS, DRIVE)
 """Failure modes that it knows, in the order of its arrays."""
-LARGEST_IRREGULARITY = 0.0095
-"""Difference within a flight up to which it counts as regular [m]: IBC 1011.5.4 allows 9.5 mm."""
 
 
 def judge(question: Question, *, known: Findings | None = None) -> Findings:
@@ -153,32 +152,6 @@ def _outside(question: Question, flight: Stairs, share_outside: float) -> str:
             f"probability of {share_outside:.2g}, more than the accepted {question.risk:g}"
         )
     return no_regular_flight(question, flight)
-
-
-def no_regular_flight(question: Question, flight: Stairs) -> str:
-    """Why no regular nosings are carried all along the underside; empty if they are."""
-    gap = gap_below(question)
-    if gap:
-        return gap
-    if flight.irregularity > LARGEST_IRREGULARITY + 1e-12:
-        return (
-            f"the steps differ by {flight.irregularity * 1e3:.1f} mm, more than the "
-            f"{LARGEST_IRREGULARITY * 1e3:.1f} mm up to which a flight counts as regular"
-        )
-    nosings = len(flight.step_rises)
-    if nosings < contact_count(L=question.stance.flat_length, p=flight.nosing_spacing) + 1:
-        return f"the flight's {nosings} nosings are fewer than the track holds at once"
-    return ""
-
-
-def gap_below(question: Question) -> str:
-    """Why nosings are not carried all along the underside; empty if they are."""
-    gap = question.robot.track.gap
-    if gap > 0:
-        return f"{gap * 1e3:.0f} mm in the middle of the underside have no track to carry a nosing"
-    if question.stance.tips_below:
-        return "a flipper reaches below the underside of the track"
-    return ""
 
 
 def _semi_stable(question: Question, at: Draws, step: int, least: _Least) -> bool:

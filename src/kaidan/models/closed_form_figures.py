@@ -1,7 +1,7 @@
 """The closed form's own figures: limits, bounds of acceleration, loads, published measures."""
 
 import math
-from typing import Any, Literal, NamedTuple
+from typing import Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 
@@ -81,6 +81,8 @@ class Measures(Part):
 
 class ClosedFormFigures(Part):
     """What the closed form knows of a regular flight beside the margins."""
+
+    shown_as: ClassVar[str] = "closed_form"
 
     angle_deg: float
     """Slope of the governing step [deg]."""

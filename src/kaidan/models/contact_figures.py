@@ -1,17 +1,16 @@
 """The contact model's own figures: the three grades, each phase, rotations, forces."""
 
 import math
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, ClassVar
 
 from kaidan.answer import Part
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.drive import drive_power
+from kaidan.modes import PhaseName
 from kaidan.question import Question
 
 if TYPE_CHECKING:
     from kaidan.traversal import Chain, Fall, PhaseExtremes, Traverse
-
-PhaseName = Literal["enter", "traverse", "land"]
 
 
 class PhaseFigures(Part):
@@ -98,6 +97,8 @@ class TiltFigures(Part):
 
 class ContactFigures(Part):
     """What the contact model knows beside the margins."""
+
+    shown_as: ClassVar[str] = "contact"
 
     grades: Grades
     """Three grades of "it holds"."""

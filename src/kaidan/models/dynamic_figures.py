@@ -1,6 +1,6 @@
 """What trials in MuJoCo know; apart, so that an answer can be read without physics."""
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 from kaidan.answer import Part
 from kaidan.modes import Phase
@@ -40,6 +40,8 @@ class TrialFigures(Part):
 
 class PhysicsFigures(Part):
     """Trials in MuJoCo, or of a yielding belt in the plane, from landing to landing."""
+
+    shown_as: ClassVar[str] = "physics"
 
     track: Literal["smooth-belt", "yielding-belt", "driven-grousers"]
     """Model of the track."""

@@ -1,6 +1,6 @@
 """How a robot turns on landings."""
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 from kaidan.answer import Part
 
@@ -55,6 +55,8 @@ class LandingTurn(TurnFigures):
 
 class LandingTurns(Part):
     """How the robot turns on all landings of hand-entered stairs."""
+
+    shown_as: ClassVar[str] = "turns"
 
     turns: tuple[LandingTurn, ...]
     """From bottom to top."""

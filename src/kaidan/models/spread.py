@@ -8,7 +8,7 @@ draw anew, so that the order of events and the nosings that carry are the draw's
 """
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -21,7 +21,9 @@ from kaidan.terrain.polyline import frozen
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Traverse
-from kaidan.traversal.drawn_criterion import Drawn, DrawnTread, drawn_criterion
+
+if TYPE_CHECKING:
+    from kaidan.traversal.drawn_criterion import Drawn
 
 _OF_ALL = 6
 """Rows of the unit draws that are of the robot, of the whole flight and of friction."""
@@ -153,8 +155,10 @@ def _off(drawn: Array, nominal_: Array, otherwise: Array) -> Array:
         return np.asarray(np.where(known, drawn - nominal_, otherwise))
 
 
-def _by_draws(question: Question, traverse: Traverse, drawn: Array) -> tuple[Drawn, Drawn]:
+def _by_draws(question: Question, traverse: Traverse, drawn: Array) -> "tuple[Drawn, Drawn]":
     """What the criterion says of each draw of the nosings and the robot, and of the sheets'."""
+    from kaidan.traversal.drawn_criterion import DrawnTread, drawn_criterion
+
     profile, tread = question.profile, traverse.tread
     L, C_L, C_N, *_ = drawn
     on = DrawnTread(

@@ -16,7 +16,7 @@ the robot tips about the lower track.
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,9 +32,9 @@ from kaidan.mechanics.oblique_support import (
     other_offset,
     sideways_limit,
 )
-from kaidan.models.closed_form import no_regular_flight
 from kaidan.models.drive_limits import steepest_for_drive
 from kaidan.models.findings import Array, Finding, Findings, Later, each_at_risk
+from kaidan.models.regular_flight import no_regular_flight
 from kaidan.models.samples import Draws, draws, nominal
 from kaidan.modes import (
     DRIVE,
@@ -59,6 +59,8 @@ _NAME = SUPPORT_POLYGON.name
 
 class SupportPolygonFigures(Part):
     """What the support polygon knows beside the margins."""
+
+    shown_as: ClassVar[str] = "support_polygon"
 
     yaw_limit_deg: float | None
     """Yaw from which on the robot tips on the flight [deg]; null if it tips without any, or holds

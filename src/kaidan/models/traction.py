@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,18 +12,21 @@ from kaidan.mechanics.grousers import standing_run
 from kaidan.mechanics.grousers_in_turn import height_behind
 from kaidan.models.belts import bears, grousers_of, holds_otherwise, strength_margin
 from kaidan.models.findings import Finding
-from kaidan.models.traction_figures import USUAL, TractionFigures
+from kaidan.models.traction_figures import TractionFigures
 from kaidan.modes import CONTACT, GROUSER_SPEED, Phase, Verdict
 from kaidan.question import Question
 from kaidan.robot import Track
+from kaidan.robot.track import USUAL_GROUSERS
 from kaidan.surface import Surface
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Traverse
 from kaidan.traversal.grip import Grip
-from kaidan.traversal.moves import Move
 from kaidan.traversal.phases import step_at
-from kaidan.traversal.rating import Case, Gripping
 from kaidan.traversal.samples import lasting
+
+if TYPE_CHECKING:
+    from kaidan.traversal.moves import Move
+    from kaidan.traversal.rating import Gripping
 
 SLIDING = 0.8
 """Sliding over static friction [1]: rubber on concrete, Serway & Beichner, Physics for Scientists
@@ -70,7 +73,7 @@ class Standing(NamedTuple):
     """Least friction, the same everywhere [1]; infinite: none is enough."""
 
 
-def standing(question: Question, move: Move) -> Standing:
+def standing(question: Question, move: "Move") -> Standing:
     """How friction and grousers hold the robot while its posture changes.
 
     Parameters
@@ -226,7 +229,7 @@ def supply(
     )
 
 
-def gripping(question: Question) -> Gripping | None:
+def gripping(question: Question) -> "Gripping | None":
     """Belts of a question by cases; None where they have no grousers, or none that bear.
 
     Parameters
@@ -237,6 +240,8 @@ def gripping(question: Question) -> Gripping | None:
     track, surface = question.robot.track, question.surface
     if surface is None or not (holds_otherwise(question) and bears(question, track)):
         return None
+    from kaidan.traversal.rating import Case
+
     cases = []
     for best in (False, True):
         phi = _cones(surface, best=best)
@@ -341,7 +346,8 @@ def figures_of(
     track, worst = question.robot.track, None if held is None else held.worst
     usual = math.inf
     if not track.has_grousers and question.surface is None:
-        usual = supply(question, found, USUAL, phase=phase).required
+        belts = Track(flat_length=1.0, **USUAL_GROUSERS)
+        usual = supply(question, found, belts, phase=phase).required
     return TractionFigures(
         belt=track.belt or ("grousers" if track.has_grousers else "not stated"),
         required_friction=smooth if worst is None else worst.required,

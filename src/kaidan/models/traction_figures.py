@@ -1,14 +1,14 @@
 """What the contact model knows of friction and grousers."""
 
-from kaidan.answer import Part
-from kaidan.robot import Track
+from typing import ClassVar
 
-USUAL = Track(flat_length=1.0, grouser_height=0.010, grouser_spacing=0.040)
-"""Grousers that an answer compares with, where the belts have none."""
+from kaidan.answer import Part
 
 
 class TractionFigures(Part):
     """Friction that the traverse requires, with its grousers and without."""
+
+    shown_as: ClassVar[str] = "traction"
 
     belt: str
     """smooth, grousers, or not stated (taken as smooth)."""

@@ -6,6 +6,9 @@ from pydantic import Field
 
 from kaidan.sheet import Sheet, model_validator, quantity
 
+USUAL_GROUSERS = {"grouser_height": 0.010, "grouser_spacing": 0.040}
+"""Grousers that an answer compares with, where the belts have none [m]."""
+
 
 class Wheel(Sheet):
     """A wheel above the flat that the belt runs over: a raised nose or tail."""

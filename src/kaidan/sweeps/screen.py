@@ -17,8 +17,8 @@ import numpy as np
 
 from kaidan.errors import InputError
 from kaidan.mechanics.plane import contact_count
-from kaidan.models.closed_form import gap_below
 from kaidan.models.drive_limits import steepest_for_drive
+from kaidan.models.regular_flight import gap_below
 from kaidan.modes import CONTACT, DRIVE, SLIDES_DOWN, SLIDES_UP, TIPS, Acceptance
 from kaidan.question import FACINGS, Question
 from kaidan.sweeps.pairs import verdicts

@@ -9,8 +9,9 @@ import numpy as np
 from kaidan.errors import InputError, needed, shown
 from kaidan.mechanics.plane import contact_count
 from kaidan.mechanics.verdict import Judged
-from kaidan.models.closed_form import MODES, gap_below
+from kaidan.models.closed_form import MODES
 from kaidan.models.drive_limits import steepest_for_drive
+from kaidan.models.regular_flight import gap_below
 from kaidan.modes import DRIVE, FORMULAS, TIP_DOWNHILL, TIP_UPHILL, Verdict
 from kaidan.question import Question
 from kaidan.robot import Payload, Posture, Robot

@@ -135,7 +135,6 @@ def posture(
 
 def _plan(best: Judged, search: Found, *, helps: bool) -> PlanShown:
     shown = plan_of(best.question, best.findings, search)
-    assert shown is not None
     return shown if helps else shown.model_copy(update={"found": False, "holds_within_deg": None})
 
 

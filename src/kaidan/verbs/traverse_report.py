@@ -4,7 +4,7 @@ from typing import Literal
 
 from kaidan.answer import Answer, Part
 from kaidan.assessment.answer import Assessment
-from kaidan.models.contact_figures import PhaseName
+from kaidan.modes import PhaseName
 from kaidan.question import Question
 
 Column = tuple[float | None, ...]

@@ -4,8 +4,7 @@ from typing import Literal
 
 from kaidan.answer import Answer, Part
 from kaidan.assessment.answer import Assessment
-from kaidan.models.contact_figures import PhaseName
-from kaidan.modes import Verdict
+from kaidan.modes import PhaseName, Verdict
 from kaidan.verbs.traverse_report import TraverseReport
 
 
