@@ -55,10 +55,10 @@ def same_between(path, seed, acceleration):
             seen = samples_of(path, phase, 1e-7, acceleration=acceleration)
             margins, lasts = seen.path.margins, np.arange(len(seen.rows)) % 5 > 0
             samples = Sampled(
-                seen.path, seen.rows, lasts, np.abs(margins.required_friction),
+                seen.path, phase, corner, seen.rows, lasts, np.abs(margins.required_friction),
                 np.abs(margins.traction), np.arange(len(seen.rows)) % 7 == 0,
             )  # fmt: skip
-            extremes = extremes_of(samples, phase, corner, whence, back, manner)
+            extremes = extremes_of(samples, whence, back, manner)
             found.append((seen.rows, seen.path.poses.table, margins.table, *extremes))
     for one, other in zip(*found, strict=True):
         np.testing.assert_array_equal(one, other)

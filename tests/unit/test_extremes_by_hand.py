@@ -23,7 +23,7 @@ from kaidan.traversal.extremes import (
     phase_extremes,
 )
 from kaidan.traversal.phases import top_zones
-from kaidan.traversal.rotations import ROCKING
+from kaidan.traversal.rotations import ROCKING, together
 
 G = 9.80665
 STEPS = Profile.of_stairs(Stairs(rise=0.1, going=0.3, steps=3))
@@ -57,21 +57,21 @@ def told(monkeypatch):
     def of(*each, descending=False, whole=True, rises=(), profile=STEPS):
         asked = {}
 
-        def extremes_of(samples, phase, corner, whence, back, manner):
-            asked.update(manner._asdict(), phase=phase.tolist(), whence=whence, back=back)
-            assert (samples, corner) == ("samples", "corners")
+        def extremes_of(samples, whence, back, manner):
+            asked.update(manner._asdict(), whence=whence, back=back)
+            assert samples == ("samples", 0.7)
             return each
 
         for name, stands in {
-            "samples_of": lambda path, phase, acceleration: "samples",
-            "corners": lambda path: "corners",
+            "samples_of": lambda path, phase, acceleration: ("samples", acceleration),
+            "together": lambda rotations, length: ["chains", length],
             "_chain_angles": lambda *given: [(0, 0.3), (2, 0.1), (3, 0.2)],
-            "_came_down": lambda path, room, whole: _CameDown(np.arange(8.0), np.arange(8) == 3),
+            "_came_down": lambda path, chains, whole: _CameDown(np.arange(8.0), np.arange(8) == 3),
             "_rotated": lambda way, name, side: (0.1 * side, 5),
         }.items():
             monkeypatch.setattr(extremes, name, stands)
         monkeypatch.setattr(contact, "extremes_of", extremes_of)
-        path = SimpleNamespace(poses=Rows(front_point=np.zeros((8, 2))))
+        path = SimpleNamespace(poses=Rows(front_point=np.zeros((8, 2))), rotations=[])
         given = path, profile, PHASE, descending, 0.7, rises, BODY, whole
         return phase_extremes(*given), asked
 
@@ -80,7 +80,6 @@ def told(monkeypatch):
 
 def test_what_the_kernel_is_asked(told):
     _, asked = told(None, None, None)
-    assert asked["phase"] == [0, 0, 1, 1, 1, 1, 2, 2]
     assert (asked["descending"], asked["whole"], asked["acceleration"]) == (False, True, 0.7)
     assert (asked["height"], asked["gyration"]) == (0.1, 0.2)
     assert asked["nosings"].tolist() == NOSINGS[:, 0].tolist()
@@ -194,7 +193,7 @@ def came_down(*records, rear, angle, at_once=False, on_flat=(), whole=False):
         poses=Rows(front_point=np.zeros((8, 2)), rear=70 + np.arange(8)), rotations=rotations,
         row_before=int, is_on_flat=lambda code, row: code == 70 + row and row in on_flat,
     )  # fmt: skip
-    whence, back = _came_down(path, 0.5, whole)
+    whence, back = _came_down(path, together(rotations, 0.5), whole)
     at = np.flatnonzero(np.isfinite(whence))
     assert not np.isin(np.flatnonzero(back), at).any()
     return np.flatnonzero(back).tolist(), dict(zip(at.tolist(), whence[at].tolist(), strict=True))

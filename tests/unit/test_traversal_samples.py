@@ -91,6 +91,7 @@ def test_samples_are_named_from_what_the_kernel_finds(monkeypatch):
     found = samples.samples_of(run, np.array(["enter", "traverse", "land"]), 0.7)
     assert told == [(run, [0, 1, 2], TOUCH, 0.7)]
     assert found.path is seen
+    assert (found.phase.tolist(), found.corner.tolist()) == ([0, 1, 2], [False, True, False])
     assert found.row.tolist() == found.traction[1].tolist() == [0, 1, 2, 0, 2]
     assert found.lasts.tolist() == [True, False, True, True, True]
     assert found.friction.tolist() == [0.1, math.inf, math.inf, math.inf, 0.5]

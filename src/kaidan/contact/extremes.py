@@ -59,6 +59,10 @@ class Sampled(NamedTuple):
 
     path: Path
     """With margins."""
+    phase: IntArray
+    """Number of the phase of each pose of the path: 0 enters, 1 traverses, 2 lands."""
+    corner: BoolArray
+    """Where a contact runs over a corner: the pose between two phases is of both."""
     row: IntArray
     """Pose of the path that each counts as."""
     lasts: BoolArray
@@ -95,21 +99,17 @@ class Manner(NamedTuple):
 
 
 def extremes_of(
-    samples: Sampled, phase: IntArray, corner: BoolArray, whence: FloatArray, back: BoolArray,
-    manner: Manner,
-) -> list[Extreme | None]:  # fmt: skip
+    samples: Sampled, whence: FloatArray, back: BoolArray, manner: Manner
+) -> list[Extreme | None]:
     """Extreme figures of each phase of a path; None where it has no pose.
 
     Parameters
     ----------
     samples
         Poses at which they may lie.
-    phase
-        Number of the phase of each pose of the path: 0 enters, 1 traverses, 2 lands.
-    corner
-        Where a contact runs over a corner: the pose between two phases is of both.
     whence
-        Inclination from which each came down by rocking [rad]; minus infinity: from none.
+        Inclination from which each pose of the path came down by rocking [rad]; minus infinity:
+        from none.
     back
         Which came down otherwise, so that they only come back.
     manner
@@ -124,12 +124,12 @@ def extremes_of(
     reach, alone, tilt = np.empty((3, most))
     table = np.empty((PHASES, at.EXTREME_COLUMNS))
     flights = [(*each, math.nan) for each in manner.flights]
+    lasts, leaves = samples.lasts.astype(np.int64), samples.comes_off.astype(np.int64)
     kernel().find_extremes(
-        path.ground.table, path.body.table, path.poses.table, path.margins.table, phase,
-        corner.astype(np.int64), samples.row, samples.lasts.astype(np.int64), samples.friction,
-        samples.traction, samples.comes_off.astype(np.int64), whence, back.astype(np.int64),
-        np.array(manner.counts), manner.descending, manner.whole,
-        np.array(manner.tops).reshape(-1, at.ZONE_COLUMNS),
+        path.ground.table, path.body.table, path.poses.table, path.margins.table, samples.phase,
+        samples.corner.astype(np.int64), samples.row, lasts, samples.friction, samples.traction,
+        leaves, whence, back.astype(np.int64), np.array(manner.counts), manner.descending,
+        manner.whole, np.array(manner.tops).reshape(-1, at.ZONE_COLUMNS),
         np.array(flights).reshape(-1, at.FLIGHT_COLUMNS), manner.nosings, manner.height,
         manner.gyration, manner.acceleration, STANDARD_GRAVITY, TOUCH, weights, came, rows, posed,
         some, heap, pivots, values, group, narrow, marks, pose, reach, alone, tilt, beside,

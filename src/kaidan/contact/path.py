@@ -106,13 +106,8 @@ class Path:
 
         A rotation lies between two rows of one arclength, before it and after it.
         """
-        along = self.poses.s
-        first = int(np.searchsorted(along, s - 1e-9, side="right"))
-        last = int(np.searchsorted(along, s + 1e-9, side="left"))
-        if first == last:
-            return max(first - 1, 0)
-        legs = self.poses.leg[first:last]
-        return first + int(np.flatnonzero(legs == legs.min())[-1])
+        row: int = kernel().row_before(self.poses.table, len(self.poses), s)
+        return row
 
     def first_beyond(self, mu: float) -> int | None:
         """Row of the first pose whose required friction exceeds mu; None if there is none.

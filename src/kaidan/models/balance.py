@@ -248,9 +248,10 @@ def _rocking(found: Traverse, over: Spread, phase: Phase | None) -> Finding:
     """Largest rocking, seen or foretold, of all or of one phase."""
     chains = [each for each in found.chains if each.arrested and phase in (None, each.phase)]
     seen = _of_smallest(ROTATION, [ROCKING - one.rocking for one in chains], chains, found)
+    if phase not in (None, Phase.TRAVERSE) or not found.whole:
+        return seen
     rocking = found.criterion.rocking + over.rocking
-    unlike = found.whole and rocking.max() >= _ROUNDING
-    if phase not in (None, Phase.TRAVERSE) or not unlike:
+    if rocking.max() < _ROUNDING:
         return seen
     foretold = ROCKING - rocking
     if seen.worst.min() <= foretold.min():

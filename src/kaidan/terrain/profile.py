@@ -6,6 +6,7 @@ rests on what it meets from above.
 """
 
 import math
+from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
@@ -356,4 +357,10 @@ class Profile:
 
     def step_of(self, x: float) -> int:
         """Number of the last nosing at or behind x, counted from 1 at the bottom; 0 before it."""
-        return int(np.searchsorted(self.nosings[:, 0], x + 1e-9, side="right"))
+        return bisect_right(self._places, x + 1e-9)
+
+    @cached_property
+    def _places(self) -> list[float]:
+        """Nosings, along [m]."""
+        places: list[float] = self.nosings[:, 0].tolist()
+        return places

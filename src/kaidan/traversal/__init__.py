@@ -82,7 +82,7 @@ def traverse(
     whole = whole_of(tread, criterion, body)
     there = way(driven, body, start, until)
     x_start, x_end = there["x_start"], there["x_end"]
-    if start is not None or until is not None:
+    if whole and (start is not None or until is not None):
         criterion = criterion.within(*((-x_end, -x_start) if driven.falls else (x_start, x_end)))
     refuse_too_long(driven, body, (x_start, x_end), step)
     path = contact.traverse(

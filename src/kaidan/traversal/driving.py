@@ -167,12 +167,18 @@ def _rocks_onto_flippers(body: Outline) -> bool:
     return False
 
 
+@lru_cache(maxsize=REMEMBERED)
+def _extent(profile: Profile) -> tuple[float, float]:
+    """Length of a profile, and its height up and down in all [m]."""
+    x, z = profile.points.T
+    return float(np.ptp(x)), float(np.abs(np.diff(z)).sum())
+
+
 def refuse_too_long(
     profile: Profile, body: Outline, span: tuple[float, float], step: float
 ) -> None:
     """Refuse a profile that the kernel in use cannot be waited for."""
-    points, wide = len(profile.points), float(np.ptp(profile.points[:, 0]))
-    climbed = float(np.abs(np.diff(profile.points[:, 1])).sum())
+    points, (wide, climbed) = len(profile.points), _extent(profile)
     if points + (span[1] - span[0] + climbed) / step > LONGEST:
         raise InputError(
             f"profile: {points} points over {wide:.0f} m are more than one traverse takes: "

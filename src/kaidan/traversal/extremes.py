@@ -16,7 +16,7 @@ from kaidan.terrain.profile import Profile
 from kaidan.traversal.criterion import Criterion
 from kaidan.traversal.phases import ROOMS, Phase, step_at, top_zones
 from kaidan.traversal.rotations import ROCKING, together
-from kaidan.traversal.samples import corners, numbers_of, samples_of
+from kaidan.traversal.samples import samples_of
 from kaidan.traversal.static_criterion import flights_of
 
 _TIE = 1e-9
@@ -89,12 +89,11 @@ def phase_extremes(
 ) -> tuple[PhaseExtremes, ...]:
     """Extreme figures of each phase that the traverse has, in their order."""
     room = body.stance.flat_length
+    chains = together(path.rotations, room)
     way = _Way(path, profile, phase, descending, whole)
     each = contact.extremes_of(
         samples_of(path, phase, acceleration),
-        numbers_of(phase),
-        corners(path),
-        *(_nowhere(path) if descending else _came_down(path, room, whole)),
+        *(_nowhere(path) if descending else _came_down(path, chains, whole)),
         contact.Manner(
             descending=descending,
             whole=whole,
@@ -107,7 +106,7 @@ def phase_extremes(
             acceleration=acceleration,
         ),
     )
-    rotated = _chain_angles(path, room)
+    rotated = _chain_angles(path, chains)
     return tuple(
         _of_phase(way, name, found, [one for one in rises if one.phase is name], rotated)
         for name, found in zip(Phase, each, strict=True)
@@ -210,30 +209,29 @@ class _CameDown(NamedTuple):
     """Poses to which it came otherwise: they only come back."""
 
 
-def _came_down(path: contact.Path, flat_length: float, whole: bool) -> _CameDown:
+def _came_down(path: contact.Path, chains: Sequence[range], whole: bool) -> _CameDown:
     """Where one flat carries all along the criterion judges what it rocks back from."""
     assert path.margins is not None
-    whence = np.full(len(path.poses), -np.inf)
-    back = np.zeros(len(path.poses), dtype=np.bool_)
-    rear = contact.FeatureTable.of(path.margins.outermost[:, 0])
-    rotations = path.rotations
-    for chain in together(rotations, flat_length):
-        rocks = not whole and rotations.angle[chain].sum() <= ROCKING
-        for record in list(rotations)[chain.start : chain.stop]:
+    found = _nowhere(path)
+    rotations = list(path.rotations)
+    for chain in chains:
+        each = rotations[chain.start : chain.stop]
+        rocks = not whole and sum(record.angle for record in each) <= ROCKING
+        for record in each:
             pivot = contact.Feature.of(record.pivot)
             on_edge = pivot.kind is contact.FeatureKind.VERTEX
             if record.sense > 0 or not record.arrested or not on_edge:
                 continue
             row = path.row_before(record.s)
-            on_it = np.zeros(len(back), dtype=np.bool_)
-            on_it[row + 1 :] = np.logical_and.accumulate(
-                (rear.point[row + 1 :] == pivot.point) & (rear.kind[row + 1 :] == pivot.kind)
+            rear = contact.FeatureTable.of(path.margins.outermost[row + 1 :, 0])
+            on_it = np.logical_and.accumulate(
+                (rear.point == pivot.point) & (rear.kind == pivot.kind)
             )
             if rocks and path.is_on_flat(int(path.poses.rear[row]), row):
-                whence[on_it] = record.start.inclination
+                found.whence[row + 1 :][on_it] = record.start.inclination
             else:
-                back |= on_it
-    return _CameDown(whence, back)
+                found.back[row + 1 :] |= on_it
+    return found
 
 
 def _nowhere(path: contact.Path) -> _CameDown:
@@ -284,11 +282,11 @@ def _least_rise(rises: Sequence[Rise], *, downhill: bool) -> tuple[float, int]:
     return least, min((step for rise, step in some if rise <= least + _TIE), default=0)
 
 
-def _chain_angles(path: contact.Path, flat_length: float) -> list[tuple[int, float]]:
+def _chain_angles(path: contact.Path, chains: Sequence[range]) -> list[tuple[int, float]]:
     """Row of the pose at which each arrested chain of rotations begins, and its angle [rad]."""
-    rotations = path.rotations
+    each = list(path.rotations)
     return [
-        (path.row_before(float(rotations.s[chain[0]])), float(rotations.angle[chain].sum()))
-        for chain in together(rotations, flat_length)
-        if rotations.arrested[chain[-1]]
+        (path.row_before(each[chain[0]].s), sum(each[k].angle for k in chain))
+        for chain in chains
+        if each[chain[-1]].arrested
     ]

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,7 +19,7 @@ from kaidan.traversal.events import TraverseEvent, traverse_events
 from kaidan.traversal.extremes import PhaseExtremes, phase_extremes, rises_about_stays
 from kaidan.traversal.grip import Grip
 from kaidan.traversal.nosing_events import nosing_events
-from kaidan.traversal.phases import Phase, phases_of, step_at
+from kaidan.traversal.phases import ROOMS, Phase, phases_of, step_at
 from kaidan.traversal.rotations import Chain, Rotation, chains_of, rotations_of, together
 from kaidan.traversal.samples import trailing_end_leaves
 from kaidan.traversal.static_criterion import flights_of
@@ -236,19 +236,10 @@ class Traverse:
 
         None going down or without risers.
         """
-        nosings = self.profile.nosings
-        if self.descending or len(nosings) == 0:
+        if self.descending or len(self.profile.nosings) == 0:
             return None
-        each = np.diff(nosings[:, 1], prepend=self.profile.points[0, 1]).round(12)
-        rises = np.array(sorted({*each.tolist()}))
-        margins = rear_length_margin(
-            b=self.tread.L - self.tread.C_L,
-            h=rises,
-            R=self.tread.R_downhill,
-            C_N=self.tread.C_N,
-        )
-        worst = int(np.argmin(margins))
-        return float(margins[worst]), float(rises[worst])
+        at = self.tread
+        return _rear_length(self.profile, at.L - at.C_L, at.R_downhill, at.C_N)
 
     @property
     def arrived(self) -> bool:
@@ -310,10 +301,11 @@ class Traverse:
     def _rocks(self, *, downhill: bool, of: tuple[PhaseExtremes, ...]) -> list[FirstRock]:
         """Least tilts of the criterion's losses and of the poses in some phases."""
         each = []
-        for landing, phase in ((False, Phase.TRAVERSE), (True, self.over_landing)):
+        judged = ((False, Phase.TRAVERSE), (True, self.over_landing)) if self.whole else ()
+        for landing, phase in judged:
             worst = self.criterion.smallest(downhill=downhill, landing=landing)
             counts = of is self.phases or any(one.phase is phase for one in of)
-            if self.whole and counts and worst is not None:
+            if counts and worst is not None:
                 each.append(FirstRock(worst.margin, phase, worst.nosing + 1))
         for one in of:
             found = one.tilt_downhill if downhill else one.tilt_uphill
@@ -329,15 +321,9 @@ class Traverse:
         carries or a step is longer than it, and down over the edge of a landing
         (docs/theory/rocking.md).
         """
-        nosings = self.profile.nosings
-        if len(nosings) < 2:
+        if len(self.profile.nosings) < 2:
             return False
-        on = sum(last - first + 1 for first, last in flights_of(nosings, self.tread.L))
-        steps = np.diff(nosings, axis=0)
-        uneven = bool(np.ptp(steps, axis=0).max() > _EVEN)
-        first = float(nosings[0, 1] - self.profile.points[0, 1])
-        higher = self.descending or first > float(steps[:, 1].max()) + _EVEN
-        return not self.whole or on < len(nosings) or uneven or higher
+        return not self.whole or self.descending or _is_uneven(self.profile, self.tread.L)
 
     @property
     def centroid_margin(self) -> float:
@@ -345,6 +331,27 @@ class Traverse:
         if not self.whole:
             return math.nan
         return min((each.centroid for each in self.criterion.losses), default=math.nan)
+
+
+@lru_cache(maxsize=ROOMS)
+def _is_uneven(profile: Profile, room: float) -> bool:
+    """Whether steps differ, the first riser is the highest, or a step is as long as the flat."""
+    nosings = profile.nosings
+    on = sum(last - first + 1 for first, last in flights_of(nosings, room))
+    steps = np.diff(nosings, axis=0)
+    uneven = bool(np.ptp(steps, axis=0).max() > _EVEN)
+    first = float(nosings[0, 1] - profile.points[0, 1])
+    return on < len(nosings) or uneven or first > float(steps[:, 1].max()) + _EVEN
+
+
+@lru_cache(maxsize=ROOMS)
+def _rear_length(profile: Profile, behind: float, R: float, C_N: float) -> tuple[float, float]:
+    """Margin against being driven upright, the centroid so far ahead of the tail; and the riser."""
+    each = np.diff(profile.nosings[:, 1], prepend=profile.points[0, 1]).round(12)
+    rises = np.array(sorted({*each.tolist()}))
+    margins = rear_length_margin(b=behind, h=rises, R=R, C_N=C_N)
+    worst = int(np.argmin(margins))
+    return float(margins[worst]), float(rises[worst])
 
 
 def _most(tilt: float) -> float:

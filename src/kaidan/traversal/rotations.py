@@ -15,6 +15,7 @@ Of what is avoidable counts as rocking on a flight no more than the inclinations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -25,7 +26,7 @@ from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.rocking import rocking
 from kaidan.terrain.polyline import ROUGHNESS
 from kaidan.terrain.profile import Profile
-from kaidan.traversal.phases import Phase, step_at
+from kaidan.traversal.phases import ROOMS, Phase, step_at
 from kaidan.traversal.static_criterion import flights_of, mean_slope
 
 ROCKING = contact.ROCKING
@@ -37,6 +38,8 @@ _ROUNDING = 1e-8
 """Rotation that is rounding [rad]: of one of 1e-17 rad a mirror would decide what it obliges to."""
 PLACE = 1e-6
 """Length by which a contact may lie beside a nosing that it is on [m]."""
+Slope = tuple[float, float, float]
+"""Where a flight begins and ends, and its mean slope [m, m, rad]."""
 AT_ONCE = 0.01
 """Way of the centroid between two rotations of a chain, at most, over the flat's length [1]."""
 
@@ -296,7 +299,8 @@ def rotations_of(
     return tuple(found)
 
 
-def slopes_of_flights(profile: Profile, flat_length: float) -> list[tuple[float, float, float]]:
+@lru_cache(maxsize=ROOMS)
+def slopes_of_flights(profile: Profile, flat_length: float) -> tuple[Slope, ...]:
     """Where each flight of a profile begins and ends, and its mean slope [m, m, rad].
 
     Two nosings have but the slope of their chord, so that no mean is known.
@@ -308,12 +312,10 @@ def slopes_of_flights(profile: Profile, flat_length: float) -> list[tuple[float,
         nosings = profile.nosings[first : last + 1]
         ends = float(nosings[0, 0]) - PLACE, float(nosings[-1, 0]) + PLACE
         each.append((*ends, mean_slope(nosings)))
-    return each
+    return tuple(each)
 
 
-def _slope_under(
-    poses: contact.Poses, row: int, on_flights: list[tuple[float, float, float]]
-) -> float:
+def _slope_under(poses: contact.Poses, row: int, on_flights: Sequence[Slope]) -> float:
     """Mean slope of the flight on which both contacts of a pose and of the next stand [rad]."""
     rear = poses.rear_point[row : row + 2, 0].min()
     front = poses.front_point[row : row + 2, 0].max()

@@ -45,15 +45,18 @@ def samples_of(path: contact.Path, phase: NDArray[np.str_], acceleration: float)
         Friction infinite where nothing holds; traction of a brief braking by how long it lasts.
     """
     count = len(path.poses)
-    found = contact.samples_of(path, numbers_of(phase), TOUCH, acceleration=acceleration)
+    numbers, corner = numbers_of(phase), corners(path)
+    found = contact.samples_of(path, numbers, TOUCH, acceleration=acceleration)
     seen, row = found.path, found.rows
     assert seen.margins is not None
     # between two phases stands a pose of both: what follows on it is of the second
-    row[count:] += corners(path)[row[count:]]
+    row[count:] += corner[row[count:]]
     lasts = np.ones(len(row), dtype=np.bool_)
     lasts[:count] = lasting(path)
     return contact.Sampled(
         path=seen,
+        phase=numbers,
+        corner=corner,
         row=row,
         lasts=lasts,
         friction=_friction(seen),

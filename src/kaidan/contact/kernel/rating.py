@@ -92,19 +92,39 @@ def comes_off(poses: PoseTable, row: int, zones: ZoneTable) -> bool:
     return leaves_edge(poses, row) and in_zone(zones, poses[row, FRONT_X], poses[row, FRONT_Z])
 
 
+@entry
 def row_before(poses: PoseTable, count: int, s: float) -> int:
-    """Row of the last pose of the line of poses that ends at an arclength."""
+    """Row of the last pose of the line of poses that ends at an arclength.
+
+    Parameters
+    ----------
+    poses, count
+        Poses in the order of their arclengths, and how many.
+    s
+        Where a rotation begins [m]: between two rows of one arclength, before it and after it.
+
+    Returns
+    -------
+    row
+        Where no pose is the last one before.
+    """
+    low = 0
+    high = count
+    while low < high:
+        middle = (low + high) // 2
+        if poses[middle, POSE_S] < s - 1e-9:
+            low = middle + 1
+        else:
+            high = middle
     best = -1
-    last = 0
-    for row in range(count):
-        if poses[row, POSE_S] > s + 1e-9:
-            break
-        last = row
-        if poses[row, POSE_S] >= s - 1e-9 and (
-            best < 0 or poses[row, POSE_LEG] <= poses[best, POSE_LEG]
-        ):
+    row = low
+    while row < count and poses[row, POSE_S] <= s + 1e-9:
+        if best < 0 or poses[row, POSE_LEG] <= poses[best, POSE_LEG]:
             best = row
-    return best if best >= 0 else last
+        row += 1
+    if best >= 0:
+        return best
+    return low - 1 if low > 0 else 0
 
 
 def beyond_the_edge(
