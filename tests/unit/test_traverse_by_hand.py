@@ -174,6 +174,29 @@ def test_the_largest_tilt_that_is_survived(limit):
     assert max(abs(tilt) for tilt in asked) <= LARGEST
 
 
+def test_beyond_what_is_looked_for_a_fall_is_first_tried_where_it_rocks():
+    """It rocks at 0.9: survived just below that, it takes one more try; felled there, halves."""
+    asked = []
+
+    def largest(limit, **how):
+        asked.clear()
+
+        def survives(tilt):
+            asked.append(tilt)
+            return tilt <= limit
+
+        return largest_survived(survives, most=0.9, **how)
+
+    assert largest(0.9 - 0.5 * WITHIN) == 0.9 - WITHIN
+    assert asked[-3:] == [pytest.approx(8 * math.radians(4.0)), 0.9, 0.9 - WITHIN]
+    for limit in (0.9 - 1.5 * WITHIN, 0.6):
+        assert limit - WITHIN <= largest(limit) <= limit
+    assert largest(0.9) == math.inf
+    # what is sought is known already
+    assert largest(0.6, sought=(0.9,)) < 0.9
+    assert asked[-1] == 0.9
+
+
 @pytest.mark.parametrize("limit", [0.01, 0.1, 0.3, 0.6, -0.02, -0.3, -0.6])
 @pytest.mark.parametrize("sought", [(0.05,), (0.1, 0.2), (-0.1,), (0.0, 0.5), ()])
 def test_what_is_sought_is_said_as_if_the_tilt_were_found(limit, sought):

@@ -54,7 +54,8 @@ def largest_survived(
         Tilt beyond which one that is survived is as good as any [rad]: a smaller one than the
         largest is found there.
     most : float
-        Tilt that is survived only by what no tilt fells [rad].
+        Tilt that is survived only by what no tilt fells [rad]. Beyond `LARGEST` it is one at which
+        the robot rocks, so that it most likely falls just there: that is tried first.
     """
 
     def is_open(low: float, high: float) -> bool:
@@ -67,6 +68,8 @@ def largest_survived(
         while high == math.inf and is_open(low, high):
             if not survives(tilt):
                 high = tilt
+                if tilt > LARGEST and is_open(low, high) and survives(tilt - WITHIN):
+                    return tilt - WITHIN
             elif tilt >= most:
                 return math.inf
             else:
