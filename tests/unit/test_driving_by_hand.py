@@ -150,8 +150,7 @@ def test_the_criterion_sees_a_flight_rise_whichever_way_it_is_driven(a):
 
 def test_what_no_kernel_is_waited_for(monkeypatch):
     """Points, and poses along and up, at a step."""
-    points = np.array([(0.0, 0.0), (1.0, 0.5), (2.0, 0.0), (3.0, 0.0)])
-    profile = SimpleNamespace(points=points)
+    profile = Profile.of_points([(0.0, 0.0), (1.0, 0.5), (2.0, 0.0), (3.0, 0.0)])
     poses = LONGEST - 4
     for more, refused in ((0, False), (2, True)):
         step = (3.0 + 1.0) / (poses + more)

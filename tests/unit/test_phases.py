@@ -7,6 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from kaidan import contact
+from kaidan.contact import columns
 from kaidan.terrain.profile import Profile
 from kaidan.traversal.phases import (
     flights_span,
@@ -61,11 +63,6 @@ DOWN = [
 ]
 
 
-class Poses(SimpleNamespace):
-    def __len__(self):
-        return len(self.rear_point)
-
-
 def over_the_top(path, profile, descending):
     """Poses whose uppermost contact stands in one of the zones."""
     upper = path.poses.rear_point if descending else path.poses.front_point
@@ -79,7 +76,10 @@ def driven(rows, descending):
     """Path with contacts alone, and the profile as driven."""
     sign = np.array([-1.0 if descending else 1.0, 1.0])
     rear, front = (np.array([row[k] for row in rows], dtype=float) * sign for k in (0, 1))
-    path = SimpleNamespace(poses=Poses(rear_point=rear, front_point=front))
+    table = np.full((len(rows), columns.POSE_COLUMNS), np.nan)
+    table[:, [columns.REAR_X, columns.REAR_Z]] = rear
+    table[:, [columns.FRONT_X, columns.FRONT_Z]] = front
+    path = SimpleNamespace(poses=contact.Poses(table))
     return path, PROFILE.reflected() if descending else PROFILE
 
 

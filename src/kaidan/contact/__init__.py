@@ -23,6 +23,7 @@ from kaidan.contact.heights import TouchingHeights, touching_heights
 from kaidan.contact.margin_records import Job, Margins, Summaries
 from kaidan.contact.nosings import nosings_passed
 from kaidan.contact.path import Path, joined
+from kaidan.contact.phases import Zone, phases_by_zones
 from kaidan.contact.rating import Belts, Ratings, rate_many
 from kaidan.contact.records import (
     ONE_PLACE,
@@ -92,6 +93,7 @@ __all__ = [
     "Summaries",
     "Supports",
     "TouchingHeights",
+    "Zone",
     "arrives",
     "body_table",
     "extremes_of",
@@ -104,6 +106,7 @@ __all__ = [
     "mirror",
     "nosings_passed",
     "pair_forces",
+    "phases_by_zones",
     "plain_seconds",
     "rate_many",
     "resting_height",

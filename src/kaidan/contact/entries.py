@@ -38,6 +38,7 @@ KERNEL_MODULES = (
     "margins",
     "energy_margins",
     "peak_search",
+    "phases",
     "sampling",
     "first_rock",
     "extremes",

@@ -29,7 +29,7 @@ from kaidan.errors import InputError, shown
 Choice = Literal["auto", "plain", "native"]
 
 VARIABLE = "KAIDAN_KERNEL"
-CUT_UP = ("sampling", "standing", "impact", "rating", "batch")
+CUT_UP = ("phases", "sampling", "standing", "impact", "rating", "batch")
 """Modules of the kernel whose entries cut up their tables."""
 
 _chosen: Choice | None = None

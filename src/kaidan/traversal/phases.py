@@ -10,14 +10,11 @@ from kaidan import contact
 from kaidan.modes import Phase as Phase
 from kaidan.terrain.profile import Profile
 
-Array = NDArray[np.float64]
-Zone = tuple[float, float, float, float]
-"""Places of a contact: smallest and largest x, smallest and largest z [m]."""
-
 REMEMBERED = 16
 """Profiles of which spans and the like are remembered: one is driven again and again."""
 ROOMS = 64
 """Profiles with a length of a flat of which landings are."""
+_NAMES = np.array([each.value for each in Phase])
 _ON = 1e-6
 _LEVEL = 1e-9
 """Height by which points of level ground may differ [m]: rounding."""
@@ -59,36 +56,32 @@ def phases_of(
     Between two flights lies a landing where a nosing is `room` or more, the length of the flat,
     from the next: there the robot lands from the one and enters the other.
     """
-    on = profile.roughness + _ON
-    start_level = profile.points[0, 1]
-    first, _ = flights_span(profile, descending)
-    rear, front = path.poses.rear_point, path.poses.front_point
-    # before the edge whatever the height (measured landings are not level), on it by the height
-    entering = (rear[:, 0] < first - on) | (
-        (np.abs(rear[:, 1] - start_level) < on) & (rear[:, 0] <= first + on)
-    )
-    landing = np.zeros(len(front), dtype=np.bool_)
-    for x_0, x_1, z_0, z_1 in landing_zones(profile, descending, room):
-        landing |= (
-            (front[:, 0] >= x_0)
-            & (front[:, 0] <= x_1)
-            & (front[:, 1] >= z_0)
-            & (front[:, 1] <= z_1)
-        )
-    entering = _without_gaps(entering)
-    for ends in _between(profile, room):
-        leaves = _on_landing(rear, ends, descending)
-        if not descending:  # the edge behind it belongs to the flight that it leaves
-            leaves &= rear[:, 0] > ends[0, 0] + on
-        entering |= _without_gaps(leaves)
-    phase = np.full(len(path.poses), Phase.TRAVERSE.value, dtype="<U8")
-    phase[entering] = Phase.ENTER.value
-    phase[landing] = Phase.LAND.value
-    return phase
+    zones = entering_zones(profile, descending, room), landing_zones(profile, descending, room)
+    return np.asarray(_NAMES[contact.phases_by_zones(path, *zones)])
 
 
 @lru_cache(maxsize=ROOMS)
-def landing_zones(profile: Profile, descending: bool, room: float) -> tuple[Zone, ...]:
+def entering_zones(
+    profile: Profile, descending: bool, room: float
+) -> tuple[tuple[contact.Zone, ...], ...]:
+    """Where the rear contact stands of a robot that enters, of each flight."""
+    on = profile.roughness + _ON
+    level, up = float(profile.points[0, 1]), math.inf
+    first, _ = flights_span(profile, descending)
+    # before the edge whatever the height (measured landings are not level), on it by the height
+    before = -up, math.nextafter(first - on, -up), -up, up
+    below, above = math.nextafter(level - on, up), math.nextafter(level + on, -up)
+    flights: list[tuple[contact.Zone, ...]] = [(before, (-up, first + on, below, above))]
+    for (x_0, z_0), (x_1, z_1) in _between(profile, room):
+        # going up the edge behind it belongs to the flight that it leaves
+        begin = x_0 - _ON if descending else math.nextafter(x_0 + on, up)
+        above = math.nextafter((z_0 if descending else z_1) - _ON, -up)
+        flights.append(((begin, x_1 + _ON, -up, above),))
+    return tuple(flights)
+
+
+@lru_cache(maxsize=ROOMS)
+def landing_zones(profile: Profile, descending: bool, room: float) -> tuple[contact.Zone, ...]:
     """Where the front contact stands of a robot that lands."""
     on, end = profile.roughness + _ON, float(profile.points[-1, 1])
     _, last = flights_span(profile, descending)
@@ -99,28 +92,12 @@ def landing_zones(profile: Profile, descending: bool, room: float) -> tuple[Zone
     return tuple(zones)
 
 
-def _without_gaps(some: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """All poses from the first to the last of some: in between others may carry it for a while."""
-    rows = np.flatnonzero(some)
-    filled = np.zeros_like(some)
-    if len(rows):
-        filled[rows[0] : rows[-1] + 1] = True
-    return filled
-
-
 @lru_cache(maxsize=ROOMS)
-def _between(profile: Profile, room: float) -> tuple[Array, ...]:
+def _between(profile: Profile, room: float) -> tuple[list[list[float]], ...]:
     """Nosings (2, 2) behind and ahead of each landing between flights [m]."""
     x = profile.nosings[:, 0]
     wide = np.flatnonzero(x[1:] - x[:-1] >= room)
-    return tuple(profile.nosings[k : k + 2] for k in wide)
-
-
-def _on_landing(points: Array, ends: Array, descending: bool) -> NDArray[np.bool_]:
-    """Which points lie on a landing, its edge included, and not on the flight above it."""
-    along = (points[:, 0] >= ends[0, 0] - _ON) & (points[:, 0] <= ends[1, 0] + _ON)
-    above = ends[0, 1] if descending else ends[1, 1]
-    return np.asarray(along & (points[:, 1] < above - _ON))
+    return tuple(profile.nosings[k : k + 2].tolist() for k in wide)
 
 
 def step_at(profile: Profile, x: float, descending: bool) -> int:
@@ -130,7 +107,7 @@ def step_at(profile: Profile, x: float, descending: bool) -> int:
 
 
 @lru_cache(maxsize=ROOMS)
-def top_zones(profile: Profile, descending: bool, room: float) -> tuple[Zone, ...]:
+def top_zones(profile: Profile, descending: bool, room: float) -> tuple[contact.Zone, ...]:
     """Where the uppermost contact stands on a flight's last nosing or beyond: no other will come.
 
     A landing between two flights ends where the next one begins.

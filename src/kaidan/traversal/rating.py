@@ -22,11 +22,11 @@ from kaidan.traversal.driving import (
 )
 from kaidan.traversal.grip import treads_of
 from kaidan.traversal.nosing_events import TOUCH
-from kaidan.traversal.phases import Zone, landing_zones
+from kaidan.traversal.phases import landing_zones
 from kaidan.traversal.rotations import slopes_of_flights
 
 Array = NDArray[np.float64]
-Zones = tuple[Zone, ...]
+Zones = tuple[contact.Zone, ...]
 """Places of the front contact at which a robot lands, see `landing_zones`."""
 
 

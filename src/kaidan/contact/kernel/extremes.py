@@ -44,7 +44,7 @@ from kaidan.contact.columns import (
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.energy_margins import least_flow_energy
 from kaidan.contact.kernel.first_rock import first_rock
-from kaidan.contact.kernel.sampling import LANDS, in_zone
+from kaidan.contact.kernel.phases import ENTERS, LANDS, TRAVERSES, in_zone
 from kaidan.contact.tables import (
     BodyTable,
     ContactTable,
@@ -59,8 +59,6 @@ from kaidan.contact.tables import (
     ZoneTable,
 )
 
-#: Numbers of the phases before the last, `LANDS`.
-ENTERS, TRAVERSES = 0, 1
 #: Difference of figures that is none.
 TIE = 1e-9
 #: Lever over that about the flat, as a share of its height, below which none is less [1].

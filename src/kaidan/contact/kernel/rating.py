@@ -62,7 +62,8 @@ from kaidan.contact.kernel.driver import drive
 from kaidan.contact.kernel.holding import find_standing, least_held
 from kaidan.contact.kernel.impact import impact_speed
 from kaidan.contact.kernel.margins import pose_margins
-from kaidan.contact.kernel.sampling import in_zone, leaves_edge
+from kaidan.contact.kernel.phases import in_zone
+from kaidan.contact.kernel.sampling import leaves_edge
 from kaidan.contact.tables import (
     BodyTable,
     ContactTable,

@@ -36,6 +36,7 @@ from kaidan.contact.columns import (
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.margins import margins_without, pose_margins
 from kaidan.contact.kernel.peak_search import figure_of, find_peaks, leads_on
+from kaidan.contact.kernel.phases import LANDS
 from kaidan.contact.kernel.renaming import poses_between
 from kaidan.contact.tables import (
     BodyTable,
@@ -47,16 +48,14 @@ from kaidan.contact.tables import (
     PassedTable,
     PoseTable,
     WayTable,
-    ZoneTable,
 )
 
 #: Share of the largest friction of a phase above which a peak is not looked for [1].
 TOLERANCE = 1e-4
 #: Difference of two directions that is rounding [rad].
 ROUNDING = 1e-9
-#: Number of the last phase, in which the robot lands; what leaves an edge there is a group by
-#: itself.
-LANDS = 2
+#: Group of what leaves an edge as it lands; other groups are the phases.
+LEAVES = 3
 
 
 def leaves_edge(poses: PoseTable, row: int) -> bool:
@@ -68,14 +67,6 @@ def leaves_edge(poses: PoseTable, row: int) -> bool:
     flat = max(-poses[row, POSE_PHI], 0.0)
     leans: bool = poses[row, REAR_LEAN] > flat + ROUNDING
     return leans and math.sin(poses[row, POSE_PSI]) < 0.0
-
-
-def in_zone(zones: ZoneTable, x: float, z: float) -> bool:
-    """Whether a place lies in one of some zones."""
-    for k in range(zones.shape[0]):
-        if zones[k, 0] <= x and x <= zones[k, 1] and zones[k, 2] <= z and z <= zones[k, 3]:
-            return True
-    return False
 
 
 def turns_at_end(poses: PoseTable, row: int, feature: int, n_x: int, n_z: int) -> bool:
@@ -205,7 +196,7 @@ def find_samples(
         values[row], hint = figure_of(ground, body, path, path_margins, row, 0.0, hint)
         group[row] = phase[row]
         if phase[row] == LANDS and leaves_edge(path, row):
-            group[row] = LANDS + 1
+            group[row] = LEAVES
         narrow[row] = 1 if row + 1 < count and moves_along_end(path, row) else 0
     for k in range(passings):
         row = int(passed[k, PASSED_ROW])
