@@ -20,6 +20,7 @@ MOST_ITEMS = 8
 """Items of a list that a table shows."""
 _UNIT = re.compile(r"\[([^\]]+)\]")
 _PLAIN = {str, int, bool, type(None)}
+_HOLDERS = (tuple, dict)
 _SUFFIXES = {"deg": "deg", "m": "m", "mm": "mm", "kg": "kg", "N": "N", "W": "W", "s": "s"}
 
 
@@ -43,7 +44,7 @@ class Part(BaseModel):
         """
         assert fields.keys() == cls.model_fields.keys()
         values: dict[str, Any] = {
-            name: value if isinstance(value, tuple | dict) else plain(value)
+            name: value if isinstance(value, _HOLDERS) else plain(value)
             for name, value in fields.items()
         }
         return cast(Self, cls.model_construct(None, **values))

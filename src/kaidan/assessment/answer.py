@@ -67,16 +67,15 @@ class FindingShown(Part):
         """As people read it."""
         mode = one.mode
         worst, best = one.margin(risk), one.margin(risk, best=True)
-        known, known_best = (not np.isnan(each).all() for each in (one.worst, one.best))
         exact = len(one.worst) == 1
         return cls(
             label=mode.label,
             unit=mode.shown_unit,
             margin=mode.shown(worst),
             margin_best=mode.shown(best),
-            holds=bool(worst > 0) if known else None,
-            holds_best=bool(best > 0) if known_best else None,
-            probability=None if exact or not known else float(np.mean(one.fails())),
+            holds=None if math.isnan(worst) else worst > 0,
+            holds_best=None if math.isnan(best) else best > 0,
+            probability=None if exact or math.isnan(worst) else float(np.mean(one.fails())),
             phase=None if one.phase is None else one.phase.value,
             step=one.step,
             model=one.model,

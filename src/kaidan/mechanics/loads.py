@@ -75,16 +75,18 @@ def _springs(x: Number, x_z: Number, loaded: Number) -> tuple[Number, Number]:
     return 1.0 / m + lever * (x - mean), lever
 
 
-def _loaded(x: Number, x_z: Number) -> Number:
-    """Return which contacts stay loaded when those that would pull are dropped, again and again."""
+def _pressing(x: Number, x_z: Number) -> tuple[Number, Number, Number]:
+    """Return which contacts stay loaded when those that would pull are dropped, again and again.
+
+    And their shares and the lever, as `_springs` has them.
+    """
     loaded = np.isfinite(x) & np.isfinite(x_z)
-    for _ in range(np.shape(x)[-1]):
-        share, _ = _springs(x, x_z, loaded)
+    while True:
+        share, lever = _springs(x, x_z, loaded)
         kept = loaded & (share >= -ROUNDING)
         if np.array_equal(kept, loaded):
-            break
+            return loaded, share, lever
         loaded = kept
-    return loaded
 
 
 def _between(x: Number, x_z: Number) -> Number:
@@ -135,8 +137,7 @@ def load_shares(*, x: Number, x_z: Number) -> Number:
     ratio" (Fig. 15) and give no equation for it.
     """
     x_z = np.expand_dims(x_z, -1)
-    loaded = _loaded(x, x_z)
-    share, _ = _springs(x, x_z, loaded)
+    loaded, share, _ = _pressing(x, x_z)
     return np.where(_between(x, x_z), np.where(loaded, np.maximum(share, 0.0), 0.0), np.nan)
 
 
@@ -178,8 +179,7 @@ def normal_forces(
 def _tilt(x: Number, x_z: Number) -> Number:
     """Return inclination per total load over stiffness [1/m]: x_z's lever over the spread."""
     x_z = np.expand_dims(x_z, -1)
-    loaded = _loaded(x, x_z)
-    _, lever = _springs(x, x_z, loaded)
+    loaded, _, lever = _pressing(x, x_z)
     several = np.sum(loaded, axis=-1, keepdims=True) > 1
     return np.where(_between(x, x_z) & several, lever, np.nan)[..., 0]
 

@@ -1,12 +1,11 @@
 """The closed form: the paper's criterion on a regular flight, both cases, every sample."""
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.mechanics.margin import centroid_margin_downhill, centroid_margin_uphill
 from kaidan.mechanics.margins import margins
 from kaidan.mechanics.plane import two_contacts_remain
 from kaidan.mechanics.slipping import required_friction
@@ -55,12 +54,12 @@ def judge(question: Question, *, known: Findings | None = None) -> Findings:
         outside = "the nosing spacing may well be more than half the flat length of the track"
     needed = float(required_friction(theta_s=at.theta_s, a=question.acceleration).max())
     if outside:
-        basis = Basis(at, 0, False, least.centroid)
+        basis = Basis(at, 0, False)
         return Findings(
             model=CLOSED_FORM.name, outside=outside, required_friction=needed, basis=basis
         )
     step = _governing_step(question, at, least)
-    basis = Basis(at, step, _semi_stable(question, at, step, least), least.centroid)
+    basis = Basis(at, step, _semi_stable(question, at, step, least))
     found = tuple(
         Finding(
             mode=mode,
@@ -87,45 +86,40 @@ class _Least(NamedTuple):
 
     modes: Array
     """Of `MODES` in the worst and the best case, (5, 2, samples) [rad]; NaN: not known."""
-    centroid: Array
-    """How far the centroid may move in the worst case, (samples,) [m]."""
     remain: NDArray[np.bool_]
     """Whether two contacts always remain, (samples,)."""
 
 
 def _over_steps(question: Question, at: Draws) -> _Least:
-    modes, centroid = _margins(question, at)
-    modes = modes.min(axis=-1)
+    modes = _margins(question, at).min(axis=-1)
     remain = np.all(two_contacts_remain(L=at.L, p=at.p), axis=-1)
     tips = modes[:2]
     if not np.isnan(tips).all():  # a sample outside the model has no margin at all
         tips[:, np.isnan(tips).any(axis=0)] = -np.inf
-    return _Least(modes, centroid.min(axis=-1), np.broadcast_to(remain, modes.shape[-1:]))
+    return _Least(modes, np.broadcast_to(remain, modes.shape[-1:]))
 
 
-def _margins(question: Question, at: Draws) -> tuple[Array, Array]:
-    """Margins of `MODES` in both cases, (5, 2, samples, steps); of the centroid, worst case."""
+def _margins(question: Question, at: Draws) -> Array:
+    """Margins of `MODES` in both cases, (5, 2, samples, steps) [rad]."""
     theta_d, theta_M = question.allowance_d, question.allowance_M
     tilt_d = np.array([[[theta_d.high]], [[theta_d.low]]])
     tilt_M = np.array([[[theta_M.high]], [[theta_M.low]]])
     a = question.acceleration
-    geometry: dict[str, Any] = {"p": at.p, "C_L": at.C_L, "C_N": at.C_N, "a": a}
     bare = margins(
         L=at.L,
+        C_L=at.C_L,
+        C_N=at.C_N,
+        p=at.p,
         theta_s=at.theta_s,
+        a=a,
         mu_s=np.array((at.mu_low, at.mu_high)),
         theta_d=tilt_d,
         theta_M=tilt_M,
-        **geometry,
     )
     modes = np.empty((len(MODES), *np.shape(bare.worst)))
     modes[:-1] = bare.tip_downhill, bare.tip_uphill, bare.slides_down, bare.slides_up
     modes[-1] = bare.inside * (steepest_for_drive(question, a) - at.theta_s)
-    tilted = at.theta_s + (tilt_d + tilt_M)[0]
-    downhill = centroid_margin_downhill(L=at.L, theta_s=tilted, **geometry)
-    uphill = centroid_margin_uphill(theta_s=at.theta_s - tilt_d[0], **geometry)
-    upright = np.where(tilted < math.pi / 2, downhill, -np.inf)
-    return modes, np.minimum(upright, uphill)
+    return modes
 
 
 def _governing_step(question: Question, at: Draws, least: _Least) -> int:
@@ -134,7 +128,7 @@ def _governing_step(question: Question, at: Draws, least: _Least) -> int:
         return 0
     per_mode = [at_risk(mode, question.risk) for mode in least.modes[:, 0]]
     known = [math.inf if math.isnan(margin) else margin for margin in per_mode]
-    return int(np.argmin(_margins(question, at)[0][int(np.argmin(known)), 0, 0]))
+    return int(np.argmin(_margins(question, at)[int(np.argmin(known)), 0, 0]))
 
 
 def _outside(question: Question, flight: Stairs, share_outside: float) -> str:

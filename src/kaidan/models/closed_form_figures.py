@@ -1,20 +1,26 @@
 """The closed form's own figures: limits, bounds of acceleration, loads, published measures."""
 
 import math
+from functools import reduce
 from typing import Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 
 from kaidan.answer import Part
 from kaidan.mechanics import STANDARD_GRAVITY, band, drive, loads, measures
-from kaidan.mechanics.margin import theta_s_inf, theta_s_sup
+from kaidan.mechanics.margin import (
+    centroid_margin_downhill,
+    centroid_margin_uphill,
+    theta_s_inf,
+    theta_s_sup,
+)
 from kaidan.mechanics.margins import AccelerationBounds
 from kaidan.mechanics.plane import Area, area, contact_count
 from kaidan.mechanics.slipping import equivalent_slope
 from kaidan.mechanics.triangle import alpha, beta, theta_alpha, theta_beta
 from kaidan.models import acceleration
 from kaidan.models.findings import Array, at_risk
-from kaidan.models.samples import Draws
+from kaidan.models.samples import Draws, draws
 from kaidan.question import Question
 from kaidan.terrain.stairs import Stairs
 
@@ -30,8 +36,6 @@ class Basis(NamedTuple):
     """Index of the governing step among the flight's different regular steps."""
     semi_stable: bool
     """Whether an acceleration that follows the position goes through area E."""
-    centroid: Array
-    """How far the centroid may move in the worst case, (samples,) [m]."""
 
 
 class Paper(Part):
@@ -186,7 +190,7 @@ def figures_of(question: Question, flight: Stairs, basis: Basis) -> ClosedFormFi
         margin_angle_deg=math.degrees(sup),
         lower_angle_deg=math.degrees(inf) if inf > 0 else None,
         margin_backward_deg=math.degrees(sup - angle),
-        margin_centroid_mm=1e3 * at_risk(basis.centroid, question.risk),
+        margin_centroid_mm=1e3 * at_risk(_centroid_margin(question, basis.at), question.risk),
         a_slides_down=bare.slides_down,
         a_slides_up=bare.slides_up,
         a_tip_downhill=bare.tip_downhill,
@@ -209,6 +213,24 @@ def figures_of(question: Question, flight: Stairs, basis: Basis) -> ClosedFormFi
         traction_N=traction,
         power_W=power,
     )
+
+
+def _centroid_margin(question: Question, at: Draws) -> Array:
+    """How far the centroid may move in the worst case on any step, (samples,) [m]."""
+    sunk = question.allowance_d.high
+    tilt = sunk + question.allowance_M.high
+
+    def least(block: Draws) -> Array:
+        centroid: dict[str, Any] = {
+            "p": block.p, "C_L": block.C_L, "C_N": block.C_N, "a": question.acceleration
+        }  # fmt: skip
+        tilted = block.theta_s + tilt
+        downhill = centroid_margin_downhill(L=block.L, theta_s=tilted, **centroid)
+        uphill = centroid_margin_uphill(theta_s=block.theta_s - sunk, **centroid)
+        upright = np.where(tilted < math.pi / 2, downhill, -np.inf)
+        return np.asarray(np.minimum(upright, uphill).min(axis=-1))
+
+    return np.asarray(reduce(np.minimum, map(least, draws(question, at))))
 
 
 def _band(limits: AccelerationBounds) -> tuple[float | None, float | None]:
