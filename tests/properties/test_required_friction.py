@@ -1,4 +1,7 @@
-"""The friction that an answer names is the one at which its margin against sliding is zero."""
+"""Friction that an answer names, and what more of it comes to.
+
+At the friction named the margin against sliding is zero; with more of it no verdict is worse.
+"""
 
 import math
 
@@ -56,3 +59,27 @@ def test_the_margin_is_zero_at_the_friction_that_is_needed(case, friction):
 def test_the_margin_is_zero_at_the_friction_that_is_needed_of_all(friction):
     """At least half of the plans can do with some friction."""
     assert sum(agrees(*case, friction) for case in MANY) > len(MANY) / 2
+
+
+RANKS = {"go": 2, "caution": 1, "no-go": 0}
+
+
+def verdicts(robot, flight, belt, direction, frictions):
+    """Rank of the verdict at each friction; a plan is sought at each."""
+    how = {"direction": direction, "override": f"track.belt={belt}"}
+    return [RANKS[kaidan.assess(robot, flight, friction=mu, **how).verdict] for mu in frictions]
+
+
+def test_a_plan_that_is_found_with_less_friction_is_not_passed_over_with_more():
+    """The best plan by the scores at 0.8 leads tail first, and slides on its way."""
+    assert verdicts("marv", "ada", "grousers", "down", (0.6, 0.7, 0.8, 0.9)) == [2, 2, 2, 2]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("robot", ["absolem", "marv"])
+def test_more_friction_is_no_worse_whatever_plan_is_found(robot):
+    frictions = [0.1 * k for k in range(5, 14)]
+    for case in MANY:
+        if case[0] == robot:
+            found = verdicts(*case, frictions)
+            assert found == sorted(found), case

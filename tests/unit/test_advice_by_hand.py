@@ -28,6 +28,7 @@ from kaidan.assessment.traction_advice import (
     enough_at_the_risk,
     more_friction,
     nosings,
+    with_other_plans,
 )
 from kaidan.assessment.verdict import Conclusion, conclude
 from kaidan.errors import InputError
@@ -48,6 +49,7 @@ from kaidan.modes import (
     Verdict,
 )
 from kaidan.robot import Posture
+from kaidan.surface import Surface
 from kaidan.text import advice as text
 
 G = 9.80665
@@ -147,6 +149,66 @@ def test_off_the_angles_of_the_flippers_more_may_be_required(off, enough, search
     assert asked == [search and "drives"]
 
 
+PLANNED = Question.of(Robot.named("absolem"), KENAF.terrain, friction=0.8).changed(
+    best_of=(), posture={"front": 0.1, "rear": 0.1}, flipper_tolerance=0.0
+)
+
+
+def came_upon(*others, needed=()):
+    """What a search came upon: other plans by their front angles, and what each needs."""
+    plans = tuple(PLANNED.changed(posture={"front": each, "rear": 0.2}) for each in others)
+    needs = dict(zip(others, needed, strict=True))
+    drives = SimpleNamespace(required_friction=lambda plan: needs[plan.posture.front])
+    return plan_search.Found(PLANNED, "its", True, "short", drives, others=plans)
+
+
+def test_other_plans_are_named_with_the_friction_that_they_need(monkeypatch):
+    """A hundredth more; with the plan; none beyond what any surface has."""
+    search = came_upon(0.3, 0.4, 0.5, 0.6, needed=(0.9, math.inf, math.nan, LARGEST_FRICTION))
+    (one,) = with_other_plans(PLANNED, search)
+    assert (one.change, one.another, one.holds) == (text.friction(0.91, known=True), True, True)
+    assert one.friction == pytest.approx(0.91)
+    assert one.question.friction == (one.friction, one.friction)
+    assert one.question.posture.front == 0.3
+    ranged = SimpleNamespace(robot=SimpleNamespace(com_range="range"))
+    assert list(with_other_plans(ranged, search)) == []
+    # off its angles it may need more
+    monkeypatch.setattr(plan_off_angles, "friction_off_its_angles", lambda question, drives: 1.1)
+    (loose,) = list(with_other_plans(PLANNED.changed(flipper_tolerance=0.05), search))[:1]
+    assert loose.friction == pytest.approx(1.11)
+
+
+@pytest.mark.parametrize(
+    ("friction", "grousers", "sturdy", "told"),
+    [
+        (0.8, True, True, True),
+        (0.8, True, False, False),
+        (0.8, True, None, False),
+        (0.8, False, True, False),
+        (traction_advice.MUCH, True, True, False),
+    ],
+)
+def test_where_no_plan_is_a_go_at_the_frictions_tried_one_of_much_is_sought(
+    friction, grousers, sturdy, told, monkeypatch
+):
+    """On grousers, where less is stated; a CAUTION is to be exceeded off its angles too."""
+    track = PLANNED.robot.track.model_copy(update={"belt": "grousers" if grousers else "smooth"})
+    robot = PLANNED.robot.model_copy(update={"track": track})
+    stated = PLANNED.changed(robot=robot, surface=Surface.of_friction(friction))
+    search, asked = came_upon(0.3, needed=(1.2,))._replace(others=()), []
+
+    def better_than(verdict, question, *, drives, other_frictions):
+        asked.append((verdict, question.friction[0], question.best_of, other_frictions))
+        found = question.changed(best_of=(), posture={"front": 0.3, "rear": 0.2})
+        return None if sturdy is None else search._replace(question=found, sturdy=sturdy)
+
+    monkeypatch.setattr(plan_search, "better_than", better_than)
+    found = [one.friction for one in with_other_plans(stated, search)]
+    assert found == ([pytest.approx(1.21)] if told else [])
+    sought = (Verdict.CAUTION, traction_advice.MUCH, ("flippers",), False)
+    assert asked == [sought] * (grousers and friction < traction_advice.MUCH)
+
+
 def test_in_doubt_friction_may_be_more_than_any_surface_has(monkeypatch):
     """At the nominal friction it is the largest that is known: with the doubt it is beyond it."""
     monkeypatch.setattr(traction_advice, "enough_at_the_risk", lambda *given: 2 * LARGEST_FRICTION)
@@ -233,7 +295,9 @@ def tried(monkeypatch):
     """Names of what is tried."""
     for name in ("_flippers_flat", "_flippers_raised", "more_friction", "grousers", "_measured",
                  "_centroid_moved", "_stowed_on_landings"):  # fmt: skip
-        monkeypatch.setattr(advice, name, lambda *given, name=name: [name.lstrip("_")])
+        tries = [Candidate(name.lstrip("_"), KENAF)]
+        monkeypatch.setattr(advice, name, lambda *given, tries=tries: tries)
+    monkeypatch.setattr(advice, "with_other_plans", lambda question, search: [])
     monkeypatch.setattr(advice, "_slower", lambda question, energy: [("slower", energy)])
 
     def of(governs, question=KENAF, *, searched=False, phase=None, best=-0.1, energy=None,
@@ -252,6 +316,7 @@ def tried(monkeypatch):
 def test_closer_angles_are_tried_where_they_are_not_asked_for(monkeypatch, tolerance, tries):
     """In a plan that holds off its angles, whatever it is."""
     monkeypatch.setattr(advice, "more_friction", lambda question, found, search: [])
+    monkeypatch.setattr(advice, "with_other_plans", lambda question, search: [])
     question = Question.of("absolem", KENAF.terrain, friction=1.0).changed(
         best_of=(), posture={"front": 0.1, "rear": 0.1}, flipper_tolerance=tolerance
     )
@@ -259,6 +324,20 @@ def test_closer_angles_are_tried_where_they_are_not_asked_for(monkeypatch, toler
     each = list(advice._candidates(question, Findings(model="by hand"), now, object()))
     told = [(one.change, one.question.tolerance, one.holds, one.certain) for one in each]
     assert told == [(text.set_closer(CLOSER), CLOSER, True, False)] * tries
+
+
+@pytest.mark.parametrize("governs", ["slides_down", "posture_tolerance", "high_centring"])
+def test_of_frictions_the_least_is_tried_first(governs, monkeypatch):
+    """Of the plan at hand only where friction decides, or off its angles; of others anyway."""
+    own, other = (Candidate(name, PLANNED, friction=mu) for name, mu in (("own", 1.2), ("b", 0.9)))
+    monkeypatch.setattr(advice, "more_friction", lambda *given: [own])
+    monkeypatch.setattr(advice, "with_other_plans", lambda *given: [other])
+    now = concluded(Verdict.CAUTION)._replace(governs=governs)
+    each = list(advice._candidates(PLANNED, Findings(model="by hand"), now, object()))
+    frictions = [one for one in each if one.friction is not None]
+    assert frictions == ([other] if governs == "high_centring" else [other, own])
+    each = list(advice._candidates(PLANNED, Findings(model="by hand"), now, None))
+    assert other not in each
 
 
 def test_what_is_tried_where_it_slips(tried):
@@ -392,7 +471,8 @@ def test_straight_on_and_at_a_steady_speed():
     gauged = robot.model_copy(update={"track": robot.track.model_copy(update={"gauge": 0.4})})
     asked = KENAF.changed(robot=gauged, yaw=0.2, acceleration=0.3)
     concluded_ = concluded(Verdict.CAUTION)._replace(governs="drive")
-    straight, steady = list(advice._candidates(asked, Findings(model=""), concluded_, object()))
+    search = came_upon()
+    straight, steady = list(advice._candidates(asked, Findings(model=""), concluded_, search))
     assert (straight.change, straight.question) == (text.STRAIGHT, asked.changed(yaw=0.0))
     assert (steady.change, steady.question) == (text.STEADY, asked.changed(acceleration=0.0))
 
@@ -642,6 +722,39 @@ def test_changes_that_help_the_best_first(helps):
     assert found == (["go", "go more", "better"], {"found"}, ["go", "go more"])
 
 
+def test_of_frictions_that_make_it_a_go_the_least_is_advised(monkeypatch):
+    """Whatever its margin; one that helps and makes it none leaves a greater one to be told."""
+    go, better, same = (
+        concluded(*each)
+        for each in ((Verdict.GO, 0.2), (Verdict.CAUTION, 0.3), (Verdict.CAUTION, 0.1))
+    )
+
+    def helps(*each, another=False):
+        judged = []
+
+        def judge(question, *, known):
+            judged.append(question)
+            return question
+
+        found = {str(k): then for k, then in enumerate(each)}
+        monkeypatch.setattr(advice, "judge", judge)
+        monkeypatch.setattr(advice, "conclude", lambda question, name: found[name])
+        monkeypatch.setattr(advice, "_planned", lambda name, then, search, *, anew: (then, False))
+        monkeypatch.setattr(advice, "_candidates", lambda *given: [
+            Candidate(name, name, friction=0.5 + 0.1 * k, another=another)
+            for k, name in enumerate(found)
+        ])  # fmt: skip
+        monkeypatch.setattr(advice, "nosings", lambda *given: [])
+        monkeypatch.setattr(advice, "_known_better", lambda *given: [])
+        changes = advice.what_would_help(KENAF, "found", same)
+        return [one.change for one in changes], judged
+
+    assert helps(go, go._replace(margin=0.5)) == (["0"], ["0"])
+    assert helps(better, go, go) == (["1", "0"], ["0", "1"])
+    assert helps(same, better) == (["1"], ["0", "1"])
+    assert helps(go, another=True)[0] == [text.with_another_plan("0")]
+
+
 def test_sharper_nosings_are_judged_of_the_plan_at_hand(monkeypatch):
     anew_ones = []
 
@@ -671,7 +784,8 @@ def test_a_plan_off_its_angles_and_another_one(monkeypatch):
     def of(ends=2, *, now=then, holds=False, sturdy=True, own=best, com_range=None, anew=False):
         asked = []
 
-        def better_than(verdict, question, *, drives):
+        def better_than(verdict, question, *, drives, other_frictions):
+            assert other_frictions is anew
             asked.append((verdict, question, drives))
             return own and SimpleNamespace(question="own", findings="its", sturdy=sturdy)
 
@@ -679,7 +793,8 @@ def test_a_plan_off_its_angles_and_another_one(monkeypatch):
             assert drives == (None if search is None else "drives")
             return holds
 
-        search = ends and SimpleNamespace(drives="drives", ends=("nose-first", "tail-first")[:ends])
+        facings = ("nose-first", "tail-first")[:ends]
+        search = ends and plan_search.Found("own", "its", True, "short", "drives", ends=facings)
         question = SimpleNamespace(
             robot=SimpleNamespace(com_range=com_range),
             changed=lambda best_of: best_of,

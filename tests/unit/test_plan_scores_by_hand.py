@@ -6,12 +6,12 @@ from types import SimpleNamespace
 import pytest
 
 from kaidan import Question, Robot, Stairs
-from kaidan.assessment import plan_judged, plan_scores, plan_search
+from kaidan.assessment import plan_finalists, plan_judged, plan_scores
+from kaidan.assessment.plan_finalists import Candidate, _candidates
 from kaidan.assessment.plan_hopes import Hope, Search
 from kaidan.assessment.plan_judged import Judged, judged_of, shortened
 from kaidan.assessment.plan_off_angles import OffAngles
 from kaidan.assessment.plan_scores import ENOUGH, ROUNDING, Score, Scores
-from kaidan.assessment.plan_search import _Candidate, _candidates, _sturdiest
 from kaidan.assessment.plans import Plan
 from kaidan.models.findings import Findings
 from kaidan.models.planned import STAND_OFF
@@ -344,7 +344,7 @@ def sturdiest(monkeypatch):
             )  # fmt: skip
 
         candidates = [
-            _Candidate(plan(str(k)), (True, 0, 0.0), (True, 0 if one[0] == GO else -1, 0.0))
+            Candidate(plan(str(k)), (True, 0, 0.0), (True, 0 if one[0] == GO else -1, 0.0))
             for k, one in enumerate(each)
         ]
 
@@ -366,14 +366,14 @@ def sturdiest(monkeypatch):
                 assert [phase for phase, _ in plan.postures] == list(Phase)
                 return None if sturdier is None else SimpleNamespace(question=lambda _: "sturdier")
 
-        monkeypatch.setattr(plan_search, "_candidates", lambda search: candidates)
-        monkeypatch.setattr(plan_search, "_may_be_better", may)
+        monkeypatch.setattr(plan_finalists, "_candidates", lambda search: candidates)
+        monkeypatch.setattr(plan_finalists, "_may_be_better", may)
         monkeypatch.setattr(
-            plan_search, "_judged", lambda name, drives: judged(ranks[name][0], name)
+            plan_finalists, "_judged", lambda name, drives: judged(ranks[name][0], name)
         )
-        monkeypatch.setattr(plan_search, "judged_off", judged_off)
-        monkeypatch.setattr(plan_search, "Sturdier", Found)
-        found = _sturdiest(search, beaten, "drives")
+        monkeypatch.setattr(plan_finalists, "judged_off", judged_off)
+        monkeypatch.setattr(plan_finalists, "Sturdier", Found)
+        found = plan_finalists.sturdiest(search, beaten, "drives")
         return (None if found is None else found.judged.question.name), bars, promised
 
     return of

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from kaidan import Question, Robot, Stairs
+from kaidan.assessment import plan_finalists as finalists
 from kaidan.assessment import plan_off_angles
 from kaidan.assessment import plan_search as module
 from kaidan.assessment.plan_drives import Drives
@@ -152,7 +153,7 @@ def searched(monkeypatch):
             return module.Found("question", "findings", True, "short", drives)
 
         monkeypatch.setattr(module, "Search", search)
-        monkeypatch.setattr(module, "_sturdiest", sturdiest)
+        monkeypatch.setattr(module, "sturdiest", sturdiest)
         monkeypatch.setattr(module, "_on_the_whole", on_the_whole)
         question = Question.of(ABSOLEM, STAIRS, friction=1.0).changed(best_of=best_of)
         return module.better_than(verdict, question, drives="known" if known else None), ranked
@@ -202,19 +203,133 @@ def test_a_verdict_is_exceeded_by_a_better_one_alone(searched, verdict, plan, be
     assert ranked == ([one] if better else [])
 
 
+GROUSERS = ABSOLEM.model_copy(
+    update={"track": ABSOLEM.track.model_copy(update={"belt": "grousers"})}
+)
+
+
+@pytest.fixture
+def at_frictions(monkeypatch):
+    """Best plans by the friction at which they are searched, and what each comes to at 0.5."""
+
+    def of(at, comes_to, *, verdict=None, robot=GROUSERS, friction=0.5, **manner):
+        searched, judged_there = [], []
+
+        def plan(question, merit):
+            one = judged(question=question)._replace(drop=merit[3])
+            return SimpleNamespace(judged=one, worst=merit, sturdy=merit[0] == GO)
+
+        def sturdiest(search, beaten, drives, stated):
+            mu = round(search.question.friction[0], 6)
+            searched.append((mu, beaten))
+            assert (stated is None) == (mu != friction)
+            merit = at.get(mu)
+            if merit is None:
+                return None
+            posture = {"front": mu} if robot.flippers() else {}
+            return plan(search.question.changed(posture=posture), merit)
+
+        def judged_of(question, found):
+            assert question.friction == (friction, friction)
+            judged_there.append(question.posture.front)
+            return judged(question=question)
+
+        def judged_off(plan_, bar, drives):
+            return plan(plan_.question, comes_to[plan_.question.posture.front])
+
+        def on_the_whole(stated, plans, drives):
+            best = plans[0].judged.question
+            return module.Found(best, "findings", True, "short", drives)
+
+        monkeypatch.setattr(module, "Search", lambda question, *given: SimpleNamespace(
+            question=question, scores=SimpleNamespace(known=range(10))
+        ))  # fmt: skip
+        monkeypatch.setattr(module, "sturdiest", sturdiest)
+        monkeypatch.setattr(module, "judged_of", judged_of)
+        monkeypatch.setattr(module, "judged_off", judged_off)
+        monkeypatch.setattr(module, "_on_the_whole", on_the_whole)
+        question = Question.of(robot, STAIRS, friction=friction).changed(best_of=("flippers",))
+        drives = SimpleNamespace(judge=lambda question: "found")
+        found = module.better_than(verdict, question, drives=drives, **manner)
+        return found, searched, judged_there
+
+    return of
+
+
+def standing(rank, margin=0.0):
+    return rank, True, 0, margin
+
+
+def test_where_no_plan_is_a_go_those_of_other_frictions_are_tried(at_frictions):
+    """On grousers: of 1.0, then of 0.7; the best counts as it is at the friction stated."""
+    low, middle = standing(CAUTION, 1.0), standing(CAUTION, 2.0)
+    sought = [(0.5, None), (1.0, (CAUTION, True, 0, math.inf)), (0.7, (CAUTION, True, 0, math.inf))]
+    go = standing(GO, 3.0)
+    found, searched, tried = at_frictions({0.5: low, 1.0: go, 0.7: go}, {1.0: middle, 0.7: go})
+    assert (searched, tried) == (sought, [1.0, 0.7])
+    assert found.question.posture.front == 0.7
+    assert found.tried == 30
+    # the one that is a GO at 1.0 alone is told for what it needs
+    assert [each.posture.front for each in found.others] == [1.0]
+    assert found.others[0].friction == (0.5, 0.5)
+    # a GO needs no other
+    found, searched, tried = at_frictions({0.5: low, 1.0: go, 0.7: go}, {1.0: go})
+    assert (searched, tried, found.question.posture.front) == (sought[:2], [1.0], 1.0)
+    assert found.others == ()
+    found, searched, _ = at_frictions({0.5: go}, {})
+    assert (searched, found.question.posture.front) == (sought[:1], 0.5)
+    # none that is better there is judged here, and what is no better here is none
+    found, searched, tried = at_frictions({0.5: middle, 1.0: None, 0.7: middle}, {0.7: low})
+    assert (searched, tried, found.question.posture.front) == (sought, [], 0.5)
+    assert found.others == ()
+    found, _, _ = at_frictions({0.5: middle, 1.0: go}, {1.0: low})
+    assert (found.question.posture.front, len(found.others)) == (0.5, 1)
+    # a CAUTION at another friction, where the own plan is a NO-GO, is no GO anywhere
+    bad = standing(NO_GO)
+    found, _, tried = at_frictions({0.5: bad, 1.0: middle}, {1.0: low})
+    assert (found.question.posture.front, found.others, tried) == (1.0, (), [1.0])
+
+
+@pytest.mark.parametrize("friction", [1.0, 0.7])
+def test_the_friction_stated_is_no_other_one(at_frictions, friction):
+    other = {1.0: 0.7, 0.7: 1.0}[friction]
+    low = standing(CAUTION)
+    _, searched, _ = at_frictions({friction: low}, {}, friction=friction)
+    assert [mu for mu, _ in searched] == [friction, other]
+
+
+def test_other_frictions_are_tried_on_grousers_of_postures_to_choose_where_asked_for(at_frictions):
+    low = {0.5: standing(CAUTION)}
+    flat = Robot.named("kenaf")
+    teeth = flat.model_copy(update={"track": flat.track.model_copy(update={"belt": "grousers"})})
+    for robot in (ABSOLEM, teeth):
+        assert len(at_frictions(low, {}, robot=robot)[1]) == 1
+    assert len(at_frictions(low, {}, other_frictions=False)[1]) == 1
+    assert len(at_frictions(low, {})[1]) == 3
+    # of a verdict that is to be exceeded, at other frictions too
+    beaten = (CAUTION, True, 0, math.inf)
+    found, searched, _ = at_frictions({}, {}, verdict=Verdict.CAUTION)
+    assert found is None
+    assert searched == [(mu, beaten) for mu in (0.5, 1.0, 0.7)]
+    assert len(at_frictions({}, {}, verdict=Verdict.GO)[1]) == 1
+    found, _, _ = at_frictions({0.7: standing(GO)}, {0.7: standing(GO)}, verdict=Verdict.CAUTION)
+    assert found.question.posture.front == 0.7
+
+
 @pytest.mark.parametrize("verdict", [None, Verdict.CAUTION])
 @pytest.mark.parametrize("surface", ["unknown", "known"])
 def test_without_a_friction_the_best_at_one_is_taken(monkeypatch, verdict, surface):
     stated = SimpleNamespace(
-        surface=None if surface == "unknown" else "known", plannable=True, facing="nose-first"
-    )
+        surface=None if surface == "unknown" else "known", plannable=True, facing="nose-first",
+        robot=ABSOLEM,
+    )  # fmt: skip
     question = SimpleNamespace(tolerance=0.0, best_of=(), changed=lambda **changes: stated)
     monkeypatch.setattr(module, "_at_unknown_friction", lambda *given: given[0])
     monkeypatch.setattr(module, "shortened", lambda asked: asked)
     monkeypatch.setattr(
         module, "Search", lambda *given: SimpleNamespace(scores=SimpleNamespace(known=()))
     )
-    monkeypatch.setattr(module, "_sturdiest", lambda *given: off(Verdict.GO, 1.0))
+    monkeypatch.setattr(module, "sturdiest", lambda *given: off(Verdict.GO, 1.0))
     monkeypatch.setattr(
         module, "_on_the_whole", lambda *given: module.Found("own", "its", True, "short", None)
     )
@@ -262,15 +377,15 @@ def test_where_no_plan_may_hold_the_best_at_its_angles_is_steadied(monkeypatch):
             return self.verdict
 
     plans = [OfVerdict(each) for each in (Verdict.CAUTION, Verdict.GO, Verdict.NO_GO)]
-    each = [module._Candidate(plan, (True, 0, 0.0), (True, 0, 0.0)) for plan in plans]
+    each = [finalists.Candidate(plan, (True, 0, 0.0), (True, 0, 0.0)) for plan in plans]
     search, steadied = SimpleNamespace(may_hold=lambda plan: False, question="asked"), []
-    monkeypatch.setattr(module, "_candidates", lambda search: each)
+    monkeypatch.setattr(finalists, "_candidates", lambda search: each)
     monkeypatch.setattr(
-        module, "_judged", lambda verdict, drives: SimpleNamespace(merit=(-verdict.rank,))
+        finalists, "_judged", lambda verdict, drives: SimpleNamespace(merit=(-verdict.rank,))
     )
-    monkeypatch.setattr(module, "_to_steady", lambda search, first: steadied.append(first.merit))
-    monkeypatch.setattr(module, "_best_of", lambda some, *given: (some or None, None))
-    assert module._sturdiest(search, None, "drives") == each
+    monkeypatch.setattr(finalists, "_to_steady", lambda search, first: steadied.append(first.merit))
+    monkeypatch.setattr(finalists, "_best_of", lambda some, *given: (some or None, None))
+    assert finalists.sturdiest(search, None, "drives") == each
     assert steadied == [(GO,)]
 
 
@@ -287,16 +402,16 @@ def test_where_no_plan_may_hold_the_best_at_its_angles_is_steadied(monkeypatch):
 def test_what_promises_go_is_judged_on_the_whole_terrain(
     merit, verdict, stated, whole, monkeypatch
 ):
-    monkeypatch.setattr(module, "judge", lambda question: "of the whole")
+    monkeypatch.setattr(finalists, "judge", lambda question: "of the whole")
     monkeypatch.setattr(
-        module, "judged_of", lambda question, found: judged(verdict, (question, found))
+        finalists, "judged_of", lambda question, found: judged(verdict, (question, found))
     )
-    monkeypatch.setattr(module, "_judged", lambda question, drives: judged(verdict, "short"))
+    monkeypatch.setattr(finalists, "_judged", lambda question, drives: judged(verdict, "short"))
     question = Question.in_one_posture(ABSOLEM, STAIRS, friction=1.0)
-    each = module._Candidate(SimpleNamespace(question=lambda asked: asked), merit, merit)
+    each = finalists.Candidate(SimpleNamespace(question=lambda asked: asked), merit, merit)
     search = SimpleNamespace(question=question)
     asked = None if stated is None else question.changed(**stated)
-    found = module._judged_at(each, search, None, asked)
+    found = finalists._judged_at(each, search, None, asked)
     assert found.whole is whole
     assert found.question == ((question, "of the whole") if whole else "short")
 
@@ -307,18 +422,18 @@ def test_of_two_plans_alike_the_second_is_not_judged(monkeypatch):
     search = SimpleNamespace(question=SimpleNamespace(surface="known", robot=robot))
 
     def candidate(hope, *, failing=0):
-        return module._Candidate("plan", (True, 0, hope), (True, failing, 0.0))
+        return finalists.Candidate("plan", (True, 0, hope), (True, failing, 0.0))
 
     def may(each, of_best=None):
-        return module._may_be_better(search, each, (GO, True, 0, 0.0), of_best, None)
+        return finalists._may_be_better(search, each, (GO, True, 0, 0.0), of_best, None)
 
     best = candidate(0.0)
-    assert not may(candidate(module.NEARLY), best)
-    assert may(candidate(module.NEARLY + 1e-9 + module.SLACK), best)
+    assert not may(candidate(finalists.NEARLY), best)
+    assert may(candidate(finalists.NEARLY + 1e-9 + finalists.SLACK), best)
     # nothing is judged to say that: off its angles it promises as much
     assert may(candidate(9.0), best)
-    rocks = module._Candidate("plan", (True, -1, 9.0), (True, -1, 0.0))
-    assert module._may_be_better(search, rocks, (CAUTION, True, -2, 0.0), None, None)
+    rocks = finalists.Candidate("plan", (True, -1, 9.0), (True, -1, 0.0))
+    assert finalists._may_be_better(search, rocks, (CAUTION, True, -2, 0.0), None, None)
 
 
 def test_any_worse_verdict_tells_that_a_plan_does_not_hold(monkeypatch):
@@ -361,7 +476,7 @@ def test_as_many_plans_as_asked_are_the_best_off_their_angles():
              for name, value in zip("abcd", (10.0, 9.0, 8.0, 7.0), strict=True)]  # fmt: skip
     at = {"a": 9.5, "b": 8.5, "c": 1.0, "d": 6.0}
     search = SimpleNamespace(off=lambda plan: (True, 0, at[plan]))
-    assert module._best_off(search, hopes, 3) == ["a", "b", "d"]
+    assert finalists._best_off(search, hopes, 3) == ["a", "b", "d"]
 
 
 def test_what_is_no_failure_may_still_be_less_than_go(monkeypatch):
@@ -382,13 +497,14 @@ def test_a_model_of_one_posture_takes_the_best_word(model, monkeypatch):
     question = Question.in_one_posture(ABSOLEM, STAIRS, friction=1.0).changed(model=model)
     margins = iter((0.1, 0.3, 0.2, 0.05))
 
-    def judged_each(asked, drives):
-        return Judged(asked, "coarse", conclusion(Verdict.GO, next(margins)), 0.0, True)
+    def judged_each(asked, found):
+        return Judged(asked, found, conclusion(Verdict.GO, next(margins)), 0.0, True)
 
-    monkeypatch.setattr(module, "_judged", judged_each)
+    monkeypatch.setattr(module, "judged_of", judged_each)
     monkeypatch.setattr(module, "words", lambda robot: [Posture(), Posture(front="flat")])
     monkeypatch.setattr(module, "judge", lambda asked: "fine")
-    found = module._fixed(question, ("nose-first", "tail-first"), Drives())
+    drives = SimpleNamespace(judge=lambda asked: "coarse")
+    found = module._fixed(question, ("nose-first", "tail-first"), drives)
     assert (found.question.facing, found.question.posture) == ("nose-first", Posture(front="flat"))
     assert found.findings == ("fine" if model == "contact" else "coarse")
     assert (found.sturdy, found.tried) == (True, 4)

@@ -7,21 +7,21 @@ import numpy as np
 import pytest
 
 from kaidan import Question
-from kaidan.assessment import plan_off_angles, plan_search, plan_sturdy
+from kaidan.assessment import plan_finalists, plan_off_angles, plan_search, plan_sturdy
 from kaidan.assessment.plan import PlanShown, PlanStep
 from kaidan.assessment.plan import plan_of as plan_of_answer
+from kaidan.assessment.plan_finalists import (
+    Candidate,
+    _best_off,
+    _better,
+    _may_be_better,
+    _rank,
+)
 from kaidan.assessment.plan_hopes import Hope, Search, _along, _order
 from kaidan.assessment.plan_judged import Judged
 from kaidan.assessment.plan_off_angles import OffAngles, judged_off
 from kaidan.assessment.plan_scores import ENOUGH, FAILED, Score
-from kaidan.assessment.plan_search import (
-    _best_off,
-    _better,
-    _Candidate,
-    _may_be_better,
-    _on_the_whole,
-    _rank,
-)
+from kaidan.assessment.plan_search import _on_the_whole
 from kaidan.assessment.plan_sturdy import ANY, OUT, SHORT_OF_GO, Sturdier, Worth
 from kaidan.assessment.plans import (
     GENTLE,
@@ -619,7 +619,7 @@ PLAN = SimpleNamespace(question=lambda question: "plan")
 
 def candidate(hope=10.0, *, passes=True, failing=0, off=None):
     merit = (passes, failing, hope)
-    return _Candidate(PLAN, merit, off or (True, 0, 0.0))
+    return Candidate(PLAN, merit, off or (True, 0, 0.0))
 
 
 def test_which_verdict_scores_promise():
@@ -630,7 +630,7 @@ def test_which_verdict_scores_promise():
 
 def test_which_plans_may_be_better(monkeypatch):
     """Than a CAUTION; than a GO of 9 deg by its scores or by those of the best."""
-    monkeypatch.setattr(plan_search, "off_angles", lambda question: question)
+    monkeypatch.setattr(plan_finalists, "off_angles", lambda question: question)
 
     def may(each, bar, of_best=None, drives=None, **more):
         return _may_be_better(searching(**more), each, bar, of_best, drives)

@@ -10,7 +10,14 @@ import numpy as np
 from kaidan.allowance import Allowance
 from kaidan.assessment.answer import Change
 from kaidan.assessment.measuring import Measurement
-from kaidan.assessment.traction_advice import SLIPS, Candidate, grousers, more_friction, nosings
+from kaidan.assessment.traction_advice import (
+    SLIPS,
+    Candidate,
+    grousers,
+    more_friction,
+    nosings,
+    with_other_plans,
+)
 from kaidan.assessment.uncertain_inputs import SAMPLED, STEPS, without
 from kaidan.assessment.verdict import Conclusion, conclude
 from kaidan.errors import InputError
@@ -96,15 +103,21 @@ def what_would_help(
         *nosings(question, conclusion, lambda changed: judged(changed)[0]),
         *_known_better(question, measure),
     )
-    for change, changed, certain, holds, then in candidates:
-        anew = False
+    cheapest: Verdict | None = None  # what less friction comes to
+    for each in candidates:
+        if each.friction is not None and cheapest is Verdict.GO:
+            continue
+        then, anew = each.then, each.another
         try:
             if then is None:
-                then, anew = judged(changed, holds)
+                then, another = judged(each.question, each.holds)
+                anew = anew or another
         except InputError:  # a posture or a place of the centroid that the robot cannot have
             continue
-        if _is_better(then, conclusion) and (not certain or _settles(then, conclusion)):
-            better.append((then, text.with_another_plan(change) if anew else change))
+        if _is_better(then, conclusion) and (not each.certain or _settles(then, conclusion)):
+            better.append((then, text.with_another_plan(each.change) if anew else each.change))
+            if each.friction is not None:
+                cheapest = then.verdict
     better.sort(key=lambda each: _rank(each[0]))
     return tuple(
         Change(
@@ -150,8 +163,8 @@ def _planned(
     if is_go:
         then = then._replace(verdict=Verdict.CAUTION)
     if search is not None and question.robot.com_range is None:
-        ends = ("flippers", "facing") if len(search.ends) > 1 else ("flippers",)
-        own = better_than(then.verdict, question.changed(best_of=ends), drives=drives)
+        asked = question.changed(best_of=search.best_of)
+        own = better_than(then.verdict, asked, drives=drives, other_frictions=anew)
         if own is not None and own.sturdy:
             best = conclude(own.question, own.findings)
             return (best, True) if best.verdict.rank < then.verdict.rank else (then, False)
@@ -199,14 +212,17 @@ def _candidates(
                 text.turned_round(question.direction, other), question.changed(facing=other)
             )
             yield from _flippers_raised(question)
+    friction: list[Candidate] = []
+    if slips or governs == POSTURE_TOLERANCE.key:
+        friction += more_friction(question, found, search)
+    if search is not None:
+        friction += with_other_plans(question, search)
+    yield from sorted(friction, key=lambda one: one.friction or math.inf)
     if slips:
-        yield from more_friction(question, found, search)
         yield from grousers(question)
-    if governs == POSTURE_TOLERANCE.key:
-        if question.tolerance > CLOSER:
-            closer = question.changed(flipper_tolerance=CLOSER)
-            yield Candidate(text.set_closer(CLOSER), closer, holds=True)
-        yield from more_friction(question, found, search)
+    if governs == POSTURE_TOLERANCE.key and question.tolerance > CLOSER:
+        closer = question.changed(flipper_tolerance=CLOSER)
+        yield Candidate(text.set_closer(CLOSER), closer, holds=True)
     if governs == LANDING_ROOM.key:
         yield from _stowed_on_landings(question, found)
     energy = found.of(ENERGY)

@@ -7,15 +7,15 @@ verdict policy, at the angles found and a little off them. A change has to gain 
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from kaidan.assessment.plan_drives import Drives
+from kaidan.assessment.plan_finalists import sturdiest
 from kaidan.assessment.plan_hopes import LIMITS as LIMITS
-from kaidan.assessment.plan_hopes import Hope, Merit, Search
+from kaidan.assessment.plan_hopes import Search
 from kaidan.assessment.plan_judged import Judged, Standing, judged_of, shortened
 from kaidan.assessment.plan_off_angles import OffAngles, holds_off_its_angles, judged_off
-from kaidan.assessment.plan_sturdy import Sturdier
 from kaidan.assessment.plans import Plan, words
 from kaidan.assessment.plans import off_angles as off_angles
 from kaidan.assessment.verdict import conclude
@@ -25,14 +25,10 @@ from kaidan.modes import CONTACT, Facing, Phase, Verdict
 from kaidan.question import Question
 from kaidan.surface import Surface
 
-FINALISTS = 3
-"""Plans that are driven in one go and judged at most: the best one at its angles too."""
-SLACK = 0.5
-"""Margin by which a plan may be better than its scores [deg]."""
 UNKNOWN = 1.0
 """Friction at which plans are compared where nobody states one [1]."""
-NEARLY = 0.1
-"""Difference of two scores from which on both plans are judged [deg]."""
+OTHER_FRICTIONS = (1.0, 0.7)
+"""Frictions of which the best plan is tried too where that at the friction stated is no GO [1]."""
 
 
 class Found(NamedTuple):
@@ -52,6 +48,13 @@ class Found(NamedTuple):
     """Drives of a phase."""
     ends: tuple[Facing, ...] = ()
     """Ends that were tried first: the other one only where the nose is no GO."""
+    others: tuple[Question, ...] = ()
+    """With plans that are a GO at another friction, on what it searched."""
+
+    @property
+    def best_of(self) -> tuple[str, ...]:
+        """What was searched, as a question has it."""
+        return ("flippers", "facing") if len(self.ends) > 1 else ("flippers",)
 
 
 def found_of(
@@ -69,6 +72,7 @@ def better_than(
     limits: tuple[float, float] = LIMITS,
     *,
     drives: Drives | None = None,
+    other_frictions: bool = True,
 ) -> Found | None:
     """Best plan of a question whose posture is to be found; None: none has a better verdict.
 
@@ -82,6 +86,8 @@ def better_than(
         Angles allowed [rad]; the stowed angle and lying flat always are.
     drives : Drives, optional
         Of the search for a similar question.
+    other_frictions : bool
+        Whether the best plans at `OTHER_FRICTIONS` are tried too.
 
     Returns
     -------
@@ -99,24 +105,86 @@ def better_than(
     if stated.surface is None:
         return _at_unknown_friction(verdict, question, limits, drives)
     short = shortened(stated)
-    beaten = None if verdict is None else (-verdict.rank, True, 0, math.inf)
-    plans: list[OffAngles] = []
-    ends: tuple[Facing, ...] = ()
-    tried = 0
-    for facing in facings:
-        search = Search(short, facing, limits)
-        found = _sturdiest(search, plans[-1].worst if plans else beaten, drives, stated)
-        ends = (*ends, facing)
-        tried += len(search.scores.known)
-        if found is None or (beaten is not None and found.worst <= beaten):
-            continue
-        plans.append(found)
-        if found.sturdy and found.judged.conclusion.verdict is Verdict.GO:
+    ends = _Ends(facings, limits, drives)
+    beaten = None if verdict is None else _most(-verdict.rank)
+    plans = ends.plans(short, beaten, stated)
+    others: list[Question] = []
+    for surface in _other_surfaces(stated) if other_frictions else ():
+        best = max((each.worst for each in plans), default=beaten)
+        if best is not None and best[0] == -Verdict.GO.rank:
             break
+        bar = None if best is None else _most(best[0])
+        there = max(
+            ends.plans(short.changed(surface=surface), bar),
+            key=lambda each: each.worst,
+            default=None,
+        )
+        if there is None:
+            continue
+        question = there.judged.question.changed(surface=short.surface)
+        here = judged_off(judged_of(question, drives.judge(question)), best, drives)
+        if best is None or here.worst > best:
+            plans.append(here)
+        if here.worst[0] < there.worst[0] == -Verdict.GO.rank:
+            others.append(question)
     if not plans and verdict is not None:
         return None
     ranked = sorted(plans, key=lambda each: each.worst, reverse=True)
-    return _on_the_whole(stated, ranked, drives)._replace(tried=tried, ends=ends)
+    found = _on_the_whole(stated, ranked, drives)
+    return found._replace(tried=ends.tried, ends=tuple(ends.first), others=tuple(others))
+
+
+def _most(rank: int) -> Standing:
+    """Merit that no plan exceeds whose verdict has a rank, its sign turned."""
+    return rank, True, 0, math.inf
+
+
+def may_pass_over(question: Question) -> bool:
+    """Whether the search may pass over a plan at one friction that it finds at another.
+
+    The scores that lead it know friction and no grousers. A plan that is GO at less friction is GO
+    at more.
+    """
+    robot = question.robot
+    return robot.track.has_grousers and bool(robot.flippers() or robot.states)
+
+
+def _other_surfaces(question: Question) -> Iterator[Surface]:
+    """Surfaces whose best plans are tried too."""
+    if may_pass_over(question):
+        surfaces = map(Surface.of_friction, OTHER_FRICTIONS)
+        yield from (each for each in surfaces if each != question.surface)
+
+
+class _Ends:
+    """Searches with one end leading, and with the other where the first has no sturdy GO."""
+
+    def __init__(
+        self, facings: tuple[Facing, ...], limits: tuple[float, float], drives: Drives
+    ) -> None:
+        self.facings, self.limits, self.drives = facings, limits, drives
+        self.tried = 0
+        """Drives of a phase."""
+        self.first: dict[Facing, None] = {}
+        """Ends that were tried, in their order."""
+
+    def plans(
+        self, short: Question, beaten: Standing | None, stated: Question | None = None
+    ) -> list[OffAngles]:
+        """Best plan of each end that is tried, of those that exceed what is beaten."""
+        plans: list[OffAngles] = []
+        for facing in self.facings:
+            search = Search(short, facing, self.limits)
+            bar = plans[-1].worst if plans else beaten
+            found = sturdiest(search, bar, self.drives, stated)
+            self.first[facing] = None
+            self.tried += len(search.scores.known)
+            if found is None or (beaten is not None and found.worst <= beaten):
+                continue
+            plans.append(found)
+            if found.sturdy and found.judged.conclusion.verdict is Verdict.GO:
+                break
+        return plans
 
 
 def _at_unknown_friction(
@@ -163,203 +231,15 @@ def _on_all_of(stated: Question, plan: Judged) -> Judged:
     return judged_of(question, judge(question))
 
 
-class _Candidate(NamedTuple):
-    """A plan that may be the best, and what the scores of its phases let one hope for."""
-
-    plan: Plan
-    hope: Merit
-    """At its angles."""
-    off: Merit
-    """The worst off them, as far as it is scored."""
-
-
-def _sturdiest(
-    search: Search, beaten: Standing | None, drives: Drives, stated: Question | None = None
-) -> OffAngles | None:
-    """Best plan of a search: the most promising off their angles, judged in one go.
-
-    Of plans that are no better than what is beaten it is any; None: no plan promised to be better.
-    """
-    holding: list[_Candidate] = []
-    others: list[_Candidate] = []
-    for each in _candidates(search):
-        (holding if search.may_hold(each.plan) else others).append(each)
-    at_them: dict[Plan, Judged] = {}
-    best, first = _best_of(holding, search, None, beaten, drives, stated, at_them)
-    if first is None and others:
-        at_them = {
-            each.plan: _judged(each.plan.question(search.question), drives) for each in others
-        }
-        first = max(at_them.values(), key=lambda one: one.merit)
-    plan = _to_steady(search, first)
-    if plan is not None and not (best is not None and best.worst[0] == -Verdict.GO.rank):
-        steadied = _steadied(search, plan, _better(beaten, best), drives)
-        best = max((each for each in (best, steadied) if each), key=_worst, default=None)
-    if best is not None and best.worst[0] == -Verdict.GO.rank:
-        return best
-    return _best_of(others, search, best, beaten, drives, stated, at_them)[0]
-
-
-def _worst(plan: OffAngles) -> Standing:
-    return plan.worst
-
-
-def _best_of(
-    candidates: Sequence[_Candidate],
-    search: Search,
-    best: OffAngles | None,
-    beaten: Standing | None,
-    drives: Drives,
-    stated: Question | None,
-    known: Mapping[Plan, Judged],
-) -> tuple[OffAngles | None, Judged | None]:
-    """The best of some plans and of what is known already, and the best of those judged at them.
-
-    Of `known` plans it is known what they come to at their angles.
-    """
-    first: Judged | None = None
-    of_best: _Candidate | None = None
-    for each in candidates:
-        bar = _better(beaten, best)
-        if bar is not None and not _may_be_better(search, each, bar, of_best, drives):
-            continue
-        judged = known.get(each.plan)
-        if judged is None:
-            judged = _judged_at(each, search, drives, stated if bar is None else None)
-        first = max(first or judged, judged, key=lambda one: one.merit)
-        found = judged_off(judged, bar, drives, search)
-        if best is None or found.worst > best.worst:
-            best = found
-            as_hoped = found.sturdy and -judged.merit[0] == _rank(search, each.off)
-            of_best = each if as_hoped else None
-    return best, first
-
-
-def _to_steady(search: Search, first: Judged | None) -> Plan | None:
-    """Plan about which others are sought that hold off their angles; None: none will.
-
-    Parameters
-    ----------
-    search : Search
-    first : Judged, optional
-        The best that was judged, at its angles.
-    """
-    if first is None:
-        return None
-    hoped, grips = first.conclusion.verdict, search.question.robot.track.has_grousers
-    if not (hoped is Verdict.GO or (grips and hoped is Verdict.CAUTION)):
-        return None
-    at = first.question.postures
-    return Plan(search.scores.facing, tuple((phase, at[phase]) for phase in search.scores.phases))
-
-
-def _steadied(
-    search: Search, plan: Plan, beaten: Standing | None, drives: Drives
-) -> OffAngles | None:
-    """A plan like another one that holds off its angles; None: none is found."""
-    sturdier = Sturdier(search.scores, search.limits, drives).plan(plan)
-    if sturdier is None:
-        return None
-    return judged_off(_judged(sturdier.question(search.question), drives), beaten, drives)
-
-
-def _judged_at(each: _Candidate, search: Search, drives: Drives, stated: Question | None) -> Judged:
-    """A plan judged at its angles; where it promises GO first on the whole of what is stated.
-
-    As a rule it is one, and needs no other judgement at its angles.
-    """
-    question = each.plan.question(search.question)
-    passes, failing, _ = each.off
-    if stated is not None and stated.model == CONTACT.name and passes and not failing:
-        whole = question.changed(terrain=stated.terrain)
-        judged = judged_of(question, judge(whole))._replace(whole=True)
-        if judged.conclusion.verdict is Verdict.GO:
-            return judged
-    return _judged(question, drives)
-
-
-def _better(beaten: Standing | None, best: OffAngles | None) -> Standing | None:
-    """The larger of two merits to beat."""
-    if best is None or beaten is None:
-        return beaten if best is None else best.worst
-    return max(beaten, best.worst)
-
-
-def _candidates(search: Search) -> list[_Candidate]:
-    """Plans to judge, the first first: by the verdict that they promise off their angles."""
-    hopes = search.hopes()
-    dearest = max(hopes, key=lambda hope: hope.merit)
-    merits = {hope.plan: hope.merit for hope in hopes}
-    plans = dict.fromkeys([*_best_off(search, hopes, FINALISTS - 1), dearest.plan])
-    each = [_Candidate(plan, merits[plan], search.off(plan)) for plan in plans]
-    return sorted(each, key=lambda one: (-_rank(search, one.off), one.hope), reverse=True)
-
-
-def _rank(search: Search, merit: Merit) -> int:
-    """Rank of the verdict that a merit promises; grousers may do better than friction alone."""
-    passes, failing, _ = merit
-    if search.question.robot.track.has_grousers or (passes and not failing):
-        return Verdict.GO.rank
-    return Verdict.CAUTION.rank if passes else Verdict.NO_GO.rank
-
-
-def _may_be_better(
-    search: Search,
-    each: _Candidate,
-    bar: Standing,
-    of_best: _Candidate | None,
-    drives: Drives,
-) -> bool:
-    """Whether a plan may be better than what is beaten.
-
-    Parameters
-    ----------
-    search : Search
-    each : _Candidate
-    bar : (int, bool, int, float)
-        Merit to beat.
-    of_best : _Candidate, optional
-        The plan that has it, where it came to what it promised.
-    drives : Drives
-    """
-    rank = _rank(search, each.hope)
-    if rank != -bar[0]:
-        return rank < -bar[0]
-    known = not search.question.robot.track.has_grousers
-    if known and bar[2] >= -1 and each.hope[2] + SLACK <= bar[3]:
-        return False
-    if of_best is not None and known and each.hope[2] <= of_best.hope[2] + NEARLY:
-        return False
-    if _rank(search, each.off) <= -bar[0]:
-        return True
-    # where the plan promises to fail: one judgement tells
-    off = search.weakest_first(off_angles(each.plan.question(search.question)))
-    return not off or drives.rank(off[0]) >= bar[0]
-
-
-def _best_off(search: Search, hopes: Sequence[Hope], count: int) -> list[Plan]:
-    """Plans of the largest merit off their angles, which is never larger than at them."""
-    best: list[tuple[Merit, Merit, Plan]] = []
-    for hope in sorted(hopes, key=lambda hope: hope.merit, reverse=True):
-        if len(best) == count and hope.merit < best[-1][0]:
-            break
-        best.append((search.off(hope.plan), hope.merit, hope.plan))
-        best = sorted(best, key=lambda each: each[:2], reverse=True)[:count]
-    return [plan for *_, plan in best]
-
-
-def _judged(question: Question, drives: Drives) -> Judged:
-    return judged_of(question, drives.judge(question))
-
-
 def _fixed(question: Question, facings: tuple[Facing, ...], drives: Drives) -> Found:
     """Best of the words for postures, for a model that judges one posture throughout."""
     known = list(words(question.robot))
-    each = [
-        _judged(Plan(facing, ((Phase.ENTER, posture),)).question(question), drives)
+    plans = [
+        Plan(facing, ((Phase.ENTER, posture),)).question(question)
         for facing in facings
         for posture in known
     ]
+    each = [judged_of(plan, drives.judge(plan)) for plan in plans]
     best = max(each, key=lambda one: one.merit)
     coarse = question.model == CONTACT.name
     found = judge(best.question) if coarse else best.findings

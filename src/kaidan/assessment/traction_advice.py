@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 LARGEST_FRICTION = bounds(Surface.model_fields["friction_low"])[2]
 """Beyond it no surface is known."""
+MUCH = 1.3
+"""Friction at which a plan is sought where none is a GO at less [1]."""
 SLIPS = {mode.key for mode in SUPPLIES if mode is not DRIVE} | {Undecided.FRICTION_UNKNOWN.value}
 """What governs where friction decides."""
 
@@ -36,6 +38,10 @@ class Candidate(NamedTuple):
     """Whether it changes what holds the robot, so that another plan may be the best."""
     then: Conclusion | None = None
     """Its conclusion, where it is known."""
+    friction: float | None = None
+    """Friction that it takes [1]; None: as it is."""
+    another: bool = False
+    """Whether it takes another plan."""
 
 
 def more_friction(
@@ -45,20 +51,51 @@ def more_friction(
     required = found.required_friction
     if not math.isfinite(required):
         return
-    if question.tolerance:
-        from kaidan.assessment.plan_off_angles import friction_off_its_angles
-
-        drives = None if search is None else search.drives
-        required = max(required, friction_off_its_angles(question, drives))
-    enough = _in_hundredths(required)
+    enough = _in_hundredths(_off_its_angles(question, required, search))
     if question.uncertain and enough <= LARGEST_FRICTION:
         enough = enough_at_the_risk(question, found, enough)
-    if enough > LARGEST_FRICTION:
+    if enough <= LARGEST_FRICTION:
+        yield _of_friction(question, enough)
+
+
+def with_other_plans(question: Question, search: "Found") -> Iterator[Candidate]:
+    """Friction that is enough for other plans, which are better at some friction."""
+    if question.robot.com_range is not None:
         return
+    for other in search.others or _at_much_friction(question, search):
+        plan = question.changed(facing=other.facing, posture=other.posture, changes=other.changes)
+        required = _off_its_angles(plan, search.drives.required_friction(other), search)
+        enough = _in_hundredths(required) if math.isfinite(required) else math.inf
+        if enough <= LARGEST_FRICTION:
+            yield _of_friction(plan, enough)._replace(another=True)
+
+
+def _at_much_friction(question: Question, search: "Found") -> tuple[Question, ...]:
+    """Plan that is a GO at a friction of `MUCH`, where none is at the other frictions tried."""
+    from kaidan.assessment.plan_judged import shortened
+    from kaidan.assessment.plan_search import better_than, may_pass_over
+
+    if not may_pass_over(question) or not question.friction[0] < MUCH:
+        return ()
+    asked = question.changed(best_of=search.best_of, surface=Surface.of_friction(MUCH))
+    found = better_than(Verdict.CAUTION, asked, drives=search.drives, other_frictions=False)
+    return () if found is None or not found.sturdy else (shortened(found.question),)
+
+
+def _off_its_angles(question: Question, required: float, search: "Found | None") -> float:
+    """Friction that a plan requires at its angles and off them [1]."""
+    if not question.tolerance:
+        return required
+    from kaidan.assessment.plan_off_angles import friction_off_its_angles
+
+    drives = None if search is None else search.drives
+    return max(required, friction_off_its_angles(question, drives))
+
+
+def _of_friction(question: Question, enough: float) -> Candidate:
+    change = text.friction(enough, known=question.surface is not None)
     surface = Surface.of_friction(enough)
-    known = question.surface is not None
-    change = text.friction(enough, known=known)
-    yield Candidate(change, question.changed(surface=surface), holds=True)
+    return Candidate(change, question.changed(surface=surface), holds=True, friction=enough)
 
 
 def enough_at_the_risk(question: Question, found: Findings, nominal: float) -> float:
