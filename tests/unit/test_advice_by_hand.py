@@ -49,7 +49,6 @@ from kaidan.modes import (
     Verdict,
 )
 from kaidan.robot import Posture
-from kaidan.surface import Surface
 from kaidan.text import advice as text
 
 G = 9.80665
@@ -176,37 +175,6 @@ def test_other_plans_are_named_with_the_friction_that_they_need(monkeypatch):
     monkeypatch.setattr(plan_off_angles, "friction_off_its_angles", lambda question, drives: 1.1)
     (loose,) = list(with_other_plans(PLANNED.changed(flipper_tolerance=0.05), search))[:1]
     assert loose.friction == pytest.approx(1.11)
-
-
-@pytest.mark.parametrize(
-    ("friction", "grousers", "sturdy", "told"),
-    [
-        (0.8, True, True, True),
-        (0.8, True, False, False),
-        (0.8, True, None, False),
-        (0.8, False, True, False),
-        (traction_advice.MUCH, True, True, False),
-    ],
-)
-def test_where_no_plan_is_a_go_at_the_frictions_tried_one_of_much_is_sought(
-    friction, grousers, sturdy, told, monkeypatch
-):
-    """On grousers, where less is stated; a CAUTION is to be exceeded off its angles too."""
-    track = PLANNED.robot.track.model_copy(update={"belt": "grousers" if grousers else "smooth"})
-    robot = PLANNED.robot.model_copy(update={"track": track})
-    stated = PLANNED.changed(robot=robot, surface=Surface.of_friction(friction))
-    search, asked = came_upon(0.3, needed=(1.2,))._replace(others=()), []
-
-    def better_than(verdict, question, *, drives, other_frictions):
-        asked.append((verdict, question.friction[0], question.best_of, other_frictions))
-        found = question.changed(best_of=(), posture={"front": 0.3, "rear": 0.2})
-        return None if sturdy is None else search._replace(question=found, sturdy=sturdy)
-
-    monkeypatch.setattr(plan_search, "better_than", better_than)
-    found = [one.friction for one in with_other_plans(stated, search)]
-    assert found == ([pytest.approx(1.21)] if told else [])
-    sought = (Verdict.CAUTION, traction_advice.MUCH, ("flippers",), False)
-    assert asked == [sought] * (grousers and friction < traction_advice.MUCH)
 
 
 def test_in_doubt_friction_may_be_more_than_any_surface_has(monkeypatch):

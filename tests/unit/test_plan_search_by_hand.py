@@ -261,14 +261,15 @@ def standing(rank, margin=0.0):
 
 
 def test_where_no_plan_is_a_go_those_of_other_frictions_are_tried(at_frictions):
-    """On grousers: of 1.0, then of 0.7; the best counts as it is at the friction stated."""
+    """On grousers: of 1.0, then of 0.7 and 1.3; the best counts as it is at the friction stated."""
     low, middle = standing(CAUTION, 1.0), standing(CAUTION, 2.0)
-    sought = [(0.5, None), (1.0, (CAUTION, True, 0, math.inf)), (0.7, (CAUTION, True, 0, math.inf))]
+    bar = CAUTION, True, 0, math.inf
+    sought = [(0.5, None), (1.0, bar), (0.7, bar), (1.3, bar)]
     go = standing(GO, 3.0)
     found, searched, tried = at_frictions({0.5: low, 1.0: go, 0.7: go}, {1.0: middle, 0.7: go})
-    assert (searched, tried) == (sought, [1.0, 0.7])
+    assert (searched, tried) == (sought[:3], [1.0, 0.7])
     assert found.question.posture.front == 0.7
-    assert found.tried == 30
+    assert found.tried == 30  # of three searches
     # the one that is a GO at 1.0 alone is told for what it needs
     assert [each.posture.front for each in found.others] == [1.0]
     assert found.others[0].friction == (0.5, 0.5)
@@ -282,20 +283,23 @@ def test_where_no_plan_is_a_go_those_of_other_frictions_are_tried(at_frictions):
     found, searched, tried = at_frictions({0.5: middle, 1.0: None, 0.7: middle}, {0.7: low})
     assert (searched, tried, found.question.posture.front) == (sought, [], 0.5)
     assert found.others == ()
-    found, _, _ = at_frictions({0.5: middle, 1.0: go}, {1.0: low})
+    found, searched, _ = at_frictions({0.5: middle, 1.0: go, 1.3: go}, {1.0: low})
     assert (found.question.posture.front, len(found.others)) == (0.5, 1)
+    assert searched == sought[:3]  # what needs more than 1.0 is no help
+    found, searched, _ = at_frictions({0.5: middle, 1.3: go}, {1.3: low})
+    assert [each.posture.front for each in found.others] == [1.3]
     # a CAUTION at another friction, where the own plan is a NO-GO, is no GO anywhere
     bad = standing(NO_GO)
     found, _, tried = at_frictions({0.5: bad, 1.0: middle}, {1.0: low})
     assert (found.question.posture.front, found.others, tried) == (1.0, (), [1.0])
 
 
-@pytest.mark.parametrize("friction", [1.0, 0.7])
+@pytest.mark.parametrize("friction", [1.0, 0.7, 1.3])
 def test_the_friction_stated_is_no_other_one(at_frictions, friction):
-    other = {1.0: 0.7, 0.7: 1.0}[friction]
     low = standing(CAUTION)
     _, searched, _ = at_frictions({friction: low}, {}, friction=friction)
-    assert [mu for mu, _ in searched] == [friction, other]
+    others = [mu for mu in (1.0, 0.7, 1.3) if mu != friction]
+    assert [mu for mu, _ in searched] == [friction, *others]
 
 
 def test_other_frictions_are_tried_on_grousers_of_postures_to_choose_where_asked_for(at_frictions):
@@ -305,12 +309,12 @@ def test_other_frictions_are_tried_on_grousers_of_postures_to_choose_where_asked
     for robot in (ABSOLEM, teeth):
         assert len(at_frictions(low, {}, robot=robot)[1]) == 1
     assert len(at_frictions(low, {}, other_frictions=False)[1]) == 1
-    assert len(at_frictions(low, {})[1]) == 3
+    assert len(at_frictions(low, {})[1]) == 4
     # of a verdict that is to be exceeded, at other frictions too
     beaten = (CAUTION, True, 0, math.inf)
     found, searched, _ = at_frictions({}, {}, verdict=Verdict.CAUTION)
     assert found is None
-    assert searched == [(mu, beaten) for mu in (0.5, 1.0, 0.7)]
+    assert searched == [(mu, beaten) for mu in (0.5, 1.0, 0.7, 1.3)]
     assert len(at_frictions({}, {}, verdict=Verdict.GO)[1]) == 1
     found, _, _ = at_frictions({0.7: standing(GO)}, {0.7: standing(GO)}, verdict=Verdict.CAUTION)
     assert found.question.posture.front == 0.7

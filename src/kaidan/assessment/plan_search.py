@@ -7,7 +7,7 @@ verdict policy, at the angles found and a little off them. A change has to gain 
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from kaidan.assessment.plan_drives import Drives
@@ -27,8 +27,9 @@ from kaidan.surface import Surface
 
 UNKNOWN = 1.0
 """Friction at which plans are compared where nobody states one [1]."""
-OTHER_FRICTIONS = (1.0, 0.7)
-"""Frictions of which the best plan is tried too where that at the friction stated is no GO [1]."""
+OTHER_FRICTIONS = (1.0, 0.7, 1.3)
+"""Frictions of which the best plan is tried too where that at the friction stated is no GO; more
+than the first where it is no GO with that either [1]."""
 
 
 class Found(NamedTuple):
@@ -109,18 +110,18 @@ def better_than(
     beaten = None if verdict is None else _most(-verdict.rank)
     plans = ends.plans(short, beaten, stated)
     others: list[Question] = []
-    for surface in _other_surfaces(stated) if other_frictions else ():
+    for friction in OTHER_FRICTIONS if other_frictions and _may_pass_over(stated) else ():
         best = max((each.worst for each in plans), default=beaten)
         if best is not None and best[0] == -Verdict.GO.rank:
             break
-        bar = None if best is None else _most(best[0])
-        there = max(
-            ends.plans(short.changed(surface=surface), bar),
-            key=lambda each: each.worst,
-            default=None,
-        )
-        if there is None:
+        surface = Surface.of_friction(friction)
+        if surface == stated.surface or (others and friction > OTHER_FRICTIONS[0]):
             continue
+        bar = None if best is None else _most(best[0])
+        at_that = ends.plans(short.changed(surface=surface), bar)
+        if not at_that:
+            continue
+        there = max(at_that, key=lambda each: each.worst)
         question = there.judged.question.changed(surface=short.surface)
         here = judged_off(judged_of(question, drives.judge(question)), best, drives)
         if best is None or here.worst > best:
@@ -139,7 +140,7 @@ def _most(rank: int) -> Standing:
     return rank, True, 0, math.inf
 
 
-def may_pass_over(question: Question) -> bool:
+def _may_pass_over(question: Question) -> bool:
     """Whether the search may pass over a plan at one friction that it finds at another.
 
     The scores that lead it know friction and no grousers. A plan that is GO at less friction is GO
@@ -147,13 +148,6 @@ def may_pass_over(question: Question) -> bool:
     """
     robot = question.robot
     return robot.track.has_grousers and bool(robot.flippers() or robot.states)
-
-
-def _other_surfaces(question: Question) -> Iterator[Surface]:
-    """Surfaces whose best plans are tried too."""
-    if may_pass_over(question):
-        surfaces = map(Surface.of_friction, OTHER_FRICTIONS)
-        yield from (each for each in surfaces if each != question.surface)
 
 
 class _Ends:

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
 LARGEST_FRICTION = bounds(Surface.model_fields["friction_low"])[2]
 """Beyond it no surface is known."""
-MUCH = 1.3
-"""Friction at which a plan is sought where none is a GO at less [1]."""
 SLIPS = {mode.key for mode in SUPPLIES if mode is not DRIVE} | {Undecided.FRICTION_UNKNOWN.value}
 """What governs where friction decides."""
 
@@ -59,27 +57,15 @@ def more_friction(
 
 
 def with_other_plans(question: Question, search: "Found") -> Iterator[Candidate]:
-    """Friction that is enough for other plans, which are better at some friction."""
+    """Friction that is enough for other plans, which are a GO with more than is stated."""
     if question.robot.com_range is not None:
         return
-    for other in search.others or _at_much_friction(question, search):
+    for other in search.others:
         plan = question.changed(facing=other.facing, posture=other.posture, changes=other.changes)
         required = _off_its_angles(plan, search.drives.required_friction(other), search)
         enough = _in_hundredths(required) if math.isfinite(required) else math.inf
         if enough <= LARGEST_FRICTION:
             yield _of_friction(plan, enough)._replace(another=True)
-
-
-def _at_much_friction(question: Question, search: "Found") -> tuple[Question, ...]:
-    """Plan that is a GO at a friction of `MUCH`, where none is at the other frictions tried."""
-    from kaidan.assessment.plan_judged import shortened
-    from kaidan.assessment.plan_search import better_than, may_pass_over
-
-    if not may_pass_over(question) or not question.friction[0] < MUCH:
-        return ()
-    asked = question.changed(best_of=search.best_of, surface=Surface.of_friction(MUCH))
-    found = better_than(Verdict.CAUTION, asked, drives=search.drives, other_frictions=False)
-    return () if found is None or not found.sturdy else (shortened(found.question),)
 
 
 def _off_its_angles(question: Question, required: float, search: "Found | None") -> float:
