@@ -11,6 +11,7 @@ from kaidan.contact import (
     Sampled,
     Status,
     arrives,
+    belt_slides,
     extremes_of,
     samples_of,
     stand_in_turn,
@@ -142,7 +143,9 @@ def test_a_robot_that_stands_in_one_posture_after_the_other():
     tables = []
     for kernel in ("plain", "native"):
         with using_kernel(kernel):
-            path = stand_in_turn(stairs, [flat, up, down], [0, 1], [[-0.04, 0]] * 3, -0.05, 0.1)
-            tables.append(np.hstack([path.poses.table, path.margins.table]))
+            path = stand_in_turn(stairs, [flat, up, down], [0, 1], -0.05, 0.1)
+            slides = np.vstack([belt_slides(path), np.zeros(2)])
+            tables.append(np.hstack([path.poses.table, path.margins.table, slides]))
     assert len(tables[0]) == 3
+    assert tables[0][:2, -2:].any()
     np.testing.assert_array_equal(*tables)

@@ -8,16 +8,37 @@ import numpy as np
 import pytest
 
 from kaidan import Robot
-from kaidan.contact import Feature, FeatureKind, Placement
+from kaidan.contact import Feature, FeatureKind, Placement, Poses, belt_slides, body_table
+from kaidan.contact import columns as at
 from kaidan.modes import Phase
 from kaidan.robot import Posture
-from kaidan.traversal.drift import drift, slides
+from kaidan.traversal.drift import drift
 from kaidan.traversal.moves import BEHIND, move
 
 ABSOLEM = Robot.named("absolem")
 FLOOR = [[-5.0, 0.0], [5.0, 0.0]]
 TURN = math.radians(40.0)
 R, L, SMALL = 0.1, 0.4, 1e-3
+
+
+def path_of(poses, outlines):
+    """Path of poses that are given by column."""
+    table = np.full((len(poses.x), at.POSE_COLUMNS), np.nan)
+    table[:, at.POSE_X], table[:, at.POSE_Z], table[:, at.POSE_PHI] = (
+        poses.x, poses.z, poses.inclination
+    )  # fmt: skip
+    table[:, at.POSE_REAR], table[:, at.POSE_FRONT] = poses.rear, poses.front
+    for end in ("rear", "front"):
+        x, n_x = (getattr(at, f"{end.upper()}_{each}") for each in ("X", "N_X"))
+        table[:, x : x + 2] = getattr(poses, f"{end}_point")
+        table[:, n_x : n_x + 2] = getattr(poses, f"{end}_normal")
+    bodies = np.stack([body_table(each.parts) for each in outlines])
+    return SimpleNamespace(poses=Poses(table), bodies=bodies)
+
+
+def slides(poses, outlines):
+    """At the rear and at the front contact."""
+    return belt_slides(path_of(poses, outlines)).T
 
 
 def moved(one, two):
@@ -128,9 +149,9 @@ def test_a_part_that_turns_within_the_robot_takes_its_contact_along():
 
 def test_the_contact_that_slid_ahead_by_more_may_have_stayed():
     found = moved(Posture(front=-0.3 - TURN, rear=0.5), Posture(front=-0.3, rear=0.5))
-    each = slides(found.path.poses, found.outlines).sum(axis=1)
+    each = belt_slides(found.path).sum(axis=0)
     assert each[1] > 0.05 > each[0]  # the tip slides ahead as the flipper turns up
-    assert found.drift == drift(found.path, found.outlines) == pytest.approx(each[1])
+    assert found.drift == drift(found.path) == pytest.approx(each[1])
     drawn = found.path.poses.placement(-1)
     assert found.end == drawn._replace(x=drawn.x - found.drift - BEHIND)
 
@@ -151,7 +172,7 @@ def test_now_the_one_contact_and_now_the_other_may_stay():
     expected = np.array([[0.03, -0.02], [-0.02, 0.04]])
     assert slides(poses, bodies) == pytest.approx(expected, abs=1e-9)
     # hand: the rear one stays first, then the front one
-    assert drift(SimpleNamespace(poses=poses), bodies) == pytest.approx(0.03 + 0.04)
+    assert drift(path_of(poses, bodies)) == pytest.approx(0.03 + 0.04)
 
 
 def test_flippers_that_touch_nothing_leave_the_robot_where_it_is():

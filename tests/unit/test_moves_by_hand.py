@@ -72,10 +72,8 @@ def test_all_flippers_turn_together_until_the_farthest_is_there(fastest, seconds
     }
     inclinations = [0.0, 0.02, 0.02 - 0.01 - SNAP * TURN, 0.01]
 
-    def stand_in_turn(ground, parts, kinds, middles, x, inclination):
+    def stand_in_turn(ground, parts, kinds, x, inclination):
         assert (x, inclination) == (0.2, 0.01)
-        for each, outline in zip(middles, parts, strict=True):
-            assert each == pytest.approx((outline[0, :2] + outline[0, 3:5]) / 2)  # of the track
         return SimpleNamespace(inclination=np.array(inclinations), poses=parts)
 
     monkeypatch.setattr(contact, "stand_in_turn", stand_in_turn)
@@ -91,12 +89,6 @@ def test_all_flippers_turn_together_until_the_farthest_is_there(fastest, seconds
     assert found.seconds == (None if seconds is None else pytest.approx(seconds))
     # from 0.02 rad to 0.01 rad less than what a flipper's turn allows, once
     assert found.rocks == pytest.approx(0.01)
-
-
-def test_the_middle_is_that_of_the_tracks():
-    """By hand: axles 221 mm behind and 279 mm ahead of the centroid, 95 mm below it."""
-    two = [Outline.of(ABSOLEM)] * 2
-    np.testing.assert_allclose(moves._middles(two), [[0.029, -0.095]] * 2)
 
 
 @pytest.mark.parametrize("facing", ["nose-first", "tail-first"])

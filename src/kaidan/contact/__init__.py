@@ -40,7 +40,7 @@ from kaidan.contact.remembered import ground_of
 from kaidan.contact.rest import Settled, resting_height, settle
 from kaidan.contact.rotations import impact_speeds, rotated
 from kaidan.contact.slipping import held_while_slipping
-from kaidan.contact.standing import stand_in_turn
+from kaidan.contact.standing import belt_slides, stand_in_turn
 from kaidan.contact.steepest import steepest_flight
 from kaidan.contact.supports import Grousers, Supports
 from kaidan.contact.switch import (
@@ -95,6 +95,7 @@ __all__ = [
     "TouchingHeights",
     "Zone",
     "arrives",
+    "belt_slides",
     "body_table",
     "extremes_of",
     "ground_of",

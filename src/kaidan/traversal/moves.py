@@ -11,22 +11,19 @@ no such pose rotates although nobody drives it.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kaidan import contact
-from kaidan.contact import FLIPPER, TRACK, Feature, Placement
+from kaidan.contact import FLIPPER, Feature, Placement
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.modes import Facing, Phase
 from kaidan.outline import Outline
 from kaidan.robot import FlipperPair, Payload, Posture, Robot
 from kaidan.traversal.drift import drift
-
-Array = NDArray[np.float64]
 
 BEHIND = 0.01
 """How much farther back than meant it may have stopped besides [m]."""
@@ -152,7 +149,7 @@ class Move:
     @cached_property
     def drift(self) -> float:
         """How far behind the last pose it may stand, as one contact slides or the other [m]."""
-        return drift(self.path, self.outlines)
+        return drift(self.path)
 
     @property
     def end(self) -> Placement:
@@ -215,7 +212,6 @@ def move(
         ground,
         [each.parts for each in outlines],
         outlines[0].kinds,
-        _middles(outlines),
         start.x,
         start.inclination,
     )
@@ -272,13 +268,6 @@ def _outline(
 ) -> Outline:
     outline = Outline.of(robot, posture, payload)
     return outline if facing == "nose-first" else outline.turned_round()
-
-
-def _middles(outlines: Sequence[Outline]) -> Array:
-    """Middle of the tracks of each in the body frame (n, 2) [m]."""
-    tracks = np.stack([each.parts for each in outlines])[:, outlines[0].kinds == TRACK]
-    discs = tracks.reshape(len(outlines), -1, 3)[:, :, :2]
-    return np.asarray(discs.sum(axis=1) / discs.shape[1])
 
 
 def _torques(

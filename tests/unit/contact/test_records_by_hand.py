@@ -379,7 +379,7 @@ def test_ratings_have_room_for_the_longest_way(monkeypatch):
 
 def test_who_stands_in_turn_has_no_events():
     flat = [[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]]
-    found = contact.stand_in_turn([[0, 0], [4, 0]], [flat, flat], [0], [[-0.039, 0]] * 2, 2.0, 0.0)
+    found = contact.stand_in_turn([[0, 0], [4, 0]], [flat, flat], [0], 2.0, 0.0)
     assert (len(found.poses), len(found.events), len(found.rotations)) == (2, 0, 0)
 
 

@@ -5,7 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from kaidan.contact import Status, stand_in_turn
+from kaidan import Robot
+from kaidan.contact import Status, body_table, stand_in_turn
+from kaidan.contact.kernel.standing import middle_of_tracks
+from kaidan.outline import Outline
 
 SLOPE, START = 0.3, 0.25
 RADIUS = 0.06
@@ -20,7 +23,18 @@ def track(along, above):
 
 
 def stood(middles, x=0.4, inclination=START):
-    return stand_in_turn(GROUND, [track(*m) for m in middles], [0], middles, x, inclination)
+    return stand_in_turn(GROUND, [track(*m) for m in middles], [0], x, inclination)
+
+
+def test_the_middle_is_that_of_the_tracks():
+    """By hand: axles 221 mm behind and 279 mm ahead of the centroid, 95 mm below it; of two tracks
+    the middle of both, of flippers and a belly none.
+    """
+    body = Outline.of(Robot.named("absolem"))
+    table = body_table(body.parts, body.kinds)
+    assert middle_of_tracks(table) == pytest.approx((0.029, -0.095))
+    two = body_table([*track(0.1, 0.2), *track(0.5, 0.4)[0:1], *track(9.0, 9.0)], [0, 0, 2])
+    assert middle_of_tracks(two) == pytest.approx((0.3, 0.3))
 
 
 def test_the_tracks_stay_where_they_are():
