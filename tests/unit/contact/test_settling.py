@@ -7,9 +7,19 @@ import numpy as np
 import pytest
 
 from contact_cases import flight, random_robot, random_terrain, stadium, steps
-from kaidan.contact import body_table, ground_table
+from kaidan.contact import (
+    Feature,
+    FeatureKind,
+    body_table,
+    columns,
+    ground_table,
+    mirror,
+    using_kernel,
+    without_native,
+)
 from kaidan.contact.kernel.gaps import gap
 from kaidan.contact.kernel.settling import lever, settle, touching
+from kaidan.contact.switch import kernel as entries
 
 
 def delta_at(ground, body, x, phi, kappa):
@@ -241,3 +251,32 @@ def test_both_contacts_touch_where_the_look_for_both_leaves_its_bracket(seed):
         for each in contacts:
             distance = gap(ground, body, each, x, z, math.cos(phi), math.sin(phi))[0]
             assert distance == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("ahead", [True, False])
+@pytest.mark.parametrize("off", [0.0, 1e-12, -1e-9, 3e-7])
+def test_an_end_comes_down_against_a_face(ahead, off):
+    """By hand: from 1 rad the nose comes down until its disc of 50 mm stands against a riser, at
+    0.6 rad; its axle is 60 mm below the nosing. The tail stands on the floor.
+    """
+    terrain, parts = [(-5, 0), (0, 0), (0, 0.5), (5, 0.5)], [(-0.3, 0.0, 0.1, 0.3, 0.0, 0.05)]
+    side = 1.0 if ahead else -1.0
+    if not ahead:
+        terrain, parts = mirror(terrain, parts)
+    ground, body = ground_table(terrain), body_table(parts)
+    x = -(0.3 * math.cos(0.6) + 0.05) + off
+    for kernel in ("plain", *([] if without_native() else ["native"])):
+        with using_kernel(kernel):
+            found = entries().settle(ground, body, side * x, side * 1.0, 0.0)
+        good, z, phi, *features = found
+        phi_off = off / (0.3 * math.sin(0.6))  # nearer to the face it stands steeper
+        assert good
+        assert phi == pytest.approx(side * (0.6 + phi_off), abs=1e-9)
+        assert z == pytest.approx(0.1 + 0.3 * math.sin(abs(phi)), abs=1e-12)
+        rear, front = (Feature.of(each) for each in features[:: 1 if ahead else -1])
+        points = ground[:, [columns.X, columns.Z]].tolist()
+        floor, face = points[rear.point : rear.point + 2], points[front.point : front.point + 2]
+        assert {each[1] for each in floor} == {0.0}
+        assert {each[0] for each in face} == {0.0}
+        discs = FeatureKind.DISC_1, FeatureKind.DISC_2
+        assert (rear.kind, front.kind) == (discs if ahead else discs[::-1])

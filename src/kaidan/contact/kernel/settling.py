@@ -36,7 +36,7 @@ from kaidan.contact.columns import (
     Z,
 )
 from kaidan.contact.entries import entry
-from kaidan.contact.kernel.gaps import FAR, contact_point, gap
+from kaidan.contact.kernel.gaps import FAR, contact_point, gap, relabelled
 from kaidan.contact.kernel.nearest_feature import first_index
 from kaidan.contact.tables import BodyTable, GroundTable
 
@@ -240,4 +240,18 @@ def settle(
         else:
             hi = trial
             f_hi = f_trial
-    return True, z, trial, f_hi, f_lo
+    # where an end passes a face the height jumps, to that on the vertex above it: it stands below,
+    # against the face
+    c = math.cos(lo)
+    s = math.sin(lo)
+    z, _, hint = touching_near(ground, body, x, c, s, hint)
+    z_hi, _, hint = touching_near(ground, body, x, math.cos(hi), math.sin(hi), hint)
+    trial = lo
+    if z_hi < z:
+        trial = hi
+        z = z_hi
+        c = math.cos(hi)
+        s = math.sin(hi)
+    rear = relabelled(ground, body, f_hi, x, z, c, s)
+    front = relabelled(ground, body, f_lo, x, z, c, s)
+    return True, z, trial, rear, front
