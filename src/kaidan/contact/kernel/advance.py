@@ -153,6 +153,8 @@ def runs_past(
 
     A vertex lies at the begin of its own.
     """
+    if feature & KIND_MASK == VERTEX:
+        return False
     p_x, p_z = contact_point(ground, body, feature, x, z, c, s)
     return beyond_segment(ground, feature >> POINT_BITS, p_x, p_z) > PAST
 
@@ -190,16 +192,21 @@ def clear_step(
                 kappa = tilt(a, g, kappa_g, u_x, u_z)
                 behind = -lever(ground, body, r1, x1, z1, c, s, kappa)
                 ahead = lever(ground, body, f1, x1, z1, c, s, kappa)
+                behind0 = behind
+                ahead0 = ahead
+                if kappa0 != kappa:
+                    behind0 = -lever(ground, body, r1, x1, z1, c, s, kappa0)
+                    ahead0 = lever(ground, body, f1, x1, z1, c, s, kappa0)
                 if ds < 2e-5 or not (
                     (
-                        min(ahead, lever(ground, body, f1, x1, z1, c, s, kappa0)) <= 3.0 * ds
+                        min(ahead, ahead0) <= 3.0 * ds
                         and may_graze(
                             ground, body, front, f1, 1.0, kappa0, kappa,
                             x, z, phi, t_x, t_z, t_w, x1, z1, phi1, u_x, u_z, u_w, ds,
                         )
                     )
                     or (
-                        min(behind, -lever(ground, body, r1, x1, z1, c, s, kappa0)) <= 3.0 * ds
+                        min(behind, behind0) <= 3.0 * ds
                         and may_graze(
                             ground, body, rear, r1, -1.0, kappa0, kappa,
                             x, z, phi, t_x, t_z, t_w, x1, z1, phi1, u_x, u_z, u_w, ds,
