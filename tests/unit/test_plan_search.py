@@ -138,7 +138,7 @@ def test_each_change_says_what_it_takes(absolem):
 
 
 def test_where_no_friction_is_stated_the_plan_is_the_best_at_one():
-    """The margins against tipping are larger with flat flippers, which need 0.98 off their angles."""
+    """Margins against tipping are larger with flat flippers, which need 0.98 off their angles."""
     unstated = kaidan.assess("absolem", "ibc")
     needed = float(unstated.what_would_help[0].change.split("friction of ")[1].split()[0])
     assert (unstated.governs, needed) == ("friction_unknown", 1.0)

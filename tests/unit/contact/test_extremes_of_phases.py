@@ -51,7 +51,8 @@ def looked_at(monkeypatch):
         def energy(ground, body, poses, of, rows, side, weights, tie, order, pivots):
             assert (tie, len(weights)) == (1e-9, COUNT)
             asked.append(("energy", side, rows.tolist()))
-            return more.get("least", 0.002 * weights[0]), more.get("row", rows[0])
+            assert len(set(weights[rows])) == 1
+            return more.get("least", 0.002 * weights[rows[0]]), more.get("row", rows[0])
 
         def rock(ground, body, poses, of, rows, own, side, whence, a, g, touch, *scratch):
             assert (own, a, g, touch) == (8, 0.7, G, 1e-9)

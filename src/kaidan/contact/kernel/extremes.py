@@ -186,14 +186,23 @@ def put_pose_figures(
 
 def find_barrier(
     ground: GroundTable, body: BodyTable, poses: PoseTable, margins: MarginTable, rows: IntArray,
-    many: int, side: float, weights: FloatRow, order: IntArray, pivots: FloatRow,
-    extremes: ExtremeTable, number: int, column: int,
+    many: int, side: float, height: float, gyration: float, g: float, weights: FloatRow,
+    order: IntArray, pivots: FloatRow, extremes: ExtremeTable, number: int, column: int,
 ) -> None:  # fmt: skip
-    """Put the smallest weighted rise that a fall of some poses to one side needs, and its place."""
+    """Put the smallest rise that a fall of some poses to one side needs, and its place.
+
+    With a ``height`` of the centroid above the flat it is the rise about the flat by the same
+    sudden stop; zero: the rise as it is.
+    """
     extremes[number, column] = math.inf
     extremes[number, column + 1] = math.nan
     if many == 0:
         return
+    for k in range(many):
+        row = rows[k]
+        weights[row] = 1.0
+        if height > 0.0:
+            weights[row] = as_on_flat(poses, row, side, height, gyration, g)
     least, row = least_flow_energy(
         ground, body, poses, margins, rows[0:many], side, weights, TIE, order, pivots
     )
@@ -385,26 +394,20 @@ def find_extremes(
             poses, margins, friction, traction, leaves, rows, many, descending, number, extremes
         )
         count = posed_rows(poses, rows, many, counts[number], nosings, posed)
-        for row in range(poses.shape[0]):
-            weights[row] = 1.0
         find_barrier(
-            ground, body, poses, margins, posed, count, side, weights, heap, pivots, extremes,
-            number, EXTREME_ENERGY,
+            ground, body, poses, margins, posed, count, side, 0.0, gyration, g, weights, heap,
+            pivots, extremes, number, EXTREME_ENERGY,
         )  # fmt: skip
-        for row in range(poses.shape[0]):
-            weights[row] = as_on_flat(poses, row, side, height, gyration, g)
         find_barrier(
-            ground, body, poses, margins, posed, count, side, weights, heap, pivots, extremes,
-            number, EXTREME_STEADY,
+            ground, body, poses, margins, posed, count, side, height, gyration, g, weights, heap,
+            pivots, extremes, number, EXTREME_STEADY,
         )  # fmt: skip
         left = 0
         if number == TRAVERSES:
             left = rows_below_top(poses, posed, count, descending, tops, some)
-        for row in range(poses.shape[0]):
-            weights[row] = as_on_flat(poses, row, -side, height, gyration, g)
         find_barrier(
-            ground, body, poses, margins, some, left, -side, weights, heap, pivots, extremes,
-            number, EXTREME_UPHILL,
+            ground, body, poses, margins, some, left, -side, height, gyration, g, weights, heap,
+            pivots, extremes, number, EXTREME_UPHILL,
         )  # fmt: skip
         count = judged_rows(poses, phase, at, rows, many, whole, number, flights, posed)
         for uphill in range(2):
