@@ -34,7 +34,6 @@ from kaidan.question import Question
 
 WAIVED = (*TIPS, ROTATION)
 """Modes that an operator who accepts an arrested rotation waives, where the robot arrives."""
-_LISTED = {key: place for place, key in enumerate(FAILURE_MODES)}
 FALL = math.pi / 2
 """Margin of a robot of which no slope makes it fail [rad]."""
 
@@ -146,7 +145,7 @@ def _doubts(each: list[Finding], question: Question) -> list[Finding]:
 
 def _order(one: Finding, question: Question, *, best: bool = False) -> tuple[int, float, int]:
     """Order of what fails: margins of slope first, the smallest first; then as they are listed."""
-    listed = _LISTED[one.mode.key]
+    listed = list(FAILURE_MODES).index(one.mode.key)
     if one.mode is UNWEIGHED:  # before what follows from it
         return -1, 0.0, listed
     if one.mode.unit != "rad":
