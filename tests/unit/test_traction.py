@@ -1,6 +1,7 @@
 """Friction and grousers in answers: sheets, figures, texts."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from kaidan.modes import Phase
 from kaidan.question import Question
 from kaidan.robot import Track
 from kaidan.surface import Friction
+from kaidan.text.traction import notes
 from one_posture import assess
 
 LONG = {"name": "long", "com_from_front": 0.5, "com_height": 0.12, "mass": 40.0}
@@ -110,17 +112,22 @@ def test_going_down_it_slips_on():
     assert f"may slip on up to {answer.traction.slip_mm:.0f} mm" in str(answer)
 
 
-def test_little_friction_to_spare_is_told_of_those_that_go_up():
+def test_little_friction_to_spare_is_told_of_plans_that_turn_flippers_going_up():
     """Rigid teeth got stuck with up to 1.3 times the friction that the rule requires."""
-    needed = asked(**GROUSERS, **HARD).traction.required_friction
+    answer = asked(**GROUSERS, **HARD)
+    needed = answer.traction.required_friction
 
-    def told(times, **manner):
-        found = assess(robot(**GROUSERS, **HARD), FLIGHT, friction=times * needed, **manner)
-        return any(f"below {1.3 * needed:.2f}" in note for note in found.notes)
+    def told(times, direction="up", changes=("before the flight",)):
+        question = SimpleNamespace(
+            direction=direction, changes=changes, robot=answer.question.robot, yaw=0.0,
+            surface=SimpleNamespace(of_parts=lambda: (times * needed,) * 3),
+        )  # fmt: skip
+        found = notes(question, answer.traction)
+        return any(f"Little friction is to spare: below {1.3 * needed:.2f}" in one for one in found)
 
     assert [told(times) for times in (0.99, 1.01, 1.29, 1.31)] == [False, True, True, False]
     assert not told(1.01, direction="down")
-    assert not any("Little" in note for note in asked(friction=0.6).notes)
+    assert not told(1.01, changes=())
 
 
 def test_grousers_hold_where_friction_does_not():

@@ -7,6 +7,8 @@ from kaidan.mechanics.validity import validity
 
 ALIKE = 1e-3
 """Difference of two tilts below which nothing is pushed back [rad]."""
+FLATTEST = 1e-6
+"""Curvature below which an end is a flat [1/m]."""
 
 
 def reach_over_edge(*, R: Number, h: Number, s: Number) -> Number:
@@ -140,6 +142,89 @@ def pushed_lean(
     x = beyond - (off + 1.0 / curvature) * np.sin(lean) - back * np.cos(lean)
     z = (off + 1.0 / curvature) * np.cos(lean) - back * np.sin(lean)
     return np.maximum(lean, np.arctan2(r - x, r + z))
+
+
+def end_run(*, theta: Number, h: Number, r: Number, curvature: Number) -> Number:
+    """Length of the tread over which a grouser of a round end stands behind a nosing.
+
+    ``l = [(R + h) sin(g) - (R + r) sin(theta)]+``, ``(R + h) cos(g) = (R + r) cos(theta) - r``
+
+    The end lies on the round of the nosing, its axle (R + r) cos(theta) - r above the tread and
+    (R + r) sin(theta) before the place where the tread begins. A tip at the angle g ahead of
+    straight below the axle is at the tread's level. On a flat l is along the tread what
+    `kaidan.mechanics.grousers.standing_run` is along the belt, but for a factor cos(theta).
+
+    Assumptions: rigid grousers, the tread level; the end stays where it is.
+
+    Parameters
+    ----------
+    theta : float or array
+        Tilt of the end's normal where it touches the nosing, from the tread's [rad].
+    h : float or array
+        Height of the grousers under load [m].
+    r : float or array
+        Radius of the nosing [m].
+    curvature : float or array
+        Of the end [1/m]: one over its radius, belt included, grousers not.
+
+    Returns
+    -------
+    float or array
+        l [m].
+
+    Examples
+    --------
+    An end of 40 mm on a sharp nosing straight below its axle, grousers of 10 mm: 3, 4, 5.
+
+    >>> print(round(float(end_run(theta=0.0, h=0.010, r=0.0, curvature=25.0)), 9))
+    0.03
+
+    References
+    ----------
+    Derived: docs/theory/grousers.md.
+    """
+    R = 1.0 / curvature
+    cosine = ((R + r) * np.cos(theta) - r) / (R + h)
+    sine = np.sqrt(np.maximum(1.0 - cosine**2, 0.0))
+    return np.maximum((R + h) * sine - (R + r) * np.sin(theta), 0.0)
+
+
+def face_push(*, h: Number, s: Number, curvature: Number) -> Number:
+    """How far grousers that come round an end push it off a face, one after the other.
+
+    ``(R + h)(1 - cos(g))``, g = min(s / (2 R), arccos(R / (R + h)))
+
+    A tip at the level of the axle keeps the end R + h off the face. Half a spacing on the tips
+    above and below lie against it, or the belt does.
+
+    Assumptions: rigid grousers on a round end; the face is upright and higher than a spacing.
+
+    Parameters
+    ----------
+    h : float or array
+        Height of the grousers under load [m].
+    s : float or array
+        Spacing of the grousers along the belt [m].
+    curvature : float or array
+        Of the end [1/m]: one over its radius, belt included, grousers not; zero: a flat.
+
+    Returns
+    -------
+    float or array
+        [m]: h where they are far apart, zero on a flat.
+
+    Examples
+    --------
+    >>> print(round(float(face_push(h=0.01, s=0.06, curvature=1 / 0.029)), 9))
+    0.01
+
+    References
+    ----------
+    Derived: docs/theory/grousers.md.
+    """
+    R = 1.0 / np.maximum(curvature, FLATTEST)
+    angle = np.minimum(0.5 * s / R, np.arccos(R / (R + h)))
+    return np.where(curvature > 0.0, (R + h) * (1.0 - np.cos(angle)), 0.0)
 
 
 def edge_tilt(*, overlap: Number, r: Number) -> Number:

@@ -12,7 +12,7 @@ WORTH_TELLING = 0.02
 [1]."""
 SPARE = 1.3
 """Times the friction required within which rigid teeth got stuck, of robots that go up on their
-grousers (docs/theory/grousers.md, a second judge) [1]."""
+grousers and turn their flippers on the way (docs/theory/grousers.md, a second judge) [1]."""
 
 
 def usual() -> str:
@@ -43,8 +43,10 @@ def slip(question: "Question", found: "TractionFigures") -> str | None:
 
 
 def _more_to_be_sure(question: "Question", found: "TractionFigures") -> float | None:
-    """Friction with which no robot got stuck that goes up on its grousers; None: it is there."""
+    """Friction with which none got stuck that turned its flippers going up; None: it is there."""
     if question.direction == "down" or question.surface is None or found.required_friction is None:
+        return None
+    if not question.changes:
         return None
     least, sure = min(question.surface.of_parts()), SPARE * found.required_friction
     return sure if found.required_friction <= least < sure else None
@@ -64,8 +66,8 @@ def notes(question: "Question", found: "TractionFigures") -> tuple[str, ...]:
         needed = _more_to_be_sure(question, found)
         if needed is not None:
             each.append(
-                f"Little friction is to spare: below {needed:.2f} grousers of several belts, or at "
-                "three contacts, may work against one another and the robot get stuck."
+                f"Little friction is to spare: below {needed:.2f} the robot may slide back while "
+                "its flippers turn, and get stuck there."
             )
         unknown = [
             name

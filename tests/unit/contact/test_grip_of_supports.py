@@ -9,9 +9,11 @@ from kaidan.contact import columns as at
 from kaidan.contact.kernel.cones import cone_margin
 from kaidan.contact.kernel.grip import (
     MANY,
+    RESERVE,
     belt_margins,
     carry,
     friction_at,
+    is_in_doubt,
     lag,
     margin_of_several,
     margin_standing,
@@ -19,6 +21,7 @@ from kaidan.contact.kernel.grip import (
     standing_margins,
     tilt_run_back,
     tip_at,
+    with_reserve,
 )
 from kaidan.mechanics import grousers, grousers_at_edges, grousers_in_turn
 
@@ -33,6 +36,7 @@ def support(where, **other):
     row[at.SUPPORT_X], row[at.SUPPORT_Z] = where.real, where.imag
     row[at.SUPPORT_PLACE], row[at.SUPPORT_POINT] = at.NOSING, 3
     row[at.SUPPORT_NORMAL], row[at.SUPPORT_LIFT] = -SLOPE, math.nan
+    row[at.SUPPORT_BESIDE] = math.inf
     for name, value in other.items():
         row[getattr(at, f"SUPPORT_{name.upper()}")] = value
     return row
@@ -106,6 +110,8 @@ def test_a_tip_stands_behind_its_nosing(lean, curvature, rigid, s, w, r):
         h = float(behind)
     beta = float(grousers.tip_tilt(theta=lean, h=h, r=r, curvature=curvature))
     length = float(grousers.standing_run(theta=lean, h=h, r=r))
+    if rigid and curvature > 0.0:
+        length = float(grousers_at_edges.end_run(theta=lean, h=h, r=r, curvature=curvature))
     assert stands
     assert tilt == pytest.approx(0.1 - beta, abs=ROUNDING)
     assert run == pytest.approx(length, abs=ROUNDING)
@@ -234,7 +240,7 @@ def test_a_tip_rolls_no_farther_than_onto_the_face(one, other, own, its, tread, 
     how = (NOSINGS, TREADS, FACES, H, S, RN, True, side)
     # the belt passes the own support no more slowly: the tip does not run back
     normals = rows[:, at.SUPPORT_NORMAL].tolist()
-    back = tilt_run_back(rows, 0, 1, *normals, tip, S, RN, side)
+    back = tilt_run_back(rows, 0, 1, *normals, tip, S, RN, side, 0.0)
     rolling = (False, 0.0, 0.0, rolls, 0.0)
     found = margin_standing(rows, 0, 1, *normals, loads(), 0, tip, rolling, *how)
     if math.isnan(back):
@@ -325,7 +331,7 @@ def test_the_normals_of_ends_that_are_pushed_back_count():
     held = margin_standing(
         rows, 0, 1, *normals, loads(), 0, tip, none, 0.7, 0.7, 0.7, H, S, RN, True, 1.0
     )
-    assert found[0] == pytest.approx(held, abs=1e-9)
+    assert found[0] == pytest.approx(with_reserve(held, 0.7), abs=1e-9)
     # of the third of three poses too, between others: one stands on one support, one on none
     empty = np.zeros((2, at.SUPPORT_COLUMNS))
     three = np.vstack([empty, [support(0.2 + 0.1j, normal=0.3), empty[0]], rows, empty])
@@ -373,7 +379,8 @@ def test_a_tip_runs_back_over_the_tread_and_the_round(other, side):
         rows[:, [at.SUPPORT_X, at.SUPPORT_NORMAL]] *= -1.0
     run, tilt = 0.001, -0.15
     normals = rows[:, at.SUPPORT_NORMAL].tolist()
-    found = tilt_run_back(rows, 0, 1, *normals, (True, side * tilt, run, 0.0, 0.0), S, RN, side)
+    tip = (True, side * tilt, run, 0.0, 0.0)
+    found = tilt_run_back(rows, 0, 1, *normals, tip, S, RN, side, 0.0)
     if side < 0:
         assert found == -tilt
         return
@@ -424,7 +431,7 @@ def test_of_poses_on_one_friction_each_has_its_margin():
     load = loads(count=5)
     load[:, at.LOAD_COULOMB] = 0.5, 9.0, 0.3, 0.2, 0.1
     found = np.empty(5)
-    belt_margins(rows, 2, load, np.array([0, 0, 2, 3, 4]), 0.7, 0.7, 0.7, 0.01, found)
+    belt_margins(rows, 2, load, np.array([0, 0, 2, 3, 4]), 0.7, 0.7, 0.7, 0.01, RN, 1.0, found)
     left = math.atan(grousers.face_friction(mu=math.tan(0.7), h=0.01, curvature=10.0))
     at_face = min(0.5, cones(ONE, -SLOPE, 0.7, OTHER, -SLOPE, left))
     assert found == pytest.approx([0.2, 0.2, 0.4, at_face, 0.6], abs=1e-9)
@@ -443,14 +450,14 @@ def test_of_three_supports_the_better_pair_holds_the_belts():
     one = [support(ONE), support(OTHER), support(third, normal=-0.2, place=at.TREAD)]
     rows, load, found = np.array(one * 2), loads(count=2), np.empty(2)
     load[1, at.LOAD_COULOMB] = 0.4  # unlike the first
-    belt_margins(rows, 3, load, np.array([0, 1]), 0.6, 0.7, 0.5, 0.0, found)
+    belt_margins(rows, 3, load, np.array([0, 1]), 0.6, 0.7, 0.5, 0.0, RN, 1.0, found)
     outer = cones(ONE, -SLOPE, 0.6, OTHER, -SLOPE, 0.6)
     better = cones(OTHER, -SLOPE, 0.6, third, -0.2, 0.7)
     assert better > outer
     assert found == pytest.approx([better, better], abs=1e-9)
     # two of the three frictions alike
     for frictions in ((0.6, 0.5, 0.5), (0.6, 0.6, 0.5)):
-        belt_margins(rows, 3, load, np.array([0, 1]), *frictions, 0.0, found)
+        belt_margins(rows, 3, load, np.array([0, 1]), *frictions, 0.0, RN, 1.0, found)
         pairs = (ONE, -SLOPE, 0.6), (third, -0.2, frictions[1])
         each = [cones(OTHER, -SLOPE, 0.6, *pair) for pair in pairs]
         assert found == pytest.approx([max(each)] * 2, abs=1e-9)
@@ -504,7 +511,7 @@ def test_ends_are_pushed_pair_by_pair(rigid):
     how = (H, S, W, RN, rigid, 1.0)
     rows = np.array([
         support(-0.2 - 0.2j, normal=-0.6, tread=0.0, curvature=1.0 / RADIUS),
-        support(0.3 + 0.1j, place=at.FACE, normal=-1.3, tread=math.nan, curvature=12.0),
+        support(0.3 + 0.1j, place=at.FACE, normal=-1.3, tread=math.nan, curvature=3.0),
         support(-0.4 - 0.3j, normal=-0.2, tread=0.0, curvature=1.0 / RADIUS),
     ])  # fmt: skip
     rows[:, at.SUPPORT_FLAT], rows[:, at.SUPPORT_BEYOND] = math.nan, 0.004
@@ -534,5 +541,109 @@ def test_ends_are_pushed_pair_by_pair(rigid):
     for slot in range(3):
         tip = tip_at(rows, slot, rows[slot, at.SUPPORT_NORMAL], *how)
         of_all = margin_of_several(rows, slot, 3, -9.0, tip, 0.9, S, rigid, 1.0)
-        assert found[slot] == min(expected[slot], of_all)
+        held = min(expected[slot], of_all)
+        assert found[slot] == (with_reserve(held, 0.9) if rigid else held)
     assert math.isfinite(found[2])
+
+
+# --- ends, belts beside each other, and what is left in doubt -----------------------------------
+
+
+@pytest.mark.parametrize("rigid", [True, False])
+@pytest.mark.parametrize("place", [at.FACE, at.NOSING])
+def test_a_tip_of_an_end_runs_farther_back_and_is_pushed_by_others_at_a_face(place, rigid):
+    """Round an end it is faster than the belt by h/R; at a face each comes round and pushes by h.
+
+    Both normals lie in one direction, so that no belt lags; nothing rolls off.
+    """
+    radius, small = 0.09, 0.02
+    rows = np.array([
+        support(ONE, curvature=1.0 / radius),
+        support(OTHER, place=place, point=at.NOWHERE, curvature=1.0 / small),
+    ])  # fmt: skip
+    tilt, run = -0.15, 0.004
+    back = S * H / radius - run if rigid else -run
+    if rigid and place == at.FACE:
+        assert 0.5 * S / small > math.acos(small / (small + H))  # tips so far apart push by all
+        back += H
+    left = RN * math.sin(tilt + SLOPE) - max(back, 0.0)
+    own = math.asin(left / RN) - SLOPE if left > 0.0 else math.nan
+    tip, rolls = (True, tilt, run, 0.0, 0.0), (False, 0.0, 0.0, 0.0, 0.0)
+    how = (NOSINGS, TREADS, FACES, H, S, RN, rigid, 1.0)
+    held = margin_standing(rows, 0, 1, -SLOPE, -SLOPE, loads(), 0, tip, rolls, *how)
+    phi = FACES if place == at.FACE else NOSINGS
+    expected = -math.inf if left <= 0.0 else cones(ONE, own, TREADS, OTHER, -SLOPE, phi)
+    assert held == pytest.approx(expected, abs=1e-9)
+    assert (left <= 0.0) == (rigid and place == at.FACE)  # there it runs off
+
+
+def test_one_that_lags_rolls_off_its_nosing_while_the_other_stands():
+    """All along its lag, though the own tip stands on the tread for longer than it rolls."""
+    rear, front, own, its = -0.15 - 0.31j, 0.45 + 0.11j, -1.27, -0.8
+    rows = np.array([support(rear, normal=own), support(front, normal=its, tread=0.0)])
+    behind = S * lag(rows, 1, 0, its, own)
+    assert 0.0 < behind < RN
+    tip, rolls = (True, 0.0, 0.2, 0.0, 0.0), (False, 0.0, 0.0, 0.02, 0.0)
+    how = (NOSINGS, TREADS, FACES, H, S, RN, True)
+    held = margin_standing(rows, 0, 1, own, its, loads(), 0, tip, rolls, *how, 1.0)
+    axis = its - H / abs(rear - front)
+    turned = max(axis - math.asin(behind / RN), -math.pi / 2)
+    stands = cones(rear, 0.0, TREADS, front, axis, NOSINGS)
+    rolled = cones(rear, 0.0, TREADS, front, turned, NOSINGS)
+    assert rolled < stands
+    assert held == pytest.approx(rolled, abs=1e-9)
+
+
+@pytest.mark.parametrize("rigid", [True, False])
+@pytest.mark.parametrize("gap", [0.5 * H, 1.5 * H])
+@pytest.mark.parametrize("point", [at.NOWHERE, 5])
+def test_where_an_end_and_a_flat_pass_one_nosing_no_tip_holds_alone(point, gap, rigid):
+    """If tips reach over the gap between them, and no tip can hold at the other support."""
+    rows = np.array([support(ONE, beside=gap), support(OTHER, point=point, tread=0.0)])
+    tip, rolls = (True, -0.1, 0.2, 0.0, 0.0), (False, 0.0, 0.0, 0.0, 0.0)
+    how = (NOSINGS, TREADS, FACES, H, S, RN, rigid)
+    held = margin_standing(rows, 0, 1, -SLOPE, -SLOPE, loads(), 0, tip, rolls, *how, 1.0)
+    assert math.isfinite(held) != (rigid and gap < H and point == at.NOWHERE)
+
+
+def test_friction_alone_holds_an_end_where_it_is_pushed_to():
+    """The rear end on the tread just behind its nosing, the front end at a face."""
+    rear, front = -0.4 - 0.3j, 0.3 + 0.1j
+    rows = np.array([
+        support(rear, place=at.TREAD, normal=0.0, tread=0.0, curvature=1.0 / RADIUS, beyond=0.004,
+                flat=math.nan),
+        support(front, place=at.FACE, normal=-math.pi / 2, tread=math.nan, curvature=12.0),
+    ])  # fmt: skip
+    phi, found = 0.9, np.empty(1)
+    pushed = pushed_normal(rows, 0, 1, H, RN, 1.0)
+    left = math.atan(grousers.face_friction(mu=math.tan(phi), h=H, curvature=12.0))
+    for side, normal in ((1.0, pushed), (-1.0, 0.0)):
+        belt_margins(rows, 2, loads(coulomb=-9.0), np.array([0]), phi, phi, phi, H, RN, side, found)
+        held = cones(rear, normal, phi, front, -math.pi / 2, left)
+        assert math.isfinite(held)
+        assert found[0] == pytest.approx(with_reserve(held, phi) if side > 0.0 else held, abs=1e-9)
+
+
+def test_an_end_at_a_face_is_in_doubt_while_another_stands_behind_a_nosing():
+    rear = support(ONE, place=at.TREAD, curvature=10.0)
+    face = support(OTHER, place=at.FACE, curvature=12.0)
+    assert is_in_doubt(np.array([rear, face]), 0, 2)
+    assert is_in_doubt(np.array([face, np.zeros(at.SUPPORT_COLUMNS), rear]), 0, 3)
+    for column, value in (("PLACE", at.FACE), ("CURVATURE", 0.0), ("POINT", at.NOWHERE)):
+        other = rear.copy()
+        other[getattr(at, f"SUPPORT_{column}")] = value
+        assert not is_in_doubt(np.array([other, face]), 0, 2)
+    for column, value in (("PLACE", at.NOSING), ("CURVATURE", 0.0), ("IS_ONE", 0.0)):
+        other = face.copy()
+        other[getattr(at, f"SUPPORT_{column}")] = value
+        assert not is_in_doubt(np.array([rear, other]), 0, 2)
+
+
+def test_a_reserve_is_a_friction_so_much_larger():
+    """Of 0.5 required and 0.8 there are 0.65 and 0.8; what needs none keeps its margin."""
+    assert RESERVE == 1.3
+    phi = math.atan(0.8)
+    found = with_reserve(phi - math.atan(0.5), phi)
+    assert found == pytest.approx(phi - math.atan(0.65), abs=ROUNDING)
+    assert with_reserve(phi, phi) == phi
+    assert with_reserve(-math.inf, phi) == -math.inf

@@ -25,6 +25,8 @@ def by_all_poses(s, legs, points, standing, friction, sense, way):
                 ]
                 worst = min(worst, max([friction[there], *same]))
                 there += sense
+            if there < 0 and min(points[0]) < 0 <= max(points[0]):
+                worst = -np.inf  # beyond a beginning with one end on a floor
             best = max(best, worst)
         found.append(best)
     return found
@@ -49,6 +51,25 @@ def test_the_best_contact_by_its_worst_pose(sense):
             poses, points.ravel(), standing.ravel(), friction, SLOTS, sense, way, 0.0, found
         )
         assert found.tolist() == by_all_poses(s, legs, points, standing, friction, sense, way)
+
+
+@pytest.mark.parametrize(
+    ("begins", "held"), [((-1, 4), False), ((4, -1), False), ((-1, -1), True), ((3, 4), True)]
+)
+def test_nothing_holds_beyond_a_beginning_with_one_end_on_a_floor(begins, held):
+    """Of five poses on one nosing, 10 mm apart; 25 mm back from the first three are before it."""
+    poses = np.zeros((5, POSE_COLUMNS))
+    poses[:, POSE_S] = 0.01 * np.arange(5)
+    points = np.tile([-1, 4], (5, 1))
+    points[0] = begins
+    standing = np.where(points == 4, 0.3, -np.inf)
+    friction, found = np.array([0.2, -0.1, -0.1, -0.1, -0.1]), np.empty(5)
+    held_while_slipping(
+        poses, points.ravel(), standing.ravel(), friction, SLOTS, -1, 0.025, 0.0, found
+    )
+    first = 0.3 if begins == (3, 4) else 0.2
+    expected = [first, 0.3, 0.3] if begins == (3, 4) else [0.2, 0.2, 0.2]
+    assert found.tolist() == (expected if held else [0.2, -0.1, -0.1]) + [0.3, 0.3]
 
 
 @pytest.mark.parametrize("sense", [1, -1])

@@ -129,6 +129,31 @@ def test_a_belly_carries_no_grouser_and_each_pose_has_its_own_posture():
     assert found[:, 2, at.SUPPORT_IS_ONE].tolist() == [0.0, 1.0]
 
 
+@pytest.mark.parametrize("gap", [0.003, -0.004])
+@pytest.mark.parametrize("disc", [0, 3])
+def test_a_belt_beside_passes_a_nosing_another_way(disc, gap):
+    """A flipper whose end is off a nosing on the track's flat; its gap, and the track's from it."""
+    one, other, n = flat(TAPERED)
+    place = one + 0.2 * (other - one)
+    end, far = place - (0.06 + gap) * n, place - 0.4 * n  # it leads away from the ground
+    flipper = [0.0] * 6
+    flipper[disc : disc + 3] = end.real, end.imag, 0.06
+    flipper[3 - disc : 6 - disc] = far.real, far.imag, 0.06
+    ground, points, _ = carried(TAPERED, 0.2, 0.9)
+    how = {"part": 0, "kinds": [PartKind.TRACK, PartKind.FLIPPER]}
+    _, (found,) = find(ground, points, [TAPERED, flipper], **how)
+    assert found[0, at.SUPPORT_BESIDE] == pytest.approx(abs(gap), abs=1e-9)
+    assert found[1, at.SUPPORT_BESIDE] > 0.1
+    _, (found,) = find(ground, points, [TAPERED, flipper], **how | {"part": 1})
+    assert found[0, at.SUPPORT_BESIDE] == pytest.approx(0.0, abs=1e-9)
+    for kinds in ([PartKind.TRACK] * 2, [PartKind.TRACK, PartKind.BELLY]):  # one belt, or none
+        _, (found,) = find(ground, points, [TAPERED, flipper], part=0, kinds=kinds)
+        assert found[0, at.SUPPORT_BESIDE] == math.inf
+    # another flat passes it the same way
+    _, (found,) = find(ground, points, [TAPERED, TAPERED], **how)
+    assert found[:2, at.SUPPORT_BESIDE].tolist() == [math.inf] * 2
+
+
 @pytest.mark.parametrize("beyond", [0.02, -0.02])
 @pytest.mark.parametrize("part", [TAPERED, BACKWARD])
 def test_a_nosing_under_an_arc_has_the_curvature_of_its_disc(part, beyond):
@@ -138,8 +163,8 @@ def test_a_nosing_under_an_arc_has_the_curvature_of_its_disc(part, beyond):
     ground, (k,) = spikes(at_pose(place))
     poses = table(at.POSE_COLUMNS, {at.POSE_X: X, at.POSE_Z: Z, at.POSE_PHI: PHI})
     found = np.zeros((1, at.SUPPORT_COLUMNS))
-    describe(ground, body_table([RAISED, part]), 0, poses, 0, at.POINT * k + at.PART, True, STEEP,
-             found, 0)  # fmt: skip
+    describe(ground, body_table([RAISED, part]), 0, 2, poses, 0, at.POINT * k + at.PART, True,
+             STEEP, found, 0)  # fmt: skip
     radius = part[5] if beyond > 0 else part[2]
     assert found[0, at.SUPPORT_CURVATURE] == pytest.approx(1.0 / radius, abs=ROUNDING)
     assert found[0, at.SUPPORT_PLACE] == at.NOSING
@@ -159,7 +184,7 @@ def test_an_end_stands_on_a_tread_or_a_face_below_its_edge(x, disc, climbs):
     poses = table(at.POSE_COLUMNS, {}, {at.POSE_X: X, at.POSE_Z: Z, at.POSE_PHI: PHI})
     found = np.full((2, at.SUPPORT_COLUMNS), -9.0)
     feature = at.POINT * k + disc  # of the first part of a posture that begins in the second row
-    describe(ZIGZAG, body_table(parts), 1, poses, 1, feature, climbs, STEEP, found, 1)
+    describe(ZIGZAG, body_table(parts), 1, 1, poses, 1, feature, climbs, STEEP, found, 1)
     assert found[0].tolist() == [-9.0] * at.SUPPORT_COLUMNS
     own = TAPERED[3 * disc - 3 : 3 * disc]
     assert found[1, at.SUPPORT_CURVATURE] == pytest.approx(1.0 / own[2], abs=ROUNDING)

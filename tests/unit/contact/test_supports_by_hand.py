@@ -14,6 +14,7 @@ from kaidan.contact.columns import (
     LOAD_X,
     LOAD_Z,
     NOSING,
+    SUPPORT_BESIDE,
     SUPPORT_COLUMNS,
     SUPPORT_CURVATURE,
     SUPPORT_IS_ONE,
@@ -82,6 +83,10 @@ def test_tips_over_an_edge_are_those_of_the_formulas():
     for share in (1.0, 0.02):  # ends of metres too
         curved = pushed | {"curvature": share / R}
         same(kernel.pushed_lean, grousers_at_edges.pushed_lean, **curved)
+    edges = {"theta": lean, "h": h, "r": 0.5 * s, "curvature": 1.0 / R}
+    same(kernel.end_run, grousers_at_edges.end_run, **edges)
+    same(kernel.face_push, grousers_at_edges.face_push, h=h, s=s, curvature=1.0 / R)
+    assert kernel.face_push(0.01, 0.04, 0.0) == 0.0
     same(kernel.edge_tilt, grousers_at_edges.edge_tilt, overlap=0.02 - h, r=0.5 * s)
 
 
@@ -93,6 +98,7 @@ def on_slope(*along, **other):
     slots = len(along) + 2
     table = np.zeros((slots, SUPPORT_COLUMNS))
     table[:, [SUPPORT_POINT, SUPPORT_TREAD, SUPPORT_LIFT]] = -1.0, math.nan, math.nan
+    table[:, SUPPORT_BESIDE] = math.inf
     for k, u in enumerate(along):
         table[k, SUPPORT_IS_ONE] = 1.0
         table[k, SUPPORT_X] = u * math.cos(SLOPE) + HEIGHT * math.sin(SLOPE)
@@ -181,15 +187,15 @@ def test_poses_that_stand_alike_have_the_margins_of_the_first():
 def test_belts_hold_by_friction_less_slope_and_rigid_grousers_by_less_at_a_face():
     table, slots = on_slope(-0.2, 0.3)
     found = np.empty(1)
-    belt_margins(table, slots, loads(), np.array([0]), 0.7, 0.2, 0.2, 0.0, found)
+    belt_margins(table, slots, loads(), np.array([0]), 0.7, 0.2, 0.2, 0.0, 0.0, 1.0, found)
     assert found[0] == pytest.approx(0.7 - SLOPE, abs=HALVED)
     table, slots = on_slope(-0.2, 0.3, place=FACE, curvature=10.0)
     for height in (0.0, 0.01):
         left = math.atan(math.tan(0.7) / (1.0 + 10.0 * height) ** 2)
-        belt_margins(table, slots, loads(), np.array([0]), 0.1, 0.1, 0.7, height, found)
+        belt_margins(table, slots, loads(), np.array([0]), 0.1, 0.1, 0.7, height, 0.0, 1.0, found)
         assert found[0] == pytest.approx(left - SLOPE, abs=HALVED)
         # one friction everywhere: no more than smooth belts hold
-        belt_margins(table, slots, loads(), np.array([0]), 0.7, 0.7, 0.7, height, found)
+        belt_margins(table, slots, loads(), np.array([0]), 0.7, 0.7, 0.7, height, 0.0, 1.0, found)
         assert found[0] == pytest.approx(left - SLOPE, abs=HALVED)
 
 
@@ -238,7 +244,7 @@ def test_the_native_kernel_finds_the_same_as_the_plain_one(path):
             found.append(
                 (
                     supports.points,
-                    supports.belt_margins(phi, 0.01),
+                    supports.belt_margins(phi, 0.01, 0.005),
                     supports.standing_margins(phi, one),
                     supports.standing_margins(phi, one._replace(rigid=False)),
                 )

@@ -19,6 +19,7 @@ from kaidan.contact.columns import (
     LOAD_Z,
     NOSING,
     NOWHERE,
+    SUPPORT_BESIDE,
     SUPPORT_BEYOND,
     SUPPORT_CURVATURE,
     SUPPORT_FLAT,
@@ -36,7 +37,9 @@ from kaidan.contact.entries import entry
 from kaidan.contact.kernel.cones import cone_margin
 from kaidan.contact.kernel.grousers import (
     edge_tilt,
+    end_run,
     face_friction,
+    face_push,
     height_behind,
     phases_friction,
     pushed_lean,
@@ -54,6 +57,9 @@ from kaidan.contact.tables import FloatRow, IntArray, LoadTable, SupportTable, T
 #: Share of the phases that counts where four nosings or more are under the belts [1]: fitted with
 #: `kaidan.mechanics.grousers.phases_friction` (docs/theory/grousers.md).
 MANY = 0.75
+#: Times the friction required that an end at a face needs while the other end stands behind a
+#: nosing: fitted (docs/theory/grousers.md).
+RESERVE = 1.3
 #: Tilt up to which an end on a tread is off the round of its nosing [rad].
 LEVEL = 1e-3
 #: Radius of a nosing that is sharp [m].
@@ -119,6 +125,35 @@ def pushed_normal(
     return tread - pushed if pushed > lean else normal
 
 
+def is_pushed(supports: SupportTable, first: int, h: float, r: float, side: float) -> bool:
+    """Whether one of the two contacts that carry a pose is an end that the other pushes back."""
+    for at in range(2):
+        own = supports[first + at, SUPPORT_NORMAL]
+        if pushed_normal(supports, first + at, first + 1 - at, h, r, side) != own:
+            return True
+    return False
+
+
+def is_in_doubt(supports: SupportTable, first: int, slots: int) -> bool:
+    """Whether an end is at a face while another one stands on a nosing, or on the tread behind."""
+    at_face = False
+    behind = False
+    for at in range(first, first + slots):
+        if supports[at, SUPPORT_IS_ONE] == 1.0 and supports[at, SUPPORT_CURVATURE] > 0.0:
+            if supports[at, SUPPORT_PLACE] == FACE:
+                at_face = True
+            elif supports[at, SUPPORT_POINT] != NOWHERE:
+                behind = True
+    return at_face and behind
+
+
+def with_reserve(margin: float, friction: float) -> float:
+    """Margin of an angle of friction, once what is required is `RESERVE` times as much [rad]."""
+    if margin == -math.inf or margin >= friction:
+        return margin
+    return friction - math.atan2(RESERVE * math.tan(friction - margin), 1.0)
+
+
 def margin_of(
     supports: SupportTable, one: int, alpha: float, phi: float, ahead: float, other: int,
     other_alpha: float, other_phi: float, loads: LoadTable, row: int,
@@ -136,7 +171,7 @@ def margin_of(
 @entry
 def belt_margins(
     supports: SupportTable, slots: int, loads: LoadTable, like: IntArray, nosings: float,
-    treads: float, faces: float, height: float, found: FloatRow,
+    treads: float, faces: float, height: float, r: float, side: float, found: FloatRow,
 ) -> None:  # fmt: skip
     """Angle by which the cones of the belts may shrink without a grouser that stands, of each pose.
 
@@ -164,7 +199,7 @@ def belt_margins(
         found[row] = math.inf
         if one_friction:
             found[row] = nosings - loads[row, LOAD_COULOMB]
-            if not at_face:
+            if not at_face and not is_pushed(supports, first, height, r, side):
                 continue
         most = -math.inf
         for j in range(slots):
@@ -174,13 +209,15 @@ def belt_margins(
                 one = first + i
                 other = first + j
                 margin = margin_of(
-                    supports, one, supports[one, SUPPORT_NORMAL],
+                    supports, one, pushed_normal(supports, one, other, height, r, side),
                     friction_at(supports, one, nosings, treads, faces, height), 0.0,
-                    other, supports[other, SUPPORT_NORMAL],
+                    other, pushed_normal(supports, other, one, height, r, side),
                     friction_at(supports, other, nosings, treads, faces, height), loads, row,
                 )  # fmt: skip
                 most = larger(most, margin)
         found[row] = smaller(found[row], most)
+        if side > 0.0 and height > 0.0 and is_in_doubt(supports, first, slots):
+            found[row] = with_reserve(found[row], nosings)
 
 
 def tip_at(
@@ -218,6 +255,8 @@ def tip_at(
     behind = height_behind(theta, h, s, r, w, curvature) if rigid else h
     beta = tip_tilt(theta, behind, r, curvature)
     run = standing_run(theta, behind, r)
+    if rigid and curvature > 0.0:
+        run = end_run(theta, behind, r, curvature)
     off = roll_off_length(theta, behind, r)
     if not (leans > 0.0 and leans < 0.5 * math.pi and beta < theta):
         return False, 0.0, 0.0, off, 0.0
@@ -240,14 +279,15 @@ def lag(supports: SupportTable, one: int, other: int, own: float, its: float) ->
 
 def tilt_run_back(
     supports: SupportTable, one: int, other: int, own: float, its: float, tip: Tip, s: float,
-    r: float, side: float,
+    r: float, side: float, more: float,
 ) -> float:  # fmt: skip
     """Tilt of the normal under a tip that ran back while the belt ran on by a spacing [rad].
 
-    It runs back over the tread first, then over the round of the nosing; NaN: it runs off. A robot
-    that goes down does not have to get on against its weight.
+    It runs back over the tread first, then over the round of the nosing; NaN: it runs off. Of an
+    end it runs faster than the belt, and others at a face push it back: by so much more [m]. A
+    robot that goes down does not have to get on against its weight.
     """
-    back = s * lag(supports, one, other, own, its) - tip[2]
+    back = s * lag(supports, one, other, own, its) + more - tip[2]
     if side < 0.0 or back <= 0.0:
         return tip[1]
     left = math.sin(side * (tip[1] - own)) - back / max(r, SHARP)
@@ -265,10 +305,19 @@ def margin_standing(
     upper support. The other support may be a grouser's top, or roll off a nosing with its edge, no
     farther than onto the face: then the worse of two times counts, see
     `kaidan.mechanics.grousers.roll_off_sine`, of the best part in which the other is taken to roll.
+    As far as the other one lags it rolls off while the own one stands. Where belts pass the one
+    nosing two ways, and nothing else can hold, the tips of each keep off those of the other.
     """
     if not tip[0]:
         return -math.inf
-    tilt = tilt_run_back(supports, one, other, own, axis, tip, s, r, side)
+    more = 0.0
+    if rigid and side > 0.0:
+        if supports[one, SUPPORT_BESIDE] < h and supports[other, SUPPORT_POINT] == NOWHERE:
+            return -math.inf
+        more = s * h * supports[one, SUPPORT_CURVATURE]
+        if supports[other, SUPPORT_PLACE] == FACE:
+            more += face_push(h, s, supports[other, SUPPORT_CURVATURE])
+    tilt = tilt_run_back(supports, one, other, own, axis, tip, s, r, side, more)
     if math.isnan(tilt):
         return -math.inf
     phi = friction_at(supports, other, nosings, treads, faces, 0.0)
@@ -278,17 +327,21 @@ def margin_standing(
     d_z = supports[one, SUPPORT_Z] - supports[other, SUPPORT_Z]
     ahead = side * tip[4] if side * d_x > 0.0 else 0.0
     gamma = 0.0
+    rolled = 0.0
     if supports[other, SUPPORT_PLACE] == NOSING and supports[other, SUPPORT_POINT] != NOWHERE:
+        if side > 0.0:
+            rolled = min(max(s * lag(supports, other, one, axis, own), 0.0), rolls[3])
         axis -= side * (h / max(math.sqrt(d_x * d_x + d_z * d_z), APART))
-        gamma = roll_off_sine(tip[2], rolls[3], max(r, SHARP))
-    if gamma <= 0.0:
+        gamma = roll_off_sine(tip[2], rolls[3] - rolled, max(r, SHARP))
+    if gamma <= 0.0 and rolled <= 0.0:
         return margin_of(supports, one, tilt, treads, ahead, other, axis, phi, loads, row)
     lean = side * (tilt - own)
     upright = 0.5 * math.pi - side * (supports[other, SUPPORT_TREAD] - axis)
     most = -math.inf
     for half in range(3):
         # the other has rolled off by so much at most, or the own one has climbed by the rest
-        turned = min(math.asin(min(half * gamma, 1.0)), max(upright, 0.0))
+        sine = min(half * gamma + rolled / max(r, SHARP), 1.0)
+        turned = min(math.asin(sine), max(upright, 0.0))
         left = math.asin(max(math.sin(lean) - (2 - half) * gamma, 0.0))
         first = margin_of(
             supports, one, tilt, treads, ahead, other, axis - side * turned, phi, loads, row
@@ -397,3 +450,6 @@ def standing_margins(
                     supports, at, several, loads[row, LOAD_COULOMB], tip, nosings, s, rigid, side
                 )
                 found[at] = smaller(found[at], of_all)
+        if side > 0.0 and pushing > 0.0 and is_in_doubt(supports, first, slots):
+            for at in range(first, first + slots):
+                found[at] = with_reserve(found[at], nosings)

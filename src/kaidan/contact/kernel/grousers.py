@@ -137,6 +137,23 @@ def pushed_lean(
     return max(lean, math.atan2(r - x, r + z))
 
 
+def end_run(theta: float, h: float, r: float, curvature: float) -> float:
+    """Length of the tread over which a grouser of a round end stands behind a nosing [m]."""
+    radius = 1.0 / curvature
+    cosine = ((radius + r) * math.cos(theta) - r) / (radius + h)
+    sine = math.sqrt(max(1.0 - cosine * cosine, 0.0))
+    return max((radius + h) * sine - (radius + r) * math.sin(theta), 0.0)
+
+
+def face_push(h: float, s: float, curvature: float) -> float:
+    """How far grousers that come round an end push it off a face, one after the other [m]."""
+    if curvature <= 0.0:
+        return 0.0
+    radius = 1.0 / curvature
+    angle = min(0.5 * s / radius, math.acos(radius / (radius + h)))
+    return (radius + h) * (1.0 - math.cos(angle))
+
+
 def reach_over_edge(radius: float, h: float, s: float) -> float:
     """Height above the axle at which a tip that comes round a track's end passes over an edge."""
     angle = min(0.5 * s / radius, math.acos(radius / (radius + h)))

@@ -32,12 +32,23 @@ def held_by(
     return most
 
 
+def is_unlike_before(points: IntArray, slots: int) -> bool:
+    """Whether a path begins with one end on a floor and the other one at a nosing.
+
+    A robot that slips back from there comes before that riser, of which the path knows nothing.
+    """
+    return slots > 1 and bool((points[0] < 0) != (points[1] < 0))
+
+
 @entry
 def held_while_slipping(
     poses: PoseTable, points: IntArray, standing: FloatRow, friction: FloatRow, slots: int,
     sense: int, way: float, over: float, found: FloatRow,
 ) -> None:  # fmt: skip
     """Work out with how much to spare each pose holds before the robot slips for good.
+
+    A slip towards the beginning that leads beyond it is held there as at the beginning, unless
+    that is on a floor and at a nosing at once.
 
     Parameters
     ----------
@@ -70,8 +81,10 @@ def held_while_slipping(
                 continue
             least = max(friction[row], standing[row * slots + slot])
             there = row
-            for _ in range(1, min(count, MOST_SHIFTS)):
+            for _ in range(min(count, MOST_SHIFTS)):
                 there += sense
+                if there < 0 and is_unlike_before(points, slots):
+                    least = -math.inf
                 if (
                     there < 0
                     or there >= count

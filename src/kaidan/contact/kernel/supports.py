@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.codes import BELLY
+from kaidan.contact.codes import BELLY, TRACK
 from kaidan.contact.columns import (
     CONVEX,
     COSINE,
@@ -46,6 +46,7 @@ from kaidan.contact.columns import (
     REAR_Z,
     SIDE,
     SINE,
+    SUPPORT_BESIDE,
     SUPPORT_BEYOND,
     SUPPORT_CURVATURE,
     SUPPORT_FLAT,
@@ -144,11 +145,11 @@ def find_supports(
         place(supports, first, poses[row, REAR_X] - poses[row, POSE_X],
               poses[row, REAR_Z] - poses[row, POSE_Z],
               math.atan2(poses[row, REAR_N_X], poses[row, REAR_N_Z]))  # fmt: skip
-        describe(ground, bodies, body, poses, row, rear, climbs, steep, supports, first)
+        describe(ground, bodies, body, parts, poses, row, rear, climbs, steep, supports, first)
         place(supports, first + 1, poses[row, FRONT_X] - poses[row, POSE_X],
               poses[row, FRONT_Z] - poses[row, POSE_Z],
               math.atan2(poses[row, FRONT_N_X], poses[row, FRONT_N_Z]))  # fmt: skip
-        describe(ground, bodies, body, poses, row, front, climbs, steep, supports, first + 1)
+        describe(ground, bodies, body, parts, poses, row, front, climbs, steep, supports, first + 1)
         count = 2
         hint = first_index(ground, poses[row, POSE_X] - reach, hint)
         k = hint
@@ -165,6 +166,9 @@ def find_supports(
                         supports[at, SUPPORT_POINT] = k
                         supports[at, SUPPORT_CURVATURE] = 0.0
                         supports[at, SUPPORT_LIFT] = math.nan
+                        supports[at, SUPPORT_BESIDE] = beside(
+                            ground, bodies, body, parts, poses, row, part, k
+                        )  # fmt: skip
                     count += 1
             k += 1
         most = max(most, count)
@@ -189,11 +193,12 @@ def place(supports: SupportTable, at: int, x: float, z: float, normal: float) ->
     supports[at, SUPPORT_NORMAL] = normal
     supports[at, SUPPORT_BEYOND] = 0.0
     supports[at, SUPPORT_FLAT] = math.nan
+    supports[at, SUPPORT_BESIDE] = math.inf
 
 
 def describe(
-    ground: GroundTable, bodies: BodyTable, body: int, poses: PoseTable, row: int, feature: int,
-    climbs: bool, steep: float, supports: SupportTable, at: int,
+    ground: GroundTable, bodies: BodyTable, body: int, parts: int, poses: PoseTable, row: int,
+    feature: int, climbs: bool, steep: float, supports: SupportTable, at: int,
 ) -> None:  # fmt: skip
     """Write what a contact that carries a pose stands on, and the belt there."""
     point = feature >> POINT_BITS
@@ -213,6 +218,9 @@ def describe(
     if kind == VERTEX:
         supports[at, SUPPORT_PLACE] = NOSING
         supports[at, SUPPORT_POINT] = point
+        supports[at, SUPPORT_BESIDE] = beside(
+            ground, bodies, body, parts, poses, row, part, point
+        )  # fmt: skip
         return
     step_x = ground[point + 1, X] - ground[point, X]
     step_z = ground[point + 1, Z] - ground[point, Z]
@@ -247,6 +255,46 @@ def touching_part(
     return -1
 
 
+def beside(
+    ground: GroundTable, bodies: BodyTable, body: int, parts: int, poses: PoseTable, row: int,
+    own: int, k: int,
+) -> float:  # fmt: skip
+    """Gap between a point and the next belt that passes it another way than the own one [m].
+
+    One is on a flat and the other on the round of an end; infinity: there is none. Parts of the
+    track have one belt.
+    """
+    along, _ = along_flat(ground, bodies, poses, row, own, k)
+    on_flat = along >= 0.0 and along <= bodies[own, FLAT]
+    nearest = math.inf
+    for part in range(body, body + parts):
+        kind = int(bodies[part, KIND])
+        if part == own or kind == BELLY or (kind == TRACK and int(bodies[own, KIND]) == TRACK):
+            continue
+        along, gap = along_flat(ground, bodies, poses, row, part, k)
+        if on_flat == (along >= 0.0 and along <= bodies[part, FLAT]):
+            continue
+        if on_flat:
+            gap = end_gap(ground, bodies, poses, row, part, along < 0.0, k)
+        nearest = min(nearest, abs(gap))
+    return nearest
+
+
+def end_gap(
+    ground: GroundTable, bodies: BodyTable, poses: PoseTable, row: int, part: int, first: bool,
+    k: int,
+) -> float:  # fmt: skip
+    """Gap between a point and the round of an end of a part, the first or the second [m]."""
+    d_x = bodies[part, X1] if first else bodies[part, X2]
+    d_z = bodies[part, Z1] if first else bodies[part, Z2]
+    radius = bodies[part, R1] if first else bodies[part, R2]
+    c = math.cos(poses[row, POSE_PHI])
+    s = math.sin(poses[row, POSE_PHI])
+    a_x = ground[k, X] - poses[row, POSE_X] - c * d_x + s * d_z
+    a_z = ground[k, Z] - poses[row, POSE_Z] - s * d_x - c * d_z
+    return float(math.sqrt(a_x * a_x + a_z * a_z) - radius)
+
+
 def flat_tilt(bodies: BodyTable, part: int) -> float:
     """Tilt of the normal of the flat of a part, from the ground into it, in the body frame."""
     across = bodies[part, COSINE] * bodies[part, SIDE]
@@ -279,7 +327,7 @@ def stand_alike(supports: SupportTable, slots: int, loads: LoadTable, one: int, 
         nowhere = supports[a, SUPPORT_POINT] == NOWHERE
         if nowhere != (supports[b, SUPPORT_POINT] == NOWHERE):
             return False
-        for column in range(SUPPORT_X, SUPPORT_FLAT + 1):
+        for column in range(SUPPORT_X, SUPPORT_BESIDE + 1):
             if column != SUPPORT_POINT and not is_same(supports[a, column], supports[b, column]):
                 return False
     return True
