@@ -171,6 +171,8 @@ def test_other_plans_are_named_with_the_friction_that_they_need(monkeypatch):
     assert one.question.posture.front == 0.3
     ranged = SimpleNamespace(robot=SimpleNamespace(com_range="range"))
     assert list(with_other_plans(ranged, search)) == []
+    as_much = came_upon(0.3, needed=(LARGEST_FRICTION - 0.01,))
+    assert [one.friction for one in with_other_plans(PLANNED, as_much)] == [LARGEST_FRICTION]
     # off its angles it may need more
     monkeypatch.setattr(plan_off_angles, "friction_off_its_angles", lambda question, drives: 1.1)
     (loose,) = list(with_other_plans(PLANNED.changed(flipper_tolerance=0.05), search))[:1]

@@ -212,7 +212,8 @@ GROUSERS = ABSOLEM.model_copy(
 def at_frictions(monkeypatch):
     """Best plans by the friction at which they are searched, and what each comes to at 0.5."""
 
-    def of(at, comes_to, *, verdict=None, robot=GROUSERS, friction=0.5, **manner):
+    def of(at, comes_to, *, verdict=None, robot=GROUSERS, friction=0.5, best_of=("flippers",),
+           **manner):  # fmt: skip
         searched, judged_there = [], []
 
         def plan(question, merit):
@@ -223,11 +224,11 @@ def at_frictions(monkeypatch):
             mu = round(search.question.friction[0], 6)
             searched.append((mu, beaten))
             assert (stated is None) == (mu != friction)
-            merit = at.get(mu)
+            merit = at.get((mu, search.facing), at.get(mu))
             if merit is None:
                 return None
             posture = {"front": mu} if robot.flippers() else {}
-            return plan(search.question.changed(posture=posture), merit)
+            return plan(search.question.changed(posture=posture, facing=search.facing), merit)
 
         def judged_of(question, found):
             assert question.friction == (friction, friction)
@@ -241,14 +242,14 @@ def at_frictions(monkeypatch):
             best = plans[0].judged.question
             return module.Found(best, "findings", True, "short", drives)
 
-        monkeypatch.setattr(module, "Search", lambda question, *given: SimpleNamespace(
-            question=question, scores=SimpleNamespace(known=range(10))
+        monkeypatch.setattr(module, "Search", lambda question, facing, limits: SimpleNamespace(
+            question=question, facing=facing, scores=SimpleNamespace(known=range(10))
         ))  # fmt: skip
         monkeypatch.setattr(module, "sturdiest", sturdiest)
         monkeypatch.setattr(module, "judged_of", judged_of)
         monkeypatch.setattr(module, "judged_off", judged_off)
         monkeypatch.setattr(module, "_on_the_whole", on_the_whole)
-        question = Question.of(robot, STAIRS, friction=friction).changed(best_of=("flippers",))
+        question = Question.of(robot, STAIRS, friction=friction).changed(best_of=best_of)
         drives = SimpleNamespace(judge=lambda question: "found")
         found = module.better_than(verdict, question, drives=drives, **manner)
         return found, searched, judged_there
@@ -292,6 +293,18 @@ def test_where_no_plan_is_a_go_those_of_other_frictions_are_tried(at_frictions):
     bad = standing(NO_GO)
     found, _, tried = at_frictions({0.5: bad, 1.0: middle}, {1.0: low})
     assert (found.question.posture.front, found.others, tried) == (1.0, (), [1.0])
+
+
+def test_of_another_friction_the_better_end_counts_and_any_plan_where_there_is_none(at_frictions):
+    low, middle = standing(CAUTION, 1.0), standing(CAUTION, 2.0)
+    for nose, tail, facing in ((low, middle, "tail-first"), (middle, low, "nose-first")):
+        at = {0.5: standing(NO_GO), (1.0, "nose-first"): nose, (1.0, "tail-first"): tail}
+        found, _, tried = at_frictions(at, {1.0: low}, best_of=("flippers", "facing"))
+        assert (found.question.posture.front, found.question.facing) == (1.0, facing)
+        assert tried == [1.0]
+    found, searched, _ = at_frictions({1.0: low}, {1.0: low})
+    assert found.question.posture.front == 1.0
+    assert searched[:2] == [(0.5, None), (1.0, None)]
 
 
 @pytest.mark.parametrize("friction", [1.0, 0.7, 1.3])

@@ -289,18 +289,33 @@ def test_while_it_stands(direction, monkeypatch):
 
 @pytest.mark.parametrize(("lacks", "face", "required"), [(0.3, 1.0, 0.3), (0.3, 0.5, 0.6),
                                                          (-0.1, 1.0, 0.0)])  # fmt: skip
-def test_friction_that_is_needed_to_stand_is_told_where_nobody_stated_it(
+def test_friction_that_is_needed_to_stand_is_told_whatever_is_stated(
     lacks, face, required, monkeypatch
 ):
     """By hand: at a riser's face the cone of rigid grousers grows by half of what friction does."""
-    spare = lambda question, grip, phi, **best: face * phi[0] - lacks  # noqa: E731
+
+    def spare(question, grip, phi, *, best=False):
+        nosings, _, _ = phi
+        return face * nosings - lacks + (0.01 if best else 0.0)
+
     monkeypatch.setattr(module, "_standing", spare)
     monkeypatch.setattr(module, "Grip", lambda path, **how: None)
-    question = asked(stated=False)
-    found = standing(question, SimpleNamespace(path="its path"))
+    move = SimpleNamespace(path="its path")
+    found = standing(asked(stated=False), move)
     assert found.required == pytest.approx(math.tan(required), abs=1e-5)
     assert math.isnan(found.worst)
     assert math.isnan(found.best)
+    # stated, the same everywhere, it is as much; of parts that differ it is what is missing there
+    low, high = (math.atan(each[0]) for each in FRICTIONS.values())
+    question = asked()
+    found = standing(question, move)
+    assert found.required == pytest.approx(math.tan(required), abs=1e-5)
+    assert found.worst == pytest.approx(low - required, abs=1e-5)
+    assert found.best == pytest.approx(face * high - lacks + 0.01)
+    found = standing(asked(surface(differs=True)), move)
+    missing = max(low - (face * low - lacks), 0.0)
+    assert found.required == pytest.approx(math.tan(missing))
+    assert found.worst == pytest.approx(low - missing)
 
 
 def figures(**given):

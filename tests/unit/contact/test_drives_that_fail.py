@@ -225,6 +225,24 @@ def test_a_step_that_leads_beyond_upright_is_cut_there(monkeypatch, beyond, x_en
     assert ds == calls[-1] == pytest.approx((driver.UPRIGHT - 1.55) / 10.0)
 
 
+@pytest.mark.parametrize(("phi", "way", "looks"), [(1.58, 10.0, 1), (1.6, -1.0, 1),
+                                                  (1.55, -10.0, 1), (1.55, 10.0, 2),
+                                                  (-1.55, -10.0, 2)])  # fmt: skip
+def test_a_step_from_beyond_upright_is_not_cut(monkeypatch, phi, way, looks):
+    calls = []
+
+    def advance(ground, body, here, ds, *rest):
+        calls.append(ds)
+        there = (here[0] + ds, here[1], here[2] + way * ds, 0.0, 0.0, 0.0, *here[6:])
+        return Advance.OVER_REAR, there, 0, ds
+
+    monkeypatch.setattr(driver, "advance", advance)
+    here = (0.3, -5.0, phi, *STARTS[3:])
+    driver.step_on(LEVEL, BODY, here, 0.9, 0.01, R, 0.0, 9.8, 0.0, 0)
+    assert len(calls) == looks
+    assert all(ds > 0.0 for ds in calls)
+
+
 def test_no_exchange_where_the_new_pair_has_no_line():
     """The rear foot for itself, where gravity leans so far that it is ahead."""
     poses, events = np.full((3, at.POSE_COLUMNS), 7.0), np.full((3, at.EVENT_COLUMNS), 7.0)
