@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 WORTH_TELLING = 0.02
 """Friction by which the usual grousers need less than smooth belts, from which on it is said
 [1]."""
-SPARE = 1.3
+SPARE = 1.2
 """Times the friction required within which rigid teeth got stuck, of robots that go up on their
 grousers and turn their flippers on the way (docs/theory/grousers.md, a second judge) [1]."""
 
@@ -66,8 +66,9 @@ def notes(question: "Question", found: "TractionFigures") -> tuple[str, ...]:
         needed = _more_to_be_sure(question, found)
         if needed is not None:
             each.append(
-                f"Little friction is to spare: below {needed:.2f} the robot may slide back while "
-                "its flippers turn, and get stuck there."
+                f"Little friction is to spare: below {needed:.2f} grousers of several belts may "
+                "work against one another, or the robot slide back while its flippers turn, and get "
+                "stuck."
             )
         unknown = [
             name
