@@ -67,8 +67,8 @@ def notes(question: "Question", found: "TractionFigures") -> tuple[str, ...]:
         if needed is not None:
             each.append(
                 f"Little friction is to spare: below {needed:.2f} grousers of several belts may "
-                "work against one another, or the robot slide back while its flippers turn, and get "
-                "stuck."
+                "work against one another, or the robot slide back while its flippers turn, and "
+                "get stuck."
             )
         unknown = [
             name
