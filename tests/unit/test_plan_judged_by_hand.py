@@ -9,6 +9,7 @@ from kaidan.assessment import plan_judged
 from kaidan.models.quasi_static import Basis
 from kaidan.question import Question
 from kaidan.robot import FlipperPair, Robot, Track
+from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 
 PAIR = FlipperPair(length=0.3, root_radius=0.06, tip_radius=0.03, pivot_height=0.06)
@@ -42,6 +43,24 @@ def test_a_flight_just_long_enough(one, going, steps, expected):
     short = plan_judged.shortened(question).terrain
     assert short.steps == expected
     assert (short.rise, short.going) == (0.12, going)
+
+
+def test_the_tip_of_a_flipper_reaches_on_by_its_radius():
+    """0.25 m to the axle, 0.3 and 0.03 m beyond it; behind, 0.25 m and an end of 0.06 m."""
+    one = robot(0.5, 0.06, front_flippers=PAIR, mass=20.0)
+    assert plan_judged.stretched(one) == pytest.approx(0.25 + 0.3 + 0.03 + 0.25 + 0.06)
+
+
+@pytest.mark.parametrize(
+    "terrain",
+    [
+        Profile.of_stairs(Stairs(rise=0.12, going=0.16, steps=20)),
+        Stairs(rises=[0.12, 0.13] * 10, goings=[0.16] * 19),
+    ],
+)
+def test_what_does_not_repeat_itself_stays_as_it_is(terrain):
+    question = Question.in_one_posture(robot(0.5, 0.06), terrain, friction=1.0)
+    assert plan_judged.shortened(question) is question
 
 
 def driven(*angles, arrived=True):

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from kaidan import Question
+from kaidan import Question, contact
 from kaidan.assessment import plan_finalists, plan_off_angles, plan_search, plan_sturdy
 from kaidan.assessment.plan import PlanShown, PlanStep
 from kaidan.assessment.plan import plan_of as plan_of_answer
@@ -469,6 +469,26 @@ def test_what_a_phase_comes_to(margin, worth, judging):
     assert how == {"start": Phase.LAND, "until": 2.0}
     assert most == pytest.approx(math.radians(ENOUGH))  # more is no better
     assert search._of(Phase.LAND, HIGH, OUT) is found
+
+
+@pytest.mark.parametrize(
+    ("verdict", "grousers", "drives"),
+    [
+        (Verdict.GO, True, [{}, {"step": contact.STEP}]),
+        (Verdict.GO, False, [{}]),
+        (Verdict.CAUTION, True, [{}]),
+    ],
+)
+def test_a_go_on_grousers_is_driven_once_more_pose_by_pose(verdict, grousers, drives, judging):
+    search, asked_for = judging(math.inf, 0.1, verdict)
+    track = search.question.robot.track.model_copy(
+        update={"belt": "grousers" if grousers else "smooth"}
+    )
+    robot = search.question.robot.model_copy(update={"track": track})
+    search.question = search.question.changed(robot=robot)
+    assert search._of(Phase.LAND, HIGH, OUT).rank == -verdict.rank
+    how = [one[1] for one in asked_for if isinstance(one, tuple)]
+    assert how == [{"start": Phase.LAND, "until": 2.0} | each for each in drives]
 
 
 @pytest.mark.parametrize(("sliding", "verdict"), [(0.05, GO), (0.0, CAUTION), (-0.1, CAUTION)])
