@@ -76,12 +76,12 @@ def test_one_friction_everywhere_is_worked_out_once(phi, height, smooth):
         standing_margins=lambda *given: asked.append(given) or np.array([-0.3]),
     )
     grip = SimpleNamespace(coulomb=coulomb, _supports=supports, _known={})
-    found = Grip.by_friction(grip, phi, height, 0.005)
+    found = Grip.by_friction(grip, phi, height)
     if smooth:
         assert found == pytest.approx([0.4, 0.3])
         assert not asked
     else:
-        assert (found, asked) == ("belts", [(phi, height, 0.005)])
+        assert (found, asked) == ("belts", [(phi, height)])
     asked.clear()
     if phi[0] == phi[1] == phi[2]:
         for _ in range(2):

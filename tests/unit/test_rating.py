@@ -184,8 +184,7 @@ def close_to_one_another(going):
 
 def held_by(found, case):
     grip, rows = found.grip, lasting(found.path) & ~found.comes_off
-    belt = (case.grousers.height, case.grousers.nosing_radius) if case.grousers.rigid else ()
-    own = grip.by_friction(case.phi, *belt)
+    own = grip.by_friction(case.phi, case.grousers.height if case.grousers.rigid else 0.0)
     return float(grip.with_grousers(case.phi, case.grousers, own)[rows].min())
 
 

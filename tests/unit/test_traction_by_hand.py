@@ -58,7 +58,7 @@ class Holding:
         self.alone, self.asked = alone, []
         self.passed = passed  # what it holds less, going down, where a slip passes over nothing
 
-    def by_friction(self, phi, height=0.0, radius=0.0):
+    def by_friction(self, phi, height=0.0):
         self.asked.append(tuple(math.tan(each) for each in phi))
         return self.alone + (0.01 if height else 0.0)
 
@@ -88,10 +88,7 @@ def driven(grip=None, tractions=(0.5, 1.5)):
 @pytest.fixture(autouse=True)
 def grousers(monkeypatch):
     """Two cases of grousers; the fifth pose is in the midst of an exchange of contacts."""
-    cases = tuple(
-        SimpleNamespace(spacing=each, height=0.02, nosing_radius=0.01, rigid=each < 0.05)
-        for each in HELD
-    )
+    cases = tuple(SimpleNamespace(spacing=each, height=0.02, rigid=each < 0.05) for each in HELD)
     monkeypatch.setattr(module, "grousers_of", lambda question, track, *, best: cases)
     monkeypatch.setattr(module, "lasting", lambda path: np.arange(6) != 4)
 
@@ -256,9 +253,9 @@ def test_while_it_stands(direction, monkeypatch):
     """It stands on those that hold at once, the worst of cases and poses; NaN is not known."""
 
     class Grip(Holding):
-        def by_friction(self, phi, height=0.0, radius=0.0):
+        def by_friction(self, phi, height=0.0):
             self.alone = np.where(ALONE == -0.4, np.nan, ALONE + phi[0])
-            return super().by_friction(phi, height, radius)
+            return super().by_friction(phi, height)
 
     def made(path, *, descending, acceleration):
         assert (path, descending, acceleration) == ("its path", direction == "down", 0.0)

@@ -84,9 +84,7 @@ class Supports:
         kernel().find_alike(self._table, self._slots, self._loads, unlike, like)
         return like
 
-    def belt_margins(
-        self, phi: tuple[float, float, float], height: float, radius: float
-    ) -> FloatArray:
+    def belt_margins(self, phi: tuple[float, float, float], height: float) -> FloatArray:
         """Angle by which the cones of belts may shrink without a grouser that stands (n,) [rad].
 
         Parameters
@@ -95,14 +93,11 @@ class Supports:
             Angles of friction of nosings, treads and riser faces [rad].
         height
             Of rigid grousers, which on an end's arc hold less at a face than a smooth belt [m].
-        radius
-            Of the nosings, on whose round such grousers push an end back [m].
         """
         found = np.empty(len(self._loads))
         kernel().belt_margins(
-            self._table, self._slots, self._loads, self._like, *phi, height, radius,
-            1.0 if self._climbs else -1.0, found,
-        )  # fmt: skip
+            self._table, self._slots, self._loads, self._like, *phi, height, found
+        )
         return found
 
     def standing_margins(self, phi: tuple[float, float, float], grousers: Grousers) -> FloatArray:

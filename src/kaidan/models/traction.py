@@ -313,12 +313,12 @@ def _friction_of(angle: float) -> float:
 
 def _by_friction(grip: Grip, phi: Cones, cases: tuple[Grousers, ...]) -> list[NDArray[np.float64]]:
     """What each case of grousers holds where none of them stands."""
-    known: dict[tuple[float, float], NDArray[np.float64]] = {}
-    belts = [(each.height, each.nosing_radius) if each.rigid else (0.0, 0.0) for each in cases]
-    for belt in belts:
-        if belt not in known:
-            known[belt] = grip.by_friction(phi, *belt)
-    return [known[belt] for belt in belts]
+    known: dict[float, NDArray[np.float64]] = {}
+    heights = [each.height if each.rigid else 0.0 for each in cases]
+    for height in heights:
+        if height not in known:
+            known[height] = grip.by_friction(phi, height)
+    return [known[height] for height in heights]
 
 
 def figures_of(

@@ -62,9 +62,7 @@ class Grip:
         self._points = self._supports.points
         self._known: dict[Grousers, Array] = {}
 
-    def by_friction(
-        self, phi: tuple[float, float, float], height: float = 0.0, radius: float = 0.0
-    ) -> Array:
+    def by_friction(self, phi: tuple[float, float, float], height: float = 0.0) -> Array:
         """Angle by which the cones of belts may shrink without a grouser that stands [rad].
 
         Parameters
@@ -73,12 +71,10 @@ class Grip:
             Angles of friction of nosings, treads and riser faces [rad].
         height : float
             Of rigid grousers, which on an end's arc hold less at a face than a smooth belt [m].
-        radius : float
-            Of the nosings, on whose round such grousers push an end back [m].
         """
         if phi[0] == phi[1] == phi[2] and height <= 0.0:
             return np.asarray(phi[0] - self.coulomb)
-        return self._supports.belt_margins(phi, height, radius)
+        return self._supports.belt_margins(phi, height)
 
     def with_grousers(
         self,

@@ -431,7 +431,7 @@ def test_of_poses_on_one_friction_each_has_its_margin():
     load = loads(count=5)
     load[:, at.LOAD_COULOMB] = 0.5, 9.0, 0.3, 0.2, 0.1
     found = np.empty(5)
-    belt_margins(rows, 2, load, np.array([0, 0, 2, 3, 4]), 0.7, 0.7, 0.7, 0.01, RN, 1.0, found)
+    belt_margins(rows, 2, load, np.array([0, 0, 2, 3, 4]), 0.7, 0.7, 0.7, 0.01, found)
     left = math.atan(grousers.face_friction(mu=math.tan(0.7), h=0.01, curvature=10.0))
     at_face = min(0.5, cones(ONE, -SLOPE, 0.7, OTHER, -SLOPE, left))
     assert found == pytest.approx([0.2, 0.2, 0.4, at_face, 0.6], abs=1e-9)
@@ -450,14 +450,14 @@ def test_of_three_supports_the_better_pair_holds_the_belts():
     one = [support(ONE), support(OTHER), support(third, normal=-0.2, place=at.TREAD)]
     rows, load, found = np.array(one * 2), loads(count=2), np.empty(2)
     load[1, at.LOAD_COULOMB] = 0.4  # unlike the first
-    belt_margins(rows, 3, load, np.array([0, 1]), 0.6, 0.7, 0.5, 0.0, RN, 1.0, found)
+    belt_margins(rows, 3, load, np.array([0, 1]), 0.6, 0.7, 0.5, 0.0, found)
     outer = cones(ONE, -SLOPE, 0.6, OTHER, -SLOPE, 0.6)
     better = cones(OTHER, -SLOPE, 0.6, third, -0.2, 0.7)
     assert better > outer
     assert found == pytest.approx([better, better], abs=1e-9)
     # two of the three frictions alike
     for frictions in ((0.6, 0.5, 0.5), (0.6, 0.6, 0.5)):
-        belt_margins(rows, 3, load, np.array([0, 1]), *frictions, 0.0, RN, 1.0, found)
+        belt_margins(rows, 3, load, np.array([0, 1]), *frictions, 0.0, found)
         pairs = (ONE, -SLOPE, 0.6), (third, -0.2, frictions[1])
         each = [cones(OTHER, -SLOPE, 0.6, *pair) for pair in pairs]
         assert found == pytest.approx([max(each)] * 2, abs=1e-9)
@@ -604,24 +604,6 @@ def test_where_an_end_and_a_flat_pass_one_nosing_no_tip_holds_alone(point, gap, 
     how = (NOSINGS, TREADS, FACES, H, S, RN, rigid)
     held = margin_standing(rows, 0, 1, -SLOPE, -SLOPE, loads(), 0, tip, rolls, *how, 1.0)
     assert math.isfinite(held) != (rigid and gap < H and point == at.NOWHERE)
-
-
-def test_friction_alone_holds_an_end_where_it_is_pushed_to():
-    """The rear end on the tread just behind its nosing, the front end at a face."""
-    rear, front = -0.4 - 0.3j, 0.3 + 0.1j
-    rows = np.array([
-        support(rear, place=at.TREAD, normal=0.0, tread=0.0, curvature=1.0 / RADIUS, beyond=0.004,
-                flat=math.nan),
-        support(front, place=at.FACE, normal=-math.pi / 2, tread=math.nan, curvature=12.0),
-    ])  # fmt: skip
-    phi, found = 0.9, np.empty(1)
-    pushed = pushed_normal(rows, 0, 1, H, RN, 1.0)
-    left = math.atan(grousers.face_friction(mu=math.tan(phi), h=H, curvature=12.0))
-    for side, normal in ((1.0, pushed), (-1.0, 0.0)):
-        belt_margins(rows, 2, loads(coulomb=-9.0), np.array([0]), phi, phi, phi, H, RN, side, found)
-        held = cones(rear, normal, phi, front, -math.pi / 2, left)
-        assert math.isfinite(held)
-        assert found[0] == pytest.approx(with_reserve(held, phi) if side > 0.0 else held, abs=1e-9)
 
 
 def test_an_end_at_a_face_is_in_doubt_while_another_stands_behind_a_nosing():

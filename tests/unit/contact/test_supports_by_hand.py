@@ -187,15 +187,15 @@ def test_poses_that_stand_alike_have_the_margins_of_the_first():
 def test_belts_hold_by_friction_less_slope_and_rigid_grousers_by_less_at_a_face():
     table, slots = on_slope(-0.2, 0.3)
     found = np.empty(1)
-    belt_margins(table, slots, loads(), np.array([0]), 0.7, 0.2, 0.2, 0.0, 0.0, 1.0, found)
+    belt_margins(table, slots, loads(), np.array([0]), 0.7, 0.2, 0.2, 0.0, found)
     assert found[0] == pytest.approx(0.7 - SLOPE, abs=HALVED)
     table, slots = on_slope(-0.2, 0.3, place=FACE, curvature=10.0)
     for height in (0.0, 0.01):
         left = math.atan(math.tan(0.7) / (1.0 + 10.0 * height) ** 2)
-        belt_margins(table, slots, loads(), np.array([0]), 0.1, 0.1, 0.7, height, 0.0, 1.0, found)
+        belt_margins(table, slots, loads(), np.array([0]), 0.1, 0.1, 0.7, height, found)
         assert found[0] == pytest.approx(left - SLOPE, abs=HALVED)
         # one friction everywhere: no more than smooth belts hold
-        belt_margins(table, slots, loads(), np.array([0]), 0.7, 0.7, 0.7, height, 0.0, 1.0, found)
+        belt_margins(table, slots, loads(), np.array([0]), 0.7, 0.7, 0.7, height, found)
         assert found[0] == pytest.approx(left - SLOPE, abs=HALVED)
 
 
@@ -244,7 +244,7 @@ def test_the_native_kernel_finds_the_same_as_the_plain_one(path):
             found.append(
                 (
                     supports.points,
-                    supports.belt_margins(phi, 0.01, 0.005),
+                    supports.belt_margins(phi, 0.01),
                     supports.standing_margins(phi, one),
                     supports.standing_margins(phi, one._replace(rigid=False)),
                 )

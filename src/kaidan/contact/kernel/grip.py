@@ -57,8 +57,8 @@ from kaidan.contact.tables import FloatRow, IntArray, LoadTable, SupportTable, T
 #: Share of the phases that counts where four nosings or more are under the belts [1]: fitted with
 #: `kaidan.mechanics.grousers.phases_friction` (docs/theory/grousers.md).
 MANY = 0.75
-#: Times the friction required that an end at a face needs while the other end stands behind a
-#: nosing: fitted (docs/theory/grousers.md).
+#: Times the friction required of a tip that stands while one end is at a face and the other one
+#: behind a nosing: fitted (docs/theory/grousers.md).
 RESERVE = 1.3
 #: Tilt up to which an end on a tread is off the round of its nosing [rad].
 LEVEL = 1e-3
@@ -125,15 +125,6 @@ def pushed_normal(
     return tread - pushed if pushed > lean else normal
 
 
-def is_pushed(supports: SupportTable, first: int, h: float, r: float, side: float) -> bool:
-    """Whether one of the two contacts that carry a pose is an end that the other pushes back."""
-    for at in range(2):
-        own = supports[first + at, SUPPORT_NORMAL]
-        if pushed_normal(supports, first + at, first + 1 - at, h, r, side) != own:
-            return True
-    return False
-
-
 def is_in_doubt(supports: SupportTable, first: int, slots: int) -> bool:
     """Whether an end is at a face while another one stands on a nosing, or on the tread behind."""
     at_face = False
@@ -171,7 +162,7 @@ def margin_of(
 @entry
 def belt_margins(
     supports: SupportTable, slots: int, loads: LoadTable, like: IntArray, nosings: float,
-    treads: float, faces: float, height: float, r: float, side: float, found: FloatRow,
+    treads: float, faces: float, height: float, found: FloatRow,
 ) -> None:  # fmt: skip
     """Angle by which the cones of the belts may shrink without a grouser that stands, of each pose.
 
@@ -199,7 +190,7 @@ def belt_margins(
         found[row] = math.inf
         if one_friction:
             found[row] = nosings - loads[row, LOAD_COULOMB]
-            if not at_face and not is_pushed(supports, first, height, r, side):
+            if not at_face:
                 continue
         most = -math.inf
         for j in range(slots):
@@ -209,15 +200,13 @@ def belt_margins(
                 one = first + i
                 other = first + j
                 margin = margin_of(
-                    supports, one, pushed_normal(supports, one, other, height, r, side),
+                    supports, one, supports[one, SUPPORT_NORMAL],
                     friction_at(supports, one, nosings, treads, faces, height), 0.0,
-                    other, pushed_normal(supports, other, one, height, r, side),
+                    other, supports[other, SUPPORT_NORMAL],
                     friction_at(supports, other, nosings, treads, faces, height), loads, row,
                 )  # fmt: skip
                 most = larger(most, margin)
         found[row] = smaller(found[row], most)
-        if side > 0.0 and height > 0.0 and is_in_doubt(supports, first, slots):
-            found[row] = with_reserve(found[row], nosings)
 
 
 def tip_at(

@@ -172,10 +172,7 @@ def least_held(
         faces = grousers[case, GROUSER_FACES]
         rigid = grousers[case, GROUSER_RIGID] > 0.0
         height = grousers[case, GROUSER_HEIGHT] if rigid else 0.0
-        belt_margins(
-            supports, slots, loaded, like, nosings, treads, faces, height,
-            grousers[case, GROUSER_RADIUS], 1.0 if climbs else -1.0, friction,
-        )  # fmt: skip
+        belt_margins(supports, slots, loaded, like, nosings, treads, faces, height, friction)
         standing_margins(
             supports, slots, loaded, like, nosings, treads, faces,
             grousers[case, GROUSER_HEIGHT], grousers[case, GROUSER_SPACING],
