@@ -28,12 +28,14 @@ from kaidan.assessment.traction_advice import (
     enough_at_the_risk,
     more_friction,
     nosings,
+    with_less_friction,
     with_other_plans,
 )
 from kaidan.assessment.verdict import Conclusion, conclude
 from kaidan.errors import InputError
 from kaidan.models import clearance
 from kaidan.models.findings import Finding, Findings
+from kaidan.models.traction_figures import TractionFigures
 from kaidan.models.unweighed import Placed
 from kaidan.modes import (
     ENERGY,
@@ -179,6 +181,62 @@ def test_other_plans_are_named_with_the_friction_that_they_need(monkeypatch):
     assert loose.friction == pytest.approx(1.11)
 
 
+@pytest.mark.parametrize(
+    ("needed", "asked", "told"),
+    [
+        # half-way between 0.5 at the plan's angles and 1.0; then between 0.5 and 0.73
+        ({0.75: 0.72, 0.615: None}, [0.75, 0.615], [0.73]),
+        ({0.75: None, 0.875: 0.85}, [0.75, 0.875], [0.86]),
+        ({0.75: 0.6}, [0.75], [0.61]),
+        ({0.75: None, 0.875: None}, [0.75, 0.875], []),
+    ],
+)
+def test_less_friction_is_looked_for_with_other_plans(needed, asked, told, monkeypatch):
+    """Until less than 0.15 is left; the bars are those of a search that none is a GO."""
+    looked = []
+
+    def better_than(verdict, question, *, drives, other_frictions):
+        assert (verdict, drives, other_frictions) == (Verdict.CAUTION, search.drives, False)
+        assert question.best_of == search.best_of
+        looked.append(question.friction[0])
+        required = needed[round(looked[-1], 4)]
+        findings = Findings(model="by hand", required_friction=required or 0.0)
+        return required and plan_search.Found(question, findings, True, None, search.drives)
+
+    monkeypatch.setattr(plan_search, "better_than", better_than)
+    search = came_upon()
+    needs = Findings(model="by hand", required_friction=0.5)
+    each = list(with_less_friction(PLANNED, needs, search, 1.0))
+    assert looked == [pytest.approx(mu) for mu in asked]
+    assert [one.friction for one in each] == [pytest.approx(mu) for mu in told]
+    assert all(one.another and one.holds for one in each)
+    assert list(with_less_friction(PLANNED, needs, search, 0.64)) == []
+    ranged = SimpleNamespace(robot=SimpleNamespace(com_range="range"))
+    assert list(with_less_friction(ranged, needs, search, 1.0)) == []
+
+
+@pytest.mark.parametrize(
+    ("least", "smooth", "enough"), [(0.59, 0.64, 0.59), (0.56, 0.64, 0.56), (0.7, 0.64, 0.56)]
+)
+def test_friction_is_enough_for_the_energy_of_a_slip_too(least, smooth, enough, monkeypatch):
+    """0.55 is required; the slip has little enough energy from some friction on, or nowhere."""
+
+    def then(question, findings):
+        slips = question.friction[0] < least - 1e-9
+        return SimpleNamespace(governs="energy" if slips else "slides_down")
+
+    monkeypatch.setattr(traction_advice, "judge", lambda question: None)
+    monkeypatch.setattr(traction_advice, "conclude", then)
+    track = KENAF.robot.track.model_copy(update={"belt": "grousers"})
+    gripping = KENAF.changed(robot=KENAF.robot.model_copy(update={"track": track}))
+    figures = TractionFigures.model_construct(smooth_required_friction=smooth)
+    needs = Findings(model="by hand", required_friction=0.55, figures=(figures,))
+    (one,) = more_friction(gripping, needs)
+    assert one.friction == pytest.approx(enough)
+    (one,) = more_friction(KENAF, needs)
+    assert one.friction == pytest.approx(0.56)
+
+
 def test_in_doubt_friction_may_be_more_than_any_surface_has(monkeypatch):
     """At the nominal friction it is the largest that is known: with the doubt it is beyond it."""
     monkeypatch.setattr(traction_advice, "enough_at_the_risk", lambda *given: 2 * LARGEST_FRICTION)
@@ -268,6 +326,7 @@ def tried(monkeypatch):
         tries = [Candidate(name.lstrip("_"), KENAF)]
         monkeypatch.setattr(advice, name, lambda *given, tries=tries: tries)
     monkeypatch.setattr(advice, "with_other_plans", lambda question, search: [])
+    monkeypatch.setattr(advice, "with_less_friction", lambda *given: [])
     monkeypatch.setattr(advice, "_slower", lambda question, energy: [("slower", energy)])
 
     def of(governs, question=KENAF, *, searched=False, phase=None, best=-0.1, energy=None,
@@ -287,6 +346,7 @@ def test_closer_angles_are_tried_where_they_are_not_asked_for(monkeypatch, toler
     """In a plan that holds off its angles, whatever it is."""
     monkeypatch.setattr(advice, "more_friction", lambda question, found, search: [])
     monkeypatch.setattr(advice, "with_other_plans", lambda question, search: [])
+    monkeypatch.setattr(advice, "with_less_friction", lambda *given: [])
     question = Question.of("absolem", KENAF.terrain, friction=1.0).changed(
         best_of=(), posture={"front": 0.1, "rear": 0.1}, flipper_tolerance=tolerance
     )
@@ -299,13 +359,20 @@ def test_closer_angles_are_tried_where_they_are_not_asked_for(monkeypatch, toler
 @pytest.mark.parametrize("governs", ["slides_down", "posture_tolerance", "high_centring"])
 def test_of_frictions_the_least_is_tried_first(governs, monkeypatch):
     """Of the plan at hand only where friction decides, or off its angles; of others anyway."""
-    own, other = (Candidate(name, PLANNED, friction=mu) for name, mu in (("own", 1.2), ("b", 0.9)))
+    own, other, less = (
+        Candidate(name, PLANNED, friction=mu) for name, mu in (("own", 1.2), ("b", 0.9), ("c", 0.8))
+    )
+    enough = []
     monkeypatch.setattr(advice, "more_friction", lambda *given: [own])
     monkeypatch.setattr(advice, "with_other_plans", lambda *given: [other])
+    monkeypatch.setattr(
+        advice, "with_less_friction", lambda *given: enough.append(given[3]) or [less]
+    )
     now = concluded(Verdict.CAUTION)._replace(governs=governs)
     each = list(advice._candidates(PLANNED, Findings(model="by hand"), now, object()))
     frictions = [one for one in each if one.friction is not None]
-    assert frictions == ([other] if governs == "high_centring" else [other, own])
+    assert frictions == ([less, other] if governs == "high_centring" else [less, other, own])
+    assert enough == [0.9]
     each = list(advice._candidates(PLANNED, Findings(model="by hand"), now, None))
     assert other not in each
 

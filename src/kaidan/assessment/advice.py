@@ -16,6 +16,7 @@ from kaidan.assessment.traction_advice import (
     grousers,
     more_friction,
     nosings,
+    with_less_friction,
     with_other_plans,
 )
 from kaidan.assessment.uncertain_inputs import SAMPLED, STEPS, without
@@ -213,10 +214,14 @@ def _candidates(
             )
             yield from _flippers_raised(question)
     friction: list[Candidate] = []
-    if slips or governs == POSTURE_TOLERANCE.key:
+    slip_governs = governs == ENERGY.key and question.robot.track.has_grousers
+    if slips or slip_governs or governs == POSTURE_TOLERANCE.key:
         friction += more_friction(question, found, search)
     if search is not None:
         friction += with_other_plans(question, search)
+    if search is not None and friction:
+        least = min(each.friction or math.inf for each in friction)
+        friction += with_less_friction(question, found, search, least)
     yield from sorted(friction, key=lambda one: one.friction or math.inf)
     if slips:
         yield from grousers(question)

@@ -4,10 +4,11 @@ import math
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from kaidan.assessment.verdict import Conclusion
+from kaidan.assessment.verdict import Conclusion, conclude
 from kaidan.models import judge
 from kaidan.models.findings import Findings
-from kaidan.modes import DRIVE, SUPPLIES, Undecided, Verdict
+from kaidan.models.traction_figures import TractionFigures
+from kaidan.modes import DRIVE, ENERGY, SUPPLIES, Undecided, Verdict
 from kaidan.question import Question
 from kaidan.robot.track import USUAL_GROUSERS
 from kaidan.sheet import bounds
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
 LARGEST_FRICTION = bounds(Surface.model_fields["friction_low"])[2]
 """Beyond it no surface is known."""
+MUCH_FRICTION = 0.15
+"""Difference that is worth the search for a plan that needs less [1]."""
 SLIPS = {mode.key for mode in SUPPLIES if mode is not DRIVE} | {Undecided.FRICTION_UNKNOWN.value}
 """What governs where friction decides."""
 
@@ -52,8 +55,31 @@ def more_friction(
     enough = _in_hundredths(_off_its_angles(question, required, search))
     if question.uncertain and enough <= LARGEST_FRICTION:
         enough = enough_at_the_risk(question, found, enough)
+    if question.robot.track.has_grousers:
+        enough = _that_slips_less(question, found, enough)
     if enough <= LARGEST_FRICTION:
-        yield _of_friction(question, enough)
+        yield _of_friction(question, enough, known=question.surface is not None)
+
+
+def _that_slips_less(question: Question, found: Findings, enough: float) -> float:
+    """Friction with which the energy of a slip onto grousers is not too much either [1].
+
+    It falls with friction, to nothing where smooth belts hold.
+    """
+    figures = next((each for each in found.figures if isinstance(each, TractionFigures)), None)
+    smooth = None if figures is None else figures.smooth_required_friction
+    most = enough if smooth is None else _in_hundredths(smooth)
+
+    def slips(friction: float) -> bool:
+        with_it = question.changed(surface=Surface.of_friction(friction))
+        return conclude(with_it, judge(with_it)).governs == ENERGY.key
+
+    if not enough < most <= LARGEST_FRICTION or not slips(enough) or slips(most):
+        return enough
+    while most - enough > 0.015:
+        middle = round((enough + most) / 2, 2)
+        enough, most = (middle, most) if slips(middle) else (enough, middle)
+    return most
 
 
 def with_other_plans(question: Question, search: "Found") -> Iterator[Candidate]:
@@ -65,7 +91,35 @@ def with_other_plans(question: Question, search: "Found") -> Iterator[Candidate]
         required = _off_its_angles(plan, search.drives.required_friction(other), search)
         enough = _in_hundredths(required) if math.isfinite(required) else math.inf
         if enough <= LARGEST_FRICTION:
-            yield _of_friction(plan, enough)._replace(another=True)
+            stated = question.surface is not None
+            yield _of_friction(plan, enough, known=stated)._replace(another=True)
+
+
+def with_less_friction(
+    question: Question, found: Findings, search: "Found", enough: float
+) -> Iterator[Candidate]:
+    """Friction less than some that is enough, for other plans that are a GO with it.
+
+    They are looked for half-way between what the plan at hand requires at its angles and what is
+    enough so far. The last is the least.
+    """
+    if question.robot.com_range is not None:
+        return
+    from kaidan.assessment.plan_search import better_than
+
+    asked = question.changed(best_of=search.best_of)
+    low = found.required_friction
+    while enough - low > MUCH_FRICTION:
+        middle = (low + enough) / 2
+        at_that = asked.changed(surface=Surface.of_friction(middle))
+        other = better_than(Verdict.CAUTION, at_that, drives=search.drives, other_frictions=False)
+        if other is None or not other.sturdy:
+            low = middle
+            continue
+        required = _off_its_angles(other.question, other.findings.required_friction, other)
+        enough = _in_hundredths(required)
+        stated = question.surface is not None
+        yield _of_friction(other.question, enough, known=stated)._replace(another=True)
 
 
 def _off_its_angles(question: Question, required: float, search: "Found | None") -> float:
@@ -78,8 +132,8 @@ def _off_its_angles(question: Question, required: float, search: "Found | None")
     return max(required, friction_off_its_angles(question, drives))
 
 
-def _of_friction(question: Question, enough: float) -> Candidate:
-    change = text.friction(enough, known=question.surface is not None)
+def _of_friction(question: Question, enough: float, *, known: bool) -> Candidate:
+    change = text.friction(enough, known=known)
     surface = Surface.of_friction(enough)
     return Candidate(change, question.changed(surface=surface), holds=True, friction=enough)
 
