@@ -7,6 +7,7 @@ import pytest
 
 import kaidan
 from kaidan import Payload, Posture, Robot, Stairs, Surface
+from kaidan.assessment import advice
 from kaidan.assessment.advice import RAISED
 from kaidan.assessment.verdict import conclude
 from kaidan.models import judge
@@ -151,7 +152,13 @@ def test_the_same_friction_that_it_says_it_needs():
     assert answer.required_friction >= math.tan(math.radians(40)) - 1e-9
 
 
-def test_the_friction_that_a_found_plan_needs_off_its_angles_too():
+@pytest.fixture
+def no_other_plan(monkeypatch):
+    """Friction that is enough for the plan at hand alone."""
+    monkeypatch.setattr(advice, "with_less_friction", lambda *given: [])
+
+
+def test_the_friction_that_a_found_plan_needs_off_its_angles_too(no_other_plan):
     """At its angles it needs less: two degrees off them the flippers reach a riser otherwise."""
     short = Stairs(name="short", rise=0.178, going=0.279, steps=4)
     answer = kaidan.assess("absolem", short)
@@ -165,7 +172,7 @@ def test_the_friction_that_a_found_plan_needs_off_its_angles_too():
         assert then.verdict == verdict
 
 
-def test_the_advice_of_a_found_plan_keeps_its_promise_too():
+def test_the_advice_of_a_found_plan_keeps_its_promise_too(no_other_plan):
     """Its traverse is taken over from the question, its friction is not."""
     short = Stairs(name="short", rise=0.178, going=0.279, steps=4)
     answer = kaidan.assess("absolem", short, surface="concrete-dry")
@@ -263,7 +270,7 @@ def test_where_a_landing_is_too_short_it_stows_its_flippers_there():
     assert none.what_would_help == ()
 
 
-def test_a_plan_at_just_its_angles_is_helped_by_friction_or_by_closer_angles():
+def test_a_plan_at_just_its_angles_is_helped_by_friction_or_by_closer_angles(no_other_plan):
     """Absolem on the steepest flight of DIN 18065 at 0.8: off the flat its flippers slide."""
     answer = kaidan.assess("absolem", "din-general", friction=0.8)
     assert (answer.verdict, answer.governs) == ("caution", "posture_tolerance")
@@ -278,6 +285,37 @@ def test_a_plan_at_just_its_angles_is_helped_by_friction_or_by_closer_angles():
         assert again.verdict == verdict
     asked = {"friction": 0.8, "flipper_tolerance": "1deg"}
     assert kaidan.assess("absolem", "din-general", **asked).verdict == "go"
+
+
+@pytest.mark.parametrize(
+    ("stairs", "manner"),
+    [
+        ("ibc", {}),
+        ("ibc", {"surface": "concrete-dry"}),
+        ("ada", {"override": "track.belt=grousers"}),
+        ("din-general", {"friction": 0.8}),
+    ],
+)
+def test_less_friction_with_another_plan_is_a_promise_that_is_kept(stairs, manner):
+    answer = kaidan.assess("absolem", stairs, **manner)
+    with_less = [each for each in answer.what_would_help if "a friction of" in each.change]
+    (told,) = [each for each in with_less if each.change.endswith(", with another plan")]
+    friction = float(re.search(r"(\d\.\d\d) or more", told.change)[1])
+    own = {name: value for name, value in manner.items() if name == "override"}
+    then = kaidan.assess("absolem", stairs, friction=friction, **own)
+    assert then.verdict == told.verdict == "go"
+    assert then.margin_deg >= told.margin_deg - 1e-9
+
+
+@pytest.mark.parametrize("manner", [{}, {"friction": 0.55}, {"friction": 0.57}])
+def test_friction_is_enough_for_the_energy_of_a_slip_onto_grousers(manner):
+    """An OzBot needs 0.55, and slips back so far there that it may rock."""
+    asked = {"override": "track.belt=grousers"}
+    (told,) = kaidan.assess("ozbot-atr", "ibc", **manner, **asked).what_would_help
+    enough = float(re.search(r"(\d\.\d\d) or more", told.change)[1])
+    for friction, verdict in ((enough, "go"), (enough - 0.01, "caution")):
+        then = kaidan.assess("ozbot-atr", "ibc", friction=friction, **asked)
+        assert then.verdict == verdict
 
 
 def test_closer_angles_are_not_advised_where_they_are_asked_for():

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from kaidan.assessment.verdict import Conclusion, conclude
 from kaidan.models import judge
 from kaidan.models.findings import Findings
-from kaidan.models.traction_figures import TractionFigures
 from kaidan.modes import DRIVE, ENERGY, SUPPLIES, Undecided, Verdict
 from kaidan.question import Question
 from kaidan.robot.track import USUAL_GROUSERS
@@ -22,7 +21,7 @@ if TYPE_CHECKING:
 LARGEST_FRICTION = bounds(Surface.model_fields["friction_low"])[2]
 """Beyond it no surface is known."""
 MUCH_FRICTION = 0.15
-"""Difference that is worth the search for a plan that needs less [1]."""
+"""Difference from which on a plan that needs less is looked for [1]."""
 SLIPS = {mode.key for mode in SUPPLIES if mode is not DRIVE} | {Undecided.FRICTION_UNKNOWN.value}
 """What governs where friction decides."""
 
@@ -66,7 +65,7 @@ def _that_slips_less(question: Question, found: Findings, enough: float) -> floa
 
     It falls with friction, to nothing where smooth belts hold.
     """
-    figures = next((each for each in found.figures if isinstance(each, TractionFigures)), None)
+    figures: Any = next((each for each in found.figures if each.shown_as == "traction"), None)
     smooth = None if figures is None else figures.smooth_required_friction
     most = enough if smooth is None else _in_hundredths(smooth)
 
@@ -107,18 +106,16 @@ def with_less_friction(
         return
     from kaidan.assessment.plan_search import better_than
 
-    asked = question.changed(best_of=search.best_of)
+    asked, stated = question.changed(best_of=search.best_of), question.surface is not None
     low = found.required_friction
     while enough - low > MUCH_FRICTION:
-        middle = (low + enough) / 2
+        middle = round((low + enough) / 2, 2)
         at_that = asked.changed(surface=Surface.of_friction(middle))
         other = better_than(Verdict.CAUTION, at_that, drives=search.drives, other_frictions=False)
         if other is None or not other.sturdy:
             low = middle
             continue
-        required = _off_its_angles(other.question, other.findings.required_friction, other)
-        enough = _in_hundredths(required)
-        stated = question.surface is not None
+        enough = middle
         yield _of_friction(other.question, enough, known=stated)._replace(another=True)
 
 
