@@ -267,3 +267,18 @@ def test_the_picture_shows_the_energy_margin_that_the_table_tells():
     poses = zip(found.poses.phase, found.poses.energy_margin_mm, strict=True)
     assert told < min(value for phase, value in poses if phase == "traverse")
     assert f"{told:.1f} mm for any rotation, arrested or not" in drawn
+
+
+def test_what_a_late_phase_is_judged_by_is_told_within_the_picture():
+    plan = {"flippers": "35deg,-41deg/traverse:-7deg,-10deg/land:-68deg,-20deg"}
+    found = kaidan.traverse("absolem", "ibc", friction=0.73, **plan)
+    figure = traverse_figure(found)
+    figure.canvas.draw()
+    (told,) = (
+        text
+        for axes in figure.axes
+        for text in axes.texts
+        if "for any rotation, arrested or not" in text.get_text()
+    )
+    label, whole = told.get_window_extent(), told.axes.get_window_extent()
+    assert whole.x0 <= label.x0 < label.x1 <= whole.x1

@@ -118,7 +118,11 @@ def _about_what_stays(axes: Axes, found: "TraverseReport", values: look.Array) -
         if not named:
             named = True
             text = f" {look.signed(round(least, 1) + 0.0, 1)} mm for any rotation, arrested or not"
-            axes.text(low, least, text, color=look.BLUE, va="bottom", fontsize=look.SMALL, zorder=4)
+            place, side = (low, "left") if low + high < x.min() + x.max() else (high, "right")
+            axes.text(
+                place, least, text, color=look.BLUE, va="top", ha=side, fontsize=look.SMALL,
+                zorder=4,
+            )  # fmt: skip
 
 
 def _friction(axes: Axes, found: "TraverseReport") -> None:
