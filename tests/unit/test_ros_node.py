@@ -50,17 +50,19 @@ def test_the_service_answers_as_assess(logic):
 
 def test_the_status_follows_the_climb(logic):
     watch = logic.Climb(PARAMETERS)
-    assert watch.status(0.0).level == logic.STALE
+    assert watch.status().level == logic.STALE
     levels = []
     for t, message in messages():
         state = watch.feed(message, t)
         assert state.t_s == pytest.approx(t)
-        levels.append(watch.status(t).level)
+        levels.append(watch.status().level)
     assert levels[0] == logic.OK
     assert levels[-1] == logic.ERROR
-    assert dict(watch.status(7.0).values)["phase"] == "traverse"
-    silent = watch.status(20.0)
-    assert (silent.level, silent.message[:13]) == (logic.STALE, "no sample for")
+    assert dict(watch.status().values)["phase"] == "traverse"
+    assert watch.overdue(t + 0.1) is None
+    assert watch.overdue(t + 0.25).causes == ("tipped over", "silent")
+    silent = watch.status()
+    assert (silent.level, silent.message) == (logic.STALE, "alarm: tipped over, silent")
 
 
 def test_parameters_without_meaning_are_refused(logic):

@@ -8,12 +8,14 @@ from collections import Counter, deque
 
 from kaidan.verbs.monitor.alarm import AlarmLimits, Cause
 from kaidan.verbs.monitor.samples import Sample
-from kaidan.verbs.monitor.timeline import SLOWEST, Order, Step, Timeline
+from kaidan.verbs.monitor.timeline import FASTEST, SLOWEST, Order, Step, Timeline
 
 SHORTEST, PERIODS = 0.2, 3.0
 """Least time without data at which an alarm is raised [s], and that time in periods."""
 TOO_SLOW = 0.25
 """Mean period above which a source without a stated limit is refused [s]: `SLOWEST` and jitter."""
+MANY = 50
+"""Samples after which a period of no source is the fault of its clock."""
 WINDOW = 0.45
 """Time of which half or less is judged when half blind [s]. If less than half of a second is
 judged, so is less than half of one of its halves; 0.05 s are left for the jitter of samples."""
@@ -72,7 +74,7 @@ class Liveness:
 
     def __init__(self, limits: AlarmLimits) -> None:
         self._limits = limits
-        self._line = Timeline()
+        self._line = Timeline(max(SLOWEST, limits.no_data_on or 0.0))
         self._raised: dict[Cause, float] = {}
         self._now = 0.0
         self._restart()
@@ -111,8 +113,7 @@ class Liveness:
             When it came, by a clock that never goes back [s]; None in a recording.
         """
         step = self._line.step(sample.t, arrived)
-        found = {Cause.CLOCK} if step.jumped else set()
-        found |= self._pass_time(step)
+        found = self._pass_time(step)
         order = None if sample.fault else step.order
         self._window.add(self._now, judged=judged, order=order)
         found |= self._unjudged(judged) | self._frozen(sample, judged) | self._disordered(order)
@@ -138,14 +139,19 @@ class Liveness:
 
     def _pass_time(self, step: Step) -> set[Cause]:
         """Let the time of a step pass, in which the sensor may have been silent."""
+        line = self._line
+        found = {Cause.CLOCK} if step.jumped else set()
         if step.passed > self.limit:
             self._restart()
-            return {Cause.SILENT}
-        self._line.learn(step)
+            return found | {Cause.SILENT}
+        line.learn(step)
         self._now += step.passed
         self._window.forget(self._now - self._span)
-        too_slow = self._limits.no_data_on is None and self._line.period > TOO_SLOW
-        return {Cause.SILENT} if too_slow else set()
+        if self._limits.no_data_on is None and line.period > TOO_SLOW:
+            found.add(Cause.SILENT)
+        if line.period <= FASTEST and line.learned > MANY:
+            found.add(Cause.CLOCK)
+        return found
 
     @property
     def _span(self) -> float:

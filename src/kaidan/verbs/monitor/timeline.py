@@ -5,7 +5,9 @@ from enum import IntEnum
 from typing import NamedTuple
 
 SLOWEST = 0.2
-"""Period of the slowest source without a stated limit [s]; taken until the source's is known."""
+"""Period of the slowest source without a stated limit [s]."""
+FASTEST = 1e-4
+"""Least period taken for one of a source [s]."""
 JUMP = 0.5
 """Largest step of a stamp back, and forward beyond the time that passed [s]."""
 SETTLING = 5.0
@@ -42,9 +44,14 @@ class Timeline:
     Of stamp and arrival the one counts that tells of more. A sample of which neither tells anything
     counts as one period. What passed before the stamps say so, they make up for later.
 
+    Parameters
+    ----------
+    period : float
+        Taken for that of the source until it is known [s].
+
     Examples
     --------
-    >>> line = Timeline()
+    >>> line = Timeline(SLOWEST)
     >>> for t in (5.0, 5.1, 5.1, 5.3):
     ...     step = line.step(t, None)
     ...     line.learn(step)
@@ -55,10 +62,10 @@ class Timeline:
     0.1 s, LATER
     """
 
-    def __init__(self) -> None:
+    def __init__(self, period: float) -> None:
         self.arrived: float | None = None
         """When the last sample came [s]; None in a recording, and before the first one."""
-        self.period = SLOWEST
+        self.period = period
         """Mean time from sample to sample [s]."""
         self.learned = 0
         """Samples of which it is the mean; 0: it is not known."""
@@ -103,7 +110,7 @@ class Timeline:
         if not gap and not math.isnan(step.period):
             self.learned += 1
             share = max(1.0 / self.learned, min(self.period / SETTLING, 1.0))
-            self.period += share * (step.period - self.period)
+            self.period = max(self.period + share * (step.period - self.period), FASTEST)
 
 
 def _order(ahead: float, *, first: bool) -> Order:
