@@ -109,14 +109,16 @@ function number(value, digits) {
   return value === null || value === undefined ? "–" : value.toFixed(digits).replace("-", "−");
 }
 
-// The last state; of a sample that is missing, where the server may not be able to say so.
+// The last state, without numbers that are no longer known; that a sample is missing the server cannot say without a line to it.
 function current() {
   const state = states.at(-1);
   if (!state || over) return state;
   const late = state.due_s !== null && performance.now() - last > 1000 * state.due_s;
-  if (!late && socket?.readyState === WebSocket.OPEN) return state;
+  const missing = late || socket?.readyState !== WebSocket.OPEN;
+  if (!missing && !state.causes.includes("frozen")) return state;
   const tipping = state.causes.filter((each) => TIPPING.includes(each));
-  return { ...state, margin_deg: null, time_to_tip_s: null, tilt_deg: null, causes: [...new Set([...tipping, "silent", ...state.causes])] };
+  const causes = missing ? [...new Set([...tipping, "silent", ...state.causes])] : state.causes;
+  return { ...state, margin_deg: null, time_to_tip_s: null, tilt_deg: null, causes };
 }
 
 function show() {
@@ -131,6 +133,7 @@ function show() {
     const also = moods.slice(1).map((each) => t(each));
     mood = !state ? "idle" : moods[0] ?? "calm";
     at("alarm").className = mood;
+    at("status").textContent = "";
     at("mark").textContent = { idle: "○", calm: "●", tipped_over: "▼", tip_over: "▲", unknown: "?" }[mood] ?? "✕";
     at("said").textContent = t(mood);
     at("why").textContent = [has(`live.${mood}_do`) && t(`${mood}_do`, { why: state.message }), also.length && t("also", { names: also.join(", ") })].filter(Boolean).join(" ");
@@ -138,7 +141,7 @@ function show() {
   at("margin").textContent = number(state?.margin_deg, 1);
   at("time").textContent = tipped ? "–" : state && state.time_to_tip_s === null && state.margin_deg !== null ? `> ${head?.horizon_s ?? 2}` : number(state?.time_to_tip_s, 1);
   at("tilt").textContent = number(state?.tilt_deg, 1);
-  at("phase").textContent = state && !outside && !tipped ? t(state.phase) : "–";
+  at("phase").textContent = Number.isFinite(state?.margin_deg) && !tipped ? t(state.phase) : "–";
   if (state?.message && !outside && state.status !== "missing") at("note").textContent = state.message;
   draw();
 }
