@@ -169,6 +169,45 @@ def test_the_monitor_names_them_too_and_clears_by_good_data_alone(kind, rate):
     assert raised.keys() & NAMES[kind]
 
 
+def test_samples_that_are_lost_on_the_way_are_half_blind():
+    # every fifth of 100 a second comes: hand: 9 of the 45 that are due in 0.45 s
+    samples = twenty_seconds()
+    kept = samples[:1000] + samples[1000::5]
+    states = [Monitor.feed(watch, each) for watch in [Monitor(KENAF, STAIRS)] for each in kept]
+    assert not any(state.alarm for state in states[:1000])
+    first = next(state for state in states if state.alarm)
+    assert first.causes == ("half blind",)
+    assert first.t_s - kept[999].t <= IN_TIME
+
+
+def test_no_data_comes_after_its_limit():
+    # hand: 0.2 s at 100 Hz, to the nearest sample, before half of 0.45 s are lost
+    samples = stream(np.random.default_rng(2), 100.0, 1.0, jitter=0.0)
+    watch = Monitor(KENAF, STAIRS)
+    lost = [watch.feed(each if k < 60 else blank(each)) for k, each in enumerate(samples)]
+    first = next(state for state in lost if state.alarm)
+    assert (first.causes, round(first.t_s - samples[59].t, 6)) == (("no data",), 0.2)
+
+
+def test_an_alarm_of_the_clock_ends_a_second_after_it_goes_right_with_a_good_sample():
+    samples = stream(np.random.default_rng(2), 100.0, 4.0, jitter=0.0)
+    set_back = [each if k < 200 else each._replace(t=each.t - 60) for k, each in enumerate(samples)]
+    set_back[300] = blank(set_back[300])
+    watch = Monitor(KENAF, STAIRS)
+    on = [bool(watch.feed(each).causes) for each in set_back]
+    assert (on.index(True), on[200:].index(False)) == (200, 101)
+    assert not any(on[301:])
+
+
+def test_a_wait_within_a_stated_limit_does_not_change_the_rate():
+    samples = twenty_seconds()
+    waited = [each if k < 1000 else each._replace(t=each.t + 10) for k, each in enumerate(samples)]
+    watch = Liveness(AlarmLimits(no_data_on=60.0))
+    for each in waited:
+        watch.take(each, judged=True)
+    assert watch.rate == pytest.approx(100, rel=0.01)
+
+
 # --- the streams of a hundred samples a second ----------------------------------------------------
 
 
@@ -264,12 +303,15 @@ def test_stamps_as_coarse_as_two_samples_are_clean():
         for sample in stream(np.random.default_rng(1), rate, 20.0):
             watch.take(sample._replace(t=round(sample.t, decimals)), judged=True)
             assert watch.raised == ()
+        assert watch.rate == pytest.approx(rate, rel=0.02)  # one of 100 samples at an end
 
 
 def test_samples_that_arrive_in_bundles_are_clean():
+    """As over a network that begins to send many at once."""
     watch = Liveness(AlarmLimits())
     for k, sample in enumerate(stream(np.random.default_rng(1), 100.0, 20.0)):
-        watch.take(sample, judged=True, arrived=0.1 * (k // 10))
+        arrived = sample.t if k < 1000 else 0.15 * math.ceil(k / 15) + 1e-4 * (k % 15)
+        watch.take(sample, judged=True, arrived=arrived)
         assert watch.raised == ()
 
 

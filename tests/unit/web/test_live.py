@@ -1,6 +1,8 @@
 """Live climbs: what is fed comes out, to who knows the climb's name, and as the monitor says it."""
 
 import json
+import subprocess
+import sys
 
 import pytest
 
@@ -172,6 +174,27 @@ def test_the_sender_brings_a_file_to_the_page(client, tmp_path, capsys):
     assert "--to 'nowhere' is no address" in capsys.readouterr().err
     assert run(["live", "kenaf", "ibc", str(file), "--to", "http://127.0.0.1:1/"]) == 2
     assert "no answer" in capsys.readouterr().err
+
+
+def test_a_sensor_that_is_sent_through_a_pipe_has_to_come_in_time(client, tmp_path):
+    stairs = tmp_path / "flight.toml"
+    stairs.write_text(Stairs.inclined(angle=SLOPE, nosing_spacing=0.150).to_toml())
+    words = ["live", "kenaf", str(stairs), "-", "--to", str(client.base_url), "--no-data", "1s"]
+    with subprocess.Popen(
+        [sys.executable, "-m", "kaidan", *words], encoding="utf-8",
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+    ) as process:  # fmt: skip
+        name = process.stdout.readline().strip().partition("#")[2]
+        with watched(client, name) as socket:
+            process.stdin.write(csv_of(climb()[:30]))
+            process.stdin.flush()
+            came = [json.loads(socket.recv(10)) for _ in range(1 + 30)]
+            assert {each["due_s"] for each in came[2:]} == {1.0}
+            missing = json.loads(socket.recv(10))
+            assert missing["causes"] == ["silent"]
+        process.stdin.close()
+        assert "SILENT  No sample came in time." in process.stdout.read()
+        assert process.wait(timeout=60) == 0
 
 
 def test_a_robot_without_stated_flippers_is_watched_stowed():

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from kaidan.verbs.monitor.samples import Sample
 
 MOST_WAITING = 2_000
-"""Samples that wait for who takes them; then the source has to."""
+"""Most samples that wait, and that are taken at once; then the source has to wait."""
 
 
 class Arrival(NamedTuple):
@@ -57,7 +57,7 @@ class Arrivals:
         """
         came: list[Arrival] = []
         try:
-            while self._end is None:
+            while self._end is None and len(came) < MOST_WAITING:
                 found = self._waiting.get(not came, within)
                 if isinstance(found, BaseException):
                     self._end = found
@@ -65,8 +65,10 @@ class Arrivals:
                     came.append(found)
         except Empty:
             return came
-        if came or isinstance(self._end, StopIteration):
-            return came or None
+        if came:
+            return came
+        if self._end is None or isinstance(self._end, StopIteration):
+            return None
         raise self._end
 
     def _read(self, samples: Iterator[Sample]) -> None:

@@ -34,8 +34,10 @@ class Step(NamedTuple):
     """Of its stamp."""
     jumped: bool
     """Whether the stamp jumped by more than `JUMP`; in a recording a gap looks the same."""
-    period: float
-    """Time for each sample, as stamp or arrival tells it [s]; NaN where neither does."""
+    told: float
+    """Time that stamp or arrival tell [s]; NaN where neither does."""
+    samples: int
+    """Samples that came in that time."""
 
 
 class Timeline:
@@ -71,7 +73,7 @@ class Timeline:
         """Samples of which it is the mean; 0: it is not known."""
         self._begun = False
         self._latest = math.nan
-        self._lead, self._unstamped = 0.0, 0  # of the time that passed, before the stamps
+        self._lead, self._unstamped = 0.0, 0
 
     def step(self, t: float, arrived: float | None) -> Step:
         """Step to the next sample.
@@ -83,37 +85,48 @@ class Timeline:
         arrived : float, optional
             When it came, by a clock that never goes back [s]; None in a recording.
         """
-        live = arrived is not None and self.arrived is not None
-        waited = max(arrived - self.arrived, 0.0) if live else 0.0  # type: ignore[operator]
-        ahead = t - self._latest if math.isfinite(t) else math.nan
-        first = math.isnan(self._latest) and math.isfinite(t)
-        beyond = ahead - self._lead
-        jumped = ahead < -JUMP or beyond - max(waited, self.period) > JUMP
-        passed = waited
+        waited = self._waited(arrived)
+        known = math.isfinite(t)
+        ahead = t - self._latest if known else math.nan  # NaN at the first stamp
+        jumped = ahead < -JUMP or ahead - self._lead - max(waited or 0.0, self.period) > JUMP
         if ahead > 0 and not (jumped and waited):
-            passed = max(waited, beyond)
-        elif self._begun and not waited:
-            passed = self.period
-        period = passed if live else ahead / (1 + self._unstamped) if ahead > 0 else math.nan
-        if first or ahead > 0 or jumped:
-            self._lead = min(max(self._lead + passed - ahead, 0.0), SLOWEST) if ahead > 0 else 0.0
-            self._latest, self._unstamped = t, 0
+            passed = max(waited or 0.0, ahead - self._lead)
         else:
-            self._lead += passed
-            self._unstamped += 1
+            passed = waited or self.period * self._begun
+        order = Order.EARLIER if ahead < 0 else Order.SAME
+        if ahead > 0 or (known and math.isnan(self._latest)):
+            order = Order.LATER
+        if waited is not None:
+            step = Step(passed, order, jumped, told=passed, samples=1)
+        else:
+            stood = self.learned > 0 and self._lead > SLOWEST
+            told = ahead if ahead > 0 and not stood else math.nan
+            step = Step(passed, order, jumped, told, samples=1 + self._unstamped)
+        self._keep(step, t, ahead)
         self._begun, self.arrived = True, arrived
-        return Step(passed, _order(ahead, first=first), jumped, period)
+        return step
+
+    def _waited(self, arrived: float | None) -> float | None:
+        """Time from one arrival to the next [s]; None if it is not known."""
+        if arrived is None or self.arrived is None:
+            return None
+        return max(arrived - self.arrived, 0.0)
+
+    def _keep(self, step: Step, t: float, ahead: float) -> None:
+        """Keep the latest stamp, and how far the time that passed leads the stamps."""
+        if step.order is not Order.LATER and not step.jumped:
+            self._lead += step.passed
+            self._unstamped += 1
+            return
+        lead = self._lead + step.passed - ahead if ahead > 0 else 0.0
+        self._lead = min(max(lead, 0.0), SLOWEST)
+        self._latest, self._unstamped = t, 0
 
     def learn(self, step: Step) -> None:
         """Take a step into the period, unless it is a gap."""
         gap = step.jumped or (self.learned and step.passed > GAP * max(self.period, SLOWEST))
-        if not gap and not math.isnan(step.period):
-            self.learned += 1
-            share = max(1.0 / self.learned, min(self.period / SETTLING, 1.0))
-            self.period = max(self.period + share * (step.period - self.period), FASTEST)
-
-
-def _order(ahead: float, *, first: bool) -> Order:
-    if first or ahead > 0:
-        return Order.LATER
-    return Order.EARLIER if ahead < 0 else Order.SAME
+        if not gap and not math.isnan(step.told):
+            self.learned += step.samples
+            share = max(1 / self.learned, min(self.period / SETTLING, 1.0))
+            more = share * (step.told - step.samples * self.period)
+            self.period = max(self.period + more, FASTEST)
