@@ -13,7 +13,7 @@ from kaidan.verbs.monitor.timeline import FASTEST, SLOWEST, Order, Step, Timelin
 SHORTEST, PERIODS = 0.2, 3.0
 """Least time without data at which an alarm is raised [s], and that time in periods."""
 TOO_SLOW = 0.25
-"""Mean period above which a source without a stated limit is refused [s]: `SLOWEST` and jitter."""
+"""Mean period above which a source without a stated limit is refused [s]: 5 Hz and jitter."""
 MANY = 50
 """Samples after which a period of no source is the fault of its clock."""
 WINDOW = 0.45
