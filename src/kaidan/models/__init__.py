@@ -9,7 +9,8 @@ from dataclasses import replace
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from kaidan.modes import FOOT_UNSEEN, MODELS, Verdict
+from kaidan.modes import ACROSS, FOOT_UNSEEN, MODELS, Verdict
+from kaidan.text import terrain as text
 
 if TYPE_CHECKING:
     from kaidan.models.findings import Findings
@@ -29,6 +30,10 @@ def judge(question: "Question", *, known: "Findings | None" = None) -> "Findings
     -------
     Findings
     """
+    if question.profile.is_level:
+        from kaidan.models.findings import Findings
+
+        return Findings(model=question.model, outside=text.NO_STAIRS)
     if question.robot.com_range is not None:
         from kaidan.models.unweighed import judge_range
 
@@ -44,11 +49,16 @@ def judge(question: "Question", *, known: "Findings | None" = None) -> "Findings
         from kaidan.models import landings
 
         found = landings.beside(question, found)
-    if not all(flight.foot_seen for flight in question.flights):
+    unknown = [] if all(flight.foot_seen for flight in question.flights) else [FOOT_UNSEEN]
+    unknown += [] if question.meets_the_same else [ACROSS]
+    if unknown:
         from kaidan.models.findings import Finding
 
-        unseen = Finding.certain(FOOT_UNSEEN, -math.inf, failing=Verdict.CAUTION, model=found.model)
-        found = replace(found, each=(*found.each, unseen))
+        each = [
+            Finding.certain(mode, -math.inf, failing=Verdict.CAUTION, model=found.model)
+            for mode in unknown
+        ]
+        found = replace(found, each=(*found.each, *each))
     if question.uneven_across:
         from kaidan.models.two_tracks import beside
 
