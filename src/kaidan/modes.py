@@ -141,7 +141,7 @@ NARROW = failure_mode("narrow", "m", "a flight narrower than the robot needs")
 FOOT_UNSEEN = failure_mode("foot_unseen", "", "a first riser that nobody saw")
 """Of a scan: the flight may begin lower, or with a higher riser."""
 ACROSS = failure_mode("across", "", "one track meeting other ground than the other")
-"""On a profile that is not built across the whole way: nobody stated that both meet the same."""
+"""On a profile that is not built across the path: nobody stated that both meet the same."""
 LOW = failure_mode("low", "m", "a ceiling lower than the robot needs")
 TWIST = failure_mode("twist", "rad", "tipping on nosings that differ from left to right")
 UNWEIGHED = failure_mode("unweighed", "", "a centroid that nobody measured")

@@ -258,17 +258,24 @@ def test_a_profile_that_falls_is_driven_down_only():
         assess("kenaf", Profile.of_points(edge), friction=3.0)
 
 
-@pytest.mark.parametrize("model", ["contact", "closed-form", "support-polygon", "physics"])
-def test_on_a_floor_no_model_judges(model):
+FLOOR = Profile.of_points([(-3, 0), (3, 0)])
+
+
+@pytest.mark.parametrize("robot", ["kenaf", "absolem", "talon"])
+def test_a_floor_has_no_stairs_to_be_judged(robot):
     """It was a GO with 0.00 of friction required; `kaidan read` ends with 3 likewise."""
-    answer = assess("kenaf", Profile.of_points([(-3, 0), (3, 0)]), friction=1.0, model=model)
-    assert (answer.verdict, answer.exit_code, answer.required_friction) == (
-        "outside-model",
-        3,
-        None,
+    answer = assess(robot, FLOOR, friction=1.0)
+    assert (answer.verdict, answer.exit_code) == ("outside-model", 3)
+    assert answer.required_friction is None
+    assert answer.reason == (
+        "The contact model has no answer: the terrain is level, so there are no stairs."
     )
-    assert answer.reason.endswith("has no answer: the terrain is level, so there are no stairs.")
     assert answer.what_would_help == ()
+
+
+@pytest.mark.parametrize("model", ["closed-form", "support-polygon", "physics"])
+def test_no_other_model_judges_a_floor(model):
+    assert assess("kenaf", FLOOR, friction=1.0, model=model).verdict == "outside-model"
 
 
 def test_a_scanned_floor_is_level():

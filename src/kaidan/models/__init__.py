@@ -30,17 +30,31 @@ def judge(question: "Question", *, known: "Findings | None" = None) -> "Findings
     -------
     Findings
     """
-    if question.profile.is_level:
-        from kaidan.models.findings import Findings
-
-        return Findings(model=question.model, outside=text.NO_STAIRS)
     if question.robot.com_range is not None:
         from kaidan.models.unweighed import judge_range
 
         return judge_range(question, judge)
     found: Findings = import_module(MODELS[question.model].module).judge(question, known=known)
+    return beside(question, found)
+
+
+def beside(question: "Question", found: "Findings") -> "Findings":
+    """Findings of a model with those that are found beside it, whichever model it is.
+
+    Parameters
+    ----------
+    question : Question
+    found : Findings
+        Of a model, in one place of the centroid.
+
+    Returns
+    -------
+    Findings
+    """
     if found.outside:
         return found
+    if question.profile.is_level:
+        return type(found)(model=found.model, outside=text.NO_STAIRS)
     if (room := question.room) is not None:
         from kaidan.models.clearance import findings_of
 

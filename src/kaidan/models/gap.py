@@ -33,11 +33,6 @@ def most_friction(question: Question) -> float:
     return MOST_FRICTION if question.robot.track.gap > 0 else math.inf
 
 
-def standing(question: Question, required: float, phase: Phase) -> list[Finding]:
-    """Finding of a robot with a gap that stands while its flippers move."""
-    return [] if math.isinf(most_friction(question)) else [_finding(_spare(required), phase, None)]
-
-
 def jams(
     question: Question,
     found: Traverse,
@@ -45,7 +40,7 @@ def jams(
     at: tuple[Phase | None, int | None],
     phase: Phase | None,
 ) -> list[Finding]:
-    """Finding of a robot with a gap that may jam; none without a gap.
+    """Finding of a robot with a gap that may jam; none without a gap, or a friction stated.
 
     Parameters
     ----------
@@ -65,7 +60,7 @@ def jams(
     list of Finding
         At most zero where its trailing part comes against a riser's face.
     """
-    if math.isinf(most_friction(question)):
+    if math.isinf(most_friction(question)) or question.surface is None:
         return []
     spare, poses = _spare(required), found.path.poses
     normal = poses.rear_normal

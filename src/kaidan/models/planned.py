@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kaidan.answer import Part as Figures
-from kaidan.models import gap, traction
+from kaidan.models import traction
 from kaidan.models.contact_figures import ContactFigures, Grades, PhaseFigures, TiltFigures
 from kaidan.models.findings import Finding, Findings, Later, hardest, sliding_where, smallest
 from kaidan.models.quasi_static import Basis, driven_over, findings_of, profile_of
@@ -218,7 +218,6 @@ def _of_move(
         slides = certain(SLIDES_DOWN, 0.0)
         energy = certain(ENERGY, each.energy - question.kinetic_height, failing=Verdict.CAUTION)
         found += [replace(slides, worst=worst, best=best), energy]
-        found += gap.standing(question, standing.required, each.before)
     found += _tips_on_the_way(question, each)
     if not math.isnan(each.spare_torque):
         found.append(certain(FLIPPER_TORQUE, each.spare_torque))

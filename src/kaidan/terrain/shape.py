@@ -30,9 +30,9 @@ of 100 mm below a flight of 190 mm are, blocks of any height are not."""
 def shape_of(points: Array, nosings: Array, edges: Array) -> Shape:
     """Shape of a profile from its lower to its upper end.
 
-    A flight of steps, several with landings between them, a step and a ramp lead up all the way;
+    A flight of steps, several with landings between them, a step and a ramp lead up throughout;
     a threshold leads up and down again by a face or a slope each, stairs over a bridge by flights.
-    What is built so is built across the whole way; of anything else one track may meet more than
+    What is built so is built right across the path; of anything else one track may meet more than
     the other.
 
     Parameters
