@@ -12,6 +12,7 @@ A bar, not mechanics: what driven trials did, until one speed of all belts is in
 """
 
 import math
+from typing import Protocol
 
 import numpy as np
 
@@ -28,6 +29,18 @@ STEEPEST = math.radians(75.0)
 """Lean of the trailing contact's normal beyond which it is at a riser's face [rad]."""
 
 
+class Place(Protocol):
+    """Part of a traverse, and a nosing of it."""
+
+    @property
+    def phase(self) -> Phase | None:
+        """Part of the traverse."""
+
+    @property
+    def step(self) -> int | None:
+        """Nosing, counted from the bottom."""
+
+
 def most_friction(question: Question) -> float:
     """Friction that may be required of a question's robot for a GO [1]; infinite: any."""
     return MOST_FRICTION if question.robot.track.gap > 0 else math.inf
@@ -37,7 +50,7 @@ def jams(
     question: Question,
     found: Traverse,
     required: float,
-    at: tuple[Phase | None, int | None],
+    place: Place,
     phase: Phase | None,
 ) -> list[Finding]:
     """Finding of a robot with a gap that may jam; none without a gap, or a friction stated.
@@ -50,8 +63,8 @@ def jams(
         Of the question.
     required : float
         Friction that it requires [1].
-    at : (Phase, int)
-        Part of the traverse and nosing where that is required.
+    place : Place
+        Where that is required.
     phase : Phase, optional
         Part of the traverse to judge alone.
 
@@ -69,7 +82,7 @@ def jams(
     if phase is not None:
         leans &= found.phase_of_pose == phase.value
     if spare <= 0 or not leans.any():
-        return [_finding(spare, *at)]
+        return [_finding(spare, place.phase, place.step)]
     first = int(np.argmax(leans))
     step = step_at(found.profile, float(poses.front_point[first, 0]), found.descending)
     return [_finding(0.0, Phase(str(found.phase_of_pose[first])), step)]

@@ -183,7 +183,6 @@ def findings_of(
     if question.yaw and isinstance(flight, Stairs):
         across = float(equivalent_slope_across(theta_s=flight.angle, psi=question.yaw))
         friction = math.hypot(friction, across)
-    place = extremes if held is None else held.worst
     required = friction if held is None else held.worst.required
     slides = _supply(driven, found, over, extremes, friction, held)
     balanced = found if math.isinf(most) else _seen_no_farther(question, found, slides, most)
@@ -191,7 +190,7 @@ def findings_of(
         *slides,
         *_obstacles(driven, found, phase, phases),
         *traction.too_fast_on_grousers(question),
-        *gap.jams(driven, found, required, (place.phase, place.step), phase),
+        *gap.jams(driven, found, required, extremes if held is None else held.worst, phase),
         *balance(question, driven, balanced, over, phase, held),
     ]
     gripping = Later(lambda: [traction.figures_of(driven, found, friction, held, phase)])
