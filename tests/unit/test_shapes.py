@@ -104,6 +104,15 @@ def test_measured_flights_are_flights_up_and_down_exact_and_scanned(seed):
         assert shape(each) == "flight"
 
 
+def test_landings_that_drain_are_level():
+    """1 in 50 towards the flight below it, away from it above, as outdoors."""
+    line = Profile.of_stairs(Stairs(rise=0.15, going=0.3, steps=5)).points.copy()
+    line[0, 1] += 0.02 * (line[1, 0] - line[0, 0])
+    line[-1, 1] -= 0.02 * (line[-1, 0] - line[-2, 0])
+    for each in (line, scan(line, np.random.default_rng(0))):
+        assert shape(each) == shape(mirrored(each)) == "flight"
+
+
 def test_stairs_over_a_bridge_are_flights():
     up = Profile.of_stairs(Stairs(rise=0.17, going=0.28, steps=5)).points
     down = mirrored(up) + np.array([2 * up[-1, 0], 0.0])

@@ -25,7 +25,7 @@ from kaidan.terrain.doubt import (
 )
 from kaidan.terrain.flights import line_of_flights
 from kaidan.terrain.polyline import ROUGHNESS, convex_corners, frozen, measured_line, upper_envelope
-from kaidan.terrain.shape import Shape, shape_of
+from kaidan.terrain.shape import Shape, is_level, shape_of
 from kaidan.terrain.stairs import Stairs
 from kaidan.terrain.stairs_uncertainty import StairsUncertainty
 
@@ -280,7 +280,7 @@ class Profile:
     @property
     def is_level(self) -> bool:
         """Whether it is a floor without a step."""
-        return self.shape == "level"
+        return is_level(self.points, self.edges)
 
     @property
     def falls(self) -> bool:

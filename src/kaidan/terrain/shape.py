@@ -53,24 +53,28 @@ def shape_of(points: Array, nosings: Array, edges: Array) -> Shape:
     >>> shape_of(line, corners[:1], corners)
     'threshold'
     """
-    if len(edges) == 0 and np.ptp(points[:, 1]) <= UNEVEN:
+    if is_level(points, edges):
         return "level"
-    top = int(np.argmax(points[:, 1]))
-    up, down = points[: top + 1], points[top:][::-1] * (-1.0, 1.0)
-    if not (_leads_up(up) and _leads_up(down)):
-        return "irregular"
-    falling = edges[~(edges[:, None] == nosings[None]).all(axis=2).any(axis=1)]
-    if len(falling) == 0 and np.ptp(down[:, 1]) <= UNEVEN:
+    falling = edges[~np.isin(edges @ (1.0, 1.0j), nosings @ (1.0, 1.0j))]
+    if len(falling) == 0 and _leads_up(points):
         if len(nosings) > 1:
             return "flight" if _alike(np.diff(nosings[:, 1])[:-1]) else "irregular"
         return "step" if len(nosings) else "ramp"
-    if (nosings[:, 0] > points[top, 0]).any() or (falling[:, 0] < points[top, 0]).any():
+    top = int(np.argmax(points[:, 1]))
+    up, down = points[: top + 1], points[top:][::-1] * (-1.0, 1.0)
+    apart = (nosings[:, 0] <= points[top, 0]).all() and (falling[:, 0] >= points[top, 0]).all()
+    if not (apart and _leads_up(up) and _leads_up(down)):
         return "irregular"
     if max(len(nosings), len(falling)) <= 1:
         return "threshold"
     legs = (nosings, up), (falling[::-1], down)
     risers = [np.diff(each[:, 1], prepend=leg[0, 1]) for each, leg in legs]
     return "flight" if all(len(each) > 2 and _alike(each) for each in risers) else "irregular"
+
+
+def is_level(points: Array, edges: Array) -> bool:
+    """Whether a profile is a floor: it has no steep part, and is as even as a scan shows it."""
+    return len(edges) == 0 and bool(np.ptp(points[:, 1]) <= UNEVEN)
 
 
 def _leads_up(points: Array) -> bool:
