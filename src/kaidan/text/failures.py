@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from kaidan.modes import FAILURE_MODES, SUPPLIES, Verdict
-from kaidan.text import dynamic, traction, turning, unweighed
+from kaidan.text import dynamic, terrain, traction, turning, unweighed
 from kaidan.text.words import place
 
 if TYPE_CHECKING:
@@ -206,6 +206,29 @@ def _room(
     return f"A landing is {short:.0f} mm shorter than the robot."
 
 
+def _jams(
+    question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
+) -> str:
+    spare = finding.margin(question.risk)
+    if spare == 0.0:
+        return (
+            "Its track has a gap, and the part behind it comes against a riser"
+            f"{at(conclusion)}. There such robots jammed in simulations."
+        )
+    needed = found.required_friction
+    most = math.tan(math.atan(needed) + spare)
+    return (
+        f"Its track has a gap, and it needs a friction of {needed:.2f}{at(conclusion)}. Beyond "
+        f"{most:.2f} such robots jammed in simulations."
+    )
+
+
+def _across(
+    question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
+) -> str:
+    return terrain.UNKNOWN
+
+
 def _unseen(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
@@ -321,6 +344,8 @@ SAYINGS: dict[str, Saying] = {
     "landing_room": _room,
     "turning": _turns,
     "foot_unseen": _unseen,
+    "gap_jam": _jams,
+    "across": _across,
     "posture_change": _changes,
     "flipper_torque": _torque,
     "posture_tolerance": _tolerance,
