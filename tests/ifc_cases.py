@@ -16,10 +16,10 @@ UNITS = {"m": 1.0, "mm": 1e-3, "ft": 0.3048}
 def parsed_here(patch):
     """Let the parser run in this process, which has it already, and not in one of its own."""
 
-    def parsed(source, path, around):
+    def parsed(source, path):
         said = io.TextIOWrapper(io.BytesIO())
         with redirect_stdout(said):
-            ifc_child.main(str(path), around)
+            ifc_child.main(str(path))
         line, _, rest = said.buffer.getvalue().partition(b"\n")
         return line, rest
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from kaidan.modes import FOOT_UNSEEN, MODELS, Verdict
+from kaidan.modes import FLOOR_FINISH, FOOT_UNSEEN, MODELS, FailureMode, Verdict
 
 if TYPE_CHECKING:
     from kaidan.models.findings import Findings
@@ -44,13 +44,26 @@ def judge(question: "Question", *, known: "Findings | None" = None) -> "Findings
         from kaidan.models import landings
 
         found = landings.beside(question, found)
-    if not all(flight.foot_seen for flight in question.flights):
+    if doubted := _in_doubt(question):
         from kaidan.models.findings import Finding
 
-        unseen = Finding.certain(FOOT_UNSEEN, -math.inf, failing=Verdict.CAUTION, model=found.model)
-        found = replace(found, each=(*found.each, unseen))
+        more = (
+            Finding.certain(mode, -math.inf, failing=Verdict.CAUTION, model=found.model)
+            for mode in doubted
+        )
+        found = replace(found, each=(*found.each, *more))
     if question.uneven_across:
         from kaidan.models.two_tracks import beside
 
         found = beside(question, found)
+    return found
+
+
+def _in_doubt(question: "Question") -> list[FailureMode]:
+    """What nobody saw of the flights, or what a file states otherwise than it draws it."""
+    found = []
+    if not all(flight.foot_seen for flight in question.flights):
+        found.append(FOOT_UNSEEN)
+    if any(flight.first_rise_drawn or flight.last_rise_drawn for flight in question.flights):
+        found.append(FLOOR_FINISH)
     return found

@@ -215,6 +215,26 @@ def _unseen(
     )
 
 
+def _finish(
+    question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
+) -> str:
+    """Heights of the flight, and the end riser that makes the difference."""
+    flight = next(one for one in question.flights if one.first_rise_drawn or one.last_rise_drawn)
+    stated, drawn = list(flight.step_rises), list(flight.step_rises)
+    said = []
+    ends = (("first", 0, flight.first_rise_drawn), ("last", -1, flight.last_rise_drawn))
+    for name, end, rise in ends:
+        if rise is not None:
+            drawn[end] = rise
+            said.append(
+                f"{name} riser {1e3 * rise:.0f} mm drawn, {1e3 * stated[end]:.0f} mm stated"
+            )
+    return (
+        f"Drawn {sum(drawn):.2f} m, stated {sum(stated):.2f} m: floor finish missing? Measure it: "
+        f"{', '.join(said)}."
+    )
+
+
 def _too_fast(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
@@ -321,6 +341,7 @@ SAYINGS: dict[str, Saying] = {
     "landing_room": _room,
     "turning": _turns,
     "foot_unseen": _unseen,
+    "floor_finish": _finish,
     "posture_change": _changes,
     "flipper_torque": _torque,
     "posture_tolerance": _tolerance,
