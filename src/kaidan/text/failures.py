@@ -229,10 +229,9 @@ def _finish(
             said.append(
                 f"{name} riser {1e3 * rise:.0f} mm drawn, {1e3 * stated[end]:.0f} mm stated"
             )
-    return (
-        f"Drawn {sum(drawn):.2f} m, stated {sum(stated):.2f} m: floor finish missing? Measure it: "
-        f"{', '.join(said)}."
-    )
+    heights = [f"{sum(each):.2f} m" for each in (drawn, stated)]
+    differs = f"Drawn {heights[0]}, stated {heights[1]}: f" if heights[0] != heights[1] else "F"
+    return f"{differs}loor finish missing? Measure it: {', '.join(said)}."
 
 
 def _too_fast(

@@ -133,35 +133,48 @@ def _wanted(model: Any) -> Iterator[Any]:
                 continue
 
     assemblies = [each for each in of("IfcElementAssembly") if _kind(each)]
-    stairs = [*of(*STAIRS), *(each for each in assemblies if _kind(each) == "stair")]
-    for each in [*stairs, *assemblies]:
+    wholes = [*of(*STAIRS), *assemblies]
+    for each in wholes:
         yield each
         yield from _parts(each)
+    drawn_as_others = not any(_kind(each) in ("stair", "flight") for each in wholes)
     yield from of(*LEVELS, "IfcRailing", TRANSPORT)
     for each in of(*UNNAMED):
-        if not stairs or _kind(each) or LIKE_STAIRS.search(_called(each)):
+        if drawn_as_others or _kind(each) or LIKE_STAIRS.search(_called(each)):
             yield each
     yield from of(*ROUND)
 
 
 def _called(element: Any) -> str:
-    """Its name and what its author calls its type."""
-    return f"{_text(element.Name)} {_text(element.ObjectType)}"
+    """Its name, and what its author calls its type."""
+    import ifcopenshell.util.element as elements
+
+    kind = elements.get_type(element)
+    of_type = "" if kind is None else _text(kind.Name)
+    return f"{_text(element.Name)} {_text(element.ObjectType)} {of_type}"
+
+
+def _category(element: Any) -> str:
+    """What the schema calls an element, however its parts are put together."""
+    name: str = element.is_a()
+    return name.removesuffix("StandardCase").removesuffix("ElementedCase")
 
 
 def _kind(element: Any) -> str:
     """What an element is for going up: stair, flight, ramp, lift and so on; empty: none of them."""
     import ifcopenshell.util.element as elements
 
-    category, name = element.is_a(), _called(element)
+    category = _category(element)
     if category == TRANSPORT:
         stated = elements.get_predefined_type(element) or ""
         word = BY_TYPE.get(stated) or BY_TYPE.get(getattr(element, "OperationType", None) or "")
         if word:
             return word
-    for kind in BY_NAME.get(category, ()):
-        if CALLED[kind].search(name):
-            return kind
+    if category in BY_NAME:
+        name = _called(element)
+        for kind in BY_NAME[category]:
+            if CALLED[kind].search(name):
+                return kind
     return BY_CATEGORY.get(category, "")
 
 
@@ -210,8 +223,9 @@ def _body(element: Any, kind: str, has_shape: bool) -> dict[str, Any]:
 
     parent = elements.get_aggregate(element)
     storey = elements.get_container(element, ifc_class="IfcBuildingStorey")
-    facts: dict[str, Any] = {"step": element.id(), "kind": kind}
-    if kind or element.is_a() in ("IfcBuildingElementProxy", "IfcSlab"):
+    represented = getattr(element, "Representation", None) is not None
+    facts: dict[str, Any] = {"step": element.id(), "kind": kind, "represented": represented}
+    if kind or _category(element) in ("IfcBuildingElementProxy", "IfcSlab"):
         facts["stated"] = _stated(element)
     if element.is_a("IfcDoor"):
         facts["door"] = [element.OverallWidth, element.OverallHeight]
@@ -220,7 +234,7 @@ def _body(element: Any, kind: str, has_shape: bool) -> dict[str, Any]:
     return {
         "id": _identity(element),
         "name": _text(element.Name),
-        "category": element.is_a(),
+        "category": _category(element),
         "type": _text(elements.get_predefined_type(element)),
         "parent": _identity(parent) if parent is not None and parent.is_a("IfcElement") else "",
         "storey": _identity(storey) if storey is not None else "",

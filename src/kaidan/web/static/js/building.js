@@ -78,12 +78,13 @@ function ends(flight) {
 // What became of every element for going up, and the reasons of those that are not judged.
 function account(elements) {
   if (elements.length === 0) return null;
-  const of = (key) => elements.reduce((counts, each) => counts.set(each[key], (counts.get(each[key]) ?? 0) + 1), new Map());
-  const listed = (counts, table) => [...counts].map(([key, count]) => `${count} ${t(`${table}.${(key || "other").replaceAll(" ", "_")}`)}`).join(", ");
+  const word = (table, key) => t(`${table}.${(key || "other").replaceAll(" ", "_")}`);
+  const counted = (key) => [...elements.reduce((counts, each) => counts.set(each[key], (counts.get(each[key]) ?? 0) + 1), new Map())]
+    .map(([name, count]) => `${count} × ${word(key, name)}`).join(", ");
   const left = elements.filter((each) => each.reasons.length > 0);
-  return [h("h3", {}, t("building.elements")), h("p", { class: "account" }, `${listed(of("kind"), "kind")}: ${listed(of("outcome"), "outcome")}`),
+  return [h("h3", {}, t("building.elements")), h("p", { class: "account" }, `${counted("kind")}: ${counted("outcome")}`),
     left.length === 0 ? null : [h("h3", {}, t("building.refusals")), h("ul", { class: "not-judged" }, left.map((each) => h("li", {},
-      h("b", {}, each.name), ` (${t(`kind.${(each.kind || "other").replaceAll(" ", "_")}`)}, ${each.identity}) `, each.reasons.map((why) => said(why, "span")))))]];
+      h("b", {}, each.name), ` (${word("kind", each.kind)}, ${each.identity}): `, each.reasons.map((why) => said(why)))))]];
 }
 
 function notes(found) {
