@@ -69,12 +69,16 @@ def balusters(count, going, rise, width):
 
 
 @pytest.mark.parametrize(("schema", "unit"), SCHEMAS, ids=SCHEMAS_ID)
-@pytest.mark.parametrize("kind", ["open shell", "open shell turned", "boxes turned", "half turned"])
+@pytest.mark.parametrize(
+    "kind", ["open shell", "open shell turned", "boxes turned", "half turned", "no sides"]
+)
 def test_an_element_is_read_whichever_way_its_faces_look(tmp_path, schema, unit, kind):
     """8 x 180/250, with balusters in the same element, mirrored and askew."""
     h = House(schema, unit, storeys=((0.0, "Ground"), (1.44, "First")))
     rises, goings = regular(8, 0.18, 0.25)
-    faces = blocks(rises, goings, shell=kind.startswith("open"))
+    faces = blocks(rises, goings, thick=0.1, shell=kind.startswith("open"))
+    if kind == "no sides":  # tops and undersides 280 mm below, with room for a foot between
+        faces = [each for each in faces if len({z for _, _, z in each}) == 1]
     if "turned" in kind:
         faces = [each[::-1] if k % 2 or kind != "half turned" else each
                  for k, each in enumerate(faces)]  # fmt: skip
@@ -89,6 +93,39 @@ def test_an_element_is_read_whichever_way_its_faces_look(tmp_path, schema, unit,
 def goings_of(flight):
     s = flight.estimate.line()[:, 0]
     return [high - low for low, high in pairwise(s)]
+
+
+def stacked(storeys, count, rise, going, landing):
+    """One sheet of treads, risers and landings: half-turns one above another, in a shaft."""
+    faces, z, end, across = [], 0.0, going * (count - 1), 1.1
+    flight = blocks([rise] * count, [going] * (count - 1), shell=True)
+    last = [(end, 0.5, rise * (count - 1)), (end, -0.5, rise * (count - 1)),
+            (end, -0.5, rise * count), (end, 0.5, rise * count)]  # fmt: skip
+    for number in range(2 * storeys):
+        for each in [*flight, last]:
+            back = number % 2
+            faces.append([(end - x if back else x, across - y if back else y, h + z)
+                          for x, y, h in each])  # fmt: skip
+        z += rise * count
+        near, far = (end, end + landing) if number % 2 == 0 else (0.0, -landing)
+        faces.append([(near, -0.5, z), (far, -0.5, z), (far, 1.6, z), (near, 1.6, z)])
+    shaft = [(-landing, -0.5), (end + landing, -0.5), (end + landing, 1.6), (-landing, 1.6)]
+    for (x, y), (u, v) in zip(shaft, [*shaft[1:], shaft[0]], strict=True):
+        faces.append([(x, y, 0), (u, v, 0), (u, v, z), (x, y, z)])
+    return faces
+
+
+@pytest.mark.parametrize("heading", [0, 50, 205])
+@pytest.mark.parametrize("storeys", [2, 3, 4])
+def test_flights_above_one_another_in_one_sheet_are_all_read(tmp_path, storeys, heading):
+    h = House(storeys=tuple((2.88 * k, f"S{k}") for k in range(storeys + 1)))
+    sheet = h.triangles(stacked(storeys, 8, 0.18, 0.27, 1.2))
+    h.add("IfcStair", "S", [sheet], degrees=heading)
+    found = building(h, tmp_path)
+    assert len(found.flights) == 2 * storeys
+    for flight in found.flights:
+        assert rises_of(flight) == pytest.approx([0.18] * 8, abs=NEAR)
+    assert outcomes(found) == {"S": ("stair", "judged")}
 
 
 @pytest.mark.parametrize(("schema", "unit"), SCHEMAS, ids=SCHEMAS_ID)

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.readers.solids.rays import Triangles, first_hits, inside
+from kaidan.readers.solids.rays import Triangles, hits, inside
 
 Array = NDArray[np.float64]
 
@@ -28,6 +28,9 @@ LEAST_AREA = 0.02
 """Least area of a tread [m^2]."""
 LEAST_SPACE = 0.25
 """Space above a face that it takes to set a foot on it [m]."""
+THICKEST = 0.6
+"""Space below a surface of its own solid in which a face is its underside [m], where no sides are
+drawn that would close it: slabs are thinner, and people do not walk where it is lower."""
 INWARD = 0.7
 """Where it is looked whether a face is covered: between its middle and its corners [1]."""
 WITHIN = np.array([0.47, 0.31, 0.22])
@@ -170,8 +173,10 @@ def _uncovered(plates: list[Plate], solids: Triangles) -> NDArray[np.bool_]:
         of += [number] * len(some)
     if not points:
         return np.zeros(0, dtype=bool)
-    starts = np.vstack(points)
-    over = first_hits(starts, np.array([0.0, 0.0, 1.0]), solids) < LEAST_SPACE
+    owner = np.array([each.owners[0] for each in plates])[of]
+    ray, face, above = hits(np.vstack(points), np.array([0.0, 0.0, 1.0]), solids)
+    own = solids.owner[face] == owner[ray]
+    over = np.bincount(ray[above < np.where(own, THICKEST, LEAST_SPACE)], minlength=len(of)) > 0
     count = np.bincount(of, minlength=len(plates))
     covered = np.bincount(of, weights=over, minlength=len(plates))
     return np.asarray(covered < 0.5 * count)

@@ -14,12 +14,15 @@ FEW_PAIRS = 20_000
 """Pairs of a ray and a triangle up to which all are worked out, without an index."""
 WELDED = 1e-5
 """Distance up to which corners are one, so that their faces are of one surface [m]."""
-WAYS = tuple(
-    np.array([math.cos(angle) * flat, math.sin(angle) * flat, math.sqrt(1.0 - flat**2)])
-    for angle, flat in ((0.0, 0.0), (0.7, 0.8), (2.3, 0.85), (3.8, 0.75), (5.3, 0.9))
+WAYS = (
+    np.array([0.0, 0.0, 1.0]),
+    *(
+        np.array([math.cos(2.4 * k) * flat, math.sin(2.4 * k) * flat, z])
+        for k, z in enumerate(np.linspace(0.83, -0.91, 15).tolist())
+        for flat in [math.sqrt(1.0 - z**2)]
+    ),
 )
-"""Directions that decide whether a point lies inside a surface: up, then all round, and along no
-side that is drawn often."""
+"""Directions in which it is looked whether a point lies inside a surface: up, and all round."""
 _MIXED = np.array([73_856_093, 19_349_663, 83_492_791], dtype=np.int64)
 
 
@@ -110,7 +113,7 @@ def first_hits(starts: Array, direction: Array, solids: Triangles) -> Array:
     array, shape (n,)
     """
     found = np.full(len(starts), np.inf)
-    ray, _, t = _hits(starts, direction, solids)
+    ray, _, t = hits(starts, direction, solids)
     np.minimum.at(found, ray, t)
     return found
 
@@ -118,8 +121,8 @@ def first_hits(starts: Array, direction: Array, solids: Triangles) -> Array:
 def inside(starts: Array, shell: NDArray[np.int64], solids: Triangles) -> NDArray[np.bool_]:
     """Whether points lie inside a closed surface, whichever way its faces look.
 
-    A ray from within crosses it an odd number of times. An open surface that a ray happens to meet
-    once is left by most of the others, so that most of `WAYS` decide.
+    Every ray from within crosses it an odd number of times. From a tread of an open surface some
+    rays do too, such as one that meets another flight above, but not all.
 
     Parameters
     ----------
@@ -133,23 +136,22 @@ def inside(starts: Array, shell: NDArray[np.int64], solids: Triangles) -> NDArra
     -------
     array of bool, shape (n,)
     """
-    odd = np.zeros(len(starts), dtype=np.int64)
-    left = np.arange(len(starts))
+    found = np.ones(len(starts), dtype=bool)
     for direction in WAYS:
-        ray, face, _ = _hits(starts[left], direction, solids)
+        left = np.flatnonzero(found)
+        ray, face, _ = hits(starts[left], direction, solids)
         own = solids.shells[face] == shell[left][ray]
-        odd[left] += np.bincount(ray[own], minlength=len(left)) % 2
-        left = left[odd[left] > 0]  # what a ray straight up leaves freely lies outside
-    return np.asarray(odd > len(WAYS) // 2)
+        found[left] = np.bincount(ray[own], minlength=len(left)) % 2 > 0
+    return found
 
 
-def _hits(
+def hits(
     starts: Array, direction: Array, solids: Triangles
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:
     """All faces that rays meet: numbers of ray and face, and the distance [m].
 
-    Seen along the direction each face is a triangle in a plane: a ray hits it where the barycentric
-    coordinates of its point are none of them negative.
+    See `first_hits`. Seen along the direction each face is a triangle in a plane: a ray hits it
+    where the barycentric coordinates of its point are none of them negative.
     """
     nothing = np.zeros(0, dtype=np.int64)
     if len(solids.corners) == 0 or len(starts) == 0:
