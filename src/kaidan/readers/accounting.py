@@ -81,6 +81,10 @@ class _Account:
         for k, by in enumerate(self.answering):
             self.parts.setdefault(by, []).append(k)
         kinded = (k for k, kind in enumerate(self.kinds) if kind)
+        self.climbing: dict[str, list[Flight]] = {}
+        for flight in drawn.flights:
+            for identity in flight.elements:
+                self.climbing.setdefault(identity, []).append(flight)
         self.wholes = {above for k in kinded for above in self._above(k) if above != k}
 
     def _kind(self, k: int) -> str:
@@ -131,9 +135,8 @@ class _Account:
 
     def _flights(self, k: int) -> list[Flight]:
         """Flights that an element is drawn as, or that begin or end on it where it is a landing."""
-        identity, plates = self.drawn.bodies[k].identity, self.plates.get(k, [])
-        found = [each for each in self.drawn.flights if identity in each.elements]
-        if found or not plates or not self.drawn.used.issuperset(plates):
+        found, plates = self.climbing.get(self.drawn.bodies[k].identity, []), self.plates.get(k, [])
+        if found or not plates or self._levels(k, others=True):
             return found
         ends = {f"landing:{number}" for number in plates}
         return [each for each in self.drawn.flights if ends & {each.lower, each.upper}]
@@ -187,7 +190,7 @@ class _Account:
         shaped, flights = self._shaped(k), self._flights(k)
         if not shaped:
             return [] if flights else self._undrawn(k)
-        levels = self._levels(k, flights)
+        levels = self._levels(k, others=bool(flights))
         if flights or k in self.wholes:
             rises = (high - low for low, high in pairwise(levels))
             if not any(RISES[0] <= rise <= RISES[1] for rise in rises):
@@ -201,11 +204,10 @@ class _Account:
         numbers = {"count": len(levels), "low_m": levels[0], "high_m": levels[-1]}
         return [self._refusal(k, "no-flight", **numbers)]
 
-    def _levels(self, k: int, flights: Sequence[Flight]) -> list[float]:
-        """Levels of what may be treads of an element, those that its flights have apart."""
+    def _levels(self, k: int, *, others: bool) -> list[float]:
+        """Levels of what may be treads of an element; others: than flights climb or end on."""
         own = self.plates.get(k, [])
-        known = [self.drawn.plates[n].level for n in own if n in self.drawn.used]
-        known = known if flights else []
+        known = [self.drawn.plates[n].level for n in own if others and n in self.drawn.used]
         found: list[float] = []
         for number in own:
             plate = self.drawn.plates[number]

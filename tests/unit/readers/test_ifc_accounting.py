@@ -326,6 +326,21 @@ def test_parts_answer_for_themselves_and_their_whole_for_the_rest(tmp_path):
     assert flights["Stair A"] == flights["A1"] + flights["A2"]
 
 
+def test_a_landing_of_its_own_is_judged_with_its_flights(tmp_path):
+    """With a rim of 15 mm round it, as a precast one has."""
+    h = House(storeys=((0.0, "Ground"), (3.0, "First")))
+    steps = {"rises": [0.15] * 10, "goings": [0.30] * 9, "last": False}
+    h.add("IfcStair", "A", [monolith(h, **steps)])
+    rim = h.slab([(3.8, -0.5), (3.9, -0.5), (3.9, 1.7), (3.8, 1.7)], 1.515)
+    deck = h.slab([(2.7, -0.5), (3.8, -0.5), (3.8, 1.7), (2.7, 1.7)], 1.5)
+    h.add("IfcStair", "landing", [deck, rim])
+    h.add("IfcStair", "B", [monolith(h, **steps)], at=(2.7, 1.2, 1.5), degrees=180)
+    found = building(h, tmp_path)
+    assert outcomes(found) == dict.fromkeys(("A", "landing", "B"), ("stair", "judged"))
+    landing = next(each for each in found.elements if each.name == "landing")
+    assert landing.flights == tuple(each.identity for each in found.flights)
+
+
 # The sum
 
 
