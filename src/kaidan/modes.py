@@ -142,6 +142,8 @@ FOOT_UNSEEN = failure_mode("foot_unseen", "", "a first riser that nobody saw")
 """Of a scan: the flight may begin lower, or with a higher riser."""
 ACROSS = failure_mode("across", "", "one track meeting other ground than the other")
 """On a profile that is not built across the path: nobody stated that both meet the same."""
+FLOOR_FINISH = failure_mode("floor_finish", "", "an end riser that is drawn and stated otherwise")
+"""Of a building model: a floor or the steps may be drawn without their finish."""
 LOW = failure_mode("low", "m", "a ceiling lower than the robot needs")
 TWIST = failure_mode("twist", "rad", "tipping on nosings that differ from left to right")
 UNWEIGHED = failure_mode("unweighed", "", "a centroid that nobody measured")

@@ -328,6 +328,7 @@ def test_every_mode_of_the_model_is_among_the_cases():
     elsewhere |= {"foot_unseen"}  # likewise, of scans: test_clearance_findings.py
     elsewhere |= {"gap_jam"}  # of driven trials: agreement/test_gap_in_physics.py
     elsewhere |= {"across"}  # of profiles: test_terrain.py
+    elsewhere |= {"floor_finish"}  # likewise, of building models: test_clearance_findings.py
     elsewhere |= {"grouser_speed"}  # of driven grousers: test_traction.py
     elsewhere |= {"turning"}  # likewise: test_landing_turns.py
     elsewhere |= {"twist"}  # likewise: test_twisted_flights.py

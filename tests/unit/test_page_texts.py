@@ -13,7 +13,7 @@ SCRIPTS = Path(kaidan.__file__).parent / "web" / "static" / "js"
 # Topics whose names the page makes of an answer's words.
 OPEN = {"verdict", "mode", "phase", "figure", "ground", "binds", "stairs"}
 OPEN |= {"side", "chart", "app", "answer", "guide", "saved", "live"}
-OPEN |= {"robot", "measure", "work", "landing"}
+OPEN |= {"robot", "measure", "work", "landing", "kind", "outcome"}
 
 
 def test_every_text_is_there_in_japanese():

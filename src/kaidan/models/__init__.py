@@ -9,7 +9,7 @@ from dataclasses import replace
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from kaidan.modes import ACROSS, FOOT_UNSEEN, MODELS, Verdict
+from kaidan.modes import ACROSS, FLOOR_FINISH, FOOT_UNSEEN, MODELS, FailureMode, Verdict
 from kaidan.text import terrain as text
 
 if TYPE_CHECKING:
@@ -63,18 +63,28 @@ def beside(question: "Question", found: "Findings") -> "Findings":
         from kaidan.models import landings
 
         found = landings.beside(question, found)
-    unknown = [] if all(flight.foot_seen for flight in question.flights) else [FOOT_UNSEEN]
-    unknown += [] if question.meets_the_same else [ACROSS]
-    if unknown:
+    if doubted := _in_doubt(question):
         from kaidan.models.findings import Finding
 
-        each = [
+        more = (
             Finding.certain(mode, -math.inf, failing=Verdict.CAUTION, model=found.model)
-            for mode in unknown
-        ]
-        found = replace(found, each=(*found.each, *each))
+            for mode in doubted
+        )
+        found = replace(found, each=(*found.each, *more))
     if question.uneven_across:
         from kaidan.models.two_tracks import beside
 
         found = beside(question, found)
+    return found
+
+
+def _in_doubt(question: "Question") -> list[FailureMode]:
+    """What nobody saw or stated of the terrain, or what a file states otherwise than it draws it."""
+    found = []
+    if not all(flight.foot_seen for flight in question.flights):
+        found.append(FOOT_UNSEEN)
+    if any(flight.first_rise_drawn or flight.last_rise_drawn for flight in question.flights):
+        found.append(FLOOR_FINISH)
+    if not question.meets_the_same:
+        found.append(ACROSS)
     return found

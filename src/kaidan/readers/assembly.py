@@ -2,16 +2,20 @@
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from kaidan.readers.building import Building, Doorway, Flight, Floor, Storey
+from kaidan.errors import InputError
+from kaidan.readers.accounting import MOVING, RAMPS, Drawn, Refused, accounted
+from kaidan.readers.building import Building, Flight, Floor, Storey
+from kaidan.readers.doorways import doorways_of
 from kaidan.readers.estimate import Refusal
-from kaidan.readers.flight import FlightEstimate
+from kaidan.readers.flight import LAST_SPREAD, FlightEstimate
 from kaidan.readers.kinds import Array, Bodies, Body, Provenance
+from kaidan.readers.naming import named_apart
 from kaidan.readers.solids.levels import Plate, plates_of
 from kaidan.readers.solids.rays import Triangles
 from kaidan.readers.solids.room import (
@@ -23,20 +27,21 @@ from kaidan.readers.solids.room import (
 )
 from kaidan.readers.solids.runs import DEEPEST_TREAD, RISES, Run, runs_of
 from kaidan.readers.solids.section import Section, section_of
-from kaidan.readers.solids.stated import cross_checked
+from kaidan.readers.solids.stated import stated_rise
 
 FLUSH = 0.04
 """Difference up to which a surface lies on the level of a storey [m]: floor finishes."""
 OF_STOREY = 0.3
 """Difference up to which a floor is that of a storey [m]."""
-STAIRS = ("IfcStair", "IfcStairFlight")
-RAMPS = ("IfcRamp", "IfcRampFlight")
+STAIRS = ("stair", "flight")
 LIKE_STAIRS = 0.05
 """Spread of rises up to which solids that nobody called stairs are some [m]."""
 UNLIKE = 0.015
 """Difference from the other depths by which the last tread is no tread [m]."""
-WITHOUT_LEAF = ("SLIDING", "FOLDING", "LIFTING", "ROLLINGUP", "REVOLVING")
-"""Operations of doors without a leaf that opens about a hinge."""
+OVERHEAD_OR_BESIDE = (
+    "IfcRailing", "IfcDoor", "IfcWall", "IfcColumn", "IfcBeam", "IfcRoof", "IfcCurtainWall",
+)  # fmt: skip
+"""What nobody stands on, by the beginning of its category."""
 _FEWEST_UNNAMED = 3
 
 
@@ -64,6 +69,7 @@ class _Assembly:
         self.by_id = {each.identity: each for each in self.bodies}
         storeys = [Storey(each["id"], each["name"], each["level"]) for each in self._storeys()]
         self.storeys = tuple(sorted(storeys, key=lambda one: one.level))
+        self.unit: float = model.facts.get("unit", 1.0)
         meshes = [(each.vertices, each.faces) for each in self.bodies]
         everything = Triangles.of(meshes)
         self.origin = (
@@ -74,19 +80,15 @@ class _Assembly:
         self.origin[2] = 0.0  # levels stay those of the model
         self.all = Triangles(everything.corners - self.origin, everything.owner)
         self.is_stair = [self._stair(each) for each in self.bodies]
-        standing = {
-            k
-            for k, each in enumerate(self.bodies)
-            if each.category not in ("IfcRailing", "IfcDoor", *RAMPS)
-            and not each.category.startswith(("IfcWall", "IfcColumn", "IfcBeam", "IfcRoof"))
-            and each.category not in ("IfcCovering", "IfcCurtainWall")
-        }
+        standing = {k for k, each in enumerate(self.bodies) if self._carries(each)}
         doors = {k for k, each in enumerate(self.bodies) if each.category == "IfcDoor"}
         self.solids = self.all.of_owners(standing)
         self.obstacles = self.all.of_owners(set(range(len(self.bodies))) - doors)
         self.plates = plates_of(self.solids)
         self.runs = runs_of(self.plates)
         self.floors: dict[str, Floor] = {}
+        self.used: set[int] = set()
+        self.refused: list[Refused] = []
         self._cleared: dict[int, tuple[Array, Array]] = {}
 
     def _storeys(self) -> Sequence[Mapping[str, Any]]:
@@ -95,55 +97,69 @@ class _Assembly:
 
     def _stair(self, body: Body) -> bool:
         """Whether an element is a stair or part of one."""
-        seen = set()
-        at: Body | None = body
-        while at is not None and at.identity not in seen:
-            if at.category in STAIRS:
-                return True
-            seen.add(at.identity)
-            at = self.by_id.get(at.parent)
-        return False
+        return any(each.facts.get("kind") in STAIRS for each in self._family(body))
+
+    def _carries(self, body: Body) -> bool:
+        """Whether an element may be stood on: no ramp, lift or escalator, and none of its parts."""
+        other = (*MOVING, *(() if body.category == "IfcSlab" else RAMPS))
+        if any(each.facts.get("kind") in other for each in self._family(body)):
+            return False
+        if body.category == "IfcCovering":
+            return body.facts.get("type") == "FLOORING"
+        return not body.category.startswith(OVERHEAD_OR_BESIDE)
 
     def building(self) -> Building:
-        flights, refusals = [], []
+        flights = []
         for run in self.runs:
             owner = self._owner(run)
-            if math.isnan(run.heading):
-                if self.is_stair[owner]:
-                    refusals.append(self._refusal(run, owner))
-                continue
-            flight = self._flight(run, owner)
-            if flight is not None:
+            flight = self._judged(run, owner)
+            if isinstance(flight, Flight):
                 flights.append(flight)
-        refusals += [
-            Refusal("ramp-element", {}, self._of(each))
-            for each in self.bodies
-            if each.category == "IfcRamp" or (each.category == "IfcRampFlight" and not each.parent)
-        ]
+                self.used.update(run.steps, () if run.below is None else (run.below,))
+            elif flight is not None and self.is_stair[owner]:
+                self.refused.append(Refused(owner, frozenset(run.steps), flight))
+                self.used.update(run.steps)
+        named = named_apart(flights)
+        drawn = Drawn(
+            bodies=self.bodies,
+            plates=self.plates,
+            used=frozenset(self.used),
+            flights=named,
+            refused=self.refused,
+            storeys={each.identity: each.name for each in self.storeys},
+            unit=self.unit,
+            provenance=self.model.provenance,
+        )
         return Building(
             storeys=self.storeys,
             floors=self.floors,
-            flights=_named_apart(tuple(_told_apart(flights))),
-            doors=tuple(self._doors()),
-            refusals=tuple(
-                {(each.why, each.provenance.element): each for each in refusals}.values()
-            ),
+            flights=named,
+            doors=tuple(doorways_of(self.bodies, self.unit)),
+            elements=accounted(drawn),
             provenance=self.model.provenance,
         )
+
+    def _judged(self, run: Run, owner: int) -> Flight | Refusal | None:
+        """Flight of a run, or why there is none; None: nobody called it stairs."""
+        if math.isnan(run.heading):
+            turn = math.degrees(run.turned)
+            why = "winders" if len(run.steps) <= 5 and turn < 100 else "curved"
+            return Refusal(why, {"turn_deg": turn}, self._of(self.bodies[owner]))
+        flight = self._flight(run, owner)
+        try:
+            if flight is not None:
+                flight.estimate.stairs()
+        except InputError as error:
+            return Refusal("no-sheet", {"reason": str(error)}, self._of(self.bodies[owner]))
+        return flight
 
     def _of(self, body: Body) -> Provenance:
         return replace(self.model.provenance, element=body.identity)
 
     def _owner(self, run: Run) -> int:
         """Number of the element that most treads of a run belong to."""
-        treads = run.steps[:-1] if run.complete and len(run.steps) > 1 else run.steps
-        counts = Counter(self.plates[k].owners[0] for k in treads)
+        counts = Counter(self.plates[k].owners[0] for k in self._treads(run))
         return counts.most_common(1)[0][0]
-
-    def _refusal(self, run: Run, owner: int) -> Refusal:
-        turn = math.degrees(run.turned)
-        why = "winders" if len(run.steps) <= 5 and turn < 100 else "curved"
-        return Refusal(why, {"turn_deg": turn}, self._of(self.bodies[owner]))
 
     def _flight(self, run: Run, owner: int) -> Flight | None:
         plates = [self.plates[k] for k in run.steps]
@@ -171,6 +187,9 @@ class _Assembly:
                 going = float(np.diff((left + right) / 2).mean())
                 left, right = np.append(left, left[-1] + going), np.append(right, right[-1] + going)
         base = self._base(below, float(levels[0]), notes)
+        body, reached = self.bodies[owner], float(levels[-1])
+        family = self._family(body)
+        floor, levels, drawn = self._ends(base, levels, family)
         t_left, t_right = section.lane[1], section.lane[0]
         frame = section.frame
         estimate = FlightEstimate(
@@ -180,40 +199,62 @@ class _Assembly:
             covariance=np.zeros((len(levels), 2) * 2),
             gravity=0.0,
             scale=0.0,
-            floor=base,
+            floor=floor,
+            drawn_first=drawn[0],
+            drawn_last=drawn[1],
             width=max(lane[1] - lane[0], 0.0),
             headroom=headroom_of(section, self.obstacles),
             overhang=min(section.overhang, 0.1),
             open_risers=section.open_risers,
             notes=tuple(notes),
         )
-        body = self.bodies[owner]
         s0, s1 = float(np.minimum(left, right)[0]), float(np.maximum(left, right)[-1])
         corners = [(s0, lane[0]), (s1, lane[0]), (s1, lane[1]), (s0, lane[1])]
-        line = estimate.line()
         foot, head = frame.back(s0, sum(lane) / 2), frame.back(s1, sum(lane) / 2)
-        measured = {
-            "rise": estimate.regular.rise,
-            "going": estimate.regular.going,
-            "risers": float(len(line)),
-            "treads": float(len(line) - 1),
-        }
-        family = self._family(body)
-        stated = {name: v for each in family for name, v in each.facts.get("stated", {}).items()}
         return Flight(
             identity=body.identity,
             name=body.name or body.category,
             category=body.category,
             parents=tuple(name for each in family[1:] for name in (each.identity, each.name)),
+            elements=self._elements(run, owner),
             storey=self._storey_of(family, float(levels[0])),
             estimate=estimate,
             lane=np.array([frame.back(*each) for each in corners]) + self.origin[:2],
             lower=self._floor(below, base, foot, float(levels[0])),
-            upper=self._floor(
-                None if top is None else run.steps[-1], float(levels[-1]), head, float(levels[-1])
-            ),
-            stated=cross_checked(stated, measured, self.model.facts.get("unit", 1.0)),
+            upper=self._floor(None if top is None else run.steps[-1], reached, head, reached),
         )
+
+    def _ends(
+        self, base: float, levels: Array, family: Sequence[Body]
+    ) -> tuple[float, Array, tuple[float, float]]:
+        """Level of the floor and of the nosings as stated, and end risers that are drawn otherwise.
+
+        Where an element states the rise of its steps, and an end riser alone is another, a floor is
+        drawn without its finish, or steps without theirs: no drawing says which.
+        """
+        drawn = (math.nan, math.nan)
+        rises = np.diff(levels)
+        if len(rises) < 2:
+            return base, levels, drawn
+        real = (float(np.median(rises[:-1])),)
+        stated = (stated_rise(each.facts.get("stated", {}), real, self.unit) for each in family)
+        rise = next((each for each in stated if math.isfinite(each)), math.nan)
+        first, last = float(levels[0] - base), float(rises[-1])
+        if abs(first - rise) > LAST_SPREAD:
+            base, drawn = float(levels[0]) - rise, (first, math.nan)
+        if abs(last - rise) > LAST_SPREAD:
+            levels, drawn = np.append(levels[:-1], levels[-2] + rise), (drawn[0], last)
+        return base, levels, drawn
+
+    def _elements(self, run: Run, owner: int) -> tuple[str, ...]:
+        """GlobalIds of what the treads of a run are drawn as, and of what these are part of."""
+        owners = [owner, *(k for number in self._treads(run) for k in self.plates[number].owners)]
+        family = (each.identity for k in owners for each in self._family(self.bodies[k]))
+        return tuple(dict.fromkeys(family))
+
+    def _treads(self, run: Run) -> tuple[int, ...]:
+        """Surfaces of a run without what it leads to."""
+        return run.steps[:-1] if run.complete and len(run.steps) > 1 else run.steps
 
     def _placed(self, frame: Any, s: Array, t: float, levels: Array) -> Array:
         plan = np.array([frame.back(float(each), t) for each in s])
@@ -318,67 +359,3 @@ class _Assembly:
         walls = walls_around(self.obstacles, plate.level, low, high)
         shape = free_outline(plate.shape, walls, at[None])
         return Plate(plate.level, shape, plate.owners).corners, walls
-
-    def _doors(self) -> Iterator[Doorway]:
-        unit = self.model.facts.get("unit", 1.0)
-        for body in self.bodies:
-            if body.category != "IfcDoor" or len(body.vertices) == 0:
-                continue
-            low, high = body.vertices.min(axis=0), body.vertices.max(axis=0)
-            width, height = body.facts.get("door") or (None, None)
-            width = width * unit if width else float((high - low)[:2].max())
-            operation = body.facts.get("operation", "")
-            x, y = body.facts.get("opens", (0.0, 0.0))
-            yield Doorway(
-                identity=body.identity,
-                name=body.name or "door",
-                x=float(low[0] + high[0]) / 2,
-                y=float(low[1] + high[1]) / 2,
-                level=float(low[2]),
-                width=width,
-                height=height * unit if height else float(high[2] - low[2]),
-                leaf=_leaf(operation, width),
-                opens=(float(x), float(y)),
-                both="DOUBLE_SWING" in operation or "OPPOSITE" in operation,
-            )
-
-
-def _leaf(operation: str, width: float) -> float:
-    """Width of a leaf that opens about a hinge [m]; zero: none does, NaN: not stated."""
-    if not operation:
-        return math.nan
-    if any(word in operation for word in WITHOUT_LEAF):
-        return 0.0
-    return width / 2 if operation.startswith("DOUBLE_DOOR") else width
-
-
-def _told_apart(flights: Sequence[Flight]) -> Iterator[Flight]:
-    """Flights with identities of their own."""
-    total = Counter(each.identity for each in flights)
-    seen: Counter[str] = Counter()
-    for each in sorted(flights, key=lambda one: float(one.estimate.middle[0, 2])):
-        seen[each.identity] += 1
-        if total[each.identity] == 1:
-            yield each
-            continue
-        number = seen[each.identity]
-        yield replace(
-            each,
-            identity=f"{each.identity}.{number}",
-            name=f"{each.name} {number}",
-            parents=(each.identity, each.name, *each.parents),
-        )
-
-
-def _named_apart(flights: Sequence[Flight]) -> tuple[Flight, ...]:
-    """Flights with names of their own; the model's one still means all of them."""
-    total = Counter(each.name for each in flights)
-    seen: Counter[str] = Counter()
-    found = []
-    for each in flights:
-        seen[each.name] += 1
-        more = total[each.name] > 1
-        name = f"{each.name} {seen[each.name]}" if more else each.name
-        parents = (each.name, *each.parents) if more else each.parents
-        found.append(replace(each, name=name, parents=parents))
-    return tuple(found)

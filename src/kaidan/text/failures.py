@@ -238,6 +238,25 @@ def _unseen(
     )
 
 
+def _finish(
+    question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
+) -> str:
+    """Heights of the flight, and the end riser that makes the difference."""
+    flight = next(one for one in question.flights if one.first_rise_drawn or one.last_rise_drawn)
+    stated, drawn = list(flight.step_rises), list(flight.step_rises)
+    said = []
+    ends = (("first", 0, flight.first_rise_drawn), ("last", -1, flight.last_rise_drawn))
+    for name, end, rise in ends:
+        if rise is not None:
+            drawn[end] = rise
+            said.append(
+                f"{name} riser {1e3 * rise:.0f} mm drawn, {1e3 * stated[end]:.0f} mm stated"
+            )
+    heights = [f"{sum(each):.2f} m" for each in (drawn, stated)]
+    differs = f"Drawn {heights[0]}, stated {heights[1]}: f" if heights[0] != heights[1] else "F"
+    return f"{differs}loor finish missing? Measure it: {', '.join(said)}."
+
+
 def _too_fast(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
@@ -346,6 +365,7 @@ SAYINGS: dict[str, Saying] = {
     "foot_unseen": _unseen,
     "gap_jam": _jams,
     "across": _across,
+    "floor_finish": _finish,
     "posture_change": _changes,
     "flipper_torque": _torque,
     "posture_tolerance": _tolerance,
