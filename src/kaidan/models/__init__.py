@@ -79,7 +79,7 @@ def beside(question: "Question", found: "Findings") -> "Findings":
 
 
 def _in_doubt(question: "Question") -> list[FailureMode]:
-    """What nobody saw or stated of the terrain, or what a file states otherwise than it draws it."""
+    """What nobody saw or stated of the terrain, or what a file states unlike its drawing."""
     found = []
     if not all(flight.foot_seen for flight in question.flights):
         found.append(FOOT_UNSEEN)
