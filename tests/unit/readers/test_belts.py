@@ -181,8 +181,9 @@ def body(*shapes, name="body"):
                     for x in (0.3, -0.3) for y in (0.2, -0.2)))),
         urdf(body(urdf_shape('<mesh filename="hull.stl"/>'))),
         urdf(body(urdf_shape('<box size="0.02 0.02 0.02"/>'))),
+        tank_urdf(flipper="leg", track="shoulder", shapes=""),
     ],
-    ids=["a box", "four feet", "a mesh", "less than a sheet takes"],
+    ids=["a box", "four feet", "a mesh", "less than a sheet takes", "legs"],
 )  # fmt: skip
 def test_a_description_without_tracks_says_so_before_anything_else(tmp_path, content):
     path = tmp_path / "robot.urdf"

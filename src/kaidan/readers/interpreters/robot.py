@@ -240,7 +240,7 @@ def _refused(
         "links": len(mechanism.links), "mass_kg": whole.mass, "names": said.listed(gear.meshes),
     }  # fmt: skip
     if "track.belt" not in stated:
-        if gear.how == "everything" and not gear.flippers:
+        if gear.how == "everything" and gear.how_flippers != "named":
             return "no-track", {}
         if belt is not None and belt.gap and not belt.called:
             return "wheels", {"radius_mm": 1e3 * belt.radius, "gap_mm": 1e3 * belt.gap}
