@@ -8,8 +8,8 @@ REFUSALS: Mapping[str, str] = {
     "rubble": "Its heights do not repeat as steps do: {residual_mm:.0f} mm are left over.",
     "curved": "It is a curved flight: it turns by {turn_deg:.0f} deg.",
     "winders": "It has winders: its nosings turn by {turn_deg:.0f} deg.",
-    "unclear": "It shows {steps} steps whose risers point up to {turn_deg:.0f} deg apart: something "
-    "stands before them, or the flight turns. Scan again with nothing in the way.",
+    "unclear": "It shows {steps} steps whose risers point up to {turn_deg:.0f} deg apart: "
+    "something stands before them, or the flight turns. Scan again with nothing in the way.",
     "ramp-element": "It is drawn as a ramp: there are no steps to judge.",
     "ladder": "It is a ladder of {angle_deg:.0f} deg; tracks take up to 60 deg.",
     "flat": "It is level: its heights differ by {height_mm:.0f} mm.",
