@@ -134,9 +134,12 @@ def run(words: Sequence[str]) -> int:
     """
     for name, value in _START_LIGHTLY.items():
         os.environ.setdefault(name, value)
+    closed = sys.stdout is None  # by who started it
     for name in ("stdout", "stderr"):
-        if getattr(sys, name) is None:  # closed by who started it
+        if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
+    if closed:
+        return _complain("the answer cannot be written: standard output is closed")
     from kaidan.errors import KaidanError, RefusedError
     from kaidan.modes import Verdict
 
