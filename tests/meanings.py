@@ -9,6 +9,8 @@ import json
 import re
 import struct
 import zipfile
+from contextlib import suppress
+from warnings import catch_warnings, simplefilter
 
 NUMBER = re.compile(rb"(?<![\w.])-?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?")
 QUOTED = re.compile(rb"\"[^\"\n]*\"|'[^'\n]*'")
@@ -30,7 +32,10 @@ def mutant(content, rng):
 
 def _changed(content, rng):
     if content.startswith(b"PK\x03\x04"):
-        return _archive(content, rng)
+        with suppress(zipfile.BadZipFile), catch_warnings():
+            simplefilter("ignore")  # of names that stand twice
+            return _archive(content, rng)
+        return content
     if content.startswith(b"glTF"):
         return _glb(content, rng)
     if content.startswith((b"II*\0", b"MM\0*")):
