@@ -220,10 +220,12 @@ def _fault(error: Exception) -> str:
 
 def _complain(text: str, code: int = 2) -> int:
     """Say in one line what is wrong; the exit code."""
+    from kaidan.errors import within
     from kaidan.text.tables import printable
 
     line = printable(" ".join(text.split()))
-    return _say("kaidan: " + _ENDLESS.sub(lambda word: f"{word.group()[:57]}...", line), code)
+    line = _ENDLESS.sub(lambda word: f"{word.group()[:57]}...", line)
+    return _say(f"kaidan: {within(line)}", code)
 
 
 def _say(text: str, code: int) -> int:

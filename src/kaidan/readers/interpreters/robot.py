@@ -153,9 +153,11 @@ def _of_masses(whole: MassProperties, at: str) -> dict[str, Figure]:
 
 def _as_in_file(placed: Placed, gear: Gear) -> dict[str, float]:
     """Lengths of tracks and flippers together, joints as in the file."""
+    if not gear.on_flippers:
+        return {}
     centroid = placed.mass_properties().centroid
     view = side_view([*gear.main, *gear.on_flippers], (float(centroid[0]), float(centroid[2])))
-    if view is None or not gear.on_flippers:
+    if view is None:
         return {}
     return {
         "flat_length": view.flat_length,
