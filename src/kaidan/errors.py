@@ -156,7 +156,7 @@ class UnknownNameError(InputError):
         hint = f" Did you mean {' or '.join(map(repr, meant))}?" if meant else ""
         super().__init__(
             f"no {kind} is called {shown(name)} and no such file exists{elsewhere}.{hint} "
-            f"Known: {listed(known)}."
+            f"Known: {listed(known, 190)}."
         )
 
 
