@@ -1,9 +1,11 @@
 """Live: samples in by POST, states out by websocket, each climb on a channel of its own.
 
-A channel has a name that nobody guesses; who does not know it neither sees nor feeds it.
+A channel has a name that nobody guesses; who does not know it neither sees nor feeds it. Workers
+judge: here is only what is passed on.
 """
 
 import asyncio
+import json
 import math
 import secrets
 import time
@@ -13,23 +15,29 @@ from contextlib import suppress
 from typing import Any
 
 from fastapi import FastAPI, Request, WebSocket, WebSocketDisconnect
-from starlette.concurrency import run_in_threadpool
+from fastapi.responses import JSONResponse, Response
 from starlette.exceptions import HTTPException
 
 from kaidan.errors import InputError, shown
-from kaidan.text.monitor import summary
-from kaidan.verbs.monitor import AlarmLimits, Sample
-from kaidan.verbs.monitor.live import LiveMonitor
+from kaidan.verbs.monitor import Sample
 from kaidan.verbs.monitor.samples import NEEDED, OPTIONAL
-from kaidan.web.asking import live_question
-from kaidan.web.bodies import json_of
+from kaidan.web.bodies import client_of, json_of, sent, while_there
+from kaidan.web.shares import Places
+from kaidan.web.urgency import Hands
+from kaidan.web.workers import Reply
 
 MOST_CHANNELS = 100
-"""Most climbs at once; the one that nobody fed for longest makes room."""
+"""Most climbs at once."""
+LEFT, LEFT_AT_END = 900.0, 60.0
+"""After how long a climb is over that nobody feeds or watches, and one that has ended [s]."""
 MOST_SAMPLES = 2_000
 """Most samples of one request."""
+_AT_ONCE = 100
+"""Samples of one task: 10 ms, so that one climb holds up no other."""
 REMEMBERED = 1_200
 """States that who comes later is sent."""
+MOST_FEEDS = 16
+"""Most requests that feed a channel at once; the next one waits for the one before."""
 MOST_WATCHERS = 50
 """Most pages that watch a channel."""
 UNKNOWN, TOO_MANY = 4404, 4429
@@ -41,65 +49,76 @@ class Channel:
 
     Parameters
     ----------
-    monitor : LiveMonitor
+    begun : mapping
+        As `kaidan.web.watching.begun` gives it.
+    hands : Hands
+        Who judge.
+    client : str
+        Who began it.
     """
 
-    def __init__(self, monitor: LiveMonitor) -> None:
+    def __init__(self, begun: Mapping[str, Any], hands: Hands, client: str) -> None:
         self.name = secrets.token_urlsafe(16)
-        self.monitor = monitor
-        self.states: deque[dict[str, Any]] = deque(maxlen=REMEMBERED)
-        self.watchers: set[asyncio.Queue[dict[str, Any]]] = set()
-        self.fed = time.monotonic()
+        self.head = {"kind": "begin", "id": self.name, **begun["head"]}
+        self.client = client
+        self._hands, self._fresh, self._monitor = hands, begun["monitor"], begun["monitor"]
+        self.states: deque[str] = deque(maxlen=REMEMBERED)
+        self.watchers: set[asyncio.Queue[str]] = set()
+        self._used, self.ended = time.monotonic(), False
+        self.feeds = Places(MOST_FEEDS, "requests that feed this climb")
         self._turn = asyncio.Lock()
 
-    def head(self) -> dict[str, Any]:
-        """What a page must know before the first state."""
-        limits, question = self.monitor.limits, self.monitor.question
-        return {
-            "kind": "begin",
-            "id": self.name,
-            "robot": question.robot.name,
-            "stairs": question.terrain_name,
-            "direction": question.direction,
-            "facing": question.facing,
-            "slope_deg": math.degrees(self.monitor.slope),
-            "margin_on_deg": math.degrees(limits.margin_on),
-            "time_on_s": limits.time_on,
-            "horizon_s": limits.horizon,
-        }
+    @property
+    def left(self) -> float:
+        """For how long nobody has fed or watched it [s]."""
+        return 0.0 if self.watchers else time.monotonic() - self._used
 
-    async def feed(self, samples: list[Sample], *, again: bool = False) -> list[dict[str, Any]]:
-        """States after samples, which those who watch get too.
+    async def feed(
+        self, samples: list[Sample], client: str, *, again: bool = False, ends: bool = False
+    ) -> Reply:
+        """States after samples, which those who watch get too; all samples count, or none does.
 
         Parameters
         ----------
         samples : list of Sample
+        client : str
+            Who feeds.
         again : bool
             Whether the climb begins anew.
+        ends : bool
+            Whether it ends with these, so that there is a summary.
         """
         async with self._turn:
-            if again:
-                self.monitor = self.monitor.again()
-                self.states.clear()
-                self._tell(self.head())
-            self.fed = time.monotonic()
-            watch = self.monitor
-            made = await run_in_threadpool(
-                lambda: [watch.feed(each).model_dump(mode="json") for each in samples]
-            )
-            states = [{"kind": "state", **each} for each in made]
-            self.states.extend(states)
-            for each in states:
-                self._tell(each)
-            return states
+            self._used = time.monotonic()
+            said = {"monitor": self._fresh if again else self._monitor, "summary": None}
+            states: list[str] = []
+            pieces = [samples[k : k + _AT_ONCE] for k in range(0, len(samples), _AT_ONCE)]
+            for piece in pieces or ([[]] if ends else []):
+                last = ends and len(states) + len(piece) == len(samples)
+                task = {"kind": "feed", "monitor": said["monitor"], "samples": piece, "ends": last}
+                reply = await self._hands.ask(task, client)
+                if reply.status != 200:
+                    return reply
+                first, *more = reply.content.decode().split("\n")
+                said = json.loads(first)
+                states += more
+            self._monitor, self.ended = said["monitor"], ends
+            self._spread(states, again=again, summary=said["summary"])
+        end = f', "summary": {json.dumps(said["summary"])}' if ends else ""
+        return Reply(200, f'{{"states": [{", ".join(states)}]{end}}}'.encode())
 
-    def end(self) -> dict[str, Any]:
-        """Summary of the climb, which those who watch get too."""
-        said = {"kind": "end", "text": summary(self.monitor.answer())}
-        self._tell(said)
-        return said
+    def _spread(self, states: list[str], *, again: bool, summary: str | None) -> None:
+        """Tell those who watch, and keep what is told to who comes later."""
+        if again:
+            self.states.clear()
+            self._tell(json.dumps(self.head))
+        self.states.extend(states)
+        for each in states:
+            self._tell(each)
+        if summary is not None:
+            self._tell(json.dumps({"kind": "end", "text": summary}))
 
-    def _tell(self, said: dict[str, Any]) -> None:
+    def _tell(self, said: str) -> None:
         for each in tuple(self.watchers):
             try:
                 each.put_nowait(said)
@@ -108,26 +127,33 @@ class Channel:
 
 
 class Live:
-    """All channels."""
+    """All channels; one that is in use makes room for no other."""
 
     def __init__(self) -> None:
         self._channels: dict[str, Channel] = {}
+        self._places = Places(MOST_CHANNELS, "climbs that are watched")
 
-    def begin(self, monitor: LiveMonitor) -> Channel:
-        """New channel; the oldest one makes room where there are too many."""
-        if len(self._channels) >= MOST_CHANNELS:
-            oldest = min(self._channels.values(), key=lambda each: each.fed)
-            del self._channels[oldest.name]
-        made = Channel(monitor)
-        self._channels[made.name] = made
-        return made
+    def take_place(self, client: str) -> None:
+        """Take the place of a channel that is to begin; see `Places.take`."""
+        for each in tuple(self._channels.values()):
+            if each.left > (LEFT_AT_END if each.ended else LEFT):
+                del self._channels[each.name]
+                self._places.give_back(each.client)
+        self._places.take(client)
+
+    def settle(self, client: str, channel: Channel | None) -> None:
+        """Put a channel into its place, or give the place back where none has begun."""
+        if channel is None:
+            self._places.give_back(client)
+        else:
+            self._channels[channel.name] = channel
 
     def of(self, name: str) -> Channel | None:
         """Channel of a name."""
         return self._channels.get(name)
 
 
-def add(app: FastAPI) -> None:
+def add(app: FastAPI, hands: Hands) -> None:
     """Add the routes of live climbs."""
     live = Live()
 
@@ -138,26 +164,31 @@ def add(app: FastAPI) -> None:
         return found
 
     @app.post("/api/live")
-    async def begin(request: Request) -> dict[str, Any]:
+    async def begin(request: Request) -> Response:
         """Begin to watch a climb: robot, stairs, direction, facing, flippers, payload, limits."""
-        body = await json_of(request)
-        given = body.pop("limits", None) or {}
-        if not isinstance(given, Mapping):
-            raise InputError(f"limits = {shown(given)} is not a table")
-        limits = AlarmLimits.model_validate(given)
-        monitor = await run_in_threadpool(lambda: LiveMonitor(live_question(body), limits=limits))
-        return live.begin(monitor).head()
+        client, channel = client_of(request), None
+        live.take_place(client)
+        try:
+            task = {"kind": "live", "verb": "live", "body": await json_of(request)}
+            answer = await while_there(request, hands.ask(task, client))
+            if answer.status_code != 200:
+                return answer
+            channel = Channel(json.loads(bytes(answer.body)), hands, client)
+            return JSONResponse(channel.head)
+        finally:
+            live.settle(client, channel)
 
     @app.post("/api/live/{name}")
-    async def feed(name: str, request: Request) -> dict[str, Any]:
+    async def feed(name: str, request: Request) -> Response:
         """Samples of a climb; "again": from its start; "end": with the summary."""
-        channel, body = known(name), await json_of(request)
-        for key in body.keys() - {"samples", "again", "end"}:
-            raise InputError(f"live: {shown(key)} is not known; known: again, end, samples")
-        samples = samples_of(body.get("samples") or [])
-        states = await channel.feed(samples, again=bool(body.get("again")))
-        said: dict[str, Any] = {"states": states}
-        return said | ({"summary": channel.end()["text"]} if body.get("end") else {})
+        channel, client = known(name), client_of(request)
+        with channel.feeds.held(client):
+            body = await json_of(request)
+            for key in body.keys() - {"samples", "again", "end"}:
+                raise InputError(f"live: {shown(key)} is not known; known: again, end, samples")
+            samples = samples_of(body.get("samples") or [])
+            again, ends = bool(body.get("again")), bool(body.get("end"))
+            return sent(await channel.feed(samples, client, again=again, ends=ends))
 
     @app.websocket("/api/live/{name}")
     async def watch(name: str, socket: WebSocket) -> None:
@@ -166,19 +197,19 @@ def add(app: FastAPI) -> None:
         if channel is None or len(channel.watchers) >= MOST_WATCHERS:
             await socket.close(UNKNOWN if channel is None else TOO_MANY)
             return
-        news: asyncio.Queue[dict[str, Any]] = asyncio.Queue(maxsize=2 * REMEMBERED)
+        news: asyncio.Queue[str] = asyncio.Queue(maxsize=2 * REMEMBERED)
         channel.watchers.add(news)
         gone = asyncio.create_task(_until_gone(socket))
         try:
-            for each in (channel.head(), *tuple(channel.states)):
-                await socket.send_json(each)
+            for each in (json.dumps(channel.head), *tuple(channel.states)):
+                await socket.send_text(each)
             while news in channel.watchers and not gone.done():
                 coming = asyncio.create_task(news.get())
                 await asyncio.wait({coming, gone}, return_when=asyncio.FIRST_COMPLETED)
                 if not coming.done():
                     coming.cancel()
                     break
-                await socket.send_json(coming.result())
+                await socket.send_text(coming.result())
         except (WebSocketDisconnect, RuntimeError):
             pass
         finally:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, Self
 
 from kaidan.progress import Follower
+from kaidan.web.shares import share_of
 from kaidan.web.worker import LENGTH
 
 _LAST = 15
@@ -132,7 +133,7 @@ class Workers:
         self.nice, self.ready, self.first = nice, ready, first
         self._idle: list[_Worker | None] = [None] * count
         self._all: set[_Worker] = set()
-        self._line: deque[asyncio.Future[_Worker | None]] = deque()
+        self._line: dict[str, deque[asyncio.Future[_Worker | None]]] = {}
         self._under_way: set[asyncio.Task[Reply]] = set()
 
     async def __aenter__(self) -> Self:
@@ -141,26 +142,35 @@ class Workers:
         return self
 
     async def __aexit__(self, *ended: object) -> None:
-        for turn in self._line:
-            turn.cancel()
+        for line in self._line.values():
+            for turn in line:
+                turn.cancel()
         for worker in tuple(self._all):
             await self._drop(worker)
 
-    async def ask(self, task: Mapping[str, Any], *, seconds: float | None = None) -> Reply:
+    async def ask(
+        self, task: Mapping[str, Any], client: str, *, seconds: float | None = None
+    ) -> Reply:
         """Reply to a task, whatever becomes of its worker.
 
-        Who gives up while the task waits takes it out of the line; one that has begun is ended.
+        Clients take turns, however many tasks each has in the line. Who gives up while the task
+        waits takes it out of the line; one that has begun is ended.
 
         Parameters
         ----------
         task : mapping
             See ``kaidan.web.tasks``.
+        client : str
+            Who asks; of all that may wait it may have its share.
         seconds : float, optional
             Time that it may take [s]; that of the limits without it.
         """
-        if len(self._line) >= self.limits.waiting:
+        if sum(map(len, self._line.values())) >= self.limits.waiting:
             return refused(503, "busy", "too many questions at once; ask again in a while")
-        worker = await self._free()
+        if len(self._line.get(client, ())) >= share_of(self.limits.waiting):
+            text = "too many questions of your address at once; ask again in a while"
+            return refused(429, "share", text)
+        worker = await self._free(client)
         work = asyncio.create_task(self._answered(worker, task, seconds or self.limits.seconds))
         self._under_way.add(work)
         work.add_done_callback(self._under_way.discard)
@@ -181,25 +191,32 @@ class Workers:
                 await self._drop(worker)
             self._release(worker if whole else None)
 
-    async def _free(self) -> _Worker | None:
+    async def _free(self, client: str) -> _Worker | None:
         """Worker that has nothing to do, as soon as it is this one's turn; None: one may begin."""
         if self._idle:
             return self._idle.pop()
         turn: asyncio.Future[_Worker | None] = asyncio.get_running_loop().create_future()
-        self._line.append(turn)
+        self._line.setdefault(client, deque()).append(turn)
         try:
             return await turn
         except asyncio.CancelledError:
-            if turn in self._line:
-                self._line.remove(turn)
+            line = self._line.get(client, deque())
+            if turn in line:
+                line.remove(turn)
+                if not line:
+                    del self._line[client]
             elif not turn.cancelled():  # its turn came in the same moment
                 self._release(turn.result())
             raise
 
     def _release(self, worker: _Worker | None) -> None:
-        """Give a worker to who waits for one."""
+        """Give a worker to who waits for one: to the client whose last turn is longest ago."""
         while self._line:
-            turn = self._line.popleft()
+            client, line = next(iter(self._line.items()))
+            turn = line.popleft()
+            del self._line[client]
+            if line:
+                self._line[client] = line  # behind the others
             if not turn.cancelled():
                 turn.set_result(worker)
                 return
