@@ -22,7 +22,8 @@ def served(*, host="127.0.0.1", token="", workers=1, state=None, **how):
     with ExitStack() as stack:
         folder = state or Path(stack.enter_context(tempfile.TemporaryDirectory()))
         opened = stack.enter_context(listening(host, 0))
-        server = server_of(State(folder), host=host, token=token, workers=workers, **how)
+        kept = stack.enter_context(State(folder))
+        server = server_of(kept, host=host, token=token, workers=workers, **how)
         thread = threading.Thread(target=server.run, kwargs={"sockets": [opened]})
         thread.start()
         while not server.started:

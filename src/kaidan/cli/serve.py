@@ -60,8 +60,7 @@ def serve(
             f"kaidan: whoever reaches {host} and knows the token can ask; nothing is encrypted",
             err=True,
         )
-    with listening(host, port) as opened:
-        kept = State(state or usual_folder())
+    with listening(host, port) as opened, State(state or usual_folder()) as kept:
         shown = f"[{host}]" if ":" in host else host
         secret = f"?token={token}" if token else ""
         typer.echo(f"http://{shown}:{opened.getsockname()[1]}/{secret}")

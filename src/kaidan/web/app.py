@@ -54,7 +54,7 @@ def app_of(state: State, *, workers: int, limits: Limits | None = None) -> FastA
     Parameters
     ----------
     state : State
-        Folder that it keeps; it gives it back when it ends.
+        Folder that it keeps things in.
     workers : int
         Processes that answer quick questions, and as many for those that take longer.
     limits : Limits, optional
@@ -65,9 +65,8 @@ def app_of(state: State, *, workers: int, limits: Limits | None = None) -> FastA
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        with state:
-            async with hands, jobs:
-                yield
+        async with hands, jobs:
+            yield
 
     app = FastAPI(
         title="kaidan",

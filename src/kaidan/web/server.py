@@ -56,7 +56,7 @@ def server_of(state: State, *, host: str, token: str, workers: int, **how: Any) 
     Parameters
     ----------
     state : State
-        Folder that it keeps.
+        Folder that it keeps things in; who made it gives it back.
     host : str
         Address at which it listens.
     token : str

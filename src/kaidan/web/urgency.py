@@ -105,10 +105,10 @@ def _is_small(body: Mapping[str, Any]) -> bool:
 
 def _flights(stairs: Any) -> float:
     """How many flights stairs take as long as: joined names, a list of flights, or points."""
-    if isinstance(stairs, Mapping):
-        stairs = stairs.get("points")
     if isinstance(stairs, str):
         return stairs.count(JOINT) + 1
-    if isinstance(stairs, list):
-        return sum(1.0 / _POINTS if isinstance(each, list) else 1.0 for each in stairs)
-    return 1.0
+    points = stairs.get("points") if isinstance(stairs, Mapping) else None
+    several = points or stairs
+    if isinstance(several, list):
+        return sum(1.0 / _POINTS if isinstance(each, list) else 1.0 for each in several)
+    return 0.0 if stairs is None else 1.0
