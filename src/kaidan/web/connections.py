@@ -12,7 +12,7 @@ from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
 from kaidan.web.shares import NOT_BEFORE, network_of, share_of
 
-_EVERY = 0.5
+_EVERY = 1.0
 """How often a connection is looked at [s]."""
 _REASONS = {
     408: (b"408 Request Timeout", b"the request took too long to come", b"timeout"),
@@ -26,6 +26,8 @@ class Patience(NamedTuple):
 
     head: float = 10.0
     """Time for a whole head, from the beginning or from the answer before [s]."""
+    grace: float = 3.0
+    """Time for a head before the connection makes room where there is none [s]."""
     body: float = 20.0
     """Time for a body, however small [s]."""
     rate: float = 16_000.0
@@ -42,6 +44,8 @@ class Connection(HttpToolsProtocol):
     """HTTP/1.1 connection that ends when its client does not go on."""
 
     patience = Patience()
+    sent_away = False
+    """Whether there is no room for it, which it is told after a while: it would come again."""
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Begin, or send the client away where there is no room."""
@@ -51,8 +55,7 @@ class Connection(HttpToolsProtocol):
         self._read = self.loop.time()
         self._wait_anew()
         self._timer = self.loop.call_later(_EVERY, self._look)
-        if not self._has_room():
-            self._refuse(503)
+        self._admit()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """End."""
@@ -113,7 +116,9 @@ class Connection(HttpToolsProtocol):
         if unread < self._unread or not unread:
             self._read = now
         self._unread = unread
-        if now - self._read > self.patience.reading:
+        if self.sent_away:
+            self._refuse(503)
+        elif now - self._read > self.patience.reading:
             self.transport.abort()
         elif not unread and self._is_late(now):
             self._refuse(408)
@@ -127,21 +132,27 @@ class Connection(HttpToolsProtocol):
         awaited = self.cycle.more_body and not self.flow.read_paused
         return awaited and waited - self._came / self.patience.rate > self.patience.body
 
-    def _has_room(self) -> bool:
-        """Whether there is room, perhaps in the place of one that waits for a head for longest."""
+    def _admit(self) -> None:
+        """Stay where there is room, perhaps in the place of one that waits for a head."""
         most = min(self.patience.connections, _open_files() // 2)
         every = [each for each in self.connections if not each.transport.is_closing()]
-        mine = [each for each in every if _network(each) == self.network]
-        for crowd, room in ((mine, share_of(most)), (every, most)):
-            idle = [
-                each
-                for each in crowd
-                if isinstance(each, Connection) and each.answered and each is not self
-            ]
-            if len(crowd) > room:
-                if not idle:
-                    return False
-                min(idle, key=lambda each: each.waiting_since).transport.abort()
+        here = [each for each in every if not getattr(each, "sent_away", False)]
+        mine = [each for each in here if _network(each) == self.network]
+        for crowd, room in ((mine, share_of(most)), (here, most)):
+            if len(crowd) > room and not self._makes_room(crowd):
+                self.sent_away = True
+                self.flow.pause_reading()
+                if len(every) - len(here) >= share_of(most):
+                    self._refuse(503)
+                return
+
+    def _makes_room(self, crowd: list[Any]) -> bool:
+        """End the one of a crowd that has waited for a head for longest, if it has its grace."""
+        waiting = [each for each in crowd if isinstance(each, Connection) and each.answered]
+        first = min(waiting, key=lambda each: each.waiting_since)
+        if self.loop.time() - first.waiting_since < self.patience.grace:
+            return False
+        first.transport.abort()
         return True
 
     def _refuse(self, status: int) -> None:

@@ -75,6 +75,7 @@ def server_of(state: State, *, host: str, token: str, workers: int, **how: Any) 
         proxy_headers=False,
         http=Connection,
         ws_max_size=_SAID,
+        timeout_keep_alive=int(Connection.patience.head),  # which ends the connection then
         timeout_graceful_shutdown=5,
     )
     return uvicorn.Server(config)

@@ -56,7 +56,7 @@ def test_what_does_not_fit_is_refused_and_leaves_nothing(full, address, asked):
     assert answer.json()["kind"] == "full"
     assert left(folder) == []
     assert client.get("/api/jobs").json() == {"jobs": []}
-    assert client.post("/api/assess", json=QUESTION).status_code == 200
+    assert client.post("/api/estimate", json=QUESTION).status_code == 200
 
 
 def test_a_job_whose_result_does_not_fit_has_failed_for_that(full):
