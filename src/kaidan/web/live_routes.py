@@ -1,15 +1,11 @@
 """Live: samples in by POST, states out by websocket, each climb on a channel of its own.
 
-A channel has a name that nobody guesses; who does not know it neither sees nor feeds it. Workers
-judge: here is only what is passed on.
+A channel has a name that nobody guesses; who does not know it neither sees nor feeds it.
 """
 
 import asyncio
 import json
 import math
-import secrets
-import time
-from collections import deque
 from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any
@@ -22,135 +18,17 @@ from kaidan.errors import InputError, shown
 from kaidan.verbs.monitor import Sample
 from kaidan.verbs.monitor.samples import NEEDED, OPTIONAL
 from kaidan.web.bodies import client_of, json_of, sent, while_there
-from kaidan.web.shares import Places
+from kaidan.web.channels import REMEMBERED, Channel, Live
 from kaidan.web.urgency import Hands
-from kaidan.web.workers import Reply
 
-MOST_CHANNELS = 100
-"""Most climbs at once."""
-LEFT, LEFT_AT_END = 900.0, 60.0
-"""After how long a climb is over that nobody feeds or watches, and one that has ended [s]."""
 MOST_SAMPLES = 2_000
 """Most samples of one request."""
-_AT_ONCE = 100
-"""Samples of one task: 10 ms, so that one climb holds up no other."""
-REMEMBERED = 1_200
-"""States that who comes later is sent."""
-MOST_FEEDS = 16
-"""Most requests that feed a channel at once; the next one waits for the one before."""
 MOST_WATCHERS = 50
 """Most pages that watch a channel."""
+_SAID = {"again": "again", "end": "ends", "recorded": "recorded"}
+"""What may be said of samples, and how `Channel.feed` calls it."""
 UNKNOWN, TOO_MANY = 4404, 4429
 """Why a websocket is closed: no such channel; too many watch it."""
-
-
-class Channel:
-    """One climb: its monitor, what it said last, and who watches.
-
-    Parameters
-    ----------
-    begun : mapping
-        As `kaidan.web.watching.begun` gives it.
-    hands : Hands
-        Who judge.
-    client : str
-        Who began it.
-    """
-
-    def __init__(self, begun: Mapping[str, Any], hands: Hands, client: str) -> None:
-        self.name = secrets.token_urlsafe(16)
-        self.head = {"kind": "begin", "id": self.name, **begun["head"]}
-        self.client = client
-        self._hands, self._fresh, self._monitor = hands, begun["monitor"], begun["monitor"]
-        self.states: deque[str] = deque(maxlen=REMEMBERED)
-        self.watchers: set[asyncio.Queue[str]] = set()
-        self._used, self.ended = time.monotonic(), False
-        self.feeds = Places(MOST_FEEDS, "requests that feed this climb")
-        self._turn = asyncio.Lock()
-
-    @property
-    def left(self) -> float:
-        """For how long nobody has fed or watched it [s]."""
-        return 0.0 if self.watchers else time.monotonic() - self._used
-
-    async def feed(
-        self, samples: list[Sample], client: str, *, again: bool = False, ends: bool = False
-    ) -> Reply:
-        """States after samples, which those who watch get too; all samples count, or none does.
-
-        Parameters
-        ----------
-        samples : list of Sample
-        client : str
-            Who feeds.
-        again : bool
-            Whether the climb begins anew.
-        ends : bool
-            Whether it ends with these, so that there is a summary.
-        """
-        async with self._turn:
-            self._used = time.monotonic()
-            said = {"monitor": self._fresh if again else self._monitor, "summary": None}
-            states: list[str] = []
-            pieces = [samples[k : k + _AT_ONCE] for k in range(0, len(samples), _AT_ONCE)]
-            for piece in pieces or ([[]] if ends else []):
-                last = ends and len(states) + len(piece) == len(samples)
-                task = {"kind": "feed", "monitor": said["monitor"], "samples": piece, "ends": last}
-                reply = await self._hands.ask(task, client)
-                if reply.status != 200:
-                    return reply
-                first, *more = reply.content.decode().split("\n")
-                said = json.loads(first)
-                states += more
-            self._monitor, self.ended = said["monitor"], ends
-            self._spread(states, again=again, summary=said["summary"])
-        end = f', "summary": {json.dumps(said["summary"])}' if ends else ""
-        return Reply(200, f'{{"states": [{", ".join(states)}]{end}}}'.encode())
-
-    def _spread(self, states: list[str], *, again: bool, summary: str | None) -> None:
-        """Tell those who watch, and keep what is told to who comes later."""
-        if again:
-            self.states.clear()
-            self._tell(json.dumps(self.head))
-        self.states.extend(states)
-        for each in states:
-            self._tell(each)
-        if summary is not None:
-            self._tell(json.dumps({"kind": "end", "text": summary}))
-
-    def _tell(self, said: str) -> None:
-        for each in tuple(self.watchers):
-            try:
-                each.put_nowait(said)
-            except asyncio.QueueFull:  # a page that does not take what comes has to come again
-                self.watchers.discard(each)
-
-
-class Live:
-    """All channels; one that is in use makes room for no other."""
-
-    def __init__(self) -> None:
-        self._channels: dict[str, Channel] = {}
-        self._places = Places(MOST_CHANNELS, "climbs that are watched")
-
-    def take_place(self, client: str) -> None:
-        """Take the place of a channel that is to begin; see `Places.take`."""
-        for each in tuple(self._channels.values()):
-            if each.left > (LEFT_AT_END if each.ended else LEFT):
-                del self._channels[each.name]
-                self._places.give_back(each.client)
-        self._places.take(client)
-
-    def settle(self, client: str, channel: Channel | None) -> None:
-        """Put a channel into its place, or give the place back where none has begun."""
-        if channel is None:
-            self._places.give_back(client)
-        else:
-            self._channels[channel.name] = channel
-
-    def of(self, name: str) -> Channel | None:
-        """Channel of a name."""
-        return self._channels.get(name)
 
 
 def add(app: FastAPI, hands: Hands) -> None:
@@ -180,15 +58,16 @@ def add(app: FastAPI, hands: Hands) -> None:
 
     @app.post("/api/live/{name}")
     async def feed(name: str, request: Request) -> Response:
-        """Samples of a climb; "again": from its start; "end": with the summary."""
-        channel, client = known(name), client_of(request)
-        with channel.feeds.held(client):
+        """Samples of a climb; "again": from its start; "recorded"; "end": with the summary."""
+        channel = known(name)
+        with channel.feeds.held(client_of(request)):
             body = await json_of(request)
-            for key in body.keys() - {"samples", "again", "end"}:
-                raise InputError(f"live: {shown(key)} is not known; known: again, end, samples")
+            for key in body.keys() - {"samples", *_SAID}:
+                known_keys = ", ".join(sorted(("samples", *_SAID)))
+                raise InputError(f"live: {shown(key)} is not known; known: {known_keys}")
             samples = samples_of(body.get("samples") or [])
-            again, ends = bool(body.get("again")), bool(body.get("end"))
-            return sent(await channel.feed(samples, client, again=again, ends=ends))
+            manner = {which: bool(body.get(key)) for key, which in _SAID.items()}
+            return sent(await channel.feed(samples, **manner))
 
     @app.websocket("/api/live/{name}")
     async def watch(name: str, socket: WebSocket) -> None:

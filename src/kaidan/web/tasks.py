@@ -122,7 +122,13 @@ def _live(task: Mapping[str, Any]) -> bytes:
 def _feed(task: Mapping[str, Any]) -> bytes:
     from kaidan.web.watching import fed
 
-    return fed(task["monitor"], task["samples"], ends=task["ends"])
+    return fed(task["monitor"], task["samples"], task["arrived"], ends=task["ends"])
+
+
+def _overdue(task: Mapping[str, Any]) -> bytes:
+    from kaidan.web.watching import missed
+
+    return missed(task["monitor"], task["now"])
 
 
 def _job(task: Mapping[str, Any]) -> bytes:
@@ -146,4 +152,5 @@ _DO: Mapping[str, Callable[[Mapping[str, Any]], bytes]] = {
     "samples": _samples,
     "live": _live,
     "feed": _feed,
+    "overdue": _overdue,
 }

@@ -61,7 +61,7 @@ class Hands:
 
     async def ask(self, task: Mapping[str, Any], client: str) -> Reply:
         """Reply of whom a task is for, see `Workers.ask`."""
-        if task["kind"] == "feed":
+        if task["kind"] in ("feed", "overdue"):
             return await self.samples.ask(task, client)
         if task["verb"] in _AT_ONCE and _is_small(task["body"]):
             return await self.estimates.ask(task, client)

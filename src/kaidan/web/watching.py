@@ -14,7 +14,7 @@ from typing import Any
 from kaidan.errors import InputError, short, shown
 from kaidan.text.monitor import summary
 from kaidan.verbs.monitor import AlarmLimits, Sample
-from kaidan.verbs.monitor.live import LiveMonitor
+from kaidan.verbs.monitor.live import LiveMonitor, LiveState
 from kaidan.web.asking import live_question
 
 
@@ -51,8 +51,8 @@ def begun(body: Mapping[str, Any]) -> bytes:
     return json.dumps({"head": head, "monitor": _kept(monitor)}).encode()
 
 
-def fed(monitor: str, samples: list[list[Any]], *, ends: bool) -> bytes:
-    """What samples come to: a line with the monitor and the summary, then one for each state.
+def fed(monitor: str, samples: list[list[Any]], arrived: float | None, *, ends: bool) -> bytes:
+    """What samples come to: a line on the monitor, then one for each state.
 
     Parameters
     ----------
@@ -60,15 +60,33 @@ def fed(monitor: str, samples: list[list[Any]], *, ends: bool) -> bytes:
         As `begun` or this gave it.
     samples : list
         Each with the values of a `kaidan.verbs.monitor.Sample`.
+    arrived : float or None
+        When they came [s]; None where their stamps alone tell the time.
     ends : bool
         Whether the summary of all samples is wanted.
     """
-    watch: LiveMonitor = pickle.loads(base64.b85decode(monitor))
-    states = [watch.feed(Sample(*each)).model_dump(mode="json") for each in samples]
-    said = summary(watch.answer()) if ends else None
-    lines: list[dict[str, Any]] = [{"monitor": _kept(watch), "summary": said}]
-    lines += [{"kind": "state", **each} for each in states]
+    watch = _opened(monitor)
+    states = [watch.feed(Sample(*each), arrived) for each in samples]
+    return _said(watch, states, summary(watch.answer()) if ends else None)
+
+
+def missed(monitor: str, now: float) -> bytes:
+    """What it comes to that no sample has come until now [s], as `fed` says it."""
+    watch = _opened(monitor)
+    state = watch.overdue(now)
+    return _said(watch, [] if state is None else [state])
+
+
+def _said(watch: LiveMonitor, states: list[LiveState], text: str | None = None) -> bytes:
+    lines = [{"kind": "state", **each.model_dump(mode="json")} for each in states]
+    due = lines[-1]["due_s"] if lines else None
+    lines.insert(0, {"monitor": _kept(watch), "summary": text, "due_s": due})
     return b"\n".join(json.dumps(each).encode() for each in lines)
+
+
+def _opened(monitor: str) -> LiveMonitor:
+    watch: LiveMonitor = pickle.loads(base64.b85decode(monitor))
+    return watch
 
 
 def _kept(monitor: LiveMonitor) -> str:
