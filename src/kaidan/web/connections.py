@@ -148,9 +148,10 @@ class Connection(HttpToolsProtocol):
 
     def _makes_room(self, crowd: list[Any]) -> bool:
         """End the one of a crowd that has waited for a head for longest, if it has its grace."""
-        waiting = [each for each in crowd if isinstance(each, Connection) and each.answered]
-        first = min(waiting, key=lambda each: each.waiting_since)
-        if self.loop.time() - first.waiting_since < self.patience.grace:
+        others = [each for each in crowd if isinstance(each, Connection) and each is not self]
+        waiting = [each for each in others if each.answered]
+        first = min(waiting, key=lambda each: each.waiting_since, default=self)
+        if first is self or self.loop.time() - first.waiting_since < self.patience.grace:
             return False
         first.transport.abort()
         return True
