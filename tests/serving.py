@@ -1,5 +1,7 @@
 """A server in a thread, and a client of it."""
 
+import os
+import subprocess
 import tempfile
 import threading
 import time
@@ -14,6 +16,15 @@ from kaidan.web.state import State
 LONG = {"robot": "absolem", "stairs": "ibc", "flippers": "flat", "friction": 1.0,
         "com_height": [0.1 + k / 1e5 for k in range(1500)]}  # fmt: skip
 """A sweep that takes many seconds."""
+
+
+def workers():
+    """Workers of servers in this process, the oldest first."""
+    listed = subprocess.run(
+        ["ps", "--sort", "start_time,pid", "-o", "pid=,args=", "--ppid", str(os.getpid())],
+        capture_output=True, text=True, check=True,
+    ).stdout  # fmt: skip
+    return [int(line.split()[0]) for line in listed.splitlines() if "kaidan.web.worker" in line]
 
 
 @contextmanager

@@ -4,32 +4,23 @@ import logging
 import os
 import signal
 import socket
-import subprocess
 import threading
 import time
 
 import pytest
 
+import serving
 from kaidan.web.workers import Limits
 from serving import LONG, served
 
 QUESTION = {"robot": "absolem", "stairs": "ibc", "friction": 1.0, "flippers": "stowed"}
 
 
-def answering():
-    """Processes that this one began and that answer, the oldest first."""
-    listed = subprocess.run(
-        ["ps", "--sort", "start_time,pid", "-o", "pid=,args=", "--ppid", str(os.getpid())],
-        capture_output=True, text=True, check=True,
-    ).stdout  # fmt: skip
-    return [int(line.split()[0]) for line in listed.splitlines() if "kaidan.web.worker" in line]
-
-
 @pytest.fixture
 def workers():
     """What lists those that were not there before the test, of the server that others share."""
-    others = answering()
-    return lambda: [each for each in answering() if each not in others]
+    others = serving.workers()
+    return lambda: [each for each in serving.workers() if each not in others]
 
 
 def test_a_worker_killed_in_a_request_is_one_clean_error(workers):
