@@ -19,8 +19,8 @@ LARGEST_BODY = 2 << 20
 """Largest body of a question [bytes]."""
 LARGEST_UPLOAD = 256 << 20
 """Largest upload [bytes]."""
-FORM = {"max_files": 1, "max_fields": 32, "max_part_size": LARGEST_BODY}
-"""What a form may have."""
+FORM = {"max_files": 1, "max_fields": 32, "max_part_size": LARGEST_BODY // 8}
+"""What a form may have; its fields are held in memory."""
 GONE = 499
 """Status of what nobody reads any more."""
 

@@ -13,7 +13,7 @@ from starlette.concurrency import run_in_threadpool
 
 from kaidan.errors import InputError
 from kaidan.web import openapi
-from kaidan.web.bodies import FORM, client_of, fields_of, file_of, while_there
+from kaidan.web.bodies import FORM, client_of, fields_of, file_of, type_of, while_there
 from kaidan.web.long_work import UPLOAD
 from kaidan.web.shares import Places
 from kaidan.web.workers import Workers
@@ -52,6 +52,9 @@ class Files:
         HTTPException
             Too many files are on their way.
         """
+        if type_of(request) != "multipart/form-data":  # another form would be held in memory
+            yield None, {}
+            return
         with self._places.held(client_of(request)):
             folder = Path(tempfile.mkdtemp(dir=self._folder))
             try:

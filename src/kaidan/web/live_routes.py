@@ -47,7 +47,7 @@ def add(app: FastAPI, hands: Hands) -> None:
         client, channel = client_of(request), None
         live.take_place(client)
         try:
-            task = {"kind": "live", "verb": "live", "body": await json_of(request)}
+            task = {"kind": "live", "body": await json_of(request)}
             answer = await while_there(request, hands.ask(task, client))
             if answer.status_code != 200:
                 return answer

@@ -12,8 +12,7 @@ from kaidan.web.workers import Limits, Reply, Workers
 QUICK, THOROUGH = 5, 10
 """By how much estimates go before what takes a traverse, and before a search, file or document."""
 _AT_ONCE = ("estimate", "measure-robot", "measure-stairs")
-_BY_POSTURE = ("assess", "traverse", "plane", "margin", "live")
-_WITHOUT_SEARCH = ("margin", "live")
+_BY_POSTURE = ("assess", "traverse", "plane", "margin")
 _QUICK_MODELS = ("contact", "closed-form", "support-polygon")
 _FLIGHTS, _POINTS = 3, 100
 """Most flights of a quick question, of which each takes 0.1 s, and as many points as take that."""
@@ -25,7 +24,7 @@ class Hands:
     """Four sets of workers: for estimates, samples, other quick questions, everything else.
 
     Estimates take milliseconds and somebody at a slider waits for each, so that they wait for
-    nothing else; nor do the samples of a climb that is watched.
+    nothing else; nor do the samples of a climb that is watched, and its beginning.
 
     Parameters
     ----------
@@ -63,6 +62,10 @@ class Hands:
         """Reply of whom a task is for, see `Workers.ask`."""
         if task["kind"] in ("feed", "overdue"):
             return await self.samples.ask(task, client)
+        if task["kind"] == "live":
+            return await (self.samples if _is_small(task["body"]) else self.thorough).ask(
+                task, client
+            )
         if task["verb"] in _AT_ONCE and _is_small(task["body"]):
             return await self.estimates.ask(task, client)
         return await (self.quick if is_quick(task) else self.thorough).ask(task, client)
@@ -92,7 +95,7 @@ def is_quick(task: Mapping[str, Any]) -> bool:
     whole = whole if isinstance(whole, Mapping) else {}
     stated = body.get("flippers", "best") != "best" or whole.get("best_of") == []
     model = body.get("model") or whole.get("model") or "contact"
-    return verb in _BY_POSTURE and (stated or verb in _WITHOUT_SEARCH) and model in _QUICK_MODELS
+    return verb in _BY_POSTURE and (stated or verb == "margin") and model in _QUICK_MODELS
 
 
 def _is_small(body: Mapping[str, Any]) -> bool:

@@ -132,6 +132,18 @@ def test_an_upload_is_read_by_its_content_and_leaves_nothing(tmp_path):
         assert left == []
 
 
+def test_a_form_that_is_held_in_memory_is_not_read(client):
+    """A form without a file may be as large as one with it."""
+    began = time.monotonic()
+    answer = client.post("/api/read", data={"file": "x" * (8 << 20)})
+    assert (answer.status_code, answer.json()["kind"]) == (422, "input")
+    assert "send multipart/form-data" in answer.json()["error"]
+    fields = {"hint": "x" * (1 << 20)}
+    answer = client.post("/api/read", files={"file": b"0,0"}, data=fields)
+    assert answer.status_code == 400
+    assert time.monotonic() - began < 30.0
+
+
 @pytest.mark.parametrize(
     "content",
     [
