@@ -29,11 +29,11 @@ from record import finish, options
 STAIRS = ("ibc", "ada", "osha-ship")
 
 
-def questions(different: int) -> list[dict[str, object]]:
-    """So many different questions with a stated posture."""
+def questions(different: int, least: float = 0.5) -> list[dict[str, object]]:
+    """So many different questions with a stated posture, at the least friction and above."""
     return [
         {"robot": "absolem", "stairs": STAIRS[k % 3], "flippers": ("flat", "stowed")[k % 2],
-         "friction": round(0.5 + 0.001 * k, 3)}
+         "friction": round(least + 0.001 * k, 4)}
         for k in range(different)
     ]  # fmt: skip
 
@@ -90,9 +90,10 @@ async def user(client: httpx.AsyncClient, seconds: float, asked: itertools.cycle
         await asyncio.sleep(max(0.0, 1.0 - took))
 
 
-async def load(address: str, users: int, seconds: float, different: int, warm: bool) -> dict:
+async def load(
+    address: str, users: int, seconds: float, every: list[dict[str, object]], warm: bool
+) -> dict:
     """Latencies of many users [ms], and errors."""
-    every = questions(different)
     limits = httpx.Limits(max_connections=users)
     async with httpx.AsyncClient(base_url=address, timeout=60, limits=limits) as client:
         if warm:
@@ -173,11 +174,9 @@ def started(folder: Path):
 
 def main(arguments: argparse.Namespace) -> dict[str, float]:
     with tempfile.TemporaryDirectory() as folder, started(Path(folder)) as (server, address):
-        found = {}
+        found, every = {}, questions(arguments.different)
         for name, warm in (("new", False), ("again", True)):
-            each = asyncio.run(
-                load(address, arguments.users, arguments.seconds, arguments.different, warm)
-            )
+            each = asyncio.run(load(address, arguments.users, arguments.seconds, every, warm))
             found |= {f"{name}_{key}": value for key, value in each.items()}
         each = asyncio.run(sliders(address, arguments.sliders, arguments.seconds / 3))
         found |= {f"slider_{key}": value for key, value in each.items()}

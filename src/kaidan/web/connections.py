@@ -117,7 +117,8 @@ class Connection(HttpToolsProtocol):
             self._read = now
         self._unread = unread
         if self.sent_away:
-            self._refuse(503)
+            if now - self._since > self.patience.grace:
+                self._refuse(503)
         elif now - self._read > self.patience.reading:
             self.transport.abort()
         elif not unread and self._is_late(now):
@@ -135,6 +136,8 @@ class Connection(HttpToolsProtocol):
     def _admit(self) -> None:
         """Stay where there is room, perhaps in the place of one that waits for a head."""
         most = min(self.patience.connections, _open_files() // 2)
+        if len(self.connections) <= share_of(most):
+            return
         every = [each for each in self.connections if not each.transport.is_closing()]
         here = [each for each in every if not getattr(each, "sent_away", False)]
         mine = [each for each in here if _network(each) == self.network]

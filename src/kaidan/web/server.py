@@ -11,6 +11,7 @@ from kaidan.errors import InputError, short
 from kaidan.web.app import app_of
 from kaidan.web.connections import Connection
 from kaidan.web.guard import SHORTEST_TOKEN, Guard
+from kaidan.web.pace import Paced
 from kaidan.web.state import State
 
 _SAID = 4096
@@ -68,7 +69,7 @@ def server_of(state: State, *, host: str, token: str, workers: int, **how: Any) 
     """
     hosts = () if is_local(host) else (host, socket.gethostname(), socket.getfqdn())
     config = uvicorn.Config(
-        Guard(app_of(state, workers=workers, **how), token=token, hosts=hosts),
+        Guard(Paced(app_of(state, workers=workers, **how)), token=token, hosts=hosts),
         log_level="warning",
         access_log=False,
         server_header=False,

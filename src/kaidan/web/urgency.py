@@ -9,8 +9,9 @@ from typing import Any, Self
 from kaidan.spelling import JOINT
 from kaidan.web.workers import Limits, Reply, Workers
 
-QUICK, THOROUGH = 5, 10
-"""By how much estimates go before what takes a traverse, and before a search, file or document."""
+QUICK, SAMPLES, THOROUGH = 5, 10, 15
+"""By how much estimates go before what takes a traverse, before samples, which take 1 ms and so
+wait for nobody unless they are a flood, and before a search, file or document."""
 _AT_ONCE = ("estimate", "measure-robot", "measure-stairs")
 _BY_POSTURE = ("assess", "traverse", "plane", "margin")
 _QUICK_MODELS = ("contact", "closed-form", "support-polygon")
@@ -39,7 +40,7 @@ class Hands:
     def __init__(self, count: int, limits: Limits, folder: Path) -> None:
         few = min(count, 2)
         self.estimates = Workers(few, limits, folder, ready=few, first="estimate")
-        self.samples = Workers(1, limits, folder, nice=QUICK, ready=1, first="live")
+        self.samples = Workers(1, limits, folder, nice=SAMPLES, ready=1, first="live")
         self.quick = Workers(count, limits, folder, nice=QUICK, ready=count, first="assess")
         self.thorough = Workers(count, limits, folder, nice=THOROUGH, ready=1, first="assess")
         self._every = (self.estimates, self.samples, self.quick, self.thorough)
@@ -60,15 +61,16 @@ class Hands:
 
     async def ask(self, task: Mapping[str, Any], client: str) -> Reply:
         """Reply of whom a task is for, see `Workers.ask`."""
+        return await self._whose(task).ask(task, client)
+
+    def _whose(self, task: Mapping[str, Any]) -> Workers:
         if task["kind"] in ("feed", "overdue"):
-            return await self.samples.ask(task, client)
+            return self.samples
         if task["kind"] == "live":
-            return await (self.samples if _is_small(task["body"]) else self.thorough).ask(
-                task, client
-            )
+            return self.samples if _is_small(task["body"]) else self.thorough
         if task["verb"] in _AT_ONCE and _is_small(task["body"]):
-            return await self.estimates.ask(task, client)
-        return await (self.quick if is_quick(task) else self.thorough).ask(task, client)
+            return self.estimates
+        return self.quick if is_quick(task) else self.thorough
 
 
 def is_quick(task: Mapping[str, Any]) -> bool:

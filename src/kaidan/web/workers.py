@@ -17,7 +17,7 @@ from kaidan.progress import Follower
 from kaidan.web.shares import share_of
 from kaidan.web.worker import LENGTH
 
-_LAST = 15
+_LAST = 19
 """By how much other processes go before a job."""
 
 
