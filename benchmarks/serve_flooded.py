@@ -143,6 +143,9 @@ def main(arguments: argparse.Namespace) -> dict[str, float]:
             if other is not None:
                 other.send_signal(2)
                 print(other.communicate()[0].decode())
+        time.sleep(30.0)  # longer than anything that was left undone may take
+        found["after_server_mb"] = memory(server.pid)[server.pid]
+        found["after_handles"] = handles(server.pid)
     found["ratio_of_p95"] = found["flooded_p95_ms"] / found["idle_p95_ms"]
     return found
 

@@ -127,7 +127,7 @@ class Channel:
     def _spread(
         self, states: list[str], *, again: bool = False, summary: str | None = None
     ) -> None:
-        """Tell those who watch, and keep what is told to who comes later."""
+        """Send to those who watch, and keep what is sent to who comes later."""
         if again:
             self.states.clear()
             self._tell(json.dumps(self.head))

@@ -45,7 +45,7 @@ class Connection(HttpToolsProtocol):
 
     patience = Patience()
     sent_away = False
-    """Whether there is no room for it, which it is told after a while: it would come again."""
+    """Whether there is no room for it. It is refused after a while: it would come again at once."""
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Begin, or send the client away where there is no room."""

@@ -63,7 +63,7 @@ def fed(monitor: str, samples: list[list[Any]], arrived: float | None, *, ends: 
     arrived : float or None
         When they came [s]; None where their stamps alone tell the time.
     ends : bool
-        Whether the summary of all samples is wanted.
+        Whether there is to be a summary of all samples.
     """
     watch = _opened(monitor)
     states = [watch.feed(Sample(*each), arrived) for each in samples]

@@ -99,7 +99,7 @@ def _posted(address: str, body: dict[str, Any], token: str) -> dict[str, Any]:
 
 
 def _seconds(error: urllib.error.HTTPError) -> float:
-    """When a server that is busy wants to be asked again [s]; infinite for another error."""
+    """After how long a server that is busy has room again [s]; infinite for another error."""
     stated = error.headers.get("Retry-After", "") if error.code in (429, 503) else ""
     return float(stated) if stated.isdecimal() else math.inf
 
