@@ -7,6 +7,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from kaidan.spelling import JOINT
+from kaidan.web.shares import share_of
 from kaidan.web.workers import Limits, Reply, Workers
 
 QUICK, SAMPLES, THOROUGH = 5, 10, 15
@@ -42,7 +43,9 @@ class Hands:
         self.estimates = Workers(few, limits, folder, ready=few, first="estimate")
         self.samples = Workers(1, limits, folder, nice=SAMPLES, ready=1, first="live")
         self.quick = Workers(count, limits, folder, nice=QUICK, ready=count, first="assess")
-        self.thorough = Workers(count, limits, folder, nice=THOROUGH, ready=1, first="assess")
+        self.thorough = Workers(
+            count, limits, folder, nice=THOROUGH, ready=1, first="assess", most=share_of(count)
+        )
         self._every = (self.estimates, self.samples, self.quick, self.thorough)
 
     async def __aenter__(self) -> Self:

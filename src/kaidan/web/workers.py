@@ -7,7 +7,7 @@ import shutil
 import signal
 import sys
 import tempfile
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -117,6 +117,8 @@ class Workers:
     first : str
         Verb that these answer once before the first question, whose reply would wait for their
         imports otherwise.
+    most : int, optional
+        How many of them one client may keep busy; all without it.
     """
 
     def __init__(
@@ -128,9 +130,12 @@ class Workers:
         nice: int = 0,
         ready: int = 0,
         first: str = "",
+        most: int | None = None,
     ) -> None:
         self.count, self.limits, self.folder = count, limits, folder
         self.nice, self.ready, self.first = nice, ready, first
+        self.most = count if most is None else most
+        self._working: Counter[str] = Counter()
         self._idle: list[_Worker | None] = [None] * count
         self._all: set[_Worker] = set()
         self._line: dict[str, deque[asyncio.Future[_Worker | None]]] = {}
@@ -171,13 +176,14 @@ class Workers:
             text = "too many questions of your address at once; ask again in a while"
             return refused(429, "share", text)
         worker = await self._free(client)
-        work = asyncio.create_task(self._answered(worker, task, seconds or self.limits.seconds))
+        answered = self._answered(worker, task, client, seconds or self.limits.seconds)
+        work = asyncio.create_task(answered)
         self._under_way.add(work)
         work.add_done_callback(self._under_way.discard)
         return await asyncio.shield(work)
 
     async def _answered(
-        self, worker: _Worker | None, task: Mapping[str, Any], seconds: float
+        self, worker: _Worker | None, task: Mapping[str, Any], client: str, seconds: float
     ) -> Reply:
         whole = False
         try:
@@ -189,11 +195,12 @@ class Workers:
         finally:
             if not whole and worker is not None:
                 await self._drop(worker)
-            self._release(worker if whole else None)
+            self._release(worker if whole else None, client)
 
     async def _free(self, client: str) -> _Worker | None:
         """Worker that has nothing to do, as soon as it is this one's turn; None: one may begin."""
-        if self._idle:
+        if self._idle and self._working[client] < self.most:
+            self._working[client] += 1
             return self._idle.pop()
         turn: asyncio.Future[_Worker | None] = asyncio.get_running_loop().create_future()
         self._line.setdefault(client, deque()).append(turn)
@@ -206,21 +213,32 @@ class Workers:
                 if not line:
                     del self._line[client]
             elif not turn.cancelled():  # its turn came in the same moment
-                self._release(turn.result())
+                self._release(turn.result(), client)
             raise
 
-    def _release(self, worker: _Worker | None) -> None:
-        """Give a worker to who waits for one: to the client whose last turn is longest ago."""
-        while self._line:
-            client, line = next(iter(self._line.items()))
-            turn = line.popleft()
-            del self._line[client]
-            if line:
-                self._line[client] = line  # behind the others
-            if not turn.cancelled():
-                turn.set_result(worker)
-                return
+    def _release(self, worker: _Worker | None, client: str) -> None:
+        """Give the worker of a client to the one whose last turn is longest ago, and who may."""
+        self._working[client] -= 1
+        if not self._working[client]:
+            del self._working[client]
         self._idle.append(worker)
+        for each in tuple(self._line):
+            if not self._idle:
+                return
+            if self._working[each] < self.most:
+                self._next_of(each)
+
+    def _next_of(self, client: str) -> None:
+        """Give an idle worker to the next turn of a client, which then is behind the others."""
+        line = self._line.pop(client)
+        while line:
+            turn = line.popleft()
+            if not turn.cancelled():
+                self._working[client] += 1
+                turn.set_result(self._idle.pop())
+                break
+        if line:
+            self._line[client] = line
 
     async def ask_apart(
         self, task: Mapping[str, Any], *, seconds: float, follower: Follower

@@ -153,7 +153,7 @@ def test_an_estimate_does_not_wait_for_answers(tmp_path):
         assert found.status == 200
         assert not answer.done()
         answer.cancel()
-        hands.quick._release(busy)
+        hands.quick._release(busy, ME)
         await hands.__aexit__(None, None, None)
 
     _run(run())
@@ -220,6 +220,24 @@ def test_clients_take_turns_and_one_has_half_of_the_line(tmp_path):
     # one is at work, two of one client may wait, then one of each other, and four in all
     answered = [("loud", 422), ("loud", 422), ("quiet", 422), ("calm", 422), ("loud", 422)]
     assert _run(run()) == [("loud", 429), ("late", 503), *answered]
+
+
+def test_one_client_leaves_workers_for_another(tmp_path):
+    """However long its tasks take: of two workers it keeps one busy."""
+
+    async def run():
+        async with Workers(2, Limits(), tmp_path, most=1) as hands:
+            held = await hands._free("loud")
+            more = asyncio.create_task(hands._free("loud"))
+            await asyncio.sleep(0)
+            assert not more.done()
+            task = {"kind": "ask", "verb": "estimate", "body": QUICK}
+            assert (await hands.ask(task, "quiet")).status == 200
+            assert not more.done()
+            hands._release(held, "loud")
+            return await more
+
+    _run(run())
 
 
 class Leaving:
