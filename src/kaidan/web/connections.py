@@ -50,7 +50,7 @@ class Connection(HttpToolsProtocol):
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Begin, or send the client away where there is no room."""
         super().connection_made(transport)
-        self.network = network_of(self.client[0] if self.client else "")
+        self.network = network_of(_address(self))
         self._in_head, self._head, self._unread = False, 0, 0
         self._read = self.loop.time()
         self._wait_anew()
@@ -102,13 +102,8 @@ class Connection(HttpToolsProtocol):
         """Whether no request is under way."""
         return self.cycle is None or self.cycle.response_complete
 
-    @property
-    def waiting_since(self) -> float:
-        """Since when the next step of the client is awaited [s]."""
-        return self._since
-
     def _wait_anew(self) -> None:
-        self._since, self._came = self.loop.time(), 0
+        self.since, self._came = self.loop.time(), 0
 
     def _look(self) -> None:
         """End what does not go on; what was written first has the time that it is read in."""
@@ -117,7 +112,7 @@ class Connection(HttpToolsProtocol):
             self._read = now
         self._unread = unread
         if self.sent_away:
-            if now - self._since > self.patience.grace:
+            if now - self.since > self.patience.grace:
                 self._refuse(503)
         elif now - self._read > self.patience.reading:
             self.transport.abort()
@@ -127,7 +122,7 @@ class Connection(HttpToolsProtocol):
 
     def _is_late(self, now: float) -> bool:
         """Whether the client took longer than it may for what it has to send next."""
-        waited = now - self._since
+        waited = now - self.since
         if self.answered:
             return waited > self.patience.head
         awaited = self.cycle.more_body and not self.flow.read_paused
@@ -138,23 +133,34 @@ class Connection(HttpToolsProtocol):
         most = min(self.patience.connections, _open_files() // 2)
         if len(self.connections) <= share_of(most):
             return
-        every = [each for each in self.connections if not each.transport.is_closing()]
-        here = [each for each in every if not getattr(each, "sent_away", False)]
-        mine = [each for each in here if _network(each) == self.network]
-        for crowd, room in ((mine, share_of(most)), (here, most)):
-            if len(crowd) > room and not self._makes_room(crowd):
-                self.sent_away = True
-                self.flow.pause_reading()
-                if len(every) - len(here) >= share_of(most):
-                    self._refuse(503)
-                return
+        here = mine = away = 0
+        idle: list[Connection] = []
+        each: Any  # also websockets
+        for each in self.connections:
+            http = isinstance(each, Connection)
+            if each.transport.is_closing():
+                continue
+            if http and each.sent_away:
+                away += 1
+                continue
+            here += 1
+            mine += (each.network if http else network_of(_address(each))) == self.network
+            if http and each is not self and each.answered:
+                idle.append(each)
+        if mine > share_of(most):
+            idle = [each for each in idle if each.network == self.network]
+        elif here <= most:
+            return
+        if not self._replaces(idle):
+            self.sent_away = True
+            self.flow.pause_reading()
+            if away >= share_of(most):
+                self._refuse(503)
 
-    def _makes_room(self, crowd: list[Any]) -> bool:
-        """End the one of a crowd that has waited for a head for longest, if it has its grace."""
-        others = [each for each in crowd if isinstance(each, Connection) and each is not self]
-        waiting = [each for each in others if each.answered]
-        first = min(waiting, key=lambda each: each.waiting_since, default=self)
-        if first is self or self.loop.time() - first.waiting_since < self.patience.grace:
+    def _replaces(self, idle: list["Connection"]) -> bool:
+        """End the one that has waited for a head for longest, once it has had its grace."""
+        first = min(idle, key=lambda each: each.since, default=self)
+        if first is self or self.loop.time() - first.since < self.patience.grace:
             return False
         first.transport.abort()
         return True
@@ -173,9 +179,9 @@ class Connection(HttpToolsProtocol):
         self.transport.close()
 
 
-def _network(connection: Any) -> str:
-    """Of whom a connection is, also one that has become a websocket."""
-    return network_of(connection.client[0] if connection.client else "")
+def _address(connection: Any) -> str:
+    """Address of a client, also of one whose connection has become a websocket."""
+    return str(connection.client[0]) if connection.client else ""
 
 
 def _open_files() -> int:
