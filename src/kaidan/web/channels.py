@@ -21,7 +21,7 @@ LEFT, LEFT_AT_END = 900.0, 60.0
 """After how long a climb is over that nobody feeds or watches, and one that has ended [s]."""
 REMEMBERED = 1_200
 """States that who comes later is sent."""
-_AT_ONCE = 100
+_AT_ONCE = 50
 """Samples of one task: 10 ms, so that one climb holds up no other."""
 _AGAIN = 0.05
 """When to look again for a sample where no worker could [s]."""

@@ -8,7 +8,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from kaidan.web.shares import NOT_BEFORE, network_of
 
-REQUEST, REFUSAL = 0.002, 0.02
+REQUEST, REFUSAL = 0.003, 0.02
 """Time that a request of a client is counted for, and a further one if it was sent away [s]."""
 BURST = 0.4
 """Time by which it may be ahead [s]: a page and all its files at once."""
