@@ -116,15 +116,16 @@ class Flood:
 
 
 async def flood(port: int) -> None:
-    """Flood until the process is ended; then say what came of it."""
+    """Flood until the standard input is closed, as it is when the owner ends; print the sums."""
     one = Flood(port)
-    try:
-        await asyncio.gather(
-            *(one.forever(kind) for kind, many in MANY.items() for _ in range(many))
-        )
-    except asyncio.CancelledError:
-        every = sorted(one.answers.items(), key=str)
-        print(", ".join(f"{kind} {how}: {many}" for (kind, how), many in every))
+    every = [
+        asyncio.create_task(one.forever(kind)) for kind, many in MANY.items() for _ in range(many)
+    ]
+    await asyncio.to_thread(sys.stdin.read)
+    for task in every:
+        task.cancel()
+    sums = sorted(one.answers.items(), key=str)
+    print(", ".join(f"{kind} {how}: {many}" for (kind, how), many in sums))
 
 
 def main(arguments: argparse.Namespace) -> dict[str, float]:
@@ -132,7 +133,8 @@ def main(arguments: argparse.Namespace) -> dict[str, float]:
     with tempfile.TemporaryDirectory() as folder, started(Path(folder)) as (server, address):
         for name, least in (("idle", 0.5), ("flooded", 0.5005)):  # none was asked before
             words = [sys.executable, __file__, "--flood", address.rstrip("/").rpartition(":")[2]]
-            other = subprocess.Popen(words, stdout=subprocess.PIPE) if name == "flooded" else None
+            pipes = dict.fromkeys(("stdin", "stdout"), subprocess.PIPE)
+            other = subprocess.Popen(words, **pipes) if name == "flooded" else None
             time.sleep(5.0)
             every = questions(arguments.different, least)
             times = load(address, arguments.users, arguments.seconds, every, warm=False)
@@ -141,7 +143,6 @@ def main(arguments: argparse.Namespace) -> dict[str, float]:
             found[f"{name}_server_mb"] = memory(server.pid)[server.pid]
             found[f"{name}_handles"] = handles(server.pid)
             if other is not None:
-                other.send_signal(2)
                 print(other.communicate()[0].decode())
         time.sleep(30.0)  # longer than anything that was left undone may take
         found["after_server_mb"] = memory(server.pid)[server.pid]
