@@ -6,12 +6,11 @@ TYPE_CHECKING = False  # as typing has it, which takes longer to import than all
 if TYPE_CHECKING:
     from kaidan.assessment import Assessment, assess
     from kaidan.errors import InputError, KaidanError
+    from kaidan.lab.cross_check import agree
+    from kaidan.lab.reproduction.reproduction import reproduce
+    from kaidan.lab.verification.experiment import experiment
     from kaidan.question import Question
     from kaidan.robot import Payload, Posture, Robot
-    from kaidan.studies.cross_check import agree
-    from kaidan.studies.experiment import experiment
-    from kaidan.studies.reproduction import reproduce
-    from kaidan.studies.sensitivity import sensitivity
     from kaidan.surface import Surface
     from kaidan.sweeps import stream, sweep, verdicts
     from kaidan.terrain.profile import Profile
@@ -28,6 +27,7 @@ if TYPE_CHECKING:
     from kaidan.verbs.posture import posture
     from kaidan.verbs.read import read
     from kaidan.verbs.report import report
+    from kaidan.verbs.sensitivity import sensitivity
     from kaidan.verbs.traverse import traverse
 
 __version__ = "0.1.0"

@@ -100,7 +100,7 @@ class Answer(Part):
     """
 
     text_module: ClassVar[str]
-    """Module of ``kaidan.text`` whose function ``text`` says it in words."""
+    """Module whose function ``text`` says it in words, imported when somebody reads them."""
 
     def to_dict(self) -> dict[str, Any]:
         """Everything as dictionaries, lists, texts and numbers."""
@@ -134,7 +134,7 @@ class Answer(Part):
         return cls.model_json_schema(mode="serialization")
 
     def __str__(self) -> str:
-        said: str = import_module(f"kaidan.text.{self.text_module}").text(self)
+        said: str = import_module(self.text_module).text(self)
         return said
 
     def __repr__(self) -> str:

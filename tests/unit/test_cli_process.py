@@ -17,9 +17,9 @@ FLIGHT = ["--angle", "40deg", "--nosing-spacing", "150mm"]
 QUICK = {
     "assess": ["assess", "kenaf", *FLIGHT, "--friction", "0.8"],
     "json": ["assess", "kenaf", *FLIGHT, "--friction", "0.8", "--json"],
-    "campaign": ["campaign", "-h"],
+    "campaign": ["lab", "campaign", "-h"],
     "compare": ["compare", "kenaf", "--stairs", "ibc"],
-    "experiment": ["experiment", "-h"],
+    "experiment": ["lab", "experiment", "-h"],
     "help": ["-h"],
     "margin": ["margin", "kenaf"],
     "monitor": ["monitor", "-h"],
@@ -152,7 +152,7 @@ def test_ctrl_c_while_it_starts(delay):
             "invalid value for '--trials': '0' is less than 1 (see kaidan assess -h)",
         ),
         (
-            ["experiment", "absolem", "--spacings", "0mm"],
+            ["lab", "experiment", "absolem", "--spacings", "0mm"],
             "condition: nosing_spacing = 0 m is not within 0.02 to 2.5 m",
         ),
     ],

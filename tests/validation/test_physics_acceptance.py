@@ -1,7 +1,7 @@
-"""Acceptance of the physics models, before any claim is made with them (docs/physics.md).
+"""Acceptance of the physics models, before any claim is made with them (docs/lab/physics.md).
 
 Each bracket is two trials: the one climbs, the other falls. The slow tests print the figures that
-docs/physics.md records.
+docs/lab/physics.md records.
 """
 
 import math
@@ -34,7 +34,7 @@ from physics_cases import (
 )
 
 MEASURED = dict(zip(SPACINGS, (63.5, 58.7, 54.8, 50.4), strict=True))
-"""docs/physics.md: another model by others, smooth rigid belt, R = 60 mm, 100 mm/s [deg]."""
+"""docs/lab/physics.md: another model by others, smooth rigid belt, R = 60 mm, 100 mm/s [deg]."""
 
 
 @pytest.mark.parametrize("spacing", ENDS_IN_EVERY_RUN)

@@ -100,7 +100,7 @@ class Assessment(Answer):
     positive, as the names say. Null means: no such number, or not known to the model.
     """
 
-    text_module: ClassVar[str] = "assessment"
+    text_module: ClassVar[str] = "kaidan.text.assessment"
 
     verdict: VerdictName
     """go: nothing fails in the worst case, friction known, at the chosen risk. caution: something

@@ -19,28 +19,22 @@ from typing import Annotated, Any, NoReturn, TextIO
 import typer
 
 _COMMANDS = {
-    "agree": ("agree",),
     "assess": ("assess",),
     "building": ("building",),
-    "calibrate": ("calibrate",),
-    "campaign": ("campaign",),
     "catalogs": ("robots", "stairs", "surfaces"),
     "compare": ("compare",),
     "design": ("design",),
     "doctor": ("doctor",),
-    "experiment": ("experiment",),
+    "lab": ("lab",),
     "live": ("live",),
     "margin": ("margin",),
     "measure": ("measure",),
     "monitor": ("monitor",),
     "new": ("new",),
-    "outcomes": ("outcomes",),
-    "physics": ("physics",),
     "plane": ("plane",),
     "posture": ("posture",),
     "read": ("read",),
     "report": ("report",),
-    "reproduce": ("reproduce",),
     "schema": ("schema",),
     "sensitivity": ("sensitivity",),
     "serve": ("serve",),
@@ -49,6 +43,11 @@ _COMMANDS = {
     "traverse": ("traverse",),
 }
 """Commands by the module that registers them: a requested one is loaded alone."""
+_LABORATORY = "kaidan.lab.cli"
+"""What registers `lab`: the one door to the laboratory, which nothing here imports."""
+_MOVED = ("agree", "calibrate", "campaign", "experiment", "outcomes", "physics", "reproduce")
+"""Commands that became those of the laboratory."""
+_MOVED_OPTIONS = {"--rerun": "kaidan lab rerun, of the answer that --json prints"}
 
 _START_LIGHTLY = {
     "OPENBLAS_NUM_THREADS": "1",  # no matrix here is worth the threads numpy would start
@@ -102,7 +101,8 @@ def app_for(words: Sequence[str]) -> typer.Typer:
     app.callback()(kaidan)
     modules = [name for name, commands in _COMMANDS.items() if command in commands] or _COMMANDS
     for name in modules:
-        import_module(f"kaidan.cli.{name}").register(app)
+        module = _LABORATORY if name == "lab" else f"kaidan.cli.{name}"
+        import_module(module).register(app)
     return app
 
 
@@ -176,6 +176,10 @@ def _outcome(words: Sequence[str]) -> int:
             whole.main(list(words), prog_name="kaidan", complete_var=COMPLETE)
         except SystemExit as ended:
             return int(ended.code or 0)
+    if words and words[0] in _MOVED:
+        from kaidan.errors import InputError
+
+        raise InputError(f"kaidan {words[0]} is now kaidan lab {words[0]} (see kaidan lab -h)")
     command = typer.main.get_command(app_for(words))
     try:
         with command.make_context("kaidan", list(words)) as context:
@@ -200,6 +204,8 @@ def _usage(error: Exception) -> str:
         option, known = (getattr(error, name) or () for name in ("option_name", "possibilities"))
         close = get_close_matches(option, known, n=1, cutoff=0.7)
         text = f"no such option: {option}{f'; did you mean {close[0]}?' if close else ''}"
+        if option in _MOVED_OPTIONS:
+            text = f"{option} is now {_MOVED_OPTIONS[option]}"
     where = "kaidan" if context is None else context.command_path
     return f"{text[:1].lower()}{text[1:].rstrip('.')} (see {where} -h)"
 

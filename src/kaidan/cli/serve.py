@@ -45,8 +45,8 @@ def serve(
 
     Everything comes from this machine. Ctrl-C ends it.
     """
-    from kaidan.campaign.local import processors
     from kaidan.errors import needed
+    from kaidan.work.local import processors
 
     for module in ("fastapi", "uvicorn", "python_multipart"):
         needed(module, "kaidan serve", "web")

@@ -11,7 +11,6 @@ import numpy as np
 
 from kaidan.assessment import found_plan, off_plan
 from kaidan.assessment.verdict import conclude
-from kaidan.campaign.job import Kind, Work
 from kaidan.errors import InputError
 from kaidan.models import judge
 from kaidan.models.findings import Findings
@@ -20,6 +19,7 @@ from kaidan.question import Question
 from kaidan.sweeps.parameters import question_of
 from kaidan.sweeps.plan import Chunk
 from kaidan.sweeps.screen import excluded
+from kaidan.work.job import Kind, Work
 
 NOT_GO = len(Verdict)
 """Code of a cell of which the closed form alone says that it is no GO."""
@@ -134,7 +134,7 @@ def version() -> str:
     from kaidan import __version__
 
     package = Path(__file__).parents[1]
-    apart = {"cli", "figures", "text", "studies", "verbs", "literature", "campaign"}
+    apart = {"cli", "figures", "text", "lab", "verbs", "literature", "work"}
     sources = sorted(
         path for path in package.rglob("*.py") if path.relative_to(package).parts[0] not in apart
     )

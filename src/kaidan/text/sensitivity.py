@@ -6,7 +6,7 @@ from kaidan.text.measuring import name
 from kaidan.text.tables import table
 
 if TYPE_CHECKING:
-    from kaidan.studies.sensitivity import Sensitivity
+    from kaidan.verbs.sensitivity import Sensitivity
 
 
 def text(found: "Sensitivity") -> str:

@@ -48,7 +48,7 @@ class Measured(Part):
 class RobotMeasurement(Answer):
     """Mass, L, C_L and C_N of a robot with their standard uncertainties."""
 
-    text_module: ClassVar[str] = "robot_measurement"
+    text_module: ClassVar[str] = "kaidan.text.robot_measurement"
 
     name: str
     mass: Measured | None

@@ -32,7 +32,7 @@ Spread = Literal["spot checks", "assumed"]
 class StairsMeasurement(Answer):
     """A flight of stairs from its totals, with the doubt of the whole and of single steps."""
 
-    text_module: ClassVar[str] = "stairs_measurement"
+    text_module: ClassVar[str] = "kaidan.text.stairs_measurement"
 
     name: str
     risers: int

@@ -58,7 +58,7 @@ class Flow(Part):
 class PoseMap(Answer):
     """Heights of the centroid over all poses that touch the ground, and what was driven."""
 
-    text_module = "pose_map"
+    text_module = "kaidan.text.pose_map"
 
     question: Question
     """The question that was driven."""

@@ -42,7 +42,7 @@ class PostureTried(Part):
 class PostureAnswer(Answer):
     """What facing, flippers, arm and payload can do for a robot on stairs."""
 
-    text_module: ClassVar[str] = "posture"
+    text_module: ClassVar[str] = "kaidan.text.posture"
 
     question: Question
     """The question; its posture is the one to compare with."""

@@ -12,7 +12,7 @@ import { change, state } from "./state.js";
 import { figure } from "./units.js";
 
 const EVERY = 1000; // how often the server is asked while something runs [ms]
-const KINDS = ["compare", "sweep", "posture", "experiment", "film", "report", "file"];
+const KINDS = ["compare", "sweep", "posture", "film", "report", "file"];
 const VARIED = {
   com_height: ["length", 0, 1], com_from_front: ["length", 0, 2], friction: ["friction", 0, 2],
   speed: ["speed", 0, 3], acceleration: ["acceleration", -3, 3], yaw: ["angle", 0, 0.5],
@@ -21,7 +21,7 @@ const OWN = ["com_height", "com_from_front"]; // figures that a sheet's override
 
 export function workView(shell) {
   let kind = "compare", varied = "com_height", format = "pdf", timer = 0, file = null, listed = "";
-  const chosen = new Set(), range = { low: 0.1, high: 0.3, count: 21, trials: 5 };
+  const chosen = new Set(), range = { low: 0.1, high: 0.3, count: 21 };
   const form = h("div", {}), word = h("p", { role: "alert" }), list = h("ul", { class: "jobs" }), outcome = h("div", { "aria-live": "polite" });
   const kinds = picker({ label: t("work.kind"), empty: null, groups: () => [["", KINDS.map((each) => [each, t(`work.${each}`)])]], get: () => kind, set: (value) => { kind = value; fill(); } });
   const node = h("section", { class: "panel work" }, h("h2", {}, t("work.heading")), h("p", {}, t("work.lead")),
@@ -51,7 +51,6 @@ export function workView(shell) {
         fill();
       }), number(t("work.from"), of, "low", low, high), number(t("work.to"), of, "high", low, high), number(t("work.count"), "count", "count", 2, 2000)];
     },
-    experiment: () => number(t("work.trials"), "count", "trials", 1, 20),
     report: () => choose(t("work.format"), [["pdf", "PDF"], ["html", "HTML"]], () => format, (value) => { format = value; }),
     file: () => {
       const input = h("input", { type: "file", id: "work-file", onchange: () => { file = input.files[0] ?? null; } });
@@ -67,7 +66,6 @@ export function workView(shell) {
   async function bodyOfWork() {
     const [robot, stairs] = await Promise.all([sheetOf("robots", state.robot), sheetOf("stairs", state.stairs)]);
     const body = bodyOf(robot, stairs);
-    if (kind === "experiment") return robot && { robot: body?.robot ?? state.robot, trials: range.trials };
     if (!body && !(kind === "compare" && stairs)) return null;
     if (kind === "compare") {
       const { robot: _, override: __, stairs: on, ...rest } = body ?? bodyOf({ front_flippers: {}, rear_flippers: {} }, stairs);
