@@ -272,7 +272,8 @@ def research():
                    f"store-{track}{len(way)}", "--json"]  # fmt: skip
         yield [LAB, "campaign", "status", f"store-{track}0"]
         yield [LAB, "campaign", "export", f"store-{track}0", f"store-{track}.csv"]
-    yield [LAB, "experiment", "kenaf", "--protocol", "protocol.md", "--trials", "3"]
+    page = "protocol"
+    yield [LAB, "experiment", "kenaf", "--protocol", f"{page}.md", "--trials", "3"]
     yield [LAB, "calibrate", "rig.toml", "--json"]
     yield [LAB, "calibrate", "rig.toml"]
 

@@ -6,9 +6,6 @@ TYPE_CHECKING = False  # as typing has it, which takes longer to import than all
 if TYPE_CHECKING:
     from kaidan.assessment import Assessment, assess
     from kaidan.errors import InputError, KaidanError
-    from kaidan.lab.cross_check import agree
-    from kaidan.lab.reproduction.reproduction import reproduce
-    from kaidan.lab.verification.experiment import experiment
     from kaidan.question import Question
     from kaidan.robot import Payload, Posture, Robot
     from kaidan.surface import Surface
@@ -34,7 +31,6 @@ __version__ = "0.1.0"
 
 _HOME = {
     "Assessment": "assessment",
-    "agree": "studies.cross_check",
     "assess": "assessment",
     "InputError": "errors",
     "KaidanError": "errors",
@@ -49,7 +45,6 @@ _HOME = {
     "compare": "verbs.comparison",
     "design": "verbs.design.designing",
     "doctor": "verbs.doctor",
-    "experiment": "studies.experiment",
     "margin": "verbs.margin_curve",
     "measure_robot": "verbs.measure_robot",
     "measure_stairs": "verbs.measure_stairs",
@@ -58,8 +53,7 @@ _HOME = {
     "posture": "verbs.posture",
     "read": "verbs.read",
     "report": "verbs.report",
-    "reproduce": "studies.reproduction",
-    "sensitivity": "studies.sensitivity",
+    "sensitivity": "verbs.sensitivity",
     "stream": "sweeps",
     "sweep": "sweeps",
     "traverse": "verbs.traverse",
@@ -77,9 +71,6 @@ __all__ = [  # noqa: RUF022 - what a user meets first
     "design",
     "report",
     "doctor",
-    "reproduce",
-    "agree",
-    "experiment",
     "sensitivity",
     "sweep",
     "verdicts",

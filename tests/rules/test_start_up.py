@@ -12,11 +12,8 @@ HEAVY = ("scipy", "xarray", "matplotlib", "pandas", "numba", "llvmlite", "PIL", 
 
 RUN = """
 import json, sys
-from kaidan.cli import main
-try:
-    main()
-except SystemExit as ended:
-    code = ended.code
+from kaidan.cli import run
+code = run(sys.argv[1:])
 print(json.dumps([code, sorted(sys.modules)]), file=sys.stderr)
 """
 

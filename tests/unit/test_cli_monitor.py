@@ -164,7 +164,7 @@ def test_a_garbled_row_is_counted_and_the_next_one_taken(tmp_path):
 def test_a_stream_is_answered_line_by_line():
     """A live sensor: the first answer comes before the second sample is sent."""
     with subprocess.Popen(
-        [sys.executable, "-c", "from kaidan.cli import main; main()", "monitor", "kenaf", *SHAPE,
+        [sys.executable, "-m", "kaidan", "monitor", "kenaf", *SHAPE,
          "-", "--json"],
         stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8",
     ) as process:  # fmt: skip

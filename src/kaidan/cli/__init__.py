@@ -14,7 +14,7 @@ from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
 from traceback import extract_tb, print_exc
-from typing import Annotated, Any, NoReturn, TextIO
+from typing import Annotated, Any, TextIO
 
 import typer
 
@@ -111,11 +111,6 @@ def __getattr__(name: str) -> Any:
     if name == "app":
         return app_for(())
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-
-
-def main() -> NoReturn:
-    """Run the command line and end the process with its exit code."""
-    sys.exit(run(sys.argv[1:]))
 
 
 def run(words: Sequence[str]) -> int:

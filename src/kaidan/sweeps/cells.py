@@ -134,7 +134,7 @@ def version() -> str:
     from kaidan import __version__
 
     package = Path(__file__).parents[1]
-    apart = {"cli", "figures", "text", "lab", "verbs", "literature", "work"}
+    apart = {"cli", "figures", "text", "lab", "verbs", "work"}
     sources = sorted(
         path for path in package.rglob("*.py") if path.relative_to(package).parts[0] not in apart
     )

@@ -54,11 +54,6 @@ HOW_TRACKS: Mapping[str, str] = {
 }
 """How the tracks were found."""
 
-HOW_FLIPPERS: Mapping[str, str] = {
-    "named": "joints called flippers",
-    "shaped": "long parts in pairs on lateral joints",
-}
-
 
 class _Fault(Protocol):
     @property

@@ -7,8 +7,9 @@ import pytest
 
 pytest.importorskip("mujoco", reason="skipped: mujoco not installed")
 
+from calibration_cases import here
 from kaidan import Robot
-from kaidan.lab.calibration.bench import Bench, here
+from kaidan.lab.calibration.bench import Bench
 from kaidan.lab.calibration.effects import effects
 from kaidan.lab.calibration.evidence import PAPER
 from kaidan.lab.calibration.fitting import compliance_grid, fit

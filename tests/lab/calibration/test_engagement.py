@@ -8,6 +8,7 @@ import pytest
 
 pytest.importorskip("mujoco", reason="skipped: mujoco not installed")
 
+from calibration_cases import engaged_here
 from kaidan.lab.calibration.engagement import (
     BASE,
     ROBOT,
@@ -15,7 +16,6 @@ from kaidan.lab.calibration.engagement import (
     designs,
     engaged,
     engagement,
-    here,
     in_store,
     rule,
     trial_of,
@@ -106,12 +106,12 @@ def test_trials_are_kept_and_found_again(tmp_path):
     short = {"nosings": 1, "log_interval": 0.02, "start_offset": 0.1}
     trial = trial_of(**HOLDS, seed=1).model_copy(update=short)
     kept = in_store(tmp_path / "store", workers=1)
-    assert kept([trial]) == here([trial]) == kept([trial])
+    assert kept([trial]) == engaged_here([trial]) == kept([trial])
 
 
 @pytest.mark.slow
 def test_no_trial_slides_for_good_where_the_rule_says_that_it_holds():
-    found = engagement(here, trials=1, slopes=(32.5, 44.0), frictions=(0.4, 0.6, 1.0))
+    found = engagement(engaged_here, trials=1, slopes=(32.5, 44.0), frictions=(0.4, 0.6, 1.0))
     assert sum(each.rule_holds for each in found.cells) >= 15
     assert found.wrong == []
     assert all(

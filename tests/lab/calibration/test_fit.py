@@ -235,7 +235,7 @@ def test_ends_of_another_radius():
 def test_trials_in_a_store_are_those_of_this_process(tmp_path):
     pytest.importorskip("mujoco", reason="skipped: mujoco not installed")
     pytest.importorskip("pyarrow")
-    from kaidan.lab.calibration.bench import here
+    from calibration_cases import here
 
     asked = [(Setting(robot=KENAF), condition(0.150, angle)) for angle in (58.0, 68.0)]
     stored = Bench(in_store(tmp_path / "store", workers=1), trials=1).counts(asked)
@@ -246,7 +246,7 @@ def test_trials_in_a_store_are_those_of_this_process(tmp_path):
 
 def test_margins_of_the_smooth_belt_are_those_of_bisection():
     pytest.importorskip("mujoco", reason="skipped: mujoco not installed")
-    from kaidan.lab.calibration.bench import here
+    from calibration_cases import here
 
     asked = [(Setting(robot=with_ends(KENAF, 0.060)), 0.150, "up", slopes(61.0, 66.0, 1.0))]
     (found,) = margins_of(Bench(here, trials=2), asked)

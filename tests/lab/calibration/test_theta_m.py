@@ -84,7 +84,7 @@ def test_a_setting_has_what_its_levels_say():
 def test_shear_and_damping_decide_theta_m():
     """As the page has it: the stiffer the shear and the lighter the damping, the smaller."""
     pytest.importorskip("numba", reason="skipped: numba not installed")
-    from kaidan.lab.calibration.bench import here
+    from calibration_cases import here
 
     found = theta_m_study(Bench(here, trials=2), KENAF, step=2.0)
     by = {each.factor: each.theta_M_deg for each in found.effects}

@@ -129,7 +129,13 @@ def test_refusals(words, text, tmp_path, monkeypatch):
 def test_campaign_refusals(tmp_path):
     for words in (["status"], ["resume"], ["export"]):
         with pytest.raises(InputError) as caught:
-            told("lab", "campaign", *words, str(tmp_path), *(["x.csv"] if words == ["export"] else []))
+            told(
+                "lab",
+                "campaign",
+                *words,
+                str(tmp_path),
+                *(["x.csv"] if words == ["export"] else []),
+            )
         assert str(caught.value) == (
             f"store {str(tmp_path)!r}: no such store (campaign.json is missing)"
         )

@@ -20,7 +20,7 @@ from kaidan.work.job import Ended
 pytestmark = pytest.mark.slow
 
 COMMAND = [
-    sys.executable, "-c", "from kaidan.cli import main; main()", "experiment", "kenaf",
+    sys.executable, "-m", "kaidan", "lab", "experiment", "kenaf",
     "--spacings", "150mm,200mm", "--angles", "44deg..64deg/8", "--trials", "4",
     "--track", "sprung-noses", "--stiffness", "30kN/m", "--workers", "2", "--json",
 ]  # fmt: skip

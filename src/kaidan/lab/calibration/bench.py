@@ -11,7 +11,6 @@ from typing import NamedTuple
 from kaidan.lab.calibration.evidence import TRIALS as FIVE
 from kaidan.lab.campaign import TRIALS, Condition, Setting, VerificationTest, rows_of
 from kaidan.physics import TrialSpec
-from kaidan.physics import run as simulate
 from kaidan.robot import Robot
 
 FALL = 15.0
@@ -127,14 +126,6 @@ SAYS_NOTHING = ("unstable", "failed", "crashed")
 def _fell(figures: Figures, fall: float) -> bool:
     outcome, extra, _ = figures
     return outcome in ("fell_backward", "fell_forward") or extra > fall
-
-
-def here(specs: Sequence[TrialSpec]) -> list[Figures]:
-    """Run trials one after the other in this process."""
-    return [
-        (result.outcome.value, result.largest_extra_deg, result.nosings_passed)
-        for result in (simulate(spec) for spec in specs)
-    ]
 
 
 def in_store(folder: Path, *, workers: int | None = None, progress: bool = False) -> Runner:

@@ -46,8 +46,7 @@ AXES = (
     Axis("damping_ratio", 0.04, 0.3, True, "of the robot's mass on the rubber at one nosing"),
 )
 """What is not known of the rig; the first three are fitted, the other two nuisances."""
-MASS = 20.0
-"""Mass to which the stiffnesses belong [kg]; half the mass, half the stiffness."""
+
 
 FIGURES = (
     ("margin_150", "slope from which it falls at 150 mm"),

@@ -299,11 +299,6 @@ def _largest_mean(forces: NDArray[np.float64], rows: int) -> float:
     return float(np.hypot(means[..., 0], means[..., 1]).max())
 
 
-def here(specs: Sequence[TrialSpec]) -> list[Engaged]:
-    """Run trials one after the other in this process."""
-    return [engaged(record(spec)) for spec in specs]
-
-
 def _run(spec: TrialSpec) -> dict[str, Any]:
     return engaged(record(spec))._asdict()
 

@@ -73,9 +73,6 @@ PAPER = Evidence(
 )
 """The paper's text."""
 
-FITTED = ("theta_d", "zone")
-"""Fields of `Evidence` that are fitted to; all others are judged blind."""
-
 
 def conditions_fitted(evidence: Evidence) -> tuple[Condition, ...]:
     """Conditions whose trials the fit looks at, and no others.

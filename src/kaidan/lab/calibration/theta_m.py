@@ -43,8 +43,8 @@ FACTORS: dict[str, tuple[float, float]] = {
 Slack is a stretch in the middle of the flat that sags off the nosings and carries nothing."""
 MASS = 20.0
 SPACING = 0.150
-CRITERIA = (10.0, 15.0, 45.0)
-"""Inclinations beyond the stairs from which a trial counts as a fall [deg]."""
+
+
 UP, DOWN, STEP = (44.0, 68.0), (46.0, 76.0), 2.0
 
 

@@ -109,11 +109,6 @@ class YieldingCalibration(Answer):
     draws: dict[str, tuple[float, ...]]
     """Some draws of each parameter, to be drawn."""
 
-    @property
-    def not_identified(self) -> tuple[str, ...]:
-        """Parameters that the evidence does not fix."""
-        return tuple(each.name for each in self.parameters if not each.identified)
-
 
 def calibrate_yielding(
     bench: Bench,

@@ -1,7 +1,6 @@
 """Each robot on each flight: the ordinary question, judged once for flights that are alike."""
 
 import math
-from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -114,8 +113,3 @@ def binds(governs: str, verdict: Verdict) -> Binding:
     if verdict is Verdict.OUTSIDE_MODEL:
         return "stability"
     return _BINDS.get(governs, "stability")
-
-
-def worst(verdicts_: Sequence[Verdict], key: Callable[[Verdict], int] | None = None) -> Verdict:
-    """Worst of some verdicts."""
-    return max(verdicts_, key=key or (lambda one: one.rank))
