@@ -101,6 +101,19 @@ def test_static_stiffness_of_a_nosing(stiffness):
         assert forces[k, 0] / -(moved @ along) == pytest.approx(stiffness, rel=0.05)
 
 
+@pytest.mark.parametrize(("radius", "friction"), [(0.060, 3.0), (0.008, 0.8)])
+def test_a_half_round_grouser_swings_the_robot_by_its_height_over_the_spacing(radius, friction):
+    # hand: one end stands on a tip, the other between two: h / p = 2.67 deg. An undercut flank
+    # hooks the nosing and swings it by 10 deg in the first of these. 0.7 deg: tips come at phases
+    height, p = 0.007, 0.150
+    track = DrivenGrousers(height=height, spacing=0.028, stiffness=1e6)
+    found = run(
+        spec(40.0, p, radius=radius, friction=friction, track=track, grouser_phase=0.25, nosings=6)
+    )
+    assert found.outcome is Outcome.CLIMBED
+    assert found.largest_extra_deg == pytest.approx(math.degrees(height / p), abs=0.7)
+
+
 def test_static_stiffness_of_the_grousers():
     # on the landing, where nothing but the grousers under the flat carries
     stiffness = 2e4
