@@ -68,7 +68,8 @@ class Reach:
     def __init__(self):
         self.modules, self.names, self.attributes = set(), set(), set()
         self.members, self.waiting, self.entries = set(), defaultdict(list), {}
-        self.todo = []
+        self.loaded, self.words, self.todo = set(), set(), []
+        """Modules that are imported by their names, and words that may name a function of one."""
 
     def start(self):
         """Follow everything from the entry points."""
@@ -222,6 +223,11 @@ class Reach:
                     self.name(each, name)
         elif text.isidentifier():
             self.attribute(text)
+            self.words.add(text)
+            self.used(module, text)  # a type, in quotes
+            for each in self.loaded:
+                if text in modules()[each].defined:
+                    self.name(each, text)
             for origin, member in set().union(*module.names.values()):
                 if text in getattr(modules().get(f"{origin}.{member}"), "defined", ()):
                     self.name(f"{origin}.{member}", text)
@@ -241,8 +247,9 @@ class Reach:
     def by_module(self, name):
         """A module that is imported by its name."""
         self.module(name)
-        for each in BY_MODULE:
-            if each in modules()[name].defined:
+        self.loaded.add(name)
+        for each in modules()[name].defined:
+            if each in BY_MODULE or each in self.words:
                 self.name(name, each)
 
 

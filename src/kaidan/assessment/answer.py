@@ -185,15 +185,11 @@ class Assessment(Answer):
 
     def details(self) -> str:
         """Everything that was found, as a page for people."""
-        from kaidan.text.assessment import details
-
-        return details(self)
+        return str(self.said("details"))
 
     def short(self) -> str:
         """The answer in one line."""
-        from kaidan.text.assessment import short
-
-        return short(self)
+        return str(self.said("short"))
 
     @classmethod
     def model_rebuild(cls, **manner: Any) -> bool | None:

@@ -218,7 +218,7 @@ def _fault(error: Exception) -> str:
 
 def _complain(text: str, code: int = 2) -> int:
     """Say in one line what is wrong; the exit code."""
-    from kaidan.text.tables import printable
+    from kaidan.tables import printable
 
     line = printable(" ".join(text.split()))
     return _say("kaidan: " + _ENDLESS.sub(lambda word: f"{word.group()[:57]}...", line), code)

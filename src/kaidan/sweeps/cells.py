@@ -4,6 +4,7 @@ import hashlib
 import math
 from collections.abc import Mapping
 from functools import cache
+from importlib.metadata import version as installed
 from pathlib import Path
 from typing import Any
 
@@ -131,15 +132,13 @@ def text(chunk: Chunk) -> str:
 @cache
 def version() -> str:
     """Version of what a verdict depends on: kaidan, and the source of what judges."""
-    from kaidan import __version__
-
     package = Path(__file__).parents[1]
     apart = {"cli", "figures", "text", "lab", "verbs", "work"}
     sources = sorted(
         path for path in package.rglob("*.py") if path.relative_to(package).parts[0] not in apart
     )
     digest = hashlib.sha256(b"\0".join(path.read_bytes() for path in sources)).hexdigest()
-    return f"kaidan {__version__}, models {digest[:12]}"
+    return f"kaidan {installed('kaidan')}, models {digest[:12]}"
 
 
 CELLS = Work(

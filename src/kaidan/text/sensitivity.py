@@ -2,8 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from kaidan.text.measuring import name
-from kaidan.text.tables import table
+from kaidan.assessment.sentences.measuring import name
+from kaidan.tables import table
 
 if TYPE_CHECKING:
     from kaidan.verbs.sensitivity import Sensitivity

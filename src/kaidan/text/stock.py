@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from kaidan.text.tables import table
+from kaidan.tables import table
 
 if TYPE_CHECKING:
     from kaidan.verbs.stock.answer import RobotOnStock, StockStudy

@@ -16,7 +16,7 @@ from kaidan.errors import InputError
 from kaidan.models.planned import Planned
 from kaidan.question import Question
 from kaidan.traversal import Traverse
-from kaidan.verbs.traverse import rotations_shown
+from kaidan.verbs.one_posture_report import rotations_shown
 from kaidan.verbs.traverse_report import RotationShown
 
 Array = NDArray[np.float64]

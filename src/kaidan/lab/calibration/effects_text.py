@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from kaidan.lab.calibration.text import quantity
-from kaidan.text.tables import table
+from kaidan.tables import table
 
 if TYPE_CHECKING:
     from kaidan.lab.calibration.answer import Effect, GrouserEffects, MarginShown

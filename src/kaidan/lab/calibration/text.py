@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from kaidan.text.tables import table
+from kaidan.tables import table
 
 if TYPE_CHECKING:
     from kaidan.lab.calibration.answer import Calibration, IntervalShown, PredictionShown

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from kaidan.answer import Part
-from kaidan.lab.cross_check import text as said
+from kaidan.lab.cross_check import sentences as said
 
 SAME_FORMULA = math.degrees(1e-6)
 """The static criterion on poses against its closed form [deg]: rounding and the solver's

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from kaidan.contact import Status
-from kaidan.lab.cross_check import text as said
+from kaidan.lab.cross_check import sentences as said
 from kaidan.lab.cross_check.answer import ComparisonName, JudgeName, Value
 from kaidan.lab.cross_check.bands import FALLING
 from kaidan.lab.cross_check.common_question import (
@@ -14,9 +14,9 @@ from kaidan.lab.cross_check.common_question import (
     stairs_of,
 )
 from kaidan.models.closed_form import judge
+from kaidan.models.sentences.dynamic import no_evidence
 from kaidan.physics import Outcome, TrialResult
 from kaidan.question import Question
-from kaidan.text.dynamic import no_evidence
 
 
 class Context(NamedTuple):

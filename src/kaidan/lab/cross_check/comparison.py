@@ -6,7 +6,7 @@ from typing import Any
 
 from kaidan.contact import Status
 from kaidan.lab.cross_check import bands, outcomes
-from kaidan.lab.cross_check import text as said
+from kaidan.lab.cross_check import sentences as said
 from kaidan.lab.cross_check.answer import (
     Agreement,
     Compared,

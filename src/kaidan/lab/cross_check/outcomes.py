@@ -6,7 +6,7 @@ from dataclasses import replace
 from kaidan.assessment.verdict import conclude
 from kaidan.contact import Status
 from kaidan.lab.cross_check.common_question import FlightTraverse, static_criterion
-from kaidan.models import closed_form, dynamic, quasi_static
+from kaidan.models import closed_form, contact_model, dynamic
 from kaidan.models.findings import Finding, Findings
 from kaidan.modes import (
     CONTACT,
@@ -85,7 +85,7 @@ def by_traverse(question: Question, traverse: FlightTraverse) -> str:
 def from_the_landing(question: Question) -> str:
     """Of the contact model from landing to landing, a rotation that is arrested accepted."""
     accepting = question.changed(accept=Acceptance.ARRESTED, fall_reserve=0.0)
-    return outcome(accepting, quasi_static.judge(accepting))
+    return outcome(accepting, contact_model.judge(accepting))
 
 
 def by_trial(question: Question, result: TrialResult) -> str:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from kaidan.errors import InputError
 from kaidan.figures import style as look
 from kaidan.text.trial import ended
-from kaidan.text.words import heading
+from kaidan.words import heading
 
 if TYPE_CHECKING:
     from kaidan.physics import TrialLog

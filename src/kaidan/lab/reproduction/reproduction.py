@@ -11,7 +11,7 @@ from typing import Any, Literal
 import numpy as np
 
 from kaidan.answer import Answer, Part
-from kaidan.lab.reproduction import text as said
+from kaidan.lab.reproduction import sentences as said
 from kaidan.lab.reproduction.printed import MEASURED, Measured
 from kaidan.mechanics.margin import theta_s_sup, theta_s_sup_arccos, theta_s_sup_corrected
 from kaidan.mechanics.measures import energy_margin_backward, kinetic_energy_height

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from kaidan.text.tables import fixed, table
+from kaidan.tables import fixed, table
 
 if TYPE_CHECKING:
     from kaidan.lab.verification.counts import Count, Range

@@ -13,7 +13,7 @@ from kaidan.readers.building import Building, Flight, Floor
 from kaidan.readers.estimate import Found, LandingEstimate, Refusal, StairsEstimate
 from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import Array, Bodies
-from kaidan.text.building import disagreement
+from kaidan.readers.sentences.buildings import disagreement
 
 GLOBAL_ID = 22
 """Characters of one."""

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from kaidan.assessment import with_plan
+from kaidan.assessment.sentences import verdicts
 from kaidan.assessment.verdict import conclude
 from kaidan.modes import SUPPLIES, Undecided, Verdict
 from kaidan.question import Question
@@ -14,7 +15,6 @@ from kaidan.readers.interpreters.building import room_on
 from kaidan.readers.kinds import Array
 from kaidan.robot import Robot
 from kaidan.terrain.stairs import Stairs
-from kaidan.text import verdicts
 from kaidan.verbs.building.answer import Binding, CellShown
 from kaidan.verbs.comparison import laid
 

@@ -4,9 +4,9 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from kaidan.models.sentences import dynamic, traction, turning, unweighed
 from kaidan.modes import FAILURE_MODES, SUPPLIES, Verdict
-from kaidan.text import dynamic, traction, turning, unweighed
-from kaidan.text.words import place
+from kaidan.words import place
 
 if TYPE_CHECKING:
     from kaidan.assessment.verdict import Conclusion

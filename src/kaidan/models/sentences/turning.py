@@ -1,6 +1,5 @@
 """How a robot turns on a landing, or why it does not."""
 
-import math
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -80,28 +79,6 @@ IN_LINE = (
     "landing is judged by lengths in the plan."
 )
 """What a traverse does where the way turns."""
-
-
-OTHER_ANGLE = "sheets know turns of 90 and 180 deg (kaidan building judges any in a model)"
-"""Why a turn by another angle is not judged."""
-
-
-def not_judged(turn: float, below: str, why: str) -> str:
-    """Why a turn that was seen between two flights is not in their sheets.
-
-    Parameters
-    ----------
-    turn : float
-        To the left positive [rad].
-    below : str
-        Name of the flight below.
-    why : str
-        What a sheet with it refuses.
-    """
-    return (
-        f"On the landing above {below} the way turns by {math.degrees(abs(turn)):.0f} deg, which "
-        f"is not judged: {why}. Measure that landing."
-    )
 
 
 def _by(turn: "TurnFigures") -> str:

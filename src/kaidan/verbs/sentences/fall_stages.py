@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from kaidan.text.event_log import where
+from kaidan.verbs.sentences.event_log import where
 
 if TYPE_CHECKING:
     from kaidan.traversal.event_log import Place

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from kaidan.text.traction import usual
+from kaidan.models.sentences.traction import usual
 
 STRAIGHT = "Head straight along the stairs"
 STEADY = "Keep the speed constant"

@@ -3,8 +3,9 @@
 import math
 from typing import TYPE_CHECKING
 
+from kaidan.assessment.sentences import failures
+from kaidan.models.sentences import dynamic, turning
 from kaidan.modes import FAILURE_MODES, MODELS, Undecided, Verdict
-from kaidan.text import dynamic, failures, turning
 
 if TYPE_CHECKING:
     from kaidan.assessment.verdict import Conclusion
