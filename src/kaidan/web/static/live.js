@@ -8,6 +8,7 @@ const SILENT = 1.0; // s without a state after which the sensor counts as silent
 const SEEN = 20; // s of the chart
 const TICK = 50; // ms between two requests of a replay
 const GIVEN = "~"; // value of a list for the sheet that the question has in the place of a name
+/** @type {(id: string) => any} */
 const at = (id) => document.getElementById(id);
 const named = (sheet) => typeof sheet === "string";
 const hash = location.hash.slice(1); // a climb that is watched, or what the question of the page hands over
@@ -23,6 +24,8 @@ let socket = null;
 let replay = null;
 let audio = null;
 let loud = false;
+let waits = false; // whether a new state waits for the next frame
+let shownIn = ""; // language of what is shown
 
 function t(key, values) {
   return text(`live.${key}`, values);
@@ -37,7 +40,7 @@ function speak(chosen) {
     const option = [...at("robot").options, ...at("stairs").options].find((one) => one.value === each.name);
     if (option) option.textContent = `${each.name}: ${titled(each.title)}`;
   }
-  for (const each of document.querySelectorAll("[data-text]")) each.textContent = t(each.dataset.text);
+  for (const each of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-text]"))) each.textContent = t(each.dataset.text);
   if (replay) at("pause").textContent = t(replay.paused ? "go_on" : "pause");
   show();
 }
@@ -94,10 +97,10 @@ function take(said) {
     if (states.length > 6000) states = states.slice(-3000);
     last = performance.now();
   }
-  if (!take.waits) {
-    take.waits = true;
+  if (!waits) {
+    waits = true;
     requestAnimationFrame(() => {
-      take.waits = false;
+      waits = false;
       show();
     });
   }
@@ -115,9 +118,9 @@ function show() {
   const silent = Boolean(state) && !over && !replay?.paused && silence > SILENT;
   const outside = state?.status === "outside-model";
   const next = !state ? "idle" : silent ? "silent" : state.alarm ? "alarm" : outside ? "unknown" : "calm";
-  if (next !== mood || !at("said").textContent || language !== show.language) {
+  if (next !== mood || !at("said").textContent || language !== shownIn) {
     mood = next;
-    show.language = language;
+    shownIn = language;
     at("alarm").className = mood;
     at("mark").textContent = { idle: "○", calm: "●", alarm: "▲", silent: "✕", unknown: "?" }[mood];
     at("said").textContent = t(mood);
@@ -168,7 +171,7 @@ function beep(pitch) {
   tone.connect(volume).connect(audio.destination);
   tone.start();
   tone.stop(audio.currentTime + 0.25);
-  document.body.dataset.beeps = Number(document.body.dataset.beeps ?? 0) + 1;
+  document.body.dataset.beeps = String(Number(document.body.dataset.beeps ?? 0) + 1);
 }
 
 function wake() {

@@ -13,26 +13,27 @@ const FILES = [
   "api/texts", "api/catalogue",
 ];
 const PATIENCE = 3000; // [ms]
+const worker = /** @type {any} */ (self);
 
-self.addEventListener("install", (event) => {
+worker.addEventListener("install", (event) => {
   event.waitUntil((async () => {
     const store = await caches.open(STORE);
     await store.addAll(FILES.map((each) => new Request(each, { cache: "reload" })));
     const { robots, stairs, surfaces } = await (await store.match("api/catalogue")).json();
     const sheets = Object.entries({ robots, stairs, surfaces }).flatMap(([kind, list]) => list.map((each) => `api/catalogue/${kind}/${encodeURIComponent(each.name)}`));
     await store.addAll(sheets);
-    await self.skipWaiting();
+    await worker.skipWaiting();
   })());
 });
 
-self.addEventListener("activate", (event) => {
+worker.addEventListener("activate", (event) => {
   event.waitUntil((async () => {
     for (const name of await caches.keys()) if (name !== STORE) await caches.delete(name);
-    await self.clients.claim();
+    await worker.clients.claim();
   })());
 });
 
-self.addEventListener("fetch", (event) => {
+worker.addEventListener("fetch", (event) => {
   const { request } = event;
   if (request.method !== "GET" || new URL(request.url).origin !== location.origin) return;
   event.respondWith((async () => {

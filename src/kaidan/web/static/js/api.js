@@ -3,6 +3,7 @@
 export class Refused extends Error {}
 export class Unreachable extends Error {}
 
+/** @type {(there: boolean) => void} */
 let reached = () => {};
 export function onReach(listener) {
   reached = listener;

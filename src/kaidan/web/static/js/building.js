@@ -113,6 +113,7 @@ function plan(storey, flights, every) {
   });
   const [wide, tall] = [right - left, high - low];
   const k = Math.min(WIDE / wide, TALL / tall);
+  /** @param {number[]} place */
   const at = ([x, y]) => [(x - left) * k, (low + tall - y) * k];
   const middle = (lane) => at([0, 1].map((axis) => lane.reduce((sum, point) => sum + point[axis], 0) / lane.length));
   return h("figure", {}, h("figcaption", {}, storey),

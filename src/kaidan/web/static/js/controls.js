@@ -5,6 +5,10 @@ import { scaleOf } from "./units.js";
 
 // Slider and number field of one figure. `get` gives the SI value, `set(value, done)` takes it;
 // `done` is false while the slider is under way. An emptied number field gives null: the sheet's value.
+/**
+ * @param {{label: string, kind: string, low: number, high: number, step?: number,
+ *   get: () => any, set: (value: number | null, done: boolean) => void}} figure
+ */
 export function slider({ label, kind, low, high, step, get, set }) {
   const id = fresh("figure");
   const { factor, digits, unit } = scaleOf(kind);

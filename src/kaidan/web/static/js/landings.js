@@ -7,6 +7,7 @@ import { valueOf } from "./question.js";
 import { change, state } from "./state.js";
 
 const ENDS = ["lower", "upper"];
+/** @type {[string, number, number][]} */
 const LENGTHS = [["landing", 0.2, 5], ["landing_width", 0.2, 5], ["passage", 0, 3], ["leaf", 0, 1.5]];
 const OF_A_TURN = ["landing_width", "passage"];
 
@@ -18,6 +19,7 @@ export function landingsOf(sheet) {
       label: t("landing.turn"), options: ["none", "quarter", "half", "unknown"].map((each) => [each, t(`landing.${each}`)]),
       get: () => held(`${end}_turn`) ?? "none", set: (value) => change({ stairsFigures: { [`${end}_turn`]: value } }),
     });
+    /** @type {[string, ReturnType<typeof slider>][]} */
     const sliders = LENGTHS.map(([of, low, high]) => [of, slider({
       label: t(`landing.${of}`), kind: "length", low, high, step: 0.01,
       get: () => held(`${end}_${of}`), set: (value, done) => change({ stairsFigures: { [`${end}_${of}`]: value } }, { push: done }),

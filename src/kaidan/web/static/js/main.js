@@ -34,7 +34,7 @@ function select(label, name, options, value) {
       prefer(name, event.target.value);
       apply();
       build();
-      document.querySelector(".settings").open = true;
+      /** @type {HTMLDetailsElement} */ (document.querySelector(".settings")).open = true;
       document.getElementById(`setting-${name}`).focus();
     } },
       options.map(([key, text]) => h("option", { value: key, selected: key === value }, text))));
@@ -96,7 +96,7 @@ function openView(name) {
 function update() {
   const open = state.view in views ? state.view : "check";
   for (const [name, view] of Object.entries(views)) view.node.hidden = name !== open;
-  for (const link of document.querySelectorAll("nav a")) {
+  for (const link of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("nav a"))) {
     if (link.dataset.view === open) link.setAttribute("aria-current", "page");
     else link.removeAttribute("aria-current");
   }
@@ -116,7 +116,7 @@ function printed() {
 async function begin() {
   apply();
   readAddress();
-  for (const name of ["pointerdown", "keydown"]) addEventListener(name, (event) => { sliding = event.target?.type === "range"; }, true);
+  for (const name of ["pointerdown", "keydown"]) addEventListener(name, (event) => { sliding = /** @type {HTMLInputElement | null} */ (event.target)?.type === "range"; }, true);
   onReach((there) => {
     if (!banner) return;
     banner.hidden = there;

@@ -83,6 +83,7 @@ function flippers(robot) {
 export function bodyOf(robot, stairs) {
   if (!robot || !stairs) return null;
   const { numbers } = state;
+  /** @type {Record<string, any>} */
   const body = {
     robot: state.robot.startsWith("~") ? robot : state.robot,
     stairs: terrainOf(stairs),

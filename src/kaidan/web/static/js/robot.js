@@ -15,6 +15,7 @@ const OWN = {
   name: "own", mass: 20, com_from_front: 0.3, com_height: 0.15,
   track: { flat_length: 0.6, front_radius: 0.09, rear_radius: 0.09 },
 };
+/** @type {[string, string, string, number, number][]} */
 const FIGURES = [
   ["track.flat_length", "flat_length", "length", 0.05, 5],
   ["com_from_front", "com_from_front", "length", -1, 6],

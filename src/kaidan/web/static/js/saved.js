@@ -27,6 +27,7 @@ export function savedView(shell) {
   }
 
   function update() {
+    /** @type {[string, [string, any][]][]} */
     const all = ["robots", "stairs"].map((kind) => [kind, Object.entries(sheetsOf(kind))]);
     replace(lists, all.every(([, sheets]) => sheets.length === 0) ? h("p", {}, t("saved.none")) : all.map(([kind, sheets]) =>
       sheets.length === 0 ? null : [h("h3", {}, t(`saved.${kind}`)), h("ul", { class: "cards" }, sheets.map(([name, sheet]) =>

@@ -126,7 +126,7 @@ export function sideView() {
     drawn.svg.setAttribute("aria-label", t("side.picture", {
       pose: index + 1, of: frames.length, phase: placeName(found.poses.phase[pose.row]), angle: shown(pose.phi, "degrees"),
     }));
-    const parts = pose.outline.filter((part) => part.kind !== "belly").sort((a, b) => (a.kind === "flipper") - (b.kind === "flipper"));
+    const parts = pose.outline.filter((part) => part.kind !== "belly").sort((a, b) => Number(a.kind === "flipper") - Number(b.kind === "flipper"));
     drawn.robot.setAttribute("transform", `translate(${pose.x * MM} ${pose.z * MM}) rotate(${pose.phi})`);
     drawn.robot.replaceChildren(...parts.map((part) => s("path", { class: `robot ${part.kind}`, d: hull(part) })));
     drawForces(pose);

@@ -12,6 +12,7 @@ import { figure, shown } from "./units.js";
 import { readFile } from "./upload.js";
 
 const OWN = { name: "measured", rise: 0.18, going: 0.28, steps: 12 };
+/** @type {[string, string, number, number, number][]} */
 const FIGURES = [
   ["rise", "length", 0.02, 0.35, 0.001],
   ["going", "length", 0.1, 0.6, 0.001],

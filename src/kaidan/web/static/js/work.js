@@ -120,8 +120,9 @@ export function workView(shell) {
 
   // Draw the list anew without taking the keyboard away from the job it is at.
   function keepingFocus(redraw) {
+    /** @type {HTMLElement | null} */
     const job = list.contains(document.activeElement) ? document.activeElement.closest("[data-job]") : null;
-    const place = job ? [...job.querySelectorAll("button")].reverse().indexOf(document.activeElement) : 0;
+    const place = job ? [...job.querySelectorAll("button")].reverse().findIndex((each) => each === document.activeElement) : 0;
     redraw();
     if (!job) return;
     const buttons = [...list.querySelectorAll(`[data-job="${job.dataset.job}"] button`)].reverse();
