@@ -90,7 +90,7 @@ ELSEWHERE = {
     "python benchmarks/contact.py": "by hand",
     "kaidan lab calibrate compliance --store compliance --figure compliance.svg": "by hand",
     "kaidan lab calibrate yielding --store yielding --figure region.svg": "by hand",
-    "kaidan lab calibrate rig.toml": "tests/unit/rig/test_rig_kit.py",
+    "kaidan lab calibrate rig.toml": "tests/lab/rig/test_rig_kit.py",
     "kaidan lab calibrate theta-m --store theta-m": "by hand",
     "kaidan lab calibrate engagement --store engagement": "by hand",
     "kaidan lab calibrate grousers --store grousers --figure grousers.svg": "by hand",
@@ -113,12 +113,12 @@ NEEDS = {"docs/buildings.md": "ifcopenshell"}
 LONG_WORK = [
     Path(f"docs/{name}.md")
     for name in (
-        "calibration",
-        "campaigns",
-        "cross_check",
         "design",
-        "experiment",
-        "physics",
+        "lab/calibration",
+        "lab/campaigns",
+        "lab/cross_check",
+        "lab/experiment",
+        "lab/physics",
         "stock",
     )
 ]
