@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from kaidan.cli import app
 from kaidan.errors import InputError
 from kaidan.lab.reproduction import reproduction
-from kaidan.lab.reproduction.text import NOT_PRINTED
+from kaidan.lab.reproduction.sentences import NOT_PRINTED
 
 PRINTED = {"196", "71", "470", "60.2", "55.0", "57.0", "44.0", "2.6", "1.2"}
 """Numbers of the article's text that are results or parameters of Kenaf."""
