@@ -245,7 +245,7 @@ class Question(QuestionFields):
     def allowance_d(self) -> Allowance:
         """theta_d as stated, of a yielding track as measured, or by default.
 
-        See `kaidan.question.yielding.allowance_d`.
+        See ``kaidan.question.yielding.allowance_d``.
         """
         return allowance_d(self)
 
