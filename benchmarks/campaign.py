@@ -18,19 +18,11 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from kaidan.campaign import (
-    TRIALS,
-    DaskWorkers,
-    LocalWorkers,
-    Setting,
-    Store,
-    VerificationTest,
-    Work,
-    conduct,
-)
-from kaidan.campaign.local import Workers, processors
+from kaidan.lab.campaign import TRIALS, Setting, VerificationTest
+from kaidan.lab.verification.verification import usual_conditions
 from kaidan.physics import SprungNoses
-from kaidan.studies.verification import usual_conditions
+from kaidan.work import DaskWorkers, LocalWorkers, Store, Work, conduct
+from kaidan.work.local import Workers, processors
 from record import finish, options
 
 PAPER = (0.150, 0.180, 0.200, 0.220)

@@ -1,12 +1,11 @@
 """The paper's experiment with the yielding track on two workers: its time, their busy share, parts.
 
-The whole of it is done as `kaidan experiment kenaf --workers 2` does it, from a cold start, into a
-fresh store. Each trial is noted with its process, begin and end. The busy share is that of the time
-from when the last worker has begun its first trial (the start: processes begin and import) to when
-the first one has ended its last (the end: nothing is left to hand out). What a worker does between
-two trials counts as idle. Waiting for a processor, which other work has, counts as neither where
-the system tells it (Linux); the times say little on such a machine: run it on a quiet one.
-"""
+The whole of it is done as `kaidan lab experiment kenaf --workers 2` does it, from a cold start,
+into a fresh store. Each trial is noted with its process, begin and end. The busy share is that of
+the time from when the last worker has begun its first trial (the start: processes begin and import)
+to when the first one has ended its last (the end: nothing is left to hand out). What a worker does
+between two trials counts as idle. Waiting for a processor, which other work has, counts as neither
+where the system tells it (Linux); the times say little on such a machine: run it on a quiet one."""
 
 import argparse
 import os
@@ -19,14 +18,15 @@ from math import radians
 from pathlib import Path
 from typing import Any
 
-from kaidan.campaign import TRIALS, LocalWorkers, Store, conduct, read_table
-from kaidan.campaign import trials as in_mujoco
-from kaidan.campaign.job import Kind
+from kaidan.lab.campaign import TRIALS
+from kaidan.lab.campaign import trials as in_mujoco
+from kaidan.lab.verification.experiment import plan_of
+from kaidan.lab.verification.verification import verification
 from kaidan.physics import TrialSpec, YieldingBelt, run
 from kaidan.question import Question
-from kaidan.studies.experiment import plan_of
-from kaidan.studies.verification import verification
 from kaidan.terrain.stairs import Stairs
+from kaidan.work import LocalWorkers, Store, conduct, read_table
+from kaidan.work.job import Kind
 from record import finish, options
 
 

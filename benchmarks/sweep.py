@@ -18,12 +18,12 @@ from pathlib import Path
 
 import numpy as np
 
-from kaidan.campaign import DaskWorkers, Kept, LocalWorkers, Store, ThreadWorkers, conduct
-from kaidan.campaign.local import processors
 from kaidan.sweeps.cells import CELLS
 from kaidan.sweeps.parameters import question_of
 from kaidan.sweeps.plan import Along, Plan
 from kaidan.sweeps.screen import excluded
+from kaidan.work import DaskWorkers, Kept, LocalWorkers, Store, ThreadWorkers, conduct
+from kaidan.work.local import processors
 from record import finish, options
 
 CELL = "a cell, one after the other, processor time [ms]"

@@ -2,6 +2,9 @@
 
 import math
 
+from kaidan.lab.calibration.engagement import engaged
+from kaidan.physics import record, run
+
 
 def falls_from(angle_of, extra_of):
     """Runner whose trials fall from a slope [deg] on and incline by so much more [deg] below it.
@@ -21,3 +24,16 @@ def falls_from(angle_of, extra_of):
     asked = []
     run.asked = asked
     return run
+
+
+def here(specs):
+    """Runner of trials one after the other in this process."""
+    return [
+        (result.outcome.value, result.largest_extra_deg, result.nosings_passed)
+        for result in map(run, specs)
+    ]
+
+
+def engaged_here(specs):
+    """The same for grousers that engage."""
+    return [engaged(record(spec)) for spec in specs]

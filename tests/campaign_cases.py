@@ -8,7 +8,7 @@ import sys
 import time
 from pathlib import Path
 
-from kaidan import campaign  # of which each process imports what it uses
+from kaidan import work  # of which each process imports what it uses
 
 COLUMNS = {"n": "count", "square": "number", "pid": "count"}
 
@@ -47,9 +47,7 @@ def version():
     return "fake 1"
 
 
-FAKE = campaign.Work(
-    name="fake", run=run, inputs=inputs, text=text, version=version, columns=COLUMNS
-)
+FAKE = work.Work(name="fake", run=run, inputs=inputs, text=text, version=version, columns=COLUMNS)
 
 
 def specs(count, **fields):
@@ -83,9 +81,9 @@ def wait_until(condition, seconds=120.0):
 
 
 def local_campaign(folder, trials, *, count=2, tries=3):
-    workers = campaign.LocalWorkers(FAKE, count, tries=tries)
-    with campaign.Store(Path(folder), FAKE) as store, workers:
-        return campaign.conduct(trials, store, workers)
+    workers = work.LocalWorkers(FAKE, count, tries=tries)
+    with work.Store(Path(folder), FAKE) as store, workers:
+        return work.conduct(trials, store, workers)
 
 
 if __name__ == "__main__":
@@ -93,9 +91,9 @@ if __name__ == "__main__":
     plan = specs(int(count), seconds=float(seconds), folder=notes)
     if address:
         with (
-            campaign.Store(Path(folder), FAKE) as store,
-            campaign.DaskWorkers(FAKE, address[0]) as workers,
+            work.Store(Path(folder), FAKE) as store,
+            work.DaskWorkers(FAKE, address[0]) as workers,
         ):
-            print(campaign.conduct(plan, store, workers).done)
+            print(work.conduct(plan, store, workers).done)
     else:
         print(local_campaign(folder, plan).done)

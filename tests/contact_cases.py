@@ -95,3 +95,9 @@ def scanned(terrain, rng, spacing=0.01, noise=0.003):
     x = np.arange(-1.0, terrain[-1, 0] - 2.0, spacing)
     z = np.interp(x, terrain[:, 0] + 1e-9 * np.arange(len(terrain)), terrain[:, 1])
     return x, z + rng.normal(0, noise, len(x))
+
+
+def vector(force):
+    """Force of a contact over the mass, ahead and up [N/kg]."""
+    (n_x, n_z), load, traction = force.normal, force.load, force.traction
+    return load * n_x + traction * n_z, load * n_z - traction * n_x

@@ -8,10 +8,6 @@ if TYPE_CHECKING:
     from kaidan.errors import InputError, KaidanError
     from kaidan.question import Question
     from kaidan.robot import Payload, Posture, Robot
-    from kaidan.studies.cross_check import agree
-    from kaidan.studies.experiment import experiment
-    from kaidan.studies.reproduction import reproduce
-    from kaidan.studies.sensitivity import sensitivity
     from kaidan.surface import Surface
     from kaidan.sweeps import stream, sweep, verdicts
     from kaidan.terrain.profile import Profile
@@ -28,13 +24,13 @@ if TYPE_CHECKING:
     from kaidan.verbs.posture import posture
     from kaidan.verbs.read import read
     from kaidan.verbs.report import report
+    from kaidan.verbs.sensitivity import sensitivity
     from kaidan.verbs.traverse import traverse
 
 __version__ = "0.1.0"
 
 _HOME = {
     "Assessment": "assessment",
-    "agree": "studies.cross_check",
     "assess": "assessment",
     "InputError": "errors",
     "KaidanError": "errors",
@@ -49,7 +45,6 @@ _HOME = {
     "compare": "verbs.comparison",
     "design": "verbs.design.designing",
     "doctor": "verbs.doctor",
-    "experiment": "studies.experiment",
     "margin": "verbs.margin_curve",
     "measure_robot": "verbs.measure_robot",
     "measure_stairs": "verbs.measure_stairs",
@@ -58,8 +53,7 @@ _HOME = {
     "posture": "verbs.posture",
     "read": "verbs.read",
     "report": "verbs.report",
-    "reproduce": "studies.reproduction",
-    "sensitivity": "studies.sensitivity",
+    "sensitivity": "verbs.sensitivity",
     "stream": "sweeps",
     "sweep": "sweeps",
     "traverse": "verbs.traverse",
@@ -77,9 +71,6 @@ __all__ = [  # noqa: RUF022 - what a user meets first
     "design",
     "report",
     "doctor",
-    "reproduce",
-    "agree",
-    "experiment",
     "sensitivity",
     "sweep",
     "verdicts",

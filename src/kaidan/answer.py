@@ -100,7 +100,7 @@ class Answer(Part):
     """
 
     text_module: ClassVar[str]
-    """Module of ``kaidan.text`` whose function ``text`` says it in words."""
+    """Module whose function ``text`` says it in words, imported when somebody reads them."""
 
     def to_dict(self) -> dict[str, Any]:
         """Everything as dictionaries, lists, texts and numbers."""
@@ -134,8 +134,11 @@ class Answer(Part):
         return cls.model_json_schema(mode="serialization")
 
     def __str__(self) -> str:
-        said: str = import_module(f"kaidan.text.{self.text_module}").text(self)
-        return said
+        return str(self.said("text"))
+
+    def said(self, what: str, *more: Any) -> Any:
+        """What a function of the module of its text says of it."""
+        return getattr(import_module(self.text_module), what)(self, *more)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}: {str(self).splitlines()[0]}>"

@@ -211,7 +211,7 @@ def model(name: str, module: str, label: str) -> Model:
     return MODELS[name]
 
 
-CONTACT = model("contact", "kaidan.models.quasi_static", "contact model")
+CONTACT = model("contact", "kaidan.models.contact_model", "contact model")
 CLOSED_FORM = model("closed-form", "kaidan.models.closed_form", "closed form")
 SUPPORT_POLYGON = model("support-polygon", "kaidan.models.support_polygon", "support polygon")
 PHYSICS = model("physics", "kaidan.models.dynamic", "trial in MuJoCo")

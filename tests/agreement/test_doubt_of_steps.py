@@ -13,8 +13,8 @@ from amounts import fast_and_slow
 from kaidan import Profile, Question, Stairs
 from kaidan.assessment.verdict import conclude
 from kaidan.models.balance import _drawn
+from kaidan.models.contact_model import judge
 from kaidan.models.drawn_falls import _changed
-from kaidan.models.quasi_static import judge
 from kaidan.models.spread import drawn_of_all, moved_profile, nosings_of, spread
 from kaidan.modes import FALL_DOWNHILL, Verdict
 from kaidan.override import overridden

@@ -14,7 +14,7 @@ from amounts import fast_and_slow
 from kaidan import Question, Robot, Stairs, assess
 from kaidan.assessment.plan_search import off_angles
 from kaidan.assessment.verdict import conclude
-from kaidan.models import planned, quasi_static
+from kaidan.models import contact_model, planned
 from kaidan.modes import Verdict
 from kaidan.robot import Track
 from kaidan.terrain.profile import Profile
@@ -69,7 +69,7 @@ def gos(seed, count, of=lambda found: True):
         question = Question.in_one_posture(
             robot, terrains(rng, robot.track.flat_length), friction=3.0
         )
-        found = quasi_static.judge(question)
+        found = contact_model.judge(question)
         if conclude(question, found).verdict is Verdict.GO and of(found.basis.traverse):
             count -= 1
             yield question, found.basis.traverse

@@ -9,16 +9,12 @@ import pytest
 from oracle import Pose, extreme_accelerations
 
 from amounts import fast_and_slow
+from formulas.paper import tip_acceleration_downhill, tip_acceleration_uphill
 from kaidan.mechanics.margin import theta_s_inf, theta_s_sup
 from kaidan.mechanics.margins import acceleration_bounds, margins
 from kaidan.mechanics.plane import lowest_contact
 from kaidan.mechanics.slipping import slip_acceleration_down, slip_acceleration_up
-from kaidan.mechanics.tipping import (
-    a_r0,
-    a_rn,
-    tip_acceleration_downhill,
-    tip_acceleration_uphill,
-)
+from kaidan.mechanics.tipping import a_r0, a_rn
 from kaidan.mechanics.triangle import theta_alpha, theta_beta
 
 BAND = 1e-9  # g

@@ -188,7 +188,7 @@ def at_a_small_tip(height, spacing, friction):
 def test_grousers_on_a_small_tip_at_a_face_ask_for_the_friction_of_the_trials(
     height, spacing, stays, arrives
 ):
-    """docs/physics.md, whole plans: no GO with what it stays with, and a GO with the next tried."""
+    """docs/lab/physics.md, plans: no GO with what it stays with, and a GO with the next."""
     verdicts = []
     for friction in (stays, arrives):
         question = at_a_small_tip(height, spacing, friction)

@@ -24,7 +24,7 @@ def test_length_and_centroid_come_back(tmp_path, monkeypatch, name, posture):
     robot = Robot.named(name)
     if posture == "flat" and not robot.flippers():
         pytest.skip("no flippers to lay flat")
-    words = ["physics", "export", name, "ibc", "--flippers", posture, "--friction", "1"]
+    words = ["lab", "physics", "export", name, "ibc", "--flippers", posture, "--friction", "1"]
     assert run([*words, "--file", "robot.xml"]) == 0
     (one,) = found_in(tmp_path / "robot.xml").robots
     stance = robot.stance(Posture.parse(posture, robot))

@@ -14,7 +14,7 @@ pytest.importorskip("mujoco", reason="skipped: mujoco not installed")
 from amounts import fast_and_slow
 from kaidan import Question, Robot, Stairs
 from kaidan.assessment.verdict import conclude
-from kaidan.models import quasi_static
+from kaidan.models import contact_model
 from kaidan.modes import Verdict
 from kaidan.physics import Outcome, SmoothBelt, TrialSpec
 from kaidan.physics.trial import record
@@ -65,7 +65,7 @@ def gos(seed, count, off=(0.001, 0.003, 0.005), beyond=0.0):
             theta_d=(0, 0),
             theta_M=(0, 0),
         )
-        found = quasi_static.judge(question)
+        found = contact_model.judge(question)
         passage = found.basis.traverse
         turns = passage.criterion.turn >= beyond
         if turns and conclude(question, found).verdict is Verdict.GO:

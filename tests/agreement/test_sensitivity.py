@@ -16,7 +16,7 @@ from kaidan import InputError, Question, Stairs, assess, sensitivity
 from kaidan.assessment.measuring import Drawn, first_order, to_measure
 from kaidan.assessment.uncertain_inputs import doubts_of, without
 from kaidan.models import judge
-from kaidan.studies.sensitivity import Sensitivity
+from kaidan.verbs.sensitivity import Sensitivity
 
 ERROR = 0.2
 """Difference of a share; see above."""

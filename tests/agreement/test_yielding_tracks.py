@@ -12,9 +12,7 @@ from scipy.optimize import brentq, minimize
 
 from kaidan.mechanics.margin import theta_s_sup
 from kaidan.mechanics.yielding import (
-    grip_tilt,
     tail_grips,
-    theta_d_at_limit,
     theta_d_two_contacts,
     theta_s_sup_yielding,
     yielding_loss,
@@ -52,7 +50,7 @@ def test_limit_is_where_gravity_passes_the_only_contact(p, w_n):
     x = KENAF["L"] - p * math.cos(psi) - KENAF["C_L"]
     torque = x * math.cos(a) - (KENAF["C_N"] - eta) * math.sin(a)
     assert torque == pytest.approx(0.0, abs=1e-12)
-    assert psi == pytest.approx(float(theta_d_at_limit(eta=eta, p=p)))
+    assert psi == pytest.approx(math.asin(eta / p))  # by hand: the next nosing touches
 
 
 @pytest.mark.parametrize("p", SPACINGS)
@@ -231,49 +229,6 @@ def test_loss_where_the_tail_grips_by_hand():
     assert math.degrees(found) == pytest.approx(0.20 * 5.21 + 0.03 + 8.5 + 3.20, abs=0.1)
 
 
-def grip_by_forces(*, p, x, C_N, w_n, R, mu, lean):
-    """Most that a grip carries, by forces put in one after the other [rad]; an oracle by hand.
-
-    The nosing at phi pushes with N along the radius and pulls with mu N across it. It may push the
-    robot up the stairs by no more than the weight pulls it down.
-    """
-    theta = math.atan2(x, C_N)
-    most = 0.0
-    for k in range(1, 20_000):
-        phi = k * math.pi / 2 / 20_000
-        along, down = math.sin(phi) + mu * math.cos(phi), mu * math.sin(phi) - math.cos(phi)
-        N = math.sin(theta) / along  # over the weight
-        P = N * down
-        if P <= 0.0:
-            continue
-        # t_0 bears what the weight and the grip push across the stairs; twice as deep at the tail
-        if R * (1 - math.cos(phi)) > 2 * w_n * (math.cos(theta - lean) + P):
-            continue
-        most = max(most, math.asin(min(1.0, P * p / math.hypot(x, C_N))))
-    return min(most, theta)
-
-
-@pytest.mark.parametrize(
-    ("p", "w_n", "R", "mu"), [(0.15, 0.002, 0.02, 3.0), (0.20, 0.003, 0.05, 2.0),
-                              (0.18, 0.0012, 0.012, 1.8), (0.22, 0.004, 0.06, 4.0)],
-)  # fmt: skip
-def test_grip_tilt_is_what_the_forces_carry(p, w_n, R, mu):
-    # oracle
-    found = float(grip_tilt(p=p, w_n=w_n, R=R, mu=mu, **KENAF))
-    x = KENAF["L"] - p - KENAF["C_L"]
-    by_forces = grip_by_forces(p=p, x=x, C_N=KENAF["C_N"], w_n=w_n, R=R, mu=mu, lean=found)
-    # 1e-3: the oracle's steps of the angle
-    assert found == pytest.approx(by_forces, abs=1e-3)
-
-
-def test_grip_tilt_at_its_ends():
-    # limit: rigid, it cannot grip; on a thin end with any friction it may lift anything
-    assert grip_tilt(p=0.15, w_n=1e-9, R=0.06, mu=3.0, **KENAF) == pytest.approx(0.0, abs=1e-9)
-    theta = math.atan2(0.124, 0.071)
-    for R, mu in ((0.01, math.inf), (0.0, 5.0)):
-        assert grip_tilt(p=0.15, w_n=0.002, R=R, mu=mu, **KENAF) == pytest.approx(theta)
-
-
 def test_no_loss_is_known_where_the_rigid_robot_does_not_stand():
     assert math.isnan(
         yielding_loss(
@@ -335,7 +290,6 @@ def test_a_tail_that_grips_the_first_riser_takes_more_than_its_grip_carries_on_a
 
     R, mu, w_n, p = 0.022636, 2.8926, 1.3674e-3, 0.19094
     body = {"L": 0.62903, "C_L": 0.27384, "C_N": 0.11298}
-    assert grip_tilt(p=p, w_n=w_n, R=R, mu=mu, **body) < math.radians(3.5)
     track = Track(
         flat_length=body["L"], front_radius=R, rear_radius=R, indentation=w_n, sag=0.99244e-3
     )

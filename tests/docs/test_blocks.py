@@ -87,17 +87,19 @@ ELSEWHERE = {
     "kaidan serve": "tests/unit/web",
     "dask scheduler --port 8786": "test_cluster.py",
     "dask worker tcp://10.0.0.1:8786 --nworkers auto --nthreads 1": "test_cluster.py",
-    "kaidan experiment kenaf --store belt --scheduler tcp://10.0.0.1:8786": "test_cluster.py",
+    "kaidan lab experiment kenaf --store belt --scheduler tcp://10.0.0.1:8786": "test_cluster.py",
     "python benchmarks/campaign.py": "by hand",
     "python benchmarks/sweep.py": "by hand",
     "python benchmarks/contact.py": "by hand",
-    "kaidan calibrate compliance --store compliance --figure compliance.svg": "by hand",
-    "kaidan calibrate yielding --store yielding --figure region.svg": "by hand",
-    "kaidan calibrate rig.toml": "tests/unit/rig/test_rig_kit.py",
-    "kaidan calibrate theta-m --store theta-m": "by hand",
-    "kaidan calibrate engagement --store engagement": "by hand",
-    "kaidan calibrate grousers --store grousers --figure grousers.svg": "by hand",
-    "kaidan calibrate effects --store effects --figure effects.svg --csv effects.csv": "by hand",
+    "kaidan lab calibrate compliance --store compliance --figure compliance.svg": "by hand",
+    "kaidan lab calibrate yielding --store yielding --figure region.svg": "by hand",
+    "kaidan lab calibrate rig.toml": "tests/lab/rig/test_rig_kit.py",
+    "kaidan lab calibrate theta-m --store theta-m": "by hand",
+    "kaidan lab calibrate engagement --store engagement": "by hand",
+    "kaidan lab calibrate grousers --store grousers --figure grousers.svg": "by hand",
+    "kaidan lab calibrate effects --store effects --figure effects.svg --csv effects.csv": (
+        "by hand"
+    ),
     "pytest -m slow -s tests/validation/test_physics_acceptance.py": "by hand",
     "pip install 'kaidan[physics,calibration]'": ".ci/run, within '.[dev]'",
     "pip install 'kaidan[physics]'": ".ci/run, within '.[dev]'",
@@ -114,12 +116,12 @@ NEEDS = {"docs/buildings.md": "ifcopenshell"}
 LONG_WORK = [
     Path(f"docs/{name}.md")
     for name in (
-        "calibration",
-        "campaigns",
-        "cross_check",
         "design",
-        "experiment",
-        "physics",
+        "lab/calibration",
+        "lab/campaigns",
+        "lab/cross_check",
+        "lab/experiment",
+        "lab/physics",
         "stock",
     )
 ]

@@ -8,7 +8,7 @@ import pytest
 from amounts import fast_and_slow
 from kaidan import Question, Robot, Stairs
 from kaidan.assessment.verdict import conclude
-from kaidan.models import quasi_static
+from kaidan.models import contact_model
 from kaidan.modes import ENERGY, MOMENTUM, ROTATION, TIPS, Phase, Verdict
 from kaidan.traversal.rotations import ROCKING
 from kaidan.traversal.static_criterion import mean_slope
@@ -38,7 +38,7 @@ def drawn(pair, most, count):
         )
         posture = {"flippers": "flat"} if Robot.named(name).flippers() else {}
         question = Question.in_one_posture(Robot.named(name), flight, friction=friction, **posture)
-        found = quasi_static.judge(question)
+        found = contact_model.judge(question)
         yield found, conclude(question, found)
 
 

@@ -61,9 +61,10 @@ def alike(one, other, rel):
 
 def first_rocks_alike(one, other):
     """Of robots that fall as well."""
-    for name in ("downhill_margin", "uphill_margin"):
+    for downhill in (True, False):
         # 0.01 deg: ten times what places that are halved out between two poses leave
-        mine, theirs = getattr(one, name), getattr(other, name)
+        rocks = (each.first_rock(downhill=downhill) for each in (one, other))
+        mine, theirs = (math.nan if each is None else each.margin for each in rocks)
         assert mine == pytest.approx(theirs, abs=math.radians(0.01), nan_ok=True)
 
 

@@ -20,11 +20,11 @@ import pytest
 import kaidan
 from kaidan import Payload, Posture, Profile, Question, Robot, Stairs, Surface, units
 from kaidan.allowance import Allowance
-from kaidan.campaign.plans import plan_from
-from kaidan.campaign.query import state_of
 from kaidan.cli import app_for, run
 from kaidan.errors import KaidanError
+from kaidan.lab.campaign.plans import plan_from
 from kaidan.sweeps.pairs import INPUTS as SYMBOLS
+from kaidan.work.query import state_of
 
 FLIGHT = Stairs.inclined(angle=0.6, nosing_spacing=0.15)
 KENAF, ABSOLEM = Robot.named("kenaf"), Robot.named("absolem")

@@ -123,7 +123,6 @@ def test_accelerations_scale_with_gravity(robot, fraction, theta_s, a, mu_s, k):
         (margins, {"theta_s": theta_s, "mu_s": mu_s, **robot}),
         (margin.centroid_margin_downhill, {"theta_s": theta_s, **robot}),
         (margin.centroid_margin_uphill, {"theta_s": theta_s, **without(robot, "L")}),
-        (transitions.crest_progress, {"theta_s": theta_s, **centroid}),
     ):
         here, there = (
             formula(**arguments, a=a / 10.0, g=1.0),
@@ -157,7 +156,6 @@ def test_margins_mirror(robot, theta_s, a, mu_s):
     down = margins(**swapped(robot), theta_s=-theta_s, a=-a, mu_s=mu_s)
     assert up.tip_downhill == pytest.approx(down.tip_uphill, **ROUNDING)
     assert up.slides_down == pytest.approx(down.slides_up, **ROUNDING)
-    assert up.theta_s_sup == pytest.approx(-down.theta_s_inf, **ROUNDING)
     assert up.worst == pytest.approx(down.worst, **ROUNDING)
 
 
@@ -212,18 +210,6 @@ def test_loads_mirror_and_balance(support):
     assert mirrored == pytest.approx(share, **ROUNDING)
 
 
-@always(supports(), st.floats(10.0, 1e3), st.floats(1e2, 1e6))
-def test_deformation_mirrors_and_inverts(support, load, stiffness):
-    x, x_z = support
-    theta_d = loads.deformation_inclination(x=x, x_z=x_z, load=load, stiffness=stiffness)
-    assert loads.deformation_inclination(
-        x=1.0 - x, x_z=1.0 - x_z, load=load, stiffness=stiffness
-    ) == pytest.approx(-theta_d, **ROUNDING)
-    assume(theta_d > 1e-9)
-    found = loads.deformation_stiffness(x=x, x_z=x_z, load=load, theta_d=theta_d)
-    assert found == pytest.approx(stiffness, rel=1e-9)
-
-
 @always(slopes, accelerations, frictions)
 def test_slipping_mirrors(theta_s, a, mu_s):
     assert slipping.slip_acceleration_up(mu_s=mu_s, theta_s=theta_s) == pytest.approx(
@@ -241,7 +227,7 @@ def test_yaw_to_either_side_is_alike(theta_s, psi, a):
         **pose, psi=-psi
     )
     assert oblique.oblique_friction(**pose, psi=psi) == oblique.oblique_friction(**pose, psi=-psi)
-    for odd in (oblique.roll, oblique.equivalent_slope_across):
+    for odd in (oblique.equivalent_slope_across,):
         assert odd(theta_s=theta_s, psi=psi) == -odd(theta_s=theta_s, psi=-psi)
     assert oblique.body_inclination(theta_s=theta_s, psi=psi) == oblique.body_inclination(
         theta_s=theta_s, psi=-psi
@@ -300,9 +286,6 @@ def test_the_drive_must_give_more(theta_s, c_rr, more):
     assert slope == pytest.approx(theta_s, abs=1e-9)
     acceleration = drive.drive_acceleration(F=F, M=20.0, theta_s=theta_s, c_rr=c_rr)
     assert acceleration == pytest.approx(0.0, abs=1e-12)
-    for r, eta in ((0.05, 0.7), (0.1, 1.0)):
-        T = drive.sprocket_torque(F=F, r=r, eta=eta)
-        assert drive.torque_force(T=T, r=r, eta=eta) == pytest.approx(F, rel=1e-12)
 
 
 # Limits
@@ -362,7 +345,7 @@ EXAMPLES = {
 
 NEEDS_NUMPY = {
     # sums over the contacts along the last axis; labelled arrays through xarray.apply_ufunc
-    "load_shares", "deformation_inclination", "deformation_stiffness",
+    "load_shares",
 }  # fmt: skip
 
 

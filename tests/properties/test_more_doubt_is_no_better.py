@@ -11,7 +11,7 @@ import pytest
 
 from kaidan import Question, Stairs
 from kaidan.assessment.verdict import WAIVED, conclude
-from kaidan.models.quasi_static import judge
+from kaidan.models.contact_model import judge
 from kaidan.modes import FALL_DOWNHILL, Verdict
 
 SIGMA = {

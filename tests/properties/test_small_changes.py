@@ -8,7 +8,7 @@ import pytest
 from kaidan import Question, Robot, Stairs
 from kaidan.assessment.verdict import conclude
 from kaidan.catalog import names
-from kaidan.models import quasi_static
+from kaidan.models import contact_model
 from kaidan.modes import DRIVE, FALLS, MOMENTUM, SLIDES_DOWN, SLIDES_UP, TIPS
 from kaidan.robot import Drive, Track
 from kaidan.traversal import traverse
@@ -61,7 +61,7 @@ def pairs(seed, count, size):
 
 def check(seed, count, size, limits):
     for questions in pairs(seed, count, size):
-        one, other = (quasi_static.judge(each) for each in questions)
+        one, other = (contact_model.judge(each) for each in questions)
         verdicts = [conclude(*each).verdict for each in zip(questions, (one, other), strict=True)]
         assert verdicts[0] == verdicts[1], questions[0]
         for mine in one.each:
@@ -91,7 +91,7 @@ def test_a_rotation_that_the_rubber_takes_up_has_no_momentum():
         rises = even.rise + um * np.where(np.arange(even.steps) % 2, 1.0, -1.0)
         flight = Stairs(rises=tuple(rises.tolist()), goings=(even.going,) * (even.steps - 1))
         question = Question.in_one_posture(robot, flight, friction=1.5, direction="down")
-        found.append(quasi_static.judge(question))
+        found.append(contact_model.judge(question))
     one, other = (each.of(MOMENTUM) for each in found)
     small = [each for each in found[1].basis.traverse.chains if each.angle < math.radians(0.001)]
     assert small  # they are told, with 10 mm less to climb
@@ -120,7 +120,7 @@ def test_what_is_braked_over_a_micrometre_requires_no_drive():
         question = Question.in_one_posture(
             robot, flight, friction=1.0, direction="down", facing="tail-first"
         )
-        found = quasi_static.judge(question)
+        found = contact_model.judge(question)
         margins.append(float(found.of(DRIVE).worst[0]))
     raw = np.abs(found.basis.traverse.path.margins.traction).max() / 9.80665
     assert raw > found.basis.traverse.phases[1].traction_over_weight + 0.1  # it does brake there

@@ -59,8 +59,9 @@ def same(one, two, tolerance, sampled=None):
         assert (mine is None) == (theirs is None)
         if mine is not None:
             assert mine.margin == pytest.approx(theirs.margin, abs=1e-9)
-    for name in ("downhill_margin", "uphill_margin") if sampled else ():
-        mine, theirs = getattr(one, name), getattr(two, name)
+    for downhill in (True, False) if sampled else ():
+        rocks = (each.first_rock(downhill=downhill) for each in (one, two))
+        mine, theirs = (math.nan if each is None else each.margin for each in rocks)
         assert mine == pytest.approx(theirs, abs=sampled, nan_ok=True)
     a, b = one.path.largest_inclination(), two.path.largest_inclination()
     if one.arrived:

@@ -12,11 +12,8 @@ HEAVY = ("scipy", "xarray", "matplotlib", "pandas", "numba", "llvmlite", "PIL", 
 
 RUN = """
 import json, sys
-from kaidan.cli import main
-try:
-    main()
-except SystemExit as ended:
-    code = ended.code
+from kaidan.cli import run
+code = run(sys.argv[1:])
 print(json.dumps([code, sorted(sys.modules)]), file=sys.stderr)
 """
 
@@ -85,11 +82,11 @@ def test_importing_kaidan_imports_no_more_than_its_names():
 
 def test_a_process_of_a_campaign_imports_what_it_does_and_no_more():
     code = (
-        "import json, sys, kaidan.campaign.local\n"
+        "import json, sys, kaidan.work.local\n"
         "print(json.dumps([0, sorted(sys.modules)]), file=sys.stderr)"
     )
     modules = imported(code)[1]
-    assert "kaidan.campaign.job" in modules
+    assert "kaidan.work.job" in modules
     assert {"numpy", "pydantic"}.isdisjoint(modules)
 
 
@@ -104,14 +101,14 @@ def test_a_question_from_python_imports_nothing_heavy():
 
 def test_every_public_name_is_there():
     import kaidan
-    from kaidan import campaign
+    from kaidan import work
 
     for name in kaidan.__all__:
         assert getattr(kaidan, name) is not None
-    for name in campaign.__all__:
-        assert getattr(campaign, name) is not None
+    for name in work.__all__:
+        assert getattr(work, name) is not None
     assert dir(kaidan) == sorted(kaidan.__all__)
-    for each in (kaidan, campaign):
+    for each in (kaidan, work):
         with pytest.raises(
             AttributeError, match=f"module '{each.__name__}' has no attribute 'luck'"
         ):
@@ -162,4 +159,4 @@ def test_a_question_to_the_contact_model_loads_no_figures_of_others():
 def test_a_command_loads_its_own_module_alone():
     modules = imported(RUN, "robots")[1]
     assert "kaidan.cli.catalogs" in modules
-    assert "kaidan.cli.physics" not in modules
+    assert "kaidan.lab.cli.physics" not in modules

@@ -28,7 +28,7 @@ RETIRED = {
     r"only known as": "given as a range",
     r"the whole way|all the way|of the way|along (?:a|the|its) way": "the path, the traverse",
     r"slip_up|slip_down": "slides_down, slides_up",
-    r"journeys?|happenings?|landscapes?|neighbours": "traverse, events, pose map, literature",
+    r"journeys?|happenings?|landscapes?|neighbours": "traverse, events, pose map",
 }
 """Words by what to write instead; `_` counts as a space, so that names of fields count too."""
 

@@ -22,6 +22,7 @@ from kaidan.assessment.advice import (
     _weighed,
 )
 from kaidan.assessment.measuring import Measurement
+from kaidan.assessment.sentences import advice as text
 from kaidan.assessment.traction_advice import (
     LARGEST_FRICTION,
     Candidate,
@@ -50,7 +51,6 @@ from kaidan.modes import (
     Verdict,
 )
 from kaidan.robot import Posture
-from kaidan.text import advice as text
 
 G = 9.80665
 KENAF = Question.in_one_posture("kenaf", Stairs(rise=0.1, going=0.15), friction=1.0)

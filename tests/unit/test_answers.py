@@ -24,7 +24,7 @@ class Phase(Part):
 class Reach(Answer):
     """How far something reaches."""
 
-    text_module = "reach"
+    text_module = "kaidan.text.reach"
     robot: str
     """Its name."""
     reach_m: float | None

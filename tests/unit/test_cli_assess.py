@@ -17,8 +17,9 @@ import pytest
 from typer.testing import CliRunner
 
 from kaidan import Payload, Posture, Robot, Stairs, Surface, assess
-from kaidan.cli import app, main
+from kaidan.cli import app
 from kaidan.cli import run as command_line
+from kaidan.cli import run as ended_with
 
 KENAF_40 = ["kenaf", "--angle", "40deg", "--nosing-spacing", "150mm"]
 GRIP = ["--friction", "2"]
@@ -48,10 +49,9 @@ def run_json(*words):
 def refusal(capsys, monkeypatch, *words):
     """One line on standard error and exit code 2, through `main` as a shell would."""
     monkeypatch.setattr(sys, "argv", ["kaidan", "assess", *words])
-    with pytest.raises(SystemExit) as ended:
-        main()
+    ended = ended_with(sys.argv[1:])
     shown = capsys.readouterr()
-    assert ended.value.code == 2
+    assert ended == 2
     assert shown.out == ""
     assert shown.err.startswith("kaidan: ")
     assert shown.err.count("\n") == 1
@@ -471,7 +471,7 @@ def test_refusals(name, capsys, monkeypatch):
 
 
 def process(*words, **more):
-    command = [sys.executable, "-c", "from kaidan.cli import main; main()", "assess", *words]
+    command = [sys.executable, "-m", "kaidan", "assess", *words]
     return subprocess.run(command, capture_output=True, timeout=60, check=False, **more)
 
 
@@ -497,9 +497,8 @@ def test_as_a_process():
 )
 def test_exit_codes_of_the_process(words, code, monkeypatch, capsys):
     monkeypatch.setattr(sys, "argv", ["kaidan", "assess", *words])
-    with pytest.raises(SystemExit) as ended:
-        main()
-    assert ended.value.code == code
+    ended = ended_with(sys.argv[1:])
+    assert ended == code
     assert (capsys.readouterr().out == "") is (code == 2)
 
 
@@ -529,7 +528,7 @@ def test_any_encoding_of_the_screen(encoding, tmp_path, monkeypatch):
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
 def test_a_full_disk_is_no_verdict():
     with open("/dev/full", "wb") as full:
-        command = [sys.executable, "-c", "from kaidan.cli import main; main()", "assess"]
+        command = [sys.executable, "-m", "kaidan", "assess"]
         done = subprocess.run(
             [*command, *KENAF_40, *GRIP, "--json"],
             stdout=full,
@@ -547,7 +546,13 @@ def test_it_writes_nothing_anywhere(tmp_path, monkeypatch):
     for words in (["kenaf", "nowhere"], [*KENAF_40, "--friction", "x"]):
         assert command_line(["assess", *words]) == 2
     process("kenaf", "ibc")
-    command = [sys.executable, "-c", "from kaidan.cli import main; main()", "assess", *KENAF_40]
+    command = [
+        sys.executable,
+        "-c",
+        "from kaidan.__main__ import main; main()",
+        "assess",
+        *KENAF_40,
+    ]
     running = subprocess.Popen(command, stdout=subprocess.DEVNULL)
     time.sleep(0.05)
     running.send_signal(signal.SIGKILL)

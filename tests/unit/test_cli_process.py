@@ -17,17 +17,17 @@ FLIGHT = ["--angle", "40deg", "--nosing-spacing", "150mm"]
 QUICK = {
     "assess": ["assess", "kenaf", *FLIGHT, "--friction", "0.8"],
     "json": ["assess", "kenaf", *FLIGHT, "--friction", "0.8", "--json"],
-    "campaign": ["campaign", "-h"],
+    "campaign": ["lab", "campaign", "-h"],
     "compare": ["compare", "kenaf", "--stairs", "ibc"],
-    "experiment": ["experiment", "-h"],
+    "experiment": ["lab", "experiment", "-h"],
     "help": ["-h"],
     "margin": ["margin", "kenaf"],
     "monitor": ["monitor", "-h"],
     "new": ["new", "robot", "mine.toml"],
-    "outcomes": ["outcomes"],
+    "outcomes": ["lab", "outcomes"],
     "plane": ["plane", "kenaf", *FLIGHT],
     "posture": ["posture", "absolem", *FLIGHT, "--friction", "0.8"],
-    "reproduce": ["reproduce"],
+    "reproduce": ["lab", "reproduce"],
     "robots": ["robots"],
     "robot": ["robots", "kenaf", "--json"],
     "schema": ["schema", "answer"],
@@ -155,7 +155,7 @@ def test_ctrl_c_while_it_starts(delay):
             "invalid value for '--trials': '0' is less than 1 (see kaidan assess -h)",
         ),
         (
-            ["experiment", "absolem", "--spacings", "0mm"],
+            ["lab", "experiment", "absolem", "--spacings", "0mm"],
             "condition: nosing_spacing = 0 m is not within 0.02 to 2.5 m",
         ),
     ],
@@ -202,3 +202,12 @@ def test_nothing_is_lost_at_the_end_of_the_process(words):
     done = subprocess.run([sys.executable, "-c", END, *words], capture_output=True, timeout=60)
     said = [b"said", *([b"later"] if words else []), b"done"]
     assert (done.returncode, done.stdout.split()) == (3, said)
+
+
+@pytest.mark.parametrize(
+    "name", ["agree", "calibrate", "campaign", "experiment", "outcomes", "physics", "reproduce"]
+)
+def test_a_command_that_moved_says_where_to(name, capsys):
+    assert run([name, "kenaf"]) == 2
+    said = f"kaidan: kaidan {name} is now kaidan lab {name} (see kaidan lab -h)\n"
+    assert capsys.readouterr() == ("", said)

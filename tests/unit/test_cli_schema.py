@@ -11,21 +11,29 @@ from typer.testing import CliRunner
 from kaidan.cli import app
 from kaidan.cli.schema import DIALECT, KINDS, schema_of
 from kaidan.errors import InputError
+from kaidan.lab.cli import schema as laboratory
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "docs" / "_ext"))
 from models import models
 
 
 def test_every_answer_is_listed():
-    listed = {target.partition(":")[2] for target in KINDS.values()}
+    targets = [*KINDS.values(), *laboratory.KINDS.values()]
+    listed = {target.partition(":")[2] for target in targets}
     assert {answer.__name__ for answer in models("Answer")} <= listed
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_every_schema_is_one_and_exact(kind, monkeypatch):
-    made = schema_of(kind)  # once: it takes the time
-    monkeypatch.setattr("kaidan.cli.schema.schema_of", {kind: made}.__getitem__)
-    printed = json.loads(CliRunner().invoke(app, ["schema", kind]).stdout)
+@pytest.mark.parametrize(
+    ("words", "place"),
+    [
+        *((["schema", kind], place) for kind, place in KINDS.items()),
+        *((["lab", "schema", kind], place) for kind, place in laboratory.KINDS.items()),
+    ],
+)
+def test_every_schema_is_one_and_exact(words, place, monkeypatch):
+    made = schema_of(place)  # once: it takes the time
+    monkeypatch.setattr("kaidan.cli.schema.schema_of", {place: made}.__getitem__)
+    printed = json.loads(CliRunner().invoke(app, words).stdout)
     assert printed == {"$schema": DIALECT} | made
     jsonschema.Draft202012Validator.check_schema(printed)
     assert printed["additionalProperties"] is False

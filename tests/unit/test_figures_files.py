@@ -55,7 +55,7 @@ def test_figures_are_the_same_bytes_again_and_carry_no_date(form, head):
 
 def test_figures_are_the_same_in_another_process(tmp_path):
     code = (
-        "import sys; from kaidan.cli import main;"
+        "import sys; from kaidan.__main__ import main;"
         "sys.argv = ['kaidan', 'margin', 'kenaf', '--figure', sys.argv[1]]; main()"
     )
     for name in ("a.svg", "b.svg"):

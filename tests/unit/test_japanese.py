@@ -10,16 +10,17 @@ from matplotlib.text import Text
 
 import kaidan
 from kaidan import catalog
+from kaidan.assessment.sentences import advice
 from kaidan.documents import japanese_pictures, pdf_pages, report_bytes, report_file
 from kaidan.errors import InputError
+from kaidan.models.sentences import unweighed
 from kaidan.modes import FAILURE_MODES, Acceptance
+from kaidan.readers.sentences.refusals import REFUSALS, sentence
 from kaidan.surface import Surface
 from kaidan.terrain.stairs import Stairs
-from kaidan.text import advice, unweighed
 from kaidan.text import document as of
 from kaidan.text.japanese import in_japanese, japanese, patterns
 from kaidan.text.monitor import summary
-from kaidan.text.refusals import REFUSALS, sentence
 from kaidan.text.report import document
 from kaidan.verbs.monitor import Cause
 

@@ -10,10 +10,10 @@ import kaidan
 from kaidan import InputError, Robot, Stairs
 from kaidan.assessment import Assessment
 from kaidan.models.landings import turns_of
+from kaidan.models.sentences.turning import IN_LINE, turned
 from kaidan.question import Question
 from kaidan.text.assessment import details
 from kaidan.text.japanese import japanese
-from kaidan.text.turning import IN_LINE, turned
 
 HALF = {"upper_turn": "half", "upper_landing": 1.2, "upper_landing_width": 2.2}
 SURE = {"friction": 2.0, "theta_d": 0.0, "theta_M": 0.0}

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from kaidan.assessment import assess
 from kaidan.errors import InputError
-from kaidan.literature.tipover import Motion, Outlook, tip_angle_downhill, tip_angle_uphill
 from kaidan.mechanics.margin import centroid_margin_downhill, theta_s_inf, theta_s_sup
 from kaidan.mechanics.measures import force_angle_measure
 from kaidan.mechanics.plane import lowest_contact
+from kaidan.mechanics.tipover import Motion, Outlook, tip_angle_downhill, tip_angle_uphill
 from kaidan.mechanics.tipping import a_r0, a_rn
 from kaidan.robot import Payload, Robot, Track
 from kaidan.terrain.profile import Profile

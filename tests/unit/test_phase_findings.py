@@ -1,14 +1,14 @@
 """Findings of one phase: what happens in it, whatever the others do."""
 
 from kaidan import Question
-from kaidan.models import quasi_static
+from kaidan.models import contact_model, quasi_static
 from kaidan.modes import FALL_DOWNHILL, TIP_DOWNHILL, Phase
 
 
 def test_a_fall_is_found_in_its_phase_though_the_robot_rocks_in_others_alone():
     """Marmotte rocks on the IBC's flight; gravity tilted, it falls already as it enters."""
     question = Question.in_one_posture("marmotte", "ibc", friction=2.0)
-    whole = quasi_static.judge(question)
+    whole = contact_model.judge(question)
     of_phase = {
         phase: quasi_static.findings_of(question, whole.basis, phase=phase) for phase in Phase
     }

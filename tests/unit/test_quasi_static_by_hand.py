@@ -9,23 +9,23 @@ import pytest
 from kaidan import Profile, Question, Robot, Stairs
 from kaidan.contact import Status
 from kaidan.mechanics.oblique import equivalent_slope_across
-from kaidan.models import planned
+from kaidan.models import contact_model, planned
 from kaidan.models import quasi_static as module
+from kaidan.models.contact_model import judge
 from kaidan.models.drive_limits import steepest_for_drive, traction_limit
 from kaidan.models.findings import Findings
 from kaidan.models.quasi_static import (
     LONG_FLIGHT,
     Basis,
     _answered,
-    _drives_alike,
     _Extremes,
     _figures,
     _obstacles,
     _supply,
     drive_margin,
     driven_over,
+    drives_alike,
     findings_of,
-    judge,
     profile_of,
     repeats,
 )
@@ -295,14 +295,14 @@ def test_which_questions_have_one_traverse():
     def of(robot=KENAF, stairs=flight, friction=0.5, **manner):
         return Question.in_one_posture(robot, stairs, friction=friction, **manner)
 
-    assert _drives_alike(of(), of(friction=0.9))
+    assert drives_alike(of(), of(friction=0.9))
     belts = KENAF.track.model_copy(update={"belt": "smooth"})
-    assert _drives_alike(of(), of(KENAF.model_copy(update={"track": belts})))
+    assert drives_alike(of(), of(KENAF.model_copy(update={"track": belts})))
     for other in (
         of(stairs=Stairs(rise=0.1, going=0.31)), of(direction="down"), of(acceleration=0.1),
         of(facing="tail-first"), of(KENAF.with_centroid(0.2, 0.08)),
     ):  # fmt: skip
-        assert not _drives_alike(of(), other)
+        assert not drives_alike(of(), other)
 
 
 FLIGHT = Stairs(rise=0.1, going=0.3)
@@ -315,8 +315,9 @@ def question_of(robot=GAUGED, terrain=FLIGHT, **manner):
 
 def test_a_question_is_driven_along_its_heading_unless_it_was(monkeypatch):
     driven = []
-    monkeypatch.setattr(module, "traverse_of", lambda question: driven.append(question) or "driven")
-    monkeypatch.setattr(module, "findings_of", lambda question, basis: (question, basis))
+    drive = lambda question: driven.append(question) or "driven"  # noqa: E731
+    monkeypatch.setattr(contact_model, "traverse_of", drive)
+    monkeypatch.setattr(contact_model, "findings_of", lambda question, basis: (question, basis))
     straight, turned = question_of(), question_of(yaw=0.2)
     assert judge(straight) == (straight, Basis(straight, "driven"))
     _, basis = judge(turned)

@@ -9,9 +9,9 @@ import pytest
 from kaidan import InputError, Question, Robot, Stairs, assess
 from kaidan.assessment.verdict import conclude
 from kaidan.models import judge
-from kaidan.studies.stock.answer import StockStudy
-from kaidan.studies.stock.flights import Stock
-from kaidan.studies.stock.study import longest, stock_study
+from kaidan.verbs.stock.answer import StockStudy
+from kaidan.verbs.stock.flights import Stock
+from kaidan.verbs.stock.study import longest, stock_study
 
 CLOSED = {"model": "closed-form", "friction": (0.8, 1.0)}
 

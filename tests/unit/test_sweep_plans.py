@@ -214,7 +214,7 @@ carried_out(plan, workers=2, store=sys.argv[1])
 
 def test_a_sweep_that_is_killed_goes_on(tmp_path):
     pytest.importorskip("pyarrow")
-    from kaidan.campaign import read_table
+    from kaidan.work import read_table
 
     store = tmp_path / "kept"
     process = subprocess.Popen([sys.executable, "-c", KILLED, str(store)])
@@ -239,7 +239,7 @@ def test_a_sweep_that_is_killed_goes_on(tmp_path):
 def test_a_store_of_trials_takes_no_sweep(tmp_path):
     pytest.importorskip("pyarrow")
     from campaign_cases import FAKE
-    from kaidan.campaign import Store
+    from kaidan.work import Store
 
     with Store(tmp_path, FAKE):
         pass
@@ -249,7 +249,8 @@ def test_a_store_of_trials_takes_no_sweep(tmp_path):
 
 def test_a_store_of_a_sweep_is_no_plan_of_trials(tmp_path):
     pytest.importorskip("pyarrow")
-    from kaidan.campaign import resume, state_of
+    from kaidan.lab.campaign import resume
+    from kaidan.work import state_of
 
     carried_out(Plan.of(CLOSED | {"friction": [0.5, 0.6]}), store=tmp_path)
     assert state_of(tmp_path).work == CELLS.name

@@ -8,11 +8,11 @@ import pytest
 from kaidan.errors import InputError, KaidanError
 from kaidan.models.clearance import findings_of
 from kaidan.models.quasi_static import traverse_of
+from kaidan.models.sentences import terrain
 from kaidan.question import Question
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.terrain.stairs_uncertainty import StairsUncertainty
-from kaidan.text import terrain
 from kaidan.text.assessment import stairs_line
 from kaidan.traversal import Phase
 from kaidan.verbs.monitor.live import LiveMonitor

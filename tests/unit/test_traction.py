@@ -9,12 +9,12 @@ import pytest
 from kaidan import InputError, Robot, Stairs, Surface
 from kaidan.models.belts import grousers_of
 from kaidan.models.quasi_static import traverse_of
+from kaidan.models.sentences.traction import notes
 from kaidan.models.traction import supply
 from kaidan.modes import Phase
 from kaidan.question import Question
 from kaidan.robot import Track
 from kaidan.surface import Friction
-from kaidan.text.traction import notes
 from one_posture import assess
 
 LONG = {"name": "long", "com_from_front": 0.5, "com_height": 0.12, "mass": 40.0}

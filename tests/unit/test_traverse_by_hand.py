@@ -95,7 +95,6 @@ def test_the_first_rock_is_the_least_of_criterion_and_poses():
     assert found.first_rock(downhill=True) == of_criterion
     assert found.downhill_margin == 0.2
     assert found.first_rock(downhill=False) == (0.1, Phase.TRAVERSE, 2)
-    assert found.uphill_margin == 0.1
     assert found.first_rock(downhill=True, phases=(on, lands)) == of_criterion
     assert found.first_rock(downhill=True, phases=(lands,)) == (0.25, Phase.LAND, 4)
     assert found.first_rock(downhill=False, phases=(lands,)) is None

@@ -12,6 +12,7 @@ from kaidan.assessment import unweighed as module
 from kaidan.errors import InputError
 from kaidan.models import unweighed as module_of_range
 from kaidan.models.findings import Finding, Findings
+from kaidan.models.sentences import unweighed as text
 from kaidan.models.unweighed import HEIGHTS, PLACES, Placed, judge_range, places
 from kaidan.modes import (
     ENERGY,
@@ -25,7 +26,6 @@ from kaidan.modes import (
     Phase,
     Verdict,
 )
-from kaidan.text import unweighed as text
 
 SHEET = {
     "name": "r", "track": {"flat_length": 0.8, "front_radius": 0.1, "rear_radius": 0.1},

@@ -23,10 +23,10 @@ from ifc_cases import (
 )
 from kaidan import InputError, Stairs
 from kaidan.cli import app
-from kaidan.text.building import in_words, posture_for
 from kaidan.text.building_page import page
 from kaidan.verbs.building import building
 from kaidan.verbs.building.answer import BuildingAnswer
+from kaidan.verbs.building.sentences import in_words, posture_for
 
 ROBOTS = ["absolem", "ozbot-atr"]
 

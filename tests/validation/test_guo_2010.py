@@ -9,12 +9,7 @@ import pytest
 
 from kaidan.mechanics.transitions import (
     best_inclination,
-    crest_energy,
-    crest_progress,
-    entry_arrest_margin,
-    entry_energy,
     largest_step_height,
-    riser_start_friction,
     step_height,
 )
 
@@ -60,24 +55,3 @@ def test_centroid_forward_and_low_climbs_higher():
     high = largest_step_height(l_c=0.27, C_N=np.linspace(0.062, 0.2, 20), R=0.06)
     assert np.all(np.diff(forward) > 0.0)
     assert np.all(np.diff(high) < 0.0)
-
-
-def test_riser_start_by_hand():
-    # hand: mu = 1/2 needs (C_L + R)/4 + R/2 = l_c: C_L = 0.3, R = 0.1: l_c = 0.15
-    assert riser_start_friction(l_c=0.15, C_L=0.3, R=0.1) == pytest.approx(0.5, abs=ROUNDING)
-
-
-def test_landing_by_hand():
-    # hand: sin = 0.6, cos = 0.8: edge 0.2 + 0.08 * 0.75 behind the tip; drop 0.08 * 0.25 = 20 mm
-    slope = np.arctan(0.75)
-    assert crest_progress(C_L=0.2, C_N=0.08, theta_s=slope, a=0.0) == pytest.approx(
-        0.26, abs=ROUNDING
-    )
-    assert crest_energy(M=20.0, C_N=0.08, theta_s=slope, g=10.0) == pytest.approx(4.0, abs=1e-12)
-
-
-def test_entry_from_above_by_hand():
-    # hand: drop 0.08 * 0.2 = 16 mm; 200 mm of flat ahead of the edge catch a nosing at 180 mm
-    slope = np.arctan(0.75)
-    assert entry_energy(M=20.0, C_N=0.08, theta_s=slope, g=10.0) == pytest.approx(3.2, abs=1e-12)
-    assert entry_arrest_margin(C_L=0.2, p=0.18) == pytest.approx(0.02, abs=ROUNDING)

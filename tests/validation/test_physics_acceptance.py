@@ -1,7 +1,7 @@
-"""Acceptance of the physics models, before any claim is made with them (docs/physics.md).
+"""Acceptance of the physics models, before any claim is made with them (docs/lab/physics.md).
 
 Each bracket is two trials: the one climbs, the other falls. The slow tests print the figures that
-docs/physics.md records.
+docs/lab/physics.md records.
 """
 
 import math
@@ -34,7 +34,7 @@ from physics_cases import (
 )
 
 MEASURED = dict(zip(SPACINGS, (63.5, 58.7, 54.8, 50.4), strict=True))
-"""docs/physics.md: another model by others, smooth rigid belt, R = 60 mm, 100 mm/s [deg]."""
+"""docs/lab/physics.md: another model by others, smooth rigid belt, R = 60 mm, 100 mm/s [deg]."""
 
 
 @pytest.mark.parametrize("spacing", ENDS_IN_EVERY_RUN)
@@ -99,6 +99,19 @@ def test_static_stiffness_of_a_nosing(stiffness):
         # 5 %: the acceptance's
         assert forces[k, 1] / -(moved @ across) == pytest.approx(stiffness, rel=0.05)
         assert forces[k, 0] / -(moved @ along) == pytest.approx(stiffness, rel=0.05)
+
+
+@pytest.mark.parametrize(("radius", "friction"), [(0.060, 3.0), (0.008, 0.8)])
+def test_a_half_round_grouser_swings_the_robot_by_its_height_over_the_spacing(radius, friction):
+    # hand: one end stands on a tip, the other between two: h / p = 2.67 deg. An undercut flank
+    # hooks the nosing and swings it by 10 deg in the first of these. 0.7 deg: tips come at phases
+    height, p = 0.007, 0.150
+    track = DrivenGrousers(height=height, spacing=0.028, stiffness=1e6)
+    found = run(
+        spec(40.0, p, radius=radius, friction=friction, track=track, grouser_phase=0.25, nosings=6)
+    )
+    assert found.outcome is Outcome.CLIMBED
+    assert found.largest_extra_deg == pytest.approx(math.degrees(height / p), abs=0.7)
 
 
 def test_static_stiffness_of_the_grousers():

@@ -1,8 +1,8 @@
-"""Acceptance of the yielding track, before any claim is made with it (docs/physics.md).
+"""Acceptance of the yielding track, before any claim is made with it (docs/lab/physics.md).
 
 Kenaf-like, R = 20 mm, 17 kN/m, 150 mm, unless stated. The margins required are those of another
 planar simulation by others, which states neither its friction nor its damping: they are met with a
-friction of 2 and a damping ratio of 0.0825, and with neither changed much (docs/physics.md).
+friction of 2 and a damping ratio of 0.0825, and with neither changed much (docs/lab/physics.md).
 """
 
 import math
@@ -124,7 +124,7 @@ def test_it_is_forty_times_as_fast_as_the_robot():
 @pytest.mark.slow
 def test_the_same_seed_gives_the_same_table_on_one_and_on_two_workers(tmp_path):
     pytest.importorskip("pyarrow")
-    from kaidan.studies.experiment import experiment
+    from kaidan.lab.verification.experiment import experiment
 
     options = {
         "spacings": "150mm",

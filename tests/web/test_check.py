@@ -6,7 +6,7 @@ import re
 import httpx
 import pytest
 
-from kaidan.text import advice
+from kaidan.assessment.sentences import advice
 from kaidan.text.japanese import japanese
 
 QUESTION = "#/check?robot=absolem&stairs=ibc&surface=concrete-dry&flippers=flat"

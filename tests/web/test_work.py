@@ -1,7 +1,5 @@
 """Long work on the page: begun, seen, cancelled, and still there after a reload and a new start."""
 
-import pytest
-
 from web.test_access import serious
 
 QUESTION = "?robot=absolem&stairs=ibc&surface=concrete-dry&flippers=flat"
@@ -16,9 +14,10 @@ def state(page, word, timeout=180_000):
     page.wait_for_selector(f'.jobs li[data-state="{word}"]', timeout=timeout)
 
 
-def test_a_campaign_survives_a_reload_and_a_new_start_and_is_cancelled(page, server):
-    pytest.importorskip("mujoco", reason="skipped: no MuJoCo")
-    begin(page, "experiment")
+def test_a_sweep_survives_a_reload_and_a_new_start_and_is_cancelled(page, server):
+    begin(page, "sweep")
+    page.get_by_label("How many values").last.fill("2000")
+    page.keyboard.press("Tab")
     page.get_by_role("button", name="Begin").click()
     state(page, "running")
     page.reload()

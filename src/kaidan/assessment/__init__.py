@@ -153,8 +153,8 @@ def judged(
 ) -> Assessment:
     """Answer to a question from what a model found; see `answer_to`."""
     from kaidan.assessment.measuring import to_measure
-    from kaidan.text import plan as plan_text
-    from kaidan.text import verdicts
+    from kaidan.assessment.sentences import plan as plan_text
+    from kaidan.assessment.sentences import verdicts
 
     conclusion = conclude(question, found)
     measure = to_measure(question, found) if advice else ()

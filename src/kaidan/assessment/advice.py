@@ -10,6 +10,8 @@ import numpy as np
 from kaidan.allowance import Allowance
 from kaidan.assessment.answer import Change
 from kaidan.assessment.measuring import Measurement
+from kaidan.assessment.sentences import advice as text
+from kaidan.assessment.sentences import measuring
 from kaidan.assessment.traction_advice import (
     SLIPS,
     Candidate,
@@ -26,6 +28,8 @@ from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.models import judge
 from kaidan.models.centroid import shift_of_centroid
 from kaidan.models.findings import Findings
+from kaidan.models.sentences import terrain
+from kaidan.models.sentences import unweighed as weighing
 from kaidan.modes import (
     ACROSS,
     ENERGY,
@@ -48,9 +52,6 @@ from kaidan.modes import (
 )
 from kaidan.question import Question
 from kaidan.robot import Posture
-from kaidan.text import advice as text
-from kaidan.text import measuring, terrain
-from kaidan.text import unweighed as weighing
 
 if TYPE_CHECKING:
     from kaidan.assessment.plan_search import Found

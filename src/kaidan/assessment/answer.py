@@ -100,7 +100,7 @@ class Assessment(Answer):
     positive, as the names say. Null means: no such number, or not known to the model.
     """
 
-    text_module: ClassVar[str] = "assessment"
+    text_module: ClassVar[str] = "kaidan.text.assessment"
 
     verdict: VerdictName
     """go: nothing fails in the worst case, friction known, at the chosen risk. caution: something
@@ -185,15 +185,11 @@ class Assessment(Answer):
 
     def details(self) -> str:
         """Everything that was found, as a page for people."""
-        from kaidan.text.assessment import details
-
-        return details(self)
+        return str(self.said("details"))
 
     def short(self) -> str:
         """The answer in one line."""
-        from kaidan.text.assessment import short
-
-        return short(self)
+        return str(self.said("short"))
 
     @classmethod
     def model_rebuild(cls, **manner: Any) -> bool | None:

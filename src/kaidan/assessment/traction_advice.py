@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from kaidan.assessment.sentences import advice as text
 from kaidan.assessment.verdict import Conclusion, conclude
 from kaidan.models import judge
 from kaidan.models.findings import Findings
@@ -13,7 +14,6 @@ from kaidan.robot.track import USUAL_GROUSERS
 from kaidan.sheet import bounds
 from kaidan.surface import Surface
 from kaidan.terrain.stairs import Stairs
-from kaidan.text import advice as text
 
 if TYPE_CHECKING:
     from kaidan.assessment.plan_search import Found

@@ -18,8 +18,8 @@ SAMPLED = (
 """Inputs that are drawn, in the order of `Question.spread` and of the unit draws."""
 STEPS = "steps"
 """Single rises and goings, which are drawn after those."""
-RANGES = ("friction", "theta_d", "theta_M")
-"""Inputs of which a range is known, nothing within it likelier."""
+
+
 GROUPS = {
     "com_from_front": "centroid",
     "com_height": "centroid",

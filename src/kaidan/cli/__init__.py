@@ -14,33 +14,27 @@ from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
 from traceback import extract_tb, print_exc
-from typing import Annotated, Any, NoReturn, TextIO
+from typing import Annotated, Any, TextIO
 
 import typer
 
 _COMMANDS = {
-    "agree": ("agree",),
     "assess": ("assess",),
     "building": ("building",),
-    "calibrate": ("calibrate",),
-    "campaign": ("campaign",),
     "catalogs": ("robots", "stairs", "surfaces"),
     "compare": ("compare",),
     "design": ("design",),
     "doctor": ("doctor",),
-    "experiment": ("experiment",),
+    "lab": ("lab",),
     "live": ("live",),
     "margin": ("margin",),
     "measure": ("measure",),
     "monitor": ("monitor",),
     "new": ("new",),
-    "outcomes": ("outcomes",),
-    "physics": ("physics",),
     "plane": ("plane",),
     "posture": ("posture",),
     "read": ("read",),
     "report": ("report",),
-    "reproduce": ("reproduce",),
     "schema": ("schema",),
     "sensitivity": ("sensitivity",),
     "serve": ("serve",),
@@ -49,6 +43,11 @@ _COMMANDS = {
     "traverse": ("traverse",),
 }
 """Commands by the module that registers them: a requested one is loaded alone."""
+_LABORATORY = "kaidan.lab.cli"
+"""What registers `lab`: the one door to the laboratory, which nothing here imports."""
+_MOVED = ("agree", "calibrate", "campaign", "experiment", "outcomes", "physics", "reproduce")
+"""Commands that became those of the laboratory."""
+_MOVED_OPTIONS = {"--rerun": "kaidan lab rerun, of the answer that --json prints"}
 
 _START_LIGHTLY = {
     "OPENBLAS_NUM_THREADS": "1",  # no matrix here is worth the threads numpy would start
@@ -102,7 +101,8 @@ def app_for(words: Sequence[str]) -> typer.Typer:
     app.callback()(kaidan)
     modules = [name for name, commands in _COMMANDS.items() if command in commands] or _COMMANDS
     for name in modules:
-        import_module(f"kaidan.cli.{name}").register(app)
+        module = _LABORATORY if name == "lab" else f"kaidan.cli.{name}"
+        import_module(module).register(app)
     return app
 
 
@@ -111,11 +111,6 @@ def __getattr__(name: str) -> Any:
     if name == "app":
         return app_for(())
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-
-
-def main() -> NoReturn:
-    """Run the command line and end the process with its exit code."""
-    sys.exit(run(sys.argv[1:]))
 
 
 def run(words: Sequence[str]) -> int:
@@ -179,6 +174,10 @@ def _outcome(words: Sequence[str]) -> int:
             whole.main(list(words), prog_name="kaidan", complete_var=COMPLETE)
         except SystemExit as ended:
             return int(ended.code or 0)
+    if words and words[0] in _MOVED:
+        from kaidan.errors import InputError
+
+        raise InputError(f"kaidan {words[0]} is now kaidan lab {words[0]} (see kaidan lab -h)")
     command = typer.main.get_command(app_for(words))
     try:
         with command.make_context("kaidan", list(words)) as context:
@@ -203,6 +202,8 @@ def _usage(error: Exception) -> str:
         option, known = (getattr(error, name) or () for name in ("option_name", "possibilities"))
         close = get_close_matches(option, known, n=1, cutoff=0.7)
         text = f"no such option: {option}{f'; did you mean {close[0]}?' if close else ''}"
+        if option in _MOVED_OPTIONS:
+            text = f"{option} is now {_MOVED_OPTIONS[option]}"
     where = "kaidan" if context is None else context.command_path
     return f"{text[:1].lower()}{text[1:].rstrip('.')} (see {where} -h)"
 
@@ -221,7 +222,7 @@ def _fault(error: Exception) -> str:
 def _complain(text: str, code: int = 2) -> int:
     """Say in one line what is wrong; the exit code."""
     from kaidan.errors import within
-    from kaidan.text.tables import printable
+    from kaidan.tables import printable
 
     line = printable(" ".join(text.split()))
     line = _ENDLESS.sub(lambda word: f"{word.group()[:57]}...", line)

@@ -10,8 +10,8 @@ from typing import Any
 import typer
 
 from kaidan.sheet import Sheet, bounds, table_of, words_of
+from kaidan.tables import human
 from kaidan.text import guide
-from kaidan.text.tables import human
 
 PATIENCE = 10.0
 """How long a pipe may stay silent [s]."""

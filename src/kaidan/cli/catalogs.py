@@ -10,7 +10,7 @@ import typer
 from kaidan.cli import output
 from kaidan.cli.options import AsJson
 from kaidan.cli.tables import echo, echo_json, echo_table
-from kaidan.text.tables import human, unit_of
+from kaidan.tables import human, unit_of
 
 if TYPE_CHECKING:
     from kaidan.robot import Robot

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kaidan.cli.tables import echo
-from kaidan.text.tables import printable
+from kaidan.tables import printable
 
 if TYPE_CHECKING:
     from kaidan.sheet import Sheet

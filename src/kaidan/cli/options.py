@@ -30,14 +30,8 @@ RobotName = Annotated[
         autocompletion=_names("robots", "unweighed"),
     ),
 ]
-StairsName = Annotated[
-    str | None,
-    typer.Argument(
-        metavar="[STAIRS]",
-        help="Catalogue name (kaidan stairs) or TOML file (kaidan measure stairs).",
-        autocompletion=_names("stairs"),
-    ),
-]
+
+
 TerrainName = Annotated[
     str | None,
     typer.Argument(

@@ -26,10 +26,6 @@ FigureFiles = Annotated[
         help="Write a picture: .png, .svg or .pdf. May be given again.",
     ),
 ]
-RerunFile = Annotated[
-    Path | None,
-    typer.Option("--rerun", metavar="FILE.rrd", help="Write a recording for the viewer of Rerun."),
-]
 CsvFile = Annotated[
     Path | None, typer.Option("--csv", metavar="FILE", help="Write the numbers as a table.")
 ]
@@ -75,16 +71,6 @@ def drawn(files: Sequence[Path], draw: "Callable[[], Figure]") -> Contents:
     with working("drawing"):
         figure = draw()
         return {path: figure_bytes(figure, figure_format(path)) for path in files}
-
-
-def recorded(file: Path | None, made: "Callable[[], bytes]") -> Contents:
-    """Contents of the file of a recording for Rerun."""
-    from kaidan.progress import working
-
-    if file is None:
-        return {}
-    with working("recording"):
-        return {file: made()}
 
 
 def put_out(answer: "Answer", contents: Contents, *, as_json: bool) -> None:

@@ -70,7 +70,6 @@ def read(
     joint: Joint = None,
     override: Own = None,
     figure: output.FigureFiles = None,
-    rerun: output.RerunFile = None,
     as_json: options.AsJson = False,
 ) -> None:
     """Say what FILE is, what was found in it and with what doubt, and write a sheet of it.
@@ -81,11 +80,7 @@ def read(
     """
     from kaidan.verbs.read import read as read_file
 
-    pictures = output.checked(figure, out, rerun)
-    if rerun is not None:
-        from kaidan.figures.rerun_recording import recording_file
-
-        recording_file(rerun)
+    pictures = output.checked(figure, out)
     if out is not None:
         from kaidan.cli.new import checked_sheet_file
 
@@ -96,13 +91,6 @@ def read(
         override=override or (),
     )  # fmt: skip
     files = _drawn(found, pictures)
-
-    def record() -> bytes:
-        from kaidan.figures.rerun_recording import file_recording
-
-        return file_recording(found)
-
-    files |= output.recorded(rerun, record)
     if out is not None and found.exit_code == 0:
         files |= _sheets(found, out, force=force)
     output.put_out(found, files, as_json=as_json)

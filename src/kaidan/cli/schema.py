@@ -1,5 +1,6 @@
 """``kaidan schema``: JSON schemas of sheets, of a question, and of every answer."""
 
+from collections.abc import Mapping
 from importlib import import_module
 from typing import Annotated, Any
 
@@ -25,23 +26,12 @@ KINDS = {
     "compare": "kaidan.verbs.comparison:Comparison",
     "building": "kaidan.verbs.building.answer:BuildingAnswer",
     "monitor": "kaidan.verbs.monitor.answer:MonitorAnswer",
-    "agree": "kaidan.studies.cross_check.answer:Agreement",
-    "trial": "kaidan.physics.outcome:TrialResult",
-    "experiment": "kaidan.studies.verification:Verification",
-    "calibration": "kaidan.studies.calibration.answer:Calibration",
-    "yielding-calibration": "kaidan.studies.calibration.yielding:YieldingCalibration",
-    "theta-m": "kaidan.studies.calibration.theta_m:ThetaMStudy",
-    "engagement": "kaidan.studies.calibration.engagement:Engagement",
-    "rig-calibration": "kaidan.studies.rig.calibration:RigCalibration",
-    "grouser-effects": "kaidan.studies.calibration.answer:GrouserEffects",
-    "reproduction": "kaidan.studies.reproduction:Reproduction",
     "design": "kaidan.verbs.design.answer:Design",
-    "sensitivity": "kaidan.studies.sensitivity:Sensitivity",
-    "stock": "kaidan.studies.stock.answer:StockStudy",
+    "sensitivity": "kaidan.verbs.sensitivity:Sensitivity",
+    "stock": "kaidan.verbs.stock.answer:StockStudy",
     "sweep": "kaidan.sweeps.summary:SweepSummary",
     "doctor": "kaidan.verbs.doctor:Diagnosis",
     "report": "kaidan.verbs.report.answer:Report",
-    "outcomes": "kaidan.studies.known_outcomes:KnownOutcomes",
 }
 """What has a schema: name on the command line, module and class."""
 
@@ -60,19 +50,31 @@ def schema(kind: Kind) -> None:
     """Print the JSON schema of a sheet, of a question, or of the answer of a command.
 
     Every quantity of a sheet has its unit, its symbol where the paper has one, and its range;
-    every field of an answer its meaning and unit. "answer" is that of kaidan assess --json.
+    every field of an answer its meaning and unit. "answer" is that of kaidan assess --json; answers
+    of the laboratory have theirs in kaidan lab schema.
+    """
+    echo_schema(kind, KINDS)
+
+
+def echo_schema(kind: str, known: Mapping[str, str]) -> None:
+    """Print the JSON schema of one of those known, each "module:Class".
+
+    Raises
+    ------
+    InputError
+        None of them is called so.
     """
     from kaidan.errors import InputError, did_you_mean, shown
 
-    if kind not in KINDS:
-        hint = did_you_mean(kind, KINDS) or "."
-        raise InputError(f"no schema is called {shown(kind)}{hint} Known: {', '.join(KINDS)}.")
-    echo_json({"$schema": DIALECT} | schema_of(kind))
+    if kind not in known:
+        hint = did_you_mean(kind, known) or "."
+        raise InputError(f"no schema is called {shown(kind)}{hint} Known: {', '.join(known)}.")
+    echo_json({"$schema": DIALECT} | schema_of(known[kind]))
 
 
-def schema_of(kind: str) -> dict[str, Any]:
-    """JSON schema of a kind."""
-    module, _, name = KINDS[kind].partition(":")
+def schema_of(place: str) -> dict[str, Any]:
+    """JSON schema of a class, "module:Class"."""
+    module, _, name = place.partition(":")
     described: Any = getattr(import_module(module), name)
     made: dict[str, Any] = described.model_json_schema(mode="serialization")
     return made

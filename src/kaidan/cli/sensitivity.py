@@ -38,7 +38,7 @@ def sensitivity(
     What is not known are --uncertainty, ranges of friction and of the allowances, and the centroid
     of a robot that nobody weighed. Exit code: 0, 2 bad input.
     """
-    from kaidan.studies.sensitivity import sensitivity as find
+    from kaidan.verbs.sensitivity import sensitivity as find
 
     pictures = output.checked(figure)
     found = find(

@@ -46,8 +46,8 @@ def serve(
 
     Everything comes from this machine. Ctrl-C ends it.
     """
-    from kaidan.campaign.local import processors
     from kaidan.errors import needed
+    from kaidan.work.local import processors
 
     for module in ("fastapi", "uvicorn", "httptools", "python_multipart"):
         needed(module, "kaidan serve", "web")

@@ -10,7 +10,7 @@ from kaidan.cli.question import question_options, shared
 from kaidan.cli.sweep import Scheduler, Screen, StoreFolder, Table, Workers
 
 if TYPE_CHECKING:
-    from kaidan.studies.stock.flights import Stock
+    from kaidan.verbs.stock.flights import Stock
 
 group = typer.Typer(
     name="study", help="Study a fleet of robots on a stock of stairs.", no_args_is_help=True
@@ -98,8 +98,8 @@ def stock(
     """
     from kaidan import files
     from kaidan.errors import InputError
-    from kaidan.studies.stock.study import stock_study
     from kaidan.sweeps.swept import table_format
+    from kaidan.verbs.stock.study import stock_study
 
     pictures = output.checked(figure, csv)
     if table is not None:
@@ -140,9 +140,9 @@ def _stock_of(
     stairs: str | None, draw: list[str], count: int, rule: str | None, to: str, seed: int
 ) -> "Stock":
     from kaidan.errors import InputError, shown
-    from kaidan.studies.stock.flights import Stock
     from kaidan.terrain.stairs import Stairs
     from kaidan.units import parse, parse_range
+    from kaidan.verbs.stock.flights import Stock
 
     if stairs is not None:
         if stairs.lower().endswith(".csv") or Path(stairs).suffix.lower() == ".csv":

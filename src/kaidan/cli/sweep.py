@@ -60,7 +60,7 @@ def values_of(robot: str, stairs: str | None, **values: Any) -> dict[str, Any]:
     found["robot"] = _one_or_many(robot)
     many = _one_or_many(stairs) if stairs is not None else None
     if stairs is not None and stairs.lower().endswith(".csv"):
-        from kaidan.studies.stock.flights import Stock
+        from kaidan.verbs.stock.flights import Stock
 
         many = Stock.of_file(Path(stairs)).stairs()
     if isinstance(many, list):

@@ -10,7 +10,7 @@ import typer
 
 def echo(text: str) -> None:
     """Print a text; standard output shows "?" for what its encoding cannot show."""
-    from kaidan.text.tables import printable
+    from kaidan.tables import printable
 
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="replace")
@@ -20,8 +20,8 @@ def echo(text: str) -> None:
 def echo_table(
     rows: Sequence[dict[str, Any]], columns: dict[str, str], *, below: str | None = None
 ) -> None:
-    """Print a table, see `kaidan.text.tables.table`."""
-    from kaidan.text.tables import table
+    """Print a table, see `kaidan.tables.table`."""
+    from kaidan.tables import table
 
     echo(table(rows, columns, below=below))
 

@@ -51,7 +51,6 @@ def traverse(
     side: SideFiles = None,
     pose_map: PoseMapFiles = None,
     animation: AnimationFile = None,
-    rerun: output.RerunFile = None,
     as_json: options.AsJson = False,
 ) -> None:
     """Follow ROBOT over STAIRS from landing to landing: phases, events, pictures.
@@ -63,15 +62,11 @@ def traverse(
     from kaidan.films import film_format
     from kaidan.verbs.traverse import driven, traverse_report
 
-    pictures = output.checked(figure, *(side or ()), *(pose_map or ()), animation, rerun)
+    pictures = output.checked(figure, *(side or ()), *(pose_map or ()), animation)
     sides = output.checked(side)
     maps = output.checked(pose_map)
     if poses is not None and not pictures:
         raise InputError("--poses needs --figure")
-    if rerun is not None:
-        from kaidan.figures.rerun_recording import recording_file
-
-        recording_file(rerun)
     film = None if animation is None else film_format(animation, "animation")
     asked, search = found_plan(requested)
     passage = driven(asked)
@@ -103,12 +98,5 @@ def traverse(
         from kaidan.figures.animation import film_of
 
         contents[animation] = film_of(found, film)
-
-    def record() -> bytes:
-        from kaidan.figures.rerun_recording import traverse_recording
-
-        return traverse_recording(found)
-
-    contents |= output.recorded(rerun, record)
     output.put_out(found, contents, as_json=as_json)
     raise typer.Exit(found.exit_code)

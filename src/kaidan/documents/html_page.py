@@ -8,8 +8,8 @@ from itertools import chain
 from kaidan.documents.marks import MARKS
 from kaidan.documents.scan_code import scan_code
 from kaidan.modes import Verdict as Judged
+from kaidan.tables import printable
 from kaidan.text import document as of
-from kaidan.text.tables import printable
 
 STYLE = """
 :root { color-scheme: light }

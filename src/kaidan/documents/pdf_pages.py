@@ -18,8 +18,8 @@ from kaidan.documents.marks import MARKS
 from kaidan.documents.scan_code import scan_code
 from kaidan.errors import needed
 from kaidan.modes import Verdict as Judged
+from kaidan.tables import printable
 from kaidan.text import document as of
-from kaidan.text.tables import printable
 
 _FACES = {"Sans": "DejaVuSans", "Sans-Bold": "DejaVuSans-Bold", "Mono": "DejaVuSansMono"}
 _NOT_INSIDE = "HeiseiKakuGo-W5"

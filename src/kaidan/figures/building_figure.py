@@ -9,7 +9,6 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
-from numpy.typing import NDArray
 
 from kaidan.figures import style as look
 from kaidan.modes import Verdict
@@ -18,7 +17,6 @@ from kaidan.text.comparison import SIGNS
 if TYPE_CHECKING:
     from kaidan.verbs.building.answer import BuildingAnswer, FlightShown, TurnShown
 
-Array = NDArray[np.float64]
 
 _AROUND = 1.3
 """Room about the flights of a plan [m]."""

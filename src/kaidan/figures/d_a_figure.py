@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from kaidan.figures import style as look
-from kaidan.text.words import heading
+from kaidan.words import heading
 
 if TYPE_CHECKING:
     from kaidan.verbs.d_a_plane import Plane

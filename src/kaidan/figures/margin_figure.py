@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from kaidan.figures import style as look
-from kaidan.text.words import heading
+from kaidan.words import heading
 
 if TYPE_CHECKING:
     from kaidan.allowance import AllowanceShown

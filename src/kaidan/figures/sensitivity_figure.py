@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from kaidan.figures import style as look
 
 if TYPE_CHECKING:
-    from kaidan.studies.sensitivity import Sensitivity
+    from kaidan.verbs.sensitivity import Sensitivity
 
 
 def sensitivity_figure(found: "Sensitivity") -> Figure:

@@ -11,7 +11,7 @@ from kaidan.figures import style as look
 from kaidan.text.stock import label as short
 
 if TYPE_CHECKING:
-    from kaidan.studies.stock.answer import StockStudy
+    from kaidan.verbs.stock.answer import StockStudy
 
 _VERDICTS = {
     "go": ("GO", "#c5e8dc", None),

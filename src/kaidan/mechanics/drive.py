@@ -55,40 +55,6 @@ def drive_force(
     return traction + c_rr * normal_sum(M=M, theta_s=theta_s, g=g)
 
 
-def sprocket_torque(*, F: Number, r: Number, eta: Number) -> Number:
-    """Torque on each of two sprockets, counted before the losses.
-
-    ``T = F r / (2 eta)`` driving (F > 0), ``T = F r eta / 2`` braking (F < 0)
-
-    Assumptions: both tracks share alike.
-
-    Parameters
-    ----------
-    F : float or array
-        Drive force along the motion [N]: that of `drive_force` moving up, its negative moving
-        down.
-    r : float or array
-        Radius at which the sprocket pulls the track [m].
-    eta : float or array
-        Efficiency from where the torque is counted to the ground, in (0, 1] [1].
-
-    Returns
-    -------
-    float or array
-        Torque per sprocket [N m], positive in the sense of the motion, negative when it brakes.
-
-    Examples
-    --------
-    >>> print(sprocket_torque(F=100.0, r=0.1, eta=0.5), sprocket_torque(F=-100.0, r=0.1, eta=0.5))
-    10.0 -2.5
-
-    References
-    ----------
-    Derived: work in times the efficiency is work out; when braking, work flows the other way.
-    """
-    return (np.maximum(F, 0.0) / eta + np.minimum(F, 0.0) * eta) * r / 2.0
-
-
 def drive_power(*, F: Number, v: Number, eta: Number) -> Number:
     """Power of both drives together, counted before the losses.
 
@@ -119,37 +85,6 @@ def drive_power(*, F: Number, v: Number, eta: Number) -> Number:
     """
     P = F * v
     return np.maximum(P, 0.0) / eta + np.minimum(P, 0.0) * eta
-
-
-def torque_force(*, T: Number, r: Number, eta: Number) -> Number:
-    """Force along the stairs that a driving torque on each of two sprockets can bring.
-
-    ``F = 2 eta T / r``
-
-    Parameters
-    ----------
-    T : float or array
-        Largest torque per sprocket [N m], counted before the losses.
-    r : float or array
-        Radius at which the sprocket pulls the track [m].
-    eta : float or array
-        Efficiency from where the torque is counted to the ground, in (0, 1] [1].
-
-    Returns
-    -------
-    float or array
-        Force [N]; friction may allow less, see `kaidan.mechanics.slipping.friction_reserve`.
-
-    Examples
-    --------
-    >>> print(torque_force(T=10.0, r=0.1, eta=0.5))
-    100.0
-
-    References
-    ----------
-    Derived: inverse of `sprocket_torque` for F > 0.
-    """
-    return 2.0 * eta * T / r
 
 
 def drive_acceleration(
@@ -230,38 +165,3 @@ def drive_slope(
     s = (F / M - a) / (g * np.hypot(1.0, c_rr))
     branch = np.arcsin(np.maximum(np.minimum(s, 1.0), -1.0))
     return validity(holds=np.abs(s) <= 1.0) * branch - np.arctan(c_rr)
-
-
-def grouser_friction(*, gamma: Number, mu_s: Number) -> Number:
-    """Ratio of traction to normal load at which a nosing slides off the flank of a grouser.
-
-    ``mu_eff = tan(gamma + arctan(mu_s))``
-
-    Assumptions: Coulomb friction on the flank; rigid grouser; one nosing bears on one flank, the
-    one that the traction presses against it.
-
-    Parameters
-    ----------
-    gamma : float or array
-        Angle of the flank to the surface of the track [rad], 0 to pi/2.
-    mu_s : float or array
-        Static friction, track on nosing [1].
-
-    Returns
-    -------
-    float or array
-        Effective friction [1]; NaN where gamma + arctan(mu_s) >= pi/2: the flank locks, and no
-        longer friction but the strength of the grouser is the limit.
-
-    Examples
-    --------
-    >>> print(round(grouser_friction(gamma=np.pi / 4, mu_s=0.5), 9))
-    3.0
-
-    References
-    ----------
-    Derived: the resultant on the flank leans at most arctan(mu_s) from its normal, which itself
-    leans gamma from the normal of the track.
-    """
-    lean = gamma + np.arctan(mu_s)
-    return validity(holds=lean < np.pi / 2.0) * np.tan(lean)

@@ -357,35 +357,3 @@ def margin_per_centroid_length(*, L: Number, p: Number, C_L: Number, C_N: Number
     """
     x = L - p - C_L
     return -C_N / (x * x + C_N * C_N)
-
-
-def margin_per_centroid_height(*, L: Number, p: Number, C_L: Number, C_N: Number) -> Number:
-    """Change of theta_s_sup per metre of centroid height.
-
-    ``d theta_s_sup / d C_N = -x / (x^2 + C_N^2)``, x = L - p - C_L
-
-    Parameters
-    ----------
-    L : float or array
-        Length of the flat underside [m].
-    p : float or array
-        Nosing spacing [m].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-
-    Returns
-    -------
-    float or array
-        Sensitivity at a = 0 [rad/m].
-
-    Examples
-    --------
-    >>> print(round(margin_per_centroid_height(L=0.5, p=0.1, C_L=0.3, C_N=0.1), 9))
-    -5.0
-
-    References
-    ----------
-    Derived from Eqs. (19)-(23) of Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y.
-    """
-    x = L - p - C_L
-    return -x / (x * x + C_N * C_N)

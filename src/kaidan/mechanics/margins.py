@@ -22,8 +22,6 @@ class Margins(NamedTuple):
 
     theta_s_sup: Number
     """Steepest slope for this acceleration, without allowances."""
-    theta_s_inf: Number
-    """Gentlest slope for this acceleration, without allowances; negative: no such limit."""
     tip_downhill: Number
     """theta_s_sup - theta_d - theta_M - theta_s."""
     tip_uphill: Number
@@ -115,7 +113,7 @@ def margins(
     tip = np.minimum(tip_downhill, tip_uphill)
     slip = np.minimum(slides_down, slides_up)
     worst = np.fmin(tip, slip) + 0.0 * tip  # an unknown slip is left out, an unknown tip is not
-    return Margins(sup, inf, tip_downhill, tip_uphill, slides_down, slides_up, worst, inside)
+    return Margins(sup, tip_downhill, tip_uphill, slides_down, slides_up, worst, inside)
 
 
 def acceleration_bounds(

@@ -209,34 +209,3 @@ def body_inclination(*, theta_s: Number, psi: Number) -> Number:
     Derived: height gained per length driven.
     """
     return np.arcsin(np.sin(theta_s) * np.cos(psi))
-
-
-def roll(*, theta_s: Number, psi: Number) -> Number:
-    """Roll of the body about its heading.
-
-    ``tan(roll) = -tan(theta_s) sin(psi)``
-
-    Parameters
-    ----------
-    theta_s : float or array
-        Slope of the line through the nosings [rad], within (-pi/2, pi/2).
-    psi : float or array
-        Yaw off the line of steepest ascent, to the left positive [rad].
-
-    Returns
-    -------
-    float or array
-        Roll [rad], left side up positive: negative for a heading to the left, which leaves the
-        left side low.
-
-    Examples
-    --------
-    >>> print(round(roll(theta_s=np.pi / 4, psi=-np.pi / 2) * 180 / np.pi, 9))
-    45.0
-
-    References
-    ----------
-    Derived: in the order yaw, inclination, roll the body's normal has the height
-    cos(phi) cos(roll) = cos(theta_s) and its left axis cos(phi) sin(roll) = -sin(theta_s) sin(psi).
-    """
-    return -np.arctan(np.tan(theta_s) * np.sin(psi))

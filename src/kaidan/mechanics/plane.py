@@ -10,19 +10,6 @@ _ROUNDING = 1.0 + 4.0 * 2.0**-52
 """Four units of rounding: a quotient of lengths so little below a whole number is that number."""
 
 
-class State(IntEnum):
-    """States of the robot between two nosings (Fig. 3)."""
-
-    A = 0
-    """The next nosing meets the front tip (d = 0)."""
-    B = 1
-    """n + 1 contacts, 0 < d < L - n p."""
-    C = 2
-    """The lowest contact leaves at the rear tip; it counts as detached."""
-    D = 3
-    """n contacts, until the next nosing is met at d = p."""
-
-
 class Area(IntEnum):
     """Areas of the d-a plane, in the order in which they are assigned."""
 
@@ -101,36 +88,6 @@ def two_contacts_remain(*, L: Number, p: Number) -> Number:
     Derived from Fig. 3 of Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y.
     """
     return 2.0 * p <= L * _ROUNDING
-
-
-def state(*, d: Number, L: Number, p: Number) -> Number:
-    """State A, B, C or D of the robot at a progress.
-
-    Parameters
-    ----------
-    d : float or array
-        Progress [m], 0 <= d < p.
-    L : float or array
-        Length of the flat underside [m].
-    p : float or array
-        Nosing spacing [m].
-
-    Returns
-    -------
-    int or array of int
-        `State`; where A and C coincide (n p = L) it is C, the one with the lower limit.
-
-    Examples
-    --------
-    >>> State(int(state(d=0.05, L=0.47, p=0.15))).name
-    'D'
-
-    References
-    ----------
-    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Fig. 3 and its text.
-    """
-    d_C = L - contact_count(L=L, p=p) * p
-    return (d < d_C) * (d > 0) * State.B + (d == d_C) * State.C + (d > d_C) * State.D
 
 
 def lowest_contact(*, d: Number, L: Number, p: Number) -> Number:

@@ -73,40 +73,6 @@ def normal_sum(*, M: Number, theta_s: Number, g: Number = STANDARD_GRAVITY) -> N
     return M * g * np.cos(theta_s)
 
 
-def friction_reserve(*, traction: Number, normal: Number, mu_s: Number) -> Number:
-    """Friction that is left over the traction required; positive means no slip.
-
-    ``mu_s sum f_kN - sum f_kL > 0``
-
-    Assumptions: Coulomb friction, the same coefficient at every contact.
-
-    Parameters
-    ----------
-    traction, normal : float or array
-        Sums of the tractive and of the normal forces [N].
-    mu_s : float or array
-        Static friction, track on nosing [1].
-
-    Returns
-    -------
-    float or array
-        Reserve [N]; zero or negative means slipping (equality is not safe in Eq. (1)).
-
-    Examples
-    --------
-    >>> friction_reserve(traction=60.0, normal=100.0, mu_s=0.75)
-    15.0
-
-    References
-    ----------
-    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eq. (1).
-
-    Errata: Eq. (1) has no counterpart for sliding up the stairs (traction pointing down); see
-    `slip_acceleration_down`.
-    """
-    return mu_s * normal - traction
-
-
 def slip_acceleration_up(*, mu_s: Number, theta_s: Number, g: Number = STANDARD_GRAVITY) -> Number:
     """Acceleration a_S up the stairs at which the tracks begin to slip.
 

@@ -117,37 +117,6 @@ def theta_alpha_arccos(*, alpha: Number, beta: Number, k: Number, p: Number) -> 
     return np.arccos((alpha**2 + k**2 * p**2 - beta**2) / (2 * k * alpha * p))
 
 
-def theta_beta_arccos(*, alpha: Number, beta: Number, k: Number, p: Number) -> Number:
-    """Angle t_0 t_n C by the law of cosines, as the paper prints it.
-
-    ``theta_beta = arccos((beta^2 + k^2 p^2 - alpha^2) / (2 k beta p))``
-
-    Parameters
-    ----------
-    alpha, beta : float or array
-        Distances of the centroid from the lowest and the highest contact [m].
-    k : int or array
-        Nosing spacings between these two contacts [1].
-    p : float or array
-        Nosing spacing [m].
-
-    Returns
-    -------
-    float or array
-        Angle [rad]; NaN where the three lengths make no triangle.
-
-    Examples
-    --------
-    >>> print(round(theta_beta_arccos(alpha=1.0, beta=1.0, k=1, p=1.0) * 180 / np.pi, 9))
-    60.0
-
-    References
-    ----------
-    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eq. (13).
-    """
-    return np.arccos((beta**2 + k**2 * p**2 - alpha**2) / (2 * k * beta * p))
-
-
 def theta_alpha(*, d: Number, k: Number, p: Number, C_L: Number, C_N: Number) -> Number:
     """Angle t_n t_0 C in closed form.
 

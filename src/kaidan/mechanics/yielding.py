@@ -24,36 +24,6 @@ REST = np.radians(8.5)
 flight, up to 8.5 from landing to landing (docs/theory/yielding.md)."""
 
 
-def theta_d_at_limit(*, eta: Number, p: Number) -> Number:
-    """Extra inclination at the limit, where the nosing above t_0 just touches.
-
-    ``theta_d = arcsin(eta / p)``
-
-    Parameters
-    ----------
-    eta : float or array
-        Indentation at t_0 [m].
-    p : float or array
-        Nosing spacing [m].
-
-    Returns
-    -------
-    float or array
-        Angle [rad]; NaN for eta > p.
-
-    Examples
-    --------
-    >>> print(round(theta_d_at_limit(eta=0.001, p=0.150) * 180 / np.pi, 3))
-    0.382
-
-    References
-    ----------
-    Derived (docs/theory/yielding.md): the two nosings lie p apart, one eta below the underside and
-    one on it.
-    """
-    return np.arcsin(eta / p)
-
-
 def drop_of_sag(*, theta_d: Number, p: Number, theta_s: Number) -> Number:
     """Fall of the centroid as one nosing takes up all of the pull, of a track that gives theta_d.
 
@@ -238,62 +208,6 @@ def tail_grips(*, w_n: Number, R: Number, mu: Number) -> Number:
     Derived (docs/theory/yielding.md).
     """
     return w_n >= R * (1.0 - np.sin(np.arctan(mu)))
-
-
-def grip_tilt(
-    *, L: Number, p: Number, C_L: Number, C_N: Number, w_n: Number, R: Number, mu: Number
-) -> Number:
-    """Tilt short of the limit from which the grip of a tail can still lift the robot at rest.
-
-    ``sin(m) = (p / H) sin(theta_r) tan(phi + atan(mu) - pi/2)``, H^2 = (L - p - C_L)^2 + C_N^2,
-    ``R (1 - cos(phi)) = 2 w_n (cos(theta_r - m) + sin(theta_r) tan(phi + atan(mu) - pi/2))``
-
-    A nosing that has run the angle phi along the round end pulls the tail down by no more than the
-    edge of its friction cone does with the whole pull along the stairs, W sin(a). The upper nosing
-    lifts off when that has the moment that the robot is short of its limit by, W H sin(m) about the
-    lowest nosing. phi is the farthest at which the nosing still presses, when the lowest one bears
-    the weight and the grip.
-
-    Assumptions: on the flight, at rest, nosings push the robot up the stairs only; small angles of
-    deflection. No verdict rests on it: over the first riser a track fell with less.
-
-    Parameters
-    ----------
-    L, p, C_L, C_N : float or array
-        Flat length, nosing spacing, centroid behind the uphill tip and above the underside [m].
-    w_n : float or array
-        Indentation under the whole weight on one nosing [m].
-    R : float or array
-        Radius of the downhill end [m].
-    mu : float or array
-        Static friction [1]; infinite: all of theta_r.
-
-    Returns
-    -------
-    float or array
-        m [rad], 0 to theta_r = atan((L - p - C_L) / C_N); NaN where that is not positive.
-
-    Examples
-    --------
-    >>> kenaf = dict(L=0.470, p=0.150, C_L=0.196, C_N=0.071, w_n=0.002)
-    >>> [round(float(np.degrees(grip_tilt(R=R, mu=3.0, **kenaf))), 1) for R in (0.060, 0.020)]
-    [0.0, 18.9]
-
-    References
-    ----------
-    Derived (docs/theory/yielding.md).
-    """
-    x = L - p - C_L
-    H = np.hypot(x, C_N)
-    theta = np.arctan2(x, C_N)
-    cone = np.arctan(mu) - 0.5 * np.pi
-    edge, m = np.tan(np.arctan(mu)), theta
-    for _ in range(_ROUNDS):  # from above: each round is a bound, too
-        depth = 2.0 * w_n * (np.cos(theta - m) + np.sin(theta) * edge)
-        phi = np.arccos(np.maximum(1.0 - depth / np.maximum(R, 1e-9), 0.0))
-        edge = np.tan(np.maximum(phi + cone, 0.0))
-        m = np.minimum(np.arcsin(np.minimum(p / H * np.sin(theta) * edge, 1.0)), theta)
-    return m * np.where(x > 0.0, 1.0, np.nan)
 
 
 def yielding_loss(

@@ -9,8 +9,8 @@ from dataclasses import replace
 from importlib import import_module
 from typing import TYPE_CHECKING
 
+from kaidan.models.sentences import terrain as text
 from kaidan.modes import ACROSS, FLOOR_FINISH, FOOT_UNSEEN, MODELS, FailureMode, Verdict
-from kaidan.text import terrain as text
 
 if TYPE_CHECKING:
     from kaidan.models.findings import Findings

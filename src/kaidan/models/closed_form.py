@@ -15,10 +15,10 @@ from kaidan.models.drive_limits import steepest_for_drive
 from kaidan.models.findings import Array, Finding, Findings, Later, at_risk
 from kaidan.models.regular_flight import no_regular_flight
 from kaidan.models.samples import Draws, draws, nominal
+from kaidan.models.sentences import closed_form as text
 from kaidan.modes import CLOSED_FORM, DRIVE, FORMULAS, TIPS, Verdict
 from kaidan.question import Question
 from kaidan.terrain.stairs import Stairs
-from kaidan.text import closed_form as text
 
 MODES = (*FORMULAS, DRIVE)
 """Failure modes that it knows, in the order of its arrays."""

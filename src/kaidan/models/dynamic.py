@@ -16,6 +16,7 @@ from kaidan.models.drawn_trials import drawn_specs
 from kaidan.models.dynamic_figures import PhysicsFigures, TrialFigures
 from kaidan.models.findings import Finding, Findings
 from kaidan.models.proportion import interval
+from kaidan.models.sentences import dynamic as text
 from kaidan.modes import (
     PHYSICS,
     SLIDES_DOWN,
@@ -28,7 +29,6 @@ from kaidan.modes import (
 )
 from kaidan.physics import Outcome, TrialResult, run
 from kaidan.question import Question
-from kaidan.text import dynamic as text
 
 FAILS = -math.inf
 """Margin of what a trial failed by: by how much is not known."""

@@ -21,8 +21,9 @@ from kaidan.models.balance import balance
 from kaidan.models.contact_figures import figures_of
 from kaidan.models.drive_limits import traction_limit
 from kaidan.models.findings import Array, Finding, Findings, Later, hardest, without_rounding
+from kaidan.models.sentences import contact_model as text
+from kaidan.models.sentences import traction as grips
 from kaidan.models.spread import Spread, spread
-from kaidan.models.support_polygon import along_heading
 from kaidan.models.traction import Supplies
 from kaidan.modes import (
     CONTACT,
@@ -41,8 +42,6 @@ from kaidan.modes import (
 from kaidan.question import Question
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
-from kaidan.text import contact_model as text
-from kaidan.text import traction as grips
 from kaidan.traversal import PhaseExtremes, Traverse, traverse
 
 FALL = math.pi / 2
@@ -63,40 +62,6 @@ class Basis(NamedTuple):
     """As driven: along the heading, straight up or down."""
     traverse: Any
     """A `Traverse`, or the `planned.Planned` of a plan."""
-
-
-def judge(question: Question, *, known: Findings | None = None) -> Findings:
-    """Findings of the contact model on the whole traverse of a question.
-
-    Parameters
-    ----------
-    question : Question
-        On any terrain.
-    known : Findings, optional
-        Of a similar question: its traverse is taken over where the change plays no part in it.
-
-    Returns
-    -------
-    Findings
-    """
-    if question.changes:
-        return _of_a_plan(question, known)
-    driven = question
-    if question.yaw and isinstance(question.terrain, Stairs):
-        driven = question.changed(terrain=along_heading(question.terrain, question.yaw), yaw=0.0)
-    basis: Basis | None = None if known is None else known.basis
-    if basis is None or not _drives_alike(basis.question, driven):
-        basis = Basis(driven, traverse_of(driven))
-    return findings_of(question, basis._replace(question=driven))
-
-
-def _of_a_plan(question: Question, known: Findings | None) -> Findings:
-    from kaidan.models import planned
-
-    basis: Basis | None = None if known is None else known.basis
-    if basis is not None and _drives_alike(basis.question, question):
-        return planned.findings(question, basis.traverse)
-    return planned.findings(question, planned.drive(question))
 
 
 def traverse_of(
@@ -134,7 +99,7 @@ def repeats(question: Question) -> bool:
     return sum(question.outline.reach) < LONG_FLIGHT / 2 * stairs.nosing_spacing
 
 
-def _drives_alike(question: Question, other: Question) -> bool:
+def drives_alike(question: Question, other: Question) -> bool:
     """Whether both have one traverse: friction, belts and allowances play no part."""
     return belts.without_belts(question.robot) == belts.without_belts(other.robot) and all(
         getattr(question, name) == getattr(other, name)

@@ -36,6 +36,7 @@ from kaidan.models.drive_limits import steepest_for_drive
 from kaidan.models.findings import Array, Finding, Findings, Later, each_at_risk
 from kaidan.models.regular_flight import no_regular_flight
 from kaidan.models.samples import Draws, draws, nominal
+from kaidan.models.sentences.support_polygon import FLIGHT_ALONE
 from kaidan.modes import (
     DRIVE,
     ENERGY,
@@ -50,7 +51,6 @@ from kaidan.modes import (
 )
 from kaidan.question import LARGEST_YAW, Question
 from kaidan.terrain.stairs import Stairs
-from kaidan.text.support_polygon import FLIGHT_ALONE
 
 SCAN = math.radians(0.25)
 """Step of the search for the yaw at which the verdict changes [rad]."""

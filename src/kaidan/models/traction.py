@@ -33,7 +33,7 @@ SLIDING = 0.8
 and Engineers, table 5.2 (0.8 and 1.0)."""
 FASTEST = 0.2
 """Speed from which on grousers are no GO [m/s]: driven in MuJoCo some hooked a nosing and fell, or
-spun at a riser (docs/physics.md, docs/theory/grousers.md)."""
+spun at a riser (docs/lab/physics.md, docs/theory/grousers.md)."""
 MOST_LOOKS = 20
 """Times that an angle of friction which is enough is improved."""
 _LITTLE = 1e-6

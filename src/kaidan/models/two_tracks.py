@@ -12,10 +12,10 @@ import numpy as np
 
 from kaidan.mechanics.two_tracks import TwoTrackMargins, track_points, two_track_margins
 from kaidan.models.findings import Finding, Findings
+from kaidan.models.sentences import two_tracks as text
 from kaidan.modes import TWIST, Phase
 from kaidan.question import Question
 from kaidan.terrain.stairs import MOST_TWISTED, Stairs
-from kaidan.text import two_tracks as text
 
 
 def beside(question: Question, found: Findings) -> Findings:

@@ -15,10 +15,10 @@ import numpy as np
 
 from kaidan.errors import InputError
 from kaidan.models.findings import Finding, Findings, hardest, sliding_where
+from kaidan.models.sentences import unweighed as text
 from kaidan.modes import FAILURE_MODES, UNWEIGHED, FailureMode, Verdict
 from kaidan.question import Question
 from kaidan.robot import CentroidRange
-from kaidan.text import unweighed as text
 
 PLACES = 5
 """Places along the track that are judged; between them the margins bend by little."""

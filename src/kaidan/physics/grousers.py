@@ -6,7 +6,9 @@
     hinge   about that axle, on the round ends
     spring  radially: the grouser yields
 
-The surface between them is the smooth belt.
+Each is a half-round bar: a cylinder across the robot, its axis on the belt, its radius the height.
+So its flanks leave the belt at a right angle and hook no nosing, as an undercut flank does. The
+surface between the bars is the smooth belt.
 """
 
 import math
@@ -15,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.physics.belts import Lane
+from kaidan.physics.belts import Lane, rounded
 from kaidan.physics.engine import engine
 from kaidan.physics.spec import TrialSpec
 from kaidan.physics.tracks import DrivenGrousers
@@ -30,7 +32,7 @@ COUNT = 40
 MASS = 0.02
 """Mass of a grouser [kg]; the belt's mass is the robot's already."""
 _STIFF = 2e6
-"""Servo of the slide [N/m], ten times a grouser's spring; the hinge's has the same at the belt."""
+"""Servo of the slide [N/m], ten times a grouser's spring; the hinge's has the same at the tip."""
 _LAG = 1e-3
 """Time by which the servos lag behind, the same for all [s]."""
 _ARMATURE = 0.05
@@ -88,7 +90,9 @@ def add_grousers(
     track = spec.track
     assert isinstance(track, DrivenGrousers)
     height = grouser_height(track, spec.question.robot.track)
+    part = rounded(part)
     rear, front, radius, z = part[0], part[3], part[2], part[1]
+    arm = radius + height
     length = 2 * (front - rear) + 2 * math.pi * radius
     spacing = track.spacing or spec.question.robot.track.grouser_spacing or length / COUNT
     count = max(4, round(length / spacing))
@@ -109,7 +113,7 @@ def add_grousers(
         one.add_joint(name=f"{name}_x", type=slide, axis=[c, 0.0, s], ref=x, armature=_ARMATURE)
         one.add_joint(
             name=f"{name}_a", type=hinge, axis=[0.0, 1.0, 0.0], ref=angle,
-            armature=_ARMATURE * radius**2,
+            armature=_ARMATURE * arm**2,
         )  # fmt: skip
         one.add_joint(
             name=f"{name}_r",
@@ -121,13 +125,13 @@ def add_grousers(
         one.add_geom(
             name=name,
             type=mujoco.mjtGeom.mjGEOM_CAPSULE,
-            size=[height / 2, lane.half_width, 0.0],
-            pos=[0.0, 0.0, -(radius + height / 2)],
+            size=[height, lane.half_width, 0.0],
+            pos=[0.0, 0.0, -radius],
             quat=[math.sqrt(0.5), -math.sqrt(0.5), 0.0, 0.0],
             rgba=_COLOUR,
             **common,
         )
-        for joint, stiff in (("x", _STIFF), ("a", _STIFF * radius**2)):
+        for joint, stiff in (("x", _STIFF), ("a", _STIFF * arm**2)):
             actuator = scene.add_actuator(
                 name=f"{name}_{joint}",
                 target=f"{name}_{joint}",

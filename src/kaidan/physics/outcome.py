@@ -45,7 +45,7 @@ class Outcome(StrEnum):
 class TrialResult(Answer):
     """Result of a trial, with all that it came from."""
 
-    text_module: ClassVar[str] = "trial"
+    text_module: ClassVar[str] = "kaidan.text.trial"
 
     spec: TrialSpec
     """All that it depends on."""

@@ -1,7 +1,7 @@
 """A trial of a yielding track: the planar inner loop, seen as the trial sees a simulation.
 
 Contacts of MuJoCo have no spring along the surface, and a spring in a light part between robot and
-stairs chatters (docs/physics.md); so the body on rubber is advanced here, without MuJoCo.
+stairs chatters (docs/lab/physics.md); so the body on rubber is advanced here, without MuJoCo.
 """
 
 import importlib.util

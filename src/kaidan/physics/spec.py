@@ -31,6 +31,8 @@ SMOOTH_FRICTION = 3.0
 """Friction of belts where none is stated [1]: they do not slip below 71 degrees."""
 RUBBER_FRICTION = 0.8
 """Friction of grousers where none is stated [1]: rubber on something dry, 0.6 to 1.0."""
+SMALLEST_CHAIN_WHEEL = 0.010
+"""Radius of an end that the shoes of a chain can go round [m]."""
 _SMOOTH = ("smooth-belt", "yielding-belt", "sprung-noses", "shoe-chain")
 _RIGID_STAIRS = ("smooth-belt", "driven-grousers", "shoe-chain")
 FROM_THE_LANDING = 0.02
@@ -150,11 +152,11 @@ class TrialSpec(Sheet):
                     f"{robot.name!r} does not state both"
                 )
         if kind in ("driven-grousers", "shoe-chain"):
-            if track.front_radius != track.rear_radius or track.front_radius < 0.01:
-                raise self.refuse(
-                    f"{kind} needs ends of one radius, of at least 10 mm; "
-                    f"{robot.name!r} has {track.front_radius:g} and {track.rear_radius:g} m"
-                )
+            ends = f"{robot.name!r} has {track.front_radius:g} and {track.rear_radius:g} m"
+            if track.front_radius != track.rear_radius:
+                raise self.refuse(f"{kind} needs ends of one radius; {ends}")
+            if kind == "shoe-chain" and track.front_radius < SMALLEST_CHAIN_WHEEL:
+                raise self.refuse(f"{kind} needs ends of at least 10 mm; {ends}")
             if track.gap:
                 raise self.refuse(f"{kind} needs a track without a gap")
         if self.nosing_radius and (kind not in _RIGID_STAIRS or self.ground == "noses"):

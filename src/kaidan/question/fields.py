@@ -4,12 +4,13 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import Annotated, Any, ClassVar, Literal
 
+import numpy as np
 from pydantic import Discriminator, Field, Tag, field_validator
 
 from kaidan.allowance import Allowance
 from kaidan.errors import InputError
-from kaidan.modes import CONTACT, Acceptance, Direction, Facing
-from kaidan.robot import Payload, Posture, PostureChange, Robot
+from kaidan.modes import CONTACT, Acceptance, Direction, Facing, Phase
+from kaidan.robot import Payload, Posture, PostureChange, Robot, Stance
 from kaidan.sheet import Sheet, quantity
 from kaidan.spelling import JOINT, Terrain
 from kaidan.surface import Surface
@@ -198,3 +199,42 @@ class QuestionFields(Sheet):
         if isinstance(self.terrain, tuple):
             return f" {JOINT} ".join(flight.name for flight in self.terrain)
         return self.terrain.name
+
+    @cached_property
+    def postures(self) -> Mapping[Phase, Posture]:
+        """Posture of each phase."""
+        at, found = self.posture, {}
+        changes = {Phase(each.before): each.posture for each in self.changes}
+        for phase in Phase:
+            at = found[phase] = changes.get(phase, at)
+        return found
+
+    @cached_property
+    def stance(self) -> Stance:
+        """Robot in its posture on the flight, under its payload."""
+        return self.robot.stance(self._on_flight, self.payload)
+
+    @property
+    def _on_flight(self) -> Posture:
+        if "flippers" in self.best_of:
+            raise InputError(
+                "flippers = best has to be found first; state stowed, flat, angles or a plan"
+            )
+        return self.postures[Phase.TRAVERSE]
+
+    @property
+    def plannable(self) -> bool:
+        """Whether angles by phase can be found: by the contact model, straight on."""
+        return self.model == CONTACT.name and not self.yaw
+
+    @property
+    def nose_up(self) -> bool:
+        """Whether the nose points up the stairs."""
+        return (self.direction == "up") == (self.facing == "nose-first")
+
+    @cached_property
+    def friction(self) -> tuple[float, float]:
+        """Static friction of nosings in the worst and in the best case [1]; NaN: not stated."""
+        if self.surface is None:
+            return np.nan, np.nan
+        return self.surface.of_parts()[0], self.surface.of_parts(best=True)[0]

@@ -1,11 +1,8 @@
 """The question as a sheet: made of what people write, changed, and what follows from it."""
 
 import math
-from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
-
-import numpy as np
 
 from kaidan.allowance import Allowance
 from kaidan.arguments import known_arguments
@@ -13,11 +10,11 @@ from kaidan.errors import InputError
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.measures import kinetic_energy_height, sudden_stop_height
 from kaidan.mechanics.yielding import drop_of_sag
-from kaidan.modes import CONTACT, MODELS, PHYSICS, Acceptance, Phase
+from kaidan.modes import MODELS, PHYSICS, Acceptance
 from kaidan.question.fields import FACINGS, TRACKS, QuestionFields
 from kaidan.question.refusals import refuse_impossible
 from kaidan.question.yielding import ROCKING_SPEED, allowance_d, theta_d_at
-from kaidan.robot import Posture, Stance
+from kaidan.robot import Posture
 from kaidan.sheet import model_validator
 from kaidan.spelling import (
     BEST,
@@ -238,25 +235,11 @@ class Question(QuestionFields):
         fields = {name: getattr(self, name) for name in type(self).model_fields}
         return type(self)(**fields | changes)
 
-    @cached_property
-    def postures(self) -> Mapping[Phase, Posture]:
-        """Posture of each phase."""
-        at, found = self.posture, {}
-        changes = {Phase(each.before): each.posture for each in self.changes}
-        for phase in Phase:
-            at = found[phase] = changes.get(phase, at)
-        return found
-
     @property
     def flippers(self) -> str:
         """Postures as the option is written."""
         changes = (f"/{each.before}:{each.posture.spelled(self.robot)}" for each in self.changes)
         return self.posture.spelled(self.robot) + "".join(changes)
-
-    @cached_property
-    def stance(self) -> Stance:
-        """Robot in its posture on the flight, under its payload."""
-        return self.robot.stance(self._on_flight, self.payload)
 
     @cached_property
     def outline(self) -> "Outline":
@@ -265,19 +248,11 @@ class Question(QuestionFields):
 
         return Outline.of(self.robot, self._on_flight, self.payload)
 
-    @property
-    def _on_flight(self) -> Posture:
-        if "flippers" in self.best_of:
-            raise InputError(
-                "flippers = best has to be found first; state stowed, flat, angles or a plan"
-            )
-        return self.postures[Phase.TRAVERSE]
-
     @cached_property
     def allowance_d(self) -> Allowance:
         """theta_d as stated, of a yielding track as measured, or by default.
 
-        See `kaidan.question.yielding.allowance_d`.
+        See ``kaidan.question.yielding.allowance_d``.
         """
         return allowance_d(self)
 
@@ -293,28 +268,11 @@ class Question(QuestionFields):
         return Allowance.of(stated, name="theta_M", descending=down)
 
     @property
-    def plannable(self) -> bool:
-        """Whether angles by phase can be found: by the contact model, straight on."""
-        return self.model == CONTACT.name and not self.yaw
-
-    @property
     def tolerance(self) -> float:
         """How far off their angles the flippers may lie, as stated or by default [rad]."""
         if self.flipper_tolerance is not None:
             return self.flipper_tolerance
         return FLIPPER_TOLERANCE if "flippers" in self.best_of and self.plannable else 0.0
-
-    @property
-    def nose_up(self) -> bool:
-        """Whether the nose points up the stairs."""
-        return (self.direction == "up") == (self.facing == "nose-first")
-
-    @cached_property
-    def friction(self) -> tuple[float, float]:
-        """Static friction of nosings in the worst and in the best case [1]; NaN: not stated."""
-        if self.surface is None:
-            return np.nan, np.nan
-        return self.surface.of_parts()[0], self.surface.of_parts(best=True)[0]
 
     @property
     def rolling_resistance(self) -> float:

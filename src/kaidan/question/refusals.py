@@ -1,17 +1,13 @@
 """What a question cannot ask, each with the reason: questions are checked as a whole here."""
 
-from typing import TYPE_CHECKING
-
 from kaidan.errors import InputError, shown
 from kaidan.modes import CLOSED_FORM, MODELS, PHYSICS
+from kaidan.question.fields import QuestionFields
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 
-if TYPE_CHECKING:
-    from kaidan.question.question import Question
 
-
-def refuse_impossible(question: "Question") -> None:
+def refuse_impossible(question: QuestionFields) -> None:
     """Refuse what robot, terrain, manner and model cannot have together.
 
     Raises
@@ -41,7 +37,7 @@ def refuse_impossible(question: "Question") -> None:
         _refuse_impossible_yaw(question)
 
 
-def _refuse_impossible_plan(question: "Question") -> None:
+def _refuse_impossible_plan(question: QuestionFields) -> None:
     before = [each.before for each in question.changes]
     if before not in ([], ["traverse"], ["land"], ["traverse", "land"]):
         raise InputError(
@@ -60,7 +56,7 @@ def _refuse_impossible_plan(question: "Question") -> None:
         raise InputError("a plan of postures needs a nosing to change before")
 
 
-def _refuse_impossible_yaw(question: "Question") -> None:
+def _refuse_impossible_yaw(question: QuestionFields) -> None:
     if not isinstance(question.terrain, Stairs):
         raise InputError(
             "a profile lies along the heading already: leave the yaw out"

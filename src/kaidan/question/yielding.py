@@ -1,17 +1,15 @@
 """theta_d of a question: as stated, or what yielding tracks cost as they were measured."""
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from kaidan.allowance import LARGEST_ALLOWANCE, Allowance
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.yielding import yielding_loss
+from kaidan.question.fields import QuestionFields
 from kaidan.robot import Stance
-
-if TYPE_CHECKING:
-    from kaidan.question.question import Question
 
 ROCKING_SPEED = 0.1
 """Speed whose energy the robot is taken to have where none is stated [m/s]: the paper's test
@@ -21,7 +19,7 @@ FASTEST_YIELDING = 0.15
 nosing faster than it falls."""
 
 
-def allowance_d(question: "Question") -> Allowance:
+def allowance_d(question: QuestionFields) -> Allowance:
     """theta_d as stated, else as the robot's sheet has it, else the default range.
 
     Where the sheet has indentation and sag, what they cost by mechanics takes the place of the
@@ -47,7 +45,7 @@ def allowance_d(question: "Question") -> Allowance:
     return Allowance(low=stated.low, high=high, source="indentation and sag as measured")
 
 
-def theta_d_at(question: "Question", *, L: Any, p: Any, C_L: Any, C_N: Any) -> Any:
+def theta_d_at(question: QuestionFields, *, L: Any, p: Any, C_L: Any, C_N: Any) -> Any:
     """High end of `allowance_d` of the same robot with other lengths [rad].
 
     Parameters
@@ -65,11 +63,11 @@ def theta_d_at(question: "Question", *, L: Any, p: Any, C_L: Any, C_N: Any) -> A
     return np.fmax(losses, least)
 
 
-def _stated(question: "Question") -> Allowance:
+def _stated(question: QuestionFields) -> Allowance:
     return Allowance.of(question.theta_d or question.robot.theta_d, name="theta_d")
 
 
-def _losses(question: "Question", *, L: Any, p: Any, C_L: Any, C_N: Any) -> Any:
+def _losses(question: QuestionFields, *, L: Any, p: Any, C_L: Any, C_N: Any) -> Any:
     """Margin that a yielding track costs [rad]; None: stated otherwise, or nothing is known.
 
     With one of indentation and sag the other counts as equal.
@@ -94,12 +92,12 @@ def _losses(question: "Question", *, L: Any, p: Any, C_L: Any, C_N: Any) -> Any:
     return np.minimum(losses, LARGEST_ALLOWANCE)
 
 
-def _as_measured(question: "Question") -> bool:
+def _as_measured(question: QuestionFields) -> bool:
     """Whether indentation and sag are both known, of a belt that the mechanics knows."""
     return None not in _lengths(question) and not question.robot.track.has_grousers
 
 
-def _lengths(question: "Question") -> tuple[float | None, float | None]:
+def _lengths(question: QuestionFields) -> tuple[float | None, float | None]:
     """How far the whole weight on one nosing presses in and drags the tracks [m]."""
     track, own, mass = question.robot.track, question.robot.mass, _bare(question).mass
     if own is None or mass is None:
@@ -113,14 +111,14 @@ def _lengths(question: "Question") -> tuple[float | None, float | None]:
     return of(track.indentation, track.stiffness), of(track.sag, track.shear_stiffness)
 
 
-def _bare(question: "Question") -> Stance:
+def _bare(question: QuestionFields) -> Stance:
     """Stance on the flight; with the flippers stowed as long as they are to be found."""
     if "flippers" in question.best_of:
         return question.robot.stance(None, question.payload)
     return question.stance
 
 
-def _radius_downhill(question: "Question") -> float:
+def _radius_downhill(question: QuestionFields) -> float:
     """Radius of the downhill end of the flat underside [m]."""
     robot, stance = question.robot, _bare(question)
     front = stance.front_extension

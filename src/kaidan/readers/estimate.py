@@ -9,11 +9,11 @@ from typing import Any
 from kaidan.errors import InputError
 from kaidan.readers.flight import MICROMETRE, FlightEstimate
 from kaidan.readers.kinds import Array, Provenance
+from kaidan.readers.sentences.buildings import OTHER_ANGLE, not_judged
+from kaidan.readers.sentences.refusals import sentence
 from kaidan.terrain.landings import TURNS
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import UNSTATED_LANDING, Stairs
-from kaidan.text.refusals import sentence
-from kaidan.text.turning import OTHER_ANGLE, not_judged
 
 STRAIGHT_ON = math.radians(15.0)
 """Angle between two flights up to which the robot goes straight on [rad]."""
@@ -26,7 +26,7 @@ class Refusal:
     """Why something holds no stairs that can be judged: a result, not an error."""
 
     why: str
-    """A word of ``kaidan.text.refusals``."""
+    """A word of ``kaidan.readers.sentences.refusals``."""
     numbers: Mapping[str, float | str]
     """What was measured, by the names that the sentence uses."""
     provenance: Provenance

@@ -2,7 +2,7 @@
 
 A format has a reader, ``kaidan.readers.formats.<reader>.read(source, hints)``, which returns the
 kind that the line names; or a refusal: files that are recognised and answered in one sentence,
-which stands in `kaidan.text.refusals` under that word.
+which stands in `kaidan.readers.sentences.refusals` under that word.
 """
 
 import re

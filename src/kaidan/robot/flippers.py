@@ -1,16 +1,14 @@
 """Flippers, the angles that an operator gives them, and plans of such angles."""
 
 import math
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
+from collections.abc import Mapping
+from typing import Any, ClassVar, Literal, Protocol, Self
 
 from pydantic import Field, ValidationInfo, field_validator
 
 from kaidan.errors import InputError, did_you_mean, shown
 from kaidan.sheet import Sheet, model_validator, quantity
 from kaidan.units import value_of
-
-if TYPE_CHECKING:
-    from kaidan.robot.robot import Robot
 
 
 class FlipperPair(Sheet):
@@ -69,6 +67,14 @@ class FlipperPair(Sheet):
         return max(0.0, self.length * math.cos(self.flat_angle) - self.pivot_inset)
 
 
+class WithFlippers(Protocol):
+    """What a posture is spelled for: a robot."""
+
+    @property
+    def name(self) -> str: ...  # noqa: D102
+    def flippers(self) -> Mapping[str, FlipperPair]: ...  # noqa: D102
+
+
 class Posture(Sheet):
     """Angles of the flippers; None leaves a pair stowed, "flat" lays it in line with the track."""
 
@@ -85,7 +91,7 @@ class Posture(Sheet):
     )
 
     @classmethod
-    def parse(cls, text: str, robot: "Robot", *, option: str = "flippers") -> Self:
+    def parse(cls, text: str, robot: "WithFlippers", *, option: str = "flippers") -> Self:
         """Posture of a robot from a text.
 
         Parameters
@@ -94,7 +100,7 @@ class Posture(Sheet):
             "stowed"; "flat" for every pair the robot has; or for front and rear each an angle,
             "flat" or "stowed": "20deg,-5deg". One alone will do where there is one pair. After
             it a state of the sheet: "stowed+arm-out".
-        robot : Robot
+        robot : WithFlippers
             Whose flippers they are.
         option : str
             What errors call it, for example "--flippers".
@@ -140,7 +146,7 @@ class Posture(Sheet):
             state=state,
         )
 
-    def spelled(self, robot: "Robot") -> str:
+    def spelled(self, robot: "WithFlippers") -> str:
         """Text that `parse` reads back, for example "20deg,-5deg+arm-out"."""
         ends = [
             "stowed" if at is None else at if isinstance(at, str) else f"{math.degrees(at):.6g}deg"

@@ -4,6 +4,7 @@ import hashlib
 import math
 from collections.abc import Mapping
 from functools import cache
+from importlib.metadata import version as installed
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,6 @@ import numpy as np
 
 from kaidan.assessment import found_plan, off_plan
 from kaidan.assessment.verdict import conclude
-from kaidan.campaign.job import Kind, Work
 from kaidan.errors import InputError
 from kaidan.models import judge
 from kaidan.models.findings import Findings
@@ -20,6 +20,7 @@ from kaidan.question import Question
 from kaidan.sweeps.parameters import question_of
 from kaidan.sweeps.plan import Chunk
 from kaidan.sweeps.screen import excluded
+from kaidan.work.job import Kind, Work
 
 NOT_GO = len(Verdict)
 """Code of a cell of which the closed form alone says that it is no GO."""
@@ -131,15 +132,13 @@ def text(chunk: Chunk) -> str:
 @cache
 def version() -> str:
     """Version of what a verdict depends on: kaidan, and the source of what judges."""
-    from kaidan import __version__
-
     package = Path(__file__).parents[1]
-    apart = {"cli", "figures", "text", "studies", "verbs", "literature", "campaign"}
+    apart = {"cli", "figures", "text", "lab", "verbs", "work"}
     sources = sorted(
         path for path in package.rglob("*.py") if path.relative_to(package).parts[0] not in apart
     )
     digest = hashlib.sha256(b"\0".join(path.read_bytes() for path in sources)).hexdigest()
-    return f"kaidan {__version__}, models {digest[:12]}"
+    return f"kaidan {installed('kaidan')}, models {digest[:12]}"
 
 
 CELLS = Work(

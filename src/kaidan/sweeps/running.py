@@ -6,17 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from kaidan.campaign.cluster import DaskWorkers
-from kaidan.campaign.local import LocalWorkers, Workers
-from kaidan.campaign.progress import Progress
-from kaidan.campaign.query import read_batches
-from kaidan.campaign.runner import Kept, conduct
-from kaidan.campaign.store import Store
-from kaidan.campaign.threads import ThreadWorkers
 from kaidan.errors import InputError, KaidanError, shown
 from kaidan.sweeps.cells import CELLS, LISTS, REFUSED
 from kaidan.sweeps.plan import Plan
 from kaidan.sweeps.swept import Swept
+from kaidan.work.cluster import DaskWorkers
+from kaidan.work.local import LocalWorkers, Workers
+from kaidan.work.progress import Progress
+from kaidan.work.query import read_batches
+from kaidan.work.runner import Kept, conduct
+from kaidan.work.store import Store
+from kaidan.work.threads import ThreadWorkers
 
 THREADS, PROCESSES = "threads", "processes"
 _TYPES: dict[str, Any] = {"texts": object, "numbers": np.float64, "counts": np.int64}

@@ -31,7 +31,7 @@ class SweptCell(Part):
 class SweepSummary(Answer):
     """Counts of a sweep, and its cells where they are few."""
 
-    text_module = "sweep"
+    text_module = "kaidan.text.sweep"
 
     model: str
     """Which model judged."""

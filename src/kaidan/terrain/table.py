@@ -1,12 +1,9 @@
 """How a profile stands in a sheet or an answer: as a table of its name, points and doubt."""
 
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from kaidan.terrain.profile import Profile
+from typing import Any
 
 
-def table_schema(profile: type["Profile"]) -> Any:
+def table_schema(profile: type[Any]) -> Any:
     """Schema for pydantic of a field that holds a profile: itself, or the table of `to_dict`."""
     from pydantic_core import core_schema as cs
 

@@ -2,6 +2,9 @@
 
 from typing import TYPE_CHECKING
 
+from kaidan.assessment.sentences import measuring
+from kaidan.assessment.sentences.verdicts import belt_assumed
+from kaidan.models.sentences import dynamic, terrain, traction, turning
 from kaidan.modes import (
     FAILURE_MODES,
     SLIDES_DOWN,
@@ -10,11 +13,11 @@ from kaidan.modes import (
     Undecided,
     Verdict,
 )
-from kaidan.text import dynamic, limits, measuring, plan, terrain, traction, turning
-from kaidan.text.tables import decimals
+from kaidan.tables import decimals
+from kaidan.text import limits, plan
 from kaidan.text.unweighed import rows, thresholds
-from kaidan.text.verdicts import belt_assumed
-from kaidan.text.words import place, subject
+from kaidan.text.words import subject
+from kaidan.words import place
 
 if TYPE_CHECKING:
     from kaidan.assessment.answer import Assessment, Change, FindingShown

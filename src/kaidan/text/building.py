@@ -3,17 +3,16 @@
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
-from kaidan.modes import Phase, Verdict
+from kaidan.modes import Verdict
+from kaidan.tables import table
 from kaidan.text.comparison import SIGNS, short
-from kaidan.text.tables import table
-from kaidan.text.words import end_first
+from kaidan.verbs.building.sentences import in_words
+from kaidan.words import end_first
 
 if TYPE_CHECKING:
-    from kaidan.readers.solids.stated import Stated
     from kaidan.verbs.building.answer import (
         BuildingAnswer,
         CellShown,
-        DoorShown,
         ElementShown,
         FlightShown,
         WayShown,
@@ -150,55 +149,6 @@ def cell_text(cell: "CellShown") -> str:
     number = "" if cell.margin_deg is None else f" {cell.margin_deg:+.1f}"
     decides = "" if cell.verdict is Verdict.GO else f" {cell.binds}"
     return f"{SIGNS[cell.verdict]} {short(cell.verdict)}{number}{decides}"
-
-
-def disagreement(one: "Stated") -> str:
-    """A stated figure that no unit makes the measured one, with both numbers."""
-    if one.quantity in ("height", "finish"):
-        said = f"drawn {one.measured:.2f} m, stated {one.value:.2f} m ({one.name})"
-        return f"{said}: floor finish missing?" if one.quantity == "finish" else said
-    if one.quantity in ("risers", "treads"):
-        return f"{one.name} states {one.value:.0f} {one.quantity}, {one.measured:.0f} are drawn"
-    return (
-        f"{one.name} states {one.value:g}, which is {one.in_model_unit * 1e3:.1f} mm in the unit "
-        f"of the model; {one.measured * 1e3:.1f} mm are drawn"
-    )
-
-
-def hooking(robot: str, radius: float, clear: float) -> str:
-    """An end of a robot that may get under a nosing."""
-    return (
-        f"its risers are open, up to {clear * 1e3:.0f} mm high: {robot}, with an end of "
-        f"{radius * 1e3:.0f} mm radius, may hook under a nosing"
-    )
-
-
-def no_way(start: str) -> str:
-    """No flights lead to a storey."""
-    return f"no straight flights lead there from {start}."
-
-
-def posture_for(flight: str, flippers: str, facing: str) -> str:
-    """What to do before a flight: flippers, leading end, or both; empty what stays as it is."""
-    said = [f"turn to go {end_first(facing)}"] if facing else []
-    said += [f"set the flippers to {in_words(flippers)}"] if flippers else []
-    return f"Before {flight} {' and '.join(said)}."
-
-
-def in_words(flippers: str) -> str:
-    """Postures by phase, as an option writes them, in a few words."""
-    for phase, when in ((Phase.TRAVERSE, "to traverse"), (Phase.LAND, "to land")):
-        flippers = flippers.replace(f"/{phase}:", f"; {when} ")
-    return flippers
-
-
-def door(best: "DoorShown", straight: float, needed: float) -> str:
-    """Why the doors of a floor are too narrow or too low."""
-    return (
-        f"The widest door there leaves {best.clear_width_m * 1e3:.0f} by {best.height_m * 1e3:.0f} "
-        f"mm; the robot needs {straight * 1e3:.0f} mm of width going straight, "
-        f"{needed * 1e3:.0f} mm off line."
-    )
 
 
 def _count(number: int, what: str) -> str:

@@ -3,8 +3,8 @@
 from typing import TYPE_CHECKING, Any
 
 from kaidan.modes import CONTACT, FAILURE_MODES, SUPPLIES, Undecided, Verdict
-from kaidan.text.tables import screen_width, table
-from kaidan.text.words import heading_of
+from kaidan.tables import screen_width, table
+from kaidan.words import heading_of
 
 if TYPE_CHECKING:
     from kaidan.verbs.comparison import Cell, Comparison

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from kaidan.modes import FAILURE_MODES, Verdict
-from kaidan.text.tables import human, table
+from kaidan.tables import human, table
 
 if TYPE_CHECKING:
     from kaidan.verbs.design.answer import Design, FreeFigure

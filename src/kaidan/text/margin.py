@@ -4,8 +4,8 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from kaidan.text.tables import table
-from kaidan.text.words import heading
+from kaidan.tables import table
+from kaidan.words import heading
 
 if TYPE_CHECKING:
     from kaidan.verbs.margin_curve import MarginCurve

@@ -1,14 +1,11 @@
 """A plan in words: which end leads, how the flippers lie and where they change, what was tried."""
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from kaidan.modes import MODELS
-from kaidan.text.words import end_first
+from kaidan.words import end_first
 
 if TYPE_CHECKING:
     from kaidan.assessment.plan import PlanShown
-    from kaidan.question import Question
 
 
 def line(plan: "PlanShown") -> str:
@@ -46,25 +43,3 @@ def section(plan: "PlanShown", verdict: str) -> list[str]:
     """Plan under its heading: what is NO-GO even so is nothing to do."""
     heading = "The best plan, NO-GO even so" if verdict == "no-go" else "What to do"
     return ["", f"  {heading}", *(f"    {line}" for line in lines(plan))]
-
-
-def notes(question: "Question", ends: Sequence[str]) -> tuple[str, ...]:
-    """What was tried to find a plan, where that is less than people may take it for.
-
-    Parameters
-    ----------
-    question : Question
-        With the plan.
-    ends : sequence of str
-        Ends that were tried first.
-    """
-    each = []
-    if question.robot.flippers() and not question.plannable:
-        where = "at a yaw" if question.yaw else f"by the {MODELS[question.model].label}"
-        each.append(
-            f"Flippers stowed and flat were tried; {where} no angles are, and none changes on the "
-            "way."
-        )
-    others = [end for end in ends if end != question.facing]
-    each += [f"{end_first(end).capitalize()} was tried too and is no better." for end in others]
-    return tuple(each)

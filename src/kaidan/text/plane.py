@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from kaidan.text.words import heading
+from kaidan.words import heading
 
 if TYPE_CHECKING:
     from kaidan.verbs.d_a_plane import Plane

@@ -63,7 +63,7 @@ def text(found: "FileAnswer") -> str:
 
 
 def _robot(robot: "RobotRead") -> list[str]:
-    from kaidan.text.tables import table
+    from kaidan.tables import table
 
     rows = [
         {"symbol": SYMBOLS.get(each.field, ""), "field": each.field, "value": each.shown,

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from kaidan.modes import MODELS
+from kaidan.tables import fixed
 from kaidan.text.assessment import details
 from kaidan.text.document import (
     Block,
@@ -17,7 +18,6 @@ from kaidan.text.document import (
 )
 from kaidan.text.event_log import rows_of
 from kaidan.text.report_record import record
-from kaidan.text.tables import fixed
 from kaidan.text.words import subject
 
 if TYPE_CHECKING:

@@ -2,8 +2,9 @@
 
 from typing import TYPE_CHECKING
 
+from kaidan.models.sentences import turning
 from kaidan.modes import FAILURE_MODES
-from kaidan.text import turning
+from kaidan.tables import decimals, fixed
 from kaidan.text.assessment import (
     change_line,
     change_name,
@@ -14,8 +15,7 @@ from kaidan.text.assessment import (
     unknown_line,
 )
 from kaidan.text.document import Block, Facts, Heading, Paragraph, Picture, Points, Table, Verdict
-from kaidan.text.tables import decimals, fixed
-from kaidan.text.words import place
+from kaidan.words import place
 
 if TYPE_CHECKING:
     from kaidan.models.contact_figures import RotationFigures

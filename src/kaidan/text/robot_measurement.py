@@ -63,14 +63,6 @@ def source(found: "RobotMeasurement", name: str) -> str:
     return f"V: measured {how} (kaidan measure robot)"
 
 
-def sums_differ(least: float, most: float) -> str:
-    """The scales show two masses."""
-    return (
-        f"The scales show {least:.2f} kg once and {most:.2f} kg another time: more than they are "
-        "said to err. Let one support roll, zero the scales and weigh again."
-    )
-
-
 def _row(name: str, value: str) -> str:
     return f"  {name:<12}{value}"
 

@@ -2,11 +2,11 @@
 
 from typing import TYPE_CHECKING
 
-from kaidan.text.measuring import name
-from kaidan.text.tables import table
+from kaidan.assessment.sentences.measuring import name
+from kaidan.tables import table
 
 if TYPE_CHECKING:
-    from kaidan.studies.sensitivity import Sensitivity
+    from kaidan.verbs.sensitivity import Sensitivity
 
 
 def text(found: "Sensitivity") -> str:

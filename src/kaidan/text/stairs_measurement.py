@@ -5,18 +5,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from kaidan.verbs.measure_stairs import StairsMeasurement
 
-FIRST_AND_LAST = (
-    "First and last riser often differ from the others: measure both and state --first-rise and "
-    "--last-rise."
-)
-ONE_OF_BOTH = (
-    "The {end} riser often differs from the others too: measure it and state --{end}-rise."
-)
-UNCHECKED = (
-    "Fewer than three spot checks: single steps are taken to differ by up to 9.5 mm, as IBC "
-    "1011.5.4 allows. Check three rises and three goings (--rise, --going) to settle the doubt."
-)
-
 
 def text(found: "StairsMeasurement") -> str:
     """Figures with their doubt."""

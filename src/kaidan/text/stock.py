@@ -2,10 +2,10 @@
 
 from typing import TYPE_CHECKING
 
-from kaidan.text.tables import table
+from kaidan.tables import table
 
 if TYPE_CHECKING:
-    from kaidan.studies.stock.answer import RobotOnStock, StockStudy
+    from kaidan.verbs.stock.answer import RobotOnStock, StockStudy
 
 _MOST = 40
 """Robots that are shown."""

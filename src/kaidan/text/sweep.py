@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from kaidan.modes import FAILURE_MODES
-from kaidan.text.tables import table
+from kaidan.tables import table
 
 if TYPE_CHECKING:
     from kaidan.sweeps.summary import SweepSummary

@@ -3,9 +3,9 @@
 from typing import TYPE_CHECKING
 
 from kaidan.modes import Verdict
+from kaidan.tables import fixed, table
 from kaidan.text import plan
 from kaidan.text.event_log import lines_of
-from kaidan.text.tables import fixed, table
 from kaidan.text.words import subject
 
 if TYPE_CHECKING:

@@ -2,7 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from kaidan.text.words import place, subject
+from kaidan.text.words import subject
+from kaidan.words import place
 
 if TYPE_CHECKING:
     from kaidan.physics import TrialResult

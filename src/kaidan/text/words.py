@@ -1,41 +1,14 @@
 """Words that several texts share."""
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
+
+from kaidan.words import heading
 
 if TYPE_CHECKING:
     from kaidan.question import Question
-
-
-class _Goes(Protocol):
-    @property
-    def direction(self) -> str: ...
-    @property
-    def facing(self) -> str: ...
 
 
 def subject(question: "Question") -> str:
     """Robot, terrain and heading of a question: "kenaf on ibc, up nose first"."""
     names = " ".join(f"{question.robot.name} on {question.terrain_name}".split())
     return f"{names}, {heading(question)}"
-
-
-def heading(answer: _Goes) -> str:
-    """How the robot goes: "up nose first"."""
-    return heading_of(answer.direction, answer.facing)
-
-
-def heading_of(direction: str, facing: str) -> str:
-    """The same of a direction and a facing."""
-    return f"{direction} {end_first(facing)}"
-
-
-def end_first(facing: str) -> str:
-    """Which end leads: "nose first"."""
-    return facing.replace("-", " ")
-
-
-def place(phase: str | None, step: int | None) -> str:
-    """Where on the way, in brackets after a blank: " (enter, step 2)"; empty where nobody knows."""
-    if phase is None:
-        return ""
-    return f" ({phase})" if step is None else f" ({phase}, step {step})"

@@ -29,12 +29,6 @@ class Force:
     traction: float
     """Tangential force over mass, driving ahead positive [N/kg]."""
 
-    @property
-    def vector(self) -> tuple[float, float]:
-        """Force over mass [N/kg]."""
-        (n_x, n_z), load, traction = self.normal, self.load, self.traction
-        return load * n_x + traction * n_z, load * n_z - traction * n_x
-
 
 def contact_forces(traverse: Traverse, row: int, acceleration: float) -> tuple[Force, ...]:
     """Contacts of a pose and their forces.

@@ -256,11 +256,6 @@ class Traverse:
         """Margin of slope against turning about the lowest contact that stays [rad]; NaN: none."""
         return self._rock_margin(downhill=True)
 
-    @property
-    def uphill_margin(self) -> float:
-        """Margin of slope against turning about the highest contact that stays [rad]; NaN: none."""
-        return self._rock_margin(downhill=False)
-
     def _rock_margin(self, *, downhill: bool) -> float:
         found = self.first_rock(downhill=downhill)
         return math.nan if found is None else found.margin

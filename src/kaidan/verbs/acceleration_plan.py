@@ -16,7 +16,7 @@ from kaidan.models.acceleration import (
 from kaidan.models.closed_form_figures import Basis
 from kaidan.question import Question
 from kaidan.robot import Drive
-from kaidan.text import acceleration_plan as said
+from kaidan.verbs.sentences import acceleration_plan as said
 
 Array = NDArray[np.float64]
 Column = tuple[float, ...]

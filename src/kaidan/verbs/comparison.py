@@ -60,7 +60,7 @@ class NoCentroid(Part):
 class Comparison(Answer):
     """A verdict for each pair of a robot and a staircase."""
 
-    text_module = "comparison"
+    text_module = "kaidan.text.comparison"
 
     model: str
     """Which model judged."""
@@ -197,7 +197,7 @@ def laid(robot: Robot, flippers: Any) -> Any:
 @contextmanager
 def _judging(questions: Sequence[Question], workers: int | None) -> Iterator[Iterator[Cell]]:
     """Cells of some questions one by one; many share several processes."""
-    from kaidan.campaign.local import hands
+    from kaidan.work.local import hands
 
     most = sum(each.model == CONTACT.name for each in questions) // WORTH_A_PROCESS
     count = min(hands(workers), most)
@@ -208,7 +208,7 @@ def _judging(questions: Sequence[Question], workers: int | None) -> Iterator[Ite
     import threading
     from concurrent.futures import ProcessPoolExecutor
 
-    from kaidan.campaign.local import become_worker
+    from kaidan.work.local import become_worker
 
     # a copy of a process knows its modules already; safe on Linux, where no thread is at work
     copies = sys.platform == "linux" and threading.active_count() == 1

@@ -52,7 +52,7 @@ class PaperBand(Part):
 class Plane(Answer):
     """The d-a plane: accelerations up the stairs, progress from the uphill end; null outside."""
 
-    text_module = "plane"
+    text_module = "kaidan.text.plane"
 
     model: Literal["closed-form"] = "closed-form"
     robot: str

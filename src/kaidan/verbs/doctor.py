@@ -22,7 +22,7 @@ class Extra(Part):
 class Diagnosis(Answer):
     """What `doctor` answers."""
 
-    text_module = "doctor"
+    text_module = "kaidan.text.doctor"
 
     kaidan: str
     """Version of kaidan."""

@@ -50,7 +50,7 @@ class StairsShown(Part):
 class MarginCurve(Answer):
     """Slope limits of a robot over the nosing spacing, by the closed form; null outside of it."""
 
-    text_module = "margin"
+    text_module = "kaidan.text.margin"
 
     model: Literal["closed-form"] = "closed-form"
     robot: str

@@ -49,7 +49,7 @@ class Measured(Part):
 class RobotMeasurement(Answer):
     """Mass, L, C_L and C_N of a robot with their standard uncertainties."""
 
-    text_module: ClassVar[str] = "robot_measurement"
+    text_module: ClassVar[str] = "kaidan.text.robot_measurement"
 
     name: str
     mass: Measured | None
@@ -76,8 +76,6 @@ class RobotMeasurement(Answer):
     @property
     def figures(self) -> dict[str, float | str]:
         """Figures of a robot's sheet by their dotted names, with the sources of those measured."""
-        from kaidan.text.robot_measurement import source
-
         found: dict[str, float | str] = {}
         said: dict[str, float | str] = {}
         each = {
@@ -89,11 +87,11 @@ class RobotMeasurement(Answer):
         for name, one in each.items():
             if one is not None:
                 found[name] = round(one.value, 4)
-                said[f"sources.{name}"] = source(self, name)
+                said[f"sources.{name}"] = self.said("source", name)
         for end, radius in zip(("front", "rear"), self.radii_m, strict=True):
             if radius is not None:
                 found[f"track.{end}_radius"] = radius
-                said[f"sources.track.{end}_radius"] = source(self, "radius")
+                said[f"sources.track.{end}_radius"] = self.said("source", "radius")
         for name in ("com_from_front", "com_height", "track.flat_length"):
             one = each[name]
             if one is not None:
@@ -243,7 +241,7 @@ def _measured(
 
 def _notes(at: Mapping[str, float], u_scale: float) -> tuple[str, ...]:
     """Sums of the scales that differ by more than the scales do."""
-    from kaidan.text.robot_measurement import sums_differ
+    from kaidan.verbs.sentences.measuring import sums_differ
 
     pairs = (("front_scale", "rear_scale"), ("front_on_slope", "rear_on_slope"), ("mass",))
     sums = [sum(at[key] for key in pair) for pair in pairs if all(key in at for key in pair)]

@@ -33,7 +33,7 @@ Spread = Literal["spot checks", "assumed"]
 class StairsMeasurement(Answer):
     """A flight of stairs from its totals, with the doubt of the whole and of single steps."""
 
-    text_module: ClassVar[str] = "stairs_measurement"
+    text_module: ClassVar[str] = "kaidan.text.stairs_measurement"
 
     name: str
     risers: int
@@ -72,8 +72,6 @@ class StairsMeasurement(Answer):
     @property
     def figures(self) -> dict[str, float | str]:
         """Figures of a stairs sheet by their dotted names, with their sources."""
-        from kaidan.text.stairs_measurement import sources
-
         found: dict[str, float | str] = {
             "rise": round(self.rise_m, 5),
             "going": round(self.going_m, 5),
@@ -86,7 +84,7 @@ class StairsMeasurement(Answer):
         odd = {"first_rise": self.first_rise_m, "last_rise": self.last_rise_m}
         found |= {key: value for key, value in odd.items() if value is not None}
         found |= self.landings
-        return found | {f"sources.{key}": said for key, said in sources(self).items()}
+        return found | {f"sources.{key}": said for key, said in self.said("sources").items()}
 
 
 @known_arguments
@@ -265,7 +263,7 @@ def _spread(checks: Sequence[float], mean: float) -> tuple[float, Spread]:
 
 
 def _notes(odd: Sequence[str], r_from: Spread, g_from: Spread) -> tuple[str, ...]:
-    from kaidan.text import stairs_measurement as text
+    from kaidan.verbs.sentences import measuring as text
 
     notes = []
     missing = [end for end in ("first", "last") if f"{end}_rise" not in odd]

@@ -13,9 +13,9 @@ from kaidan.models import beside, planned
 from kaidan.models.planned import Part, Planned
 from kaidan.modes import SUPPLIES, Undecided
 from kaidan.question import Question
-from kaidan.text import event_log as log_text
 from kaidan.traversal.moves import Move, MovePose
-from kaidan.verbs import traverse as alone
+from kaidan.verbs import one_posture_report as alone
+from kaidan.verbs.sentences import event_log as log_text
 from kaidan.verbs.traverse_report import (
     LogEntryShown,
     MovePoseShown,

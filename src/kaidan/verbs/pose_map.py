@@ -16,7 +16,7 @@ from kaidan.errors import InputError
 from kaidan.models.planned import Planned
 from kaidan.question import Question
 from kaidan.traversal import Traverse
-from kaidan.verbs.traverse import rotations_shown
+from kaidan.verbs.one_posture_report import rotations_shown
 from kaidan.verbs.traverse_report import RotationShown
 
 Array = NDArray[np.float64]
@@ -58,7 +58,7 @@ class Flow(Part):
 class PoseMap(Answer):
     """Heights of the centroid over all poses that touch the ground, and what was driven."""
 
-    text_module = "pose_map"
+    text_module = "kaidan.text.pose_map"
 
     question: Question
     """The question that was driven."""

@@ -10,13 +10,13 @@ from kaidan.assessment.answer import VerdictName
 from kaidan.assessment.plan import PlanShown, plan_of
 from kaidan.assessment.plan_judged import Judged, judged_of
 from kaidan.assessment.plan_search import LIMITS, Found
+from kaidan.assessment.sentences import verdicts
 from kaidan.errors import InputError
 from kaidan.models import judge
 from kaidan.models.contact_figures import ContactFigures, PhaseFigures
 from kaidan.models.findings import Findings
 from kaidan.modes import CONTACT, Facing, Verdict
 from kaidan.question import Question
-from kaidan.text import verdicts
 from kaidan.units import range_of
 
 
@@ -44,7 +44,7 @@ class PostureTried(Part):
 class PostureAnswer(Answer):
     """What facing, flippers, arm and payload can do for a robot on stairs."""
 
-    text_module: ClassVar[str] = "posture"
+    text_module: ClassVar[str] = "kaidan.text.posture"
 
     question: Question
     """The question; its posture is the one to compare with."""

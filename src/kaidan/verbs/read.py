@@ -42,7 +42,7 @@ class RefusalRead(Part):
 class FileAnswer(Answer):
     """What a file is and what was found in it."""
 
-    text_module: ClassVar[str] = "read_file"
+    text_module: ClassVar[str] = "kaidan.text.read_file"
 
     file: str
     """Its path."""

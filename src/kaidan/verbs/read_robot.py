@@ -64,7 +64,7 @@ class RobotRead(Part):
 
 def robot_read(found: RobotEstimate) -> RobotRead:
     """Robot that was found, as part of an answer."""
-    from kaidan.text.tables import human
+    from kaidan.tables import human
 
     figures = []
     for field, figure in found.figures.items():

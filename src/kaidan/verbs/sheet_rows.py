@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from kaidan.sheet import Sheet
-from kaidan.text.tables import human
+from kaidan.tables import human
 
 _SAID_ELSEWHERE = ("name", "title", "notes", "sources")
 _DOUBTED = {"track.flat_length": "flat_length"}

@@ -253,7 +253,7 @@ class MoveShown(Part):
 class TraverseReport(Answer):
     """A traverse from landing to landing; x leads ahead, whether up or down the stairs."""
 
-    text_module = "traverse"
+    text_module = "kaidan.text.traverse"
 
     assessment: Assessment
     """Answer of the contact model, with the question."""

@@ -1,19 +1,17 @@
-"""What jobs do: any verb, larger sweeps, trials in MuJoCo, films, reports, files that take long."""
+"""What jobs do: any verb, larger sweeps, films, reports, files that take long."""
 
 from collections.abc import Mapping
-from inspect import signature
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from kaidan.answer import Answer
-from kaidan.arguments import refuse_unknown
 from kaidan.errors import InputError, shown
 from kaidan.web.asking import VERBS, answered, building_of, read_of, report_of
 from kaidan.web.keywords import made
 
 FILES = ("read", "building")
 """Jobs that need a file."""
-JOBS = (*VERBS, *FILES, "experiment", "film", "report")
+JOBS = (*VERBS, *FILES, "film", "report")
 """What a job may do."""
 STORE, UPLOAD, RESULT, TEXT = "store", "upload", "result", "text"
 """Names in the folder of a job."""
@@ -56,8 +54,6 @@ def result_of(verb: str, body: Mapping[str, Any], folder: Path) -> Result:
     answer: Answer
     if verb == "sweep":
         answer = _sweep(body, folder)
-    elif verb == "experiment":
-        answer = _experiment(body, folder)
     elif verb == "read":
         answer = read_of(UPLOAD, body)
     elif verb == "building":
@@ -75,18 +71,6 @@ def _sweep(body: Mapping[str, Any], folder: Path) -> Answer:
     values = dict(body)
     plan = Plan.of(made(values, VERBS["sweep"].several), screen=bool(values.pop("go_only", False)))
     return summary_of(carried_out(plan, store=folder / STORE, progress=True))
-
-
-def _experiment(body: Mapping[str, Any], folder: Path) -> Answer:
-    from kaidan.campaign.plans import Setting
-    from kaidan.studies.experiment import experiment, plan_of
-
-    known = {*signature(plan_of).parameters, *signature(Setting.of).parameters, "track", "ground"}
-    known -= {"setting", "others"}
-    refuse_unknown("experiment", body, known)
-    if "robot" not in body:
-        raise InputError("experiment: no robot: give a name of the catalogue or a sheet")
-    return experiment(**made(body), store=folder / STORE)
 
 
 def _film(body: Mapping[str, Any]) -> Result:

@@ -6,8 +6,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from kaidan.campaign.lock import Lock
 from kaidan.errors import InputError, short
+from kaidan.work.lock import Lock
 
 
 def usual_folder() -> Path:

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
+from formulas.cones import cone_margin
 from kaidan.contact import using_kernel
 from kaidan.contact.kernel.cones import BELOW, NARROWEST, held_below, narrowed, root_below
 from kaidan.contact.switch import kernel
 from kaidan.mechanics import STANDARD_GRAVITY
-from kaidan.mechanics.cones import cone_margin
 
 NAMES = ("x_1", "z_1", "alpha_1", "phi_1", "x_2", "z_2", "alpha_2", "phi_2", "W_x", "W_z")
 

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from formulas import grousers, grousers_at_edges
 from kaidan.contact import columns as at
 from kaidan.contact.kernel.cones import cone_margin
 from kaidan.contact.kernel.grip import (
@@ -23,7 +24,8 @@ from kaidan.contact.kernel.grip import (
     tip_at,
     with_reserve,
 )
-from kaidan.mechanics import grousers, grousers_at_edges, grousers_in_turn
+from kaidan.mechanics import grousers_in_turn
+from kaidan.mechanics.grousers import standing_run
 
 ROUNDING = 1e-12
 G = 9.8
@@ -109,7 +111,7 @@ def test_a_tip_stands_behind_its_nosing(lean, curvature, rigid, s, w, r):
         behind = grousers_in_turn.height_behind(theta=lean, h=H, s=s, r=r, w=w, curvature=curvature)
         h = float(behind)
     beta = float(grousers.tip_tilt(theta=lean, h=h, r=r, curvature=curvature))
-    length = float(grousers.standing_run(theta=lean, h=h, r=r))
+    length = float(standing_run(theta=lean, h=h, r=r))
     if rigid and curvature > 0.0:
         length = float(grousers_at_edges.end_run(theta=lean, h=h, r=r, curvature=curvature))
     assert stands
@@ -359,7 +361,7 @@ def test_belts_pass_two_supports_as_a_small_step_along_the_path_moves_them(own, 
     step = np.linalg.solve([*equations, tangents[1]], [0.0, 0.0, 1.0])  # the other moves by 1
     expected = 1.0 - float(np.dot(tangents[0], step))
     assert lag(rows, 0, 1, own, other) == pytest.approx(expected, abs=1e-9)
-    of_formula = grousers_in_turn.belt_lag(
+    of_formula = grousers.belt_lag(
         d_x=(ONE - OTHER).real, d_z=(ONE - OTHER).imag, own=own, other=other
     )
     assert of_formula == pytest.approx(expected, abs=1e-9)

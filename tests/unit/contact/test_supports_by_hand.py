@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from contact_cases import flight, stadium
+from formulas import grousers, grousers_at_edges
 from kaidan.contact import Grousers, Supports, traverse, using_kernel
 from kaidan.contact.columns import (
     FACE,
@@ -29,7 +30,8 @@ from kaidan.contact.columns import (
 from kaidan.contact.kernel import grousers as kernel
 from kaidan.contact.kernel.grip import belt_margins, standing_margins
 from kaidan.contact.kernel.supports import find_alike
-from kaidan.mechanics import grousers, grousers_at_edges, grousers_in_turn
+from kaidan.mechanics import grousers_in_turn
+from kaidan.mechanics.grousers import standing_run
 
 G = 9.8
 HALVED = 1e-5
@@ -59,7 +61,7 @@ def test_tips_are_those_of_the_formulas():
     behind = {"theta": theta, "h": h, "s": s, "r": r, "w": w, "curvature": curvature}
     same(kernel.height_behind, grousers_in_turn.height_behind, **behind)
     same(kernel.roll_off_length, grousers.roll_off_length, theta=theta, h=h, r=r)
-    same(kernel.standing_run, grousers.standing_run, theta=theta, h=h, r=r)
+    same(kernel.standing_run, standing_run, theta=theta, h=h, r=r)
     same(kernel.roll_off_sine, grousers.roll_off_sine, run=h - 0.01, off=s, r=r)
     same(
         kernel.standing_friction, grousers.standing_friction, theta=theta, beta=theta * w / 0.02,
@@ -166,7 +168,7 @@ def test_of_three_nosings_all_share_the_load():
 @pytest.mark.parametrize(("more", "many"), [((0.05,), 1.0), ((0.05, 0.1), 0.75)])
 def test_of_rigid_grousers_the_mean_over_the_phases_bounds(more, many):
     one, phi = Grousers(0.008, 0.04, 0.004, 0.0, rigid=True), 0.5
-    run = grousers.standing_run(theta=SLOPE, h=0.008, r=0.0)
+    run = standing_run(theta=SLOPE, h=0.008, r=0.0)
     needed = grousers.phases_friction(theta=SLOPE, q=many * run / 0.04)
     found = standing(*on_slope(-0.2, 0.3, *more), phi, one)
     assert found[0, : 2 + len(more)].max() == pytest.approx(phi - math.atan(needed), abs=HALVED)

@@ -2,18 +2,17 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq, linprog
 
-from kaidan.mechanics.cones import cone_margin
-from kaidan.mechanics.grousers import (
+from formulas.cones import cone_margin
+from formulas.grousers import (
     face_friction,
     phases_friction,
     roll_off_length,
     roll_off_sine,
-    slip_height,
     standing_friction,
-    standing_run,
     tip_tilt,
 )
-from kaidan.mechanics.grousers_at_edges import edge_tilt, reach_over_edge, tip_overlap
+from formulas.grousers_at_edges import edge_tilt, reach_over_edge, tip_overlap
+from kaidan.mechanics.grousers import slip_height, standing_run
 from kaidan.mechanics.grousers_in_turn import height_behind, reach_beside
 from kaidan.mechanics.rubber import height_lost, rubber_modulus
 

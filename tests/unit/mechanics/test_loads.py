@@ -3,10 +3,7 @@ import pytest
 import xarray as xr
 
 from kaidan.mechanics.loads import (
-    deformation_inclination,
-    deformation_stiffness,
     load_shares,
-    normal_forces,
     zero_moment_point,
 )
 
@@ -43,7 +40,6 @@ def test_standard_gravity_is_the_default():
     assert zero_moment_point(C_L=0.0, C_N=0.1, theta_s=0.0, a=9.80665) == pytest.approx(
         0.1, abs=ROUNDING
     )
-    assert normal_forces(share=1.0, M=2.0, theta_s=0.0) == pytest.approx(19.6133, abs=1e-9)
 
 
 def test_two_contacts_are_a_lever():
@@ -163,84 +159,3 @@ def test_labelled_positions_through_apply_ufunc():
     )
     assert shares.dims == ("slope", "contact")
     assert float(shares.sel(slope=0.7)[2]) == pytest.approx(0.75, abs=ROUNDING)
-
-
-def test_normal_forces_add_up_to_the_normal_load():
-    # hand: Eq. (3): 10 kg * 10 m/s^2 * cos 60 = 50 N
-    share = load_shares(x=np.array([0.0, 0.2, 0.4]), x_z=0.25)
-    forces = normal_forces(share=share, M=10.0, theta_s=np.pi / 3, g=10.0)
-    assert np.sum(forces) == pytest.approx(50.0, abs=1e-10)
-
-
-def test_deformation_inclination_of_two_contacts():
-    # hand: 0.75 * 100 N - 0.25 * 100 N over 1e4 N/m over 0.4 m
-    theta_d = deformation_inclination(x=np.array([0.1, 0.5]), x_z=0.4, load=100.0, stiffness=1e4)
-    assert theta_d == pytest.approx(0.0125, abs=ROUNDING)
-
-
-def test_deformation_is_the_slope_through_the_sunk_contacts():
-    # oracle: sink every loaded contact by N_i / k and lay a line through
-    for x, x_z, rng in random_poses():
-        load, k = rng.uniform(50.0, 500.0), rng.uniform(1e3, 1e5)
-        share = load_shares(x=x, x_z=x_z)
-        pressed = share > 0.0
-        slope = np.polyfit(x[pressed], load * share[pressed] / k, 1)[0]
-        # polyfit's conditioning, see above
-        assert deformation_inclination(x=x, x_z=x_z, load=load, stiffness=k) == pytest.approx(
-            slope, rel=1e-7, abs=1e-12
-        )
-
-
-def test_deformation_sign():
-    # hand: weight uphill of the middle presses the uphill end in: nose down
-    x = np.array([0.1, 0.3, 0.5])
-    assert deformation_inclination(x=x, x_z=0.25, load=1.0, stiffness=1.0) < 0.0
-    assert deformation_inclination(x=x, x_z=0.35, load=1.0, stiffness=1.0) > 0.0
-    assert deformation_inclination(x=x, x_z=0.3, load=1.0, stiffness=1.0) == pytest.approx(
-        0.0, abs=1e-13
-    )
-
-
-def test_deformation_reaches_its_limit_continuously():
-    # limit: all load on the last of four contacts; the pair that remains still gives the slope
-    x = np.array([0.0, 0.1, 0.2, 0.3])
-    at = deformation_inclination(x=x, x_z=0.3, load=100.0, stiffness=1e4)
-    before = deformation_inclination(x=x, x_z=0.3 - 1e-9, load=100.0, stiffness=1e4)
-    assert at == pytest.approx(0.1, abs=1e-12)
-    assert before == pytest.approx(at, abs=1e-7)  # 2 * 1e-9 / 0.1^2 * 1e-2
-
-
-def test_deformation_outside_validity_is_nan():
-    pair = np.array([0.1, 0.5])
-    assert np.isnan(deformation_inclination(x=pair, x_z=0.51, load=1.0, stiffness=1.0))
-    single = np.array([0.3])
-    assert np.isnan(deformation_inclination(x=single, x_z=0.3, load=1.0, stiffness=1.0))
-
-
-def test_every_pose_has_its_own_inclination():
-    # hand: one contact alone, a pair (see test_deformation_inclination_of_two_contacts), a miss
-    x = np.array([[0.1, np.nan], [0.1, 0.5], [0.1, 0.5]])
-    theta_d = deformation_inclination(x=x, x_z=np.array([0.1, 0.4, 0.6]), load=100.0, stiffness=1e4)
-    np.testing.assert_allclose(theta_d, [np.nan, 0.0125, np.nan], rtol=0, atol=ROUNDING)
-
-
-def test_deformation_stiffness_is_the_inverse():
-    # hand: see test_deformation_inclination_of_two_contacts
-    k = deformation_stiffness(x=np.array([0.1, 0.5]), x_z=0.4, load=100.0, theta_d=0.0125)
-    assert k == pytest.approx(1e4, rel=1e-12)
-    x, x_z = np.array([0.0, 0.15, 0.3, 0.45]), np.array([0.3, 0.43])
-    theta_d = deformation_inclination(x=x, x_z=x_z, load=120.0, stiffness=np.array([3e3, 4e3]))
-    np.testing.assert_allclose(
-        deformation_stiffness(x=x, x_z=x_z, load=120.0, theta_d=theta_d), [3e3, 4e3], rtol=1e-12
-    )
-
-
-@pytest.mark.parametrize("theta_d", [0.0, -0.01, np.nan])
-def test_no_positive_stiffness_is_nan(theta_d):
-    x = np.array([0.1, 0.5])
-    assert np.isnan(deformation_stiffness(x=x, x_z=0.4, load=100.0, theta_d=theta_d))
-
-
-def test_weight_over_the_middle_needs_no_stiffness():
-    x = np.array([0.25, 0.75])
-    assert np.isnan(deformation_stiffness(x=x, x_z=0.5, load=100.0, theta_d=0.01))

@@ -8,7 +8,6 @@ from kaidan.mechanics.oblique import (
     equivalent_slope_along,
     oblique_friction,
     oblique_spacing,
-    roll,
     track_lag,
 )
 from kaidan.mechanics.oblique_support import (
@@ -102,15 +101,9 @@ def test_inclination_and_roll_rebuild_the_body(theta_s, psi):
     # oracle: yaw, inclination and roll composed must give the body's axes again
     heading, left, normal = axes(theta_s, psi)
     yaw = np.arctan2(heading[1], heading[0])
-    turned = rotation(
-        yaw, body_inclination(theta_s=theta_s, psi=psi), roll(theta_s=theta_s, psi=psi)
-    )
+    roll = -np.arctan(np.tan(theta_s) * np.sin(psi))
+    turned = rotation(yaw, body_inclination(theta_s=theta_s, psi=psi), roll)
     np.testing.assert_allclose(turned, np.column_stack([heading, left, normal]), atol=1e-14)
-
-
-def test_heading_left_leaves_the_left_side_low():
-    # hand: half across a 45 degree slope: tan = sin 30
-    assert roll(theta_s=np.pi / 4, psi=np.pi / 6) == pytest.approx(-np.arctan(0.5), abs=1e-15)
 
 
 # --- the polygon of both tracks' contacts -------------------------------------------------------

@@ -2,10 +2,8 @@ import numpy as np
 import pytest
 
 from kaidan.mechanics.plane import (
-    State,
     contact_count,
     lowest_contact,
-    state,
     two_contacts_remain,
 )
 
@@ -24,7 +22,6 @@ def test_a_quotient_just_below_a_whole_number_counts_as_it():
 def test_contacts_where_the_spacing_divides_the_length():
     # hand: 0.5 = 2 * 0.25: the lowest contact leaves as the next nosing is met
     assert lowest_contact(d=0.0, L=0.5, p=0.25) == 0.25
-    assert State(int(state(d=0.0, L=0.5, p=0.25))) == State.C
     assert lowest_contact(d=0.125, L=0.5, p=0.25) == 0.375
 
 
@@ -42,7 +39,3 @@ def test_two_contacts_remain_up_to_rounding():
     assert two_contacts_remain(L=2.0, p=1.0)
     assert two_contacts_remain(L=2.0, p=1.0 + 4 * 2.0**-52)
     assert not two_contacts_remain(L=2.0, p=1.0 + 5 * 2.0**-52)
-
-
-def test_states_are_whole_numbers():
-    assert np.asarray(state(d=np.array([0.0, 0.1]), L=0.5, p=0.2)).dtype.kind == "i"

@@ -1,16 +1,10 @@
 import numpy as np
 import pytest
-from scipy.optimize import brentq, linprog, minimize_scalar
+from scipy.optimize import minimize_scalar
 
 from kaidan.mechanics.transitions import (
     best_inclination,
-    crest_energy,
-    crest_progress,
-    entry_arrest_margin,
-    entry_energy,
-    entry_progress,
     largest_step_height,
-    riser_start_friction,
     step_height,
 )
 
@@ -91,71 +85,3 @@ def test_best_inclination_without_a_closed_form_is_nan():
 def test_large_step_of_a_flat_robot():
     # limit: C_N -> 0 is a plank, which balances at any inclination: the step tends to l_c
     assert largest_step_height(l_c=1.0, C_N=1e-9, R=0.0) == pytest.approx(1.0, abs=1e-5)
-
-
-def lifting_moment(mu, l_c, C_L, R):
-    """Largest moment about the rear tip, over the weight, that the contacts can raise the nose by.
-
-    Linear programme over floor normal and traction at the rear tip, riser normal and friction.
-    """
-    L = l_c + C_L
-    result = linprog(
-        c=[0.0, 0.0, -R, -(L + R)],
-        A_eq=[[0.0, 1.0, -1.0, 0.0], [1.0, 0.0, 0.0, 1.0]],
-        b_eq=[0.0, 1.0],
-        A_ub=[[-mu, 1.0, 0.0, 0.0], [0.0, 0.0, -mu, 1.0]],
-        b_ub=[0.0, 0.0],
-        bounds=[(0.0, None)] * 4,
-    )
-    return -result.fun - l_c
-
-
-@pytest.mark.parametrize(("l_c", "C_L", "R"), [(0.274, 0.196, 0.06), (0.2, 0.4, 0.1)])
-def test_riser_start_friction_by_linear_programme(l_c, C_L, R):
-    # oracle: the friction at which the largest lifting moment is zero; HiGHS is good to 1e-9
-    mu = brentq(lifting_moment, 0.05, 1.5, args=(l_c, C_L, R), xtol=1e-12)
-    assert riser_start_friction(l_c=l_c, C_L=C_L, R=R) == pytest.approx(mu, abs=1e-8)
-
-
-def test_riser_start_friction_by_hand():
-    # hand: R = 0: mu^2 = l_c / C_L; l_c = C_L + 2 R: mu = 1
-    assert riser_start_friction(l_c=0.09, C_L=0.25, R=0.0) == pytest.approx(0.6, abs=1e-15)
-    assert riser_start_friction(l_c=0.4, C_L=0.2, R=0.1) == pytest.approx(1.0, abs=1e-15)
-
-
-def test_crest_progress():
-    # hand: 45 degrees; braking by g sin(theta) takes the slope away
-    pose = {"C_L": 0.2, "C_N": 0.1, "theta_s": np.pi / 4}
-    assert crest_progress(**pose, a=0.0) == pytest.approx(0.3, abs=1e-15)
-    assert crest_progress(**pose, a=-10.0 * np.sqrt(0.5), g=10.0) == pytest.approx(0.2, abs=1e-15)
-    assert crest_progress(C_L=0.2, C_N=0.1, theta_s=0.0, a=9.80665) == pytest.approx(0.3, abs=1e-15)
-
-
-def test_crest_energy_is_the_fall_of_the_centroid():
-    # oracle: centroid turned about the edge from the balanced pose to the level one
-    theta, C_N, M, g = 0.7, 0.08, 15.0, 9.8
-    along = C_N * np.tan(theta)  # the foot of the centroid, up the slope from the edge
-    com_balanced = along * np.sin(theta) + C_N * np.cos(theta)
-    assert crest_energy(M=M, C_N=C_N, theta_s=theta, g=g) == pytest.approx(
-        M * g * (com_balanced - C_N), abs=1e-12
-    )
-    assert crest_energy(M=1.0, C_N=1.0, theta_s=np.pi / 3) == pytest.approx(9.80665, abs=1e-12)
-
-
-def test_entry_progress():
-    # hand: braking by g moves the zero moment point C_N towards the leading tip
-    assert entry_progress(C_L=0.2, C_N=0.1, a=0.0) == pytest.approx(0.2, abs=1e-15)
-    assert entry_progress(C_L=0.2, C_N=0.1, a=9.80665) == pytest.approx(0.1, abs=1e-15)
-    assert entry_progress(C_L=0.2, C_N=0.1, a=-5.0, g=10.0) == pytest.approx(0.25, abs=1e-15)
-
-
-def test_entry_energy_is_the_fall_of_the_centroid():
-    # hand: C_N (1 - cos 60) = C_N / 2
-    assert entry_energy(M=4.0, C_N=0.1, theta_s=np.pi / 3, g=10.0) == pytest.approx(2.0, abs=1e-12)
-    assert entry_energy(M=1.0, C_N=2.0, theta_s=np.pi / 3) == pytest.approx(9.80665, abs=1e-12)
-
-
-def test_entry_arrest_margin():
-    # hand: Kenaf catches the next nosing at 180 mm, not at 200 mm
-    assert entry_arrest_margin(C_L=0.196, p=0.18) == pytest.approx(0.016, abs=1e-15)
-    assert entry_arrest_margin(C_L=0.196, p=0.2) == pytest.approx(-0.004, abs=1e-15)

@@ -7,9 +7,7 @@ import pytest
 
 from kaidan.mechanics.yielding import (
     REST,
-    grip_tilt,
     tail_grips,
-    theta_d_at_limit,
     theta_d_two_contacts,
     theta_s_sup_yielding,
     yielding_loss,
@@ -18,10 +16,6 @@ from kaidan.mechanics.yielding import (
 P, C_L, C_N = 0.15, 0.2, 0.08
 NEAR = 1e-10
 """rad: eighty rounds of a fixed point."""
-
-
-def test_the_next_nosing_touches_at_the_limit():
-    assert math.degrees(theta_d_at_limit(eta=0.1, p=0.2)) == pytest.approx(30.0)
 
 
 @pytest.mark.parametrize("drop", [0.0, 0.004])
@@ -59,21 +53,6 @@ def test_two_nosings_share_the_weight(q):
     assert theta_d_two_contacts(L=L + 1e-9, **given) == pytest.approx(theta_d, abs=1e-7)
     assert math.isnan(theta_d_two_contacts(L=L - (q + 0.2) * P, **given))
     assert math.isnan(theta_d_two_contacts(L=L + (1.2 - q) * P, **given))
-
-
-@pytest.mark.parametrize("phi", [0.4, 0.45])
-def test_the_grip_of_a_tail(phi):
-    mu, w_n, L = 3.0, 0.002, 0.5
-    x = L - P - C_L
-    far, theta = math.hypot(x, C_N), math.atan2(x, C_N)
-    edge = math.tan(phi + math.atan(mu) - math.pi / 2)
-    m = math.asin(P / far * math.sin(theta) * edge)
-    R = 2 * w_n * (math.cos(theta - m) + math.sin(theta) * edge) / (1 - math.cos(phi))
-    given = {"L": L, "p": P, "C_L": C_L, "C_N": C_N, "w_n": w_n}
-    assert grip_tilt(R=R, mu=mu, **given) == pytest.approx(m, abs=1e-6)
-    assert grip_tilt(R=R, mu=math.inf, **given) == pytest.approx(theta)
-    assert grip_tilt(R=100 * R, mu=mu, **given) == 0.0
-    assert math.isnan(grip_tilt(R=R, mu=mu, **given | {"L": P + C_L}))
 
 
 def test_an_end_grips_from_a_radius_on():

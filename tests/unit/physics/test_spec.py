@@ -96,8 +96,11 @@ def test_an_old_mujoco_is_told_apart(monkeypatch):
         ({"speed": 0.0}, "trial: speed = 0 m/s is not within 0.001 to 5 m/s"),
         (
             {"robot": Robot.named("ozbot-atr"), "track": ShoeChain()},
-            "trial: shoe-chain needs ends of one radius, of at least 10 mm; 'ozbot-atr' has 0.14 "
-            "and 0.11 m",
+            "trial: shoe-chain needs ends of one radius; 'ozbot-atr' has 0.14 and 0.11 m",
+        ),
+        (
+            {"robot": robot(0.005), "track": ShoeChain()},
+            "trial: shoe-chain needs ends of at least 10 mm; 'kenaf-like' has 0.005 and 0.005 m",
         ),
         (
             {"robot": Robot.named("absolem"), "track": ShoeChain()},

@@ -12,8 +12,8 @@ from kaidan.readers.estimate import LandingEstimate, Refusal, StairsEstimate
 from kaidan.readers.flight import FlightEstimate, independent
 from kaidan.readers.kinds import Provenance
 from kaidan.readers.regular_flight import chi2_tail
+from kaidan.readers.sentences.refusals import REFUSALS
 from kaidan.text.japanese import japanese
-from kaidan.text.refusals import REFUSALS
 from kaidan.verbs.read_stairs import staircase_read
 
 HERE = Provenance(path="here", digest="", form="by hand")

@@ -10,7 +10,6 @@ from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import Points
 from kaidan.readers.opening import LARGEST, Source
 
-_NAMES = re.compile(r"^(?:x|//x|x_?m|points?:?0|x_coord\w*)$", re.IGNORECASE)
 _COMMENTS = ("#", "//", "%")
 _LINES = 20
 

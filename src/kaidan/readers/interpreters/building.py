@@ -13,8 +13,8 @@ from kaidan.readers.building import SAME_FLOOR, WALL, Building, Element, Flight,
 from kaidan.readers.estimate import Found, LandingEstimate, Refusal, StairsEstimate
 from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import Array, Bodies
+from kaidan.readers.sentences.buildings import disagreement
 from kaidan.terrain.stairs import Stairs
-from kaidan.text.building import disagreement
 
 DEEPEST = 5.0
 """Length of a landing beyond which it makes no difference [m]."""

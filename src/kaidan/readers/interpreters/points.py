@@ -11,6 +11,7 @@ from kaidan.readers.estimate import Found, Refusal
 from kaidan.readers.flight import FlightEstimate
 from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import METRES, Array, Indices, Known, Points, Provenance, upright
+from kaidan.readers.sentences import scans as text
 from kaidan.readers.stairfit.chain import staircases
 from kaidan.readers.stairfit.corridor import NARROWEST, SURE, lanes
 from kaidan.readers.stairfit.doubts import LOCAL
@@ -31,7 +32,6 @@ from kaidan.readers.stairfit.quantiles import median
 from kaidan.readers.stairfit.same_flight import beside, continues, wider, within
 from kaidan.readers.stairfit.viewpoint import seen_from_origin
 from kaidan.readers.stairfit.views import Views
-from kaidan.text import scans as text
 
 RANGE_ERROR, RANGE_ERROR_SURVEYED = 0.005, 0.001
 """Doubt of distances where nobody states it, as a share of them [1]: of a depth camera or a robot's

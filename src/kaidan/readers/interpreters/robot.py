@@ -22,7 +22,7 @@ from kaidan.readers.robots.gear import End, Gear, gear_of
 from kaidan.readers.robots.mechanism import Array, Fault, MassProperties, Mechanism, Placed
 from kaidan.readers.robots.side_view import SideView, side_view
 from kaidan.readers.robots.silhouette import Piece
-from kaidan.text import robot_file as said
+from kaidan.readers.sentences import robot_file as said
 
 UPRIGHT = math.pi / 2
 """Angle to which flippers are raised for the centroid [rad]."""

@@ -10,8 +10,8 @@ from kaidan.readers.kinds import Provenance
 from kaidan.readers.robots.gear import End, Gear
 from kaidan.readers.robots.mechanism import Fault, MassProperties, Placed
 from kaidan.readers.robots.side_view import SideView
+from kaidan.readers.sentences import robot_file as said
 from kaidan.robot import Robot
-from kaidan.text import robot_file as said
 
 DOUBTFUL = frozenset(("no-mass", "zero-mass", "mesh-mass", "apart", "off-middle", "outside"))
 """Faults that make the masses of a file doubtful."""

@@ -13,7 +13,7 @@ from kaidan.readers.robots.gear import End, Gear
 from kaidan.readers.robots.mechanism import Fault
 from kaidan.readers.robots.side_view import SideView
 from kaidan.readers.robots.silhouette import Piece, discs_of
-from kaidan.text import robot_file as said
+from kaidan.readers.sentences import robot_file as said
 
 _UNEVEN = 0.002, 0.02
 """Difference of a left and a right flipper that is noted: length [m], share of the mass."""

@@ -23,7 +23,7 @@ class Fault:
     """Something wrong with a file, or left out."""
 
     kind: str
-    """Key of ``kaidan.text.robot_file.FAULTS``."""
+    """Key of ``kaidan.readers.sentences.robot_file.FAULTS``."""
     who: str = ""
     """Link or joint."""
     numbers: Mapping[str, float | str] = field(default_factory=dict)

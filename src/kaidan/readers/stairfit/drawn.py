@@ -7,10 +7,10 @@ import numpy as np
 
 from kaidan.readers.flight import FlightEstimate, independent
 from kaidan.readers.kinds import Array, Indices
+from kaidan.readers.sentences import scans as text
 from kaidan.readers.stairfit.slices import STEP, driven_line, slice_of
 from kaidan.readers.stairfit.views import rotated
 from kaidan.terrain.polyline import convex_corners
-from kaidan.text import scans as text
 
 AS_DRAWN = 5e-4
 """Standard uncertainty of a nosing of a model [m]: what is built from it differs more."""

@@ -21,10 +21,10 @@ from kaidan.readers.hints import Hints
 from kaidan.readers.interpreters.building import flight_sheet
 from kaidan.readers.opening import Source
 from kaidan.readers.recognition import recognised
+from kaidan.readers.sentences.buildings import disagreement
 from kaidan.robot import Robot
 from kaidan.spelling import BEST, robot_of, word_of
 from kaidan.terrain.stairs import Stairs
-from kaidan.text.building import disagreement, hooking
 from kaidan.verbs.building.answer import (
     BuildingAnswer,
     CellShown,
@@ -36,6 +36,7 @@ from kaidan.verbs.building.answer import (
     WayShown,
 )
 from kaidan.verbs.building.judging import Judge
+from kaidan.verbs.building.sentences import hooking
 from kaidan.verbs.building.turning import turn_on
 from kaidan.verbs.building.ways import doors_of, ways_of
 

@@ -203,7 +203,7 @@ class WayShown(Part):
 class BuildingAnswer(Answer):
     """Flights of a building, and what robots can do on them."""
 
-    text_module: ClassVar[str] = "building"
+    text_module: ClassVar[str] = "kaidan.text.building"
 
     path: str
     """File."""

@@ -1,17 +1,16 @@
 """Each robot on each flight: the ordinary question, judged once for flights that are alike."""
 
 import math
-from collections.abc import Callable, Sequence
 from typing import Any
 
 from kaidan.assessment import with_plan
+from kaidan.assessment.sentences import verdicts
 from kaidan.assessment.verdict import conclude
 from kaidan.modes import SUPPLIES, Undecided, Verdict
 from kaidan.question import Question
 from kaidan.readers.building import Flight
 from kaidan.robot import Robot
 from kaidan.terrain.stairs import Stairs
-from kaidan.text import verdicts
 from kaidan.verbs.building.answer import Binding, CellShown
 from kaidan.verbs.comparison import laid
 
@@ -73,8 +72,3 @@ def binds(governs: str, verdict: Verdict) -> Binding:
     if verdict is Verdict.OUTSIDE_MODEL:
         return "stability"
     return _BINDS.get(governs, "stability")
-
-
-def worst(verdicts_: Sequence[Verdict], key: Callable[[Verdict], int] | None = None) -> Verdict:
-    """Worst of some verdicts."""
-    return max(verdicts_, key=key or (lambda one: one.rank))

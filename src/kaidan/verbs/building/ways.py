@@ -8,12 +8,12 @@ from typing import NamedTuple
 
 from kaidan.mechanics.clearance import door_clear_width, lane_width
 from kaidan.models.clearance import OFF_LINE, YAW
+from kaidan.models.sentences import turning
 from kaidan.modes import Verdict
 from kaidan.outline import Outline, footprint_of, height_of
 from kaidan.readers.building import Building, Flight
 from kaidan.robot import Posture, Robot
-from kaidan.text import building as text
-from kaidan.text import turning
+from kaidan.verbs.building import sentences as text
 from kaidan.verbs.building.answer import (
     Binding,
     CellShown,

@@ -76,7 +76,7 @@ class FrontPoint(Part):
 class Design(Answer):
     """Which figures of a robot take the stairs best, or with the least change."""
 
-    text_module: ClassVar[str] = "design"
+    text_module: ClassVar[str] = "kaidan.text.design"
 
     robot: str
     """Name of the robot."""

@@ -2,7 +2,7 @@
 
 Each sample gives the angle left between the resultant of weight and inertia and the contact over
 which the robot would tip, and the time until none is left if the body goes on rotating, and the
-robot driving, as it does (`kaidan.literature.tipover`, after Liu & Liu 2009). An alarm with
+robot driving, as it does (`kaidan.mechanics.tipover`, after Liu & Liu 2009). An alarm with
 hysteresis follows. What is not known counts as the worst case: a position that is missing or
 impossible, a speed, samples that nobody can read. Nothing but the samples goes in, so the same
 samples give the same answer.

@@ -70,7 +70,7 @@ class MonitorState(Part):
 class MonitorAnswer(Answer):
     """Answer of `monitor`: what the samples said of tipping over."""
 
-    text_module: ClassVar[str] = "monitor"
+    text_module: ClassVar[str] = "kaidan.text.monitor"
 
     robot: str
     """Name of the robot."""

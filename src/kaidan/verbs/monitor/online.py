@@ -7,10 +7,10 @@ from typing import Literal, Self
 import numpy as np
 
 from kaidan.errors import InputError, shown
-from kaidan.literature.tipover import Motion, Outlook
 from kaidan.mechanics.loads import zero_moment_point
 from kaidan.mechanics.measures import zero_moment_margin
 from kaidan.mechanics.plane import two_contacts_remain
+from kaidan.mechanics.tipover import Motion, Outlook
 from kaidan.question import Question
 from kaidan.robot import Payload, Posture, Robot
 from kaidan.terrain.stairs import Stairs

@@ -91,7 +91,7 @@ class Mission(Part):
 class Report(Answer):
     """A document on one or more missions, as data."""
 
-    text_module = "report"
+    text_module = "kaidan.text.report"
 
     kaidan: str
     """Version of kaidan."""

@@ -6,9 +6,9 @@ from typing import Literal
 from kaidan.assessment.answer import Assessment
 from kaidan.question import Question
 from kaidan.sheet import Sheet
+from kaidan.tables import human
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
-from kaidan.text.tables import human
 from kaidan.verbs.report.answer import InputRow
 from kaidan.verbs.sheet_rows import field_rows
 

@@ -8,6 +8,7 @@ const SEEN = 20; // s of the chart
 const TICK = 50; // ms between two requests of a replay
 const TIPPING = ["tipped over", "tip-over"]; // causes of the robot itself; the others are the sensor's
 const GIVEN = "~"; // value of a list for the sheet that the question has in the place of a name
+/** @type {(id: string) => any} */
 const at = (id) => document.getElementById(id);
 const named = (sheet) => typeof sheet === "string";
 const hash = location.hash.slice(1); // a climb that is watched, or what the question of the page hands over
@@ -23,6 +24,8 @@ let socket = null;
 let replay = null;
 let audio = null;
 let loud = false;
+let waits = false; // whether a new state waits for the next frame
+let shown = ""; // what is said, and in which language
 
 function t(key, values) {
   return text(`live.${key}`, values);
@@ -34,10 +37,15 @@ function speak(chosen) {
   document.title = t("title");
   sayCarried();
   for (const each of [...catalogue.robots, ...catalogue.stairs]) {
-    const option = [...at("robot").options, ...at("stairs").options].find((one) => one.value === each.name);
+    const option = [...at("robot").options, ...at("stairs").options].find(
+      (one) => one.value === each.name,
+    );
     if (option) option.textContent = `${each.name}: ${titled(each.title)}`;
   }
-  for (const each of document.querySelectorAll("[data-text]")) each.textContent = t(each.dataset.text);
+  for (const each of /** @type {NodeListOf<HTMLElement>} */ (
+    document.querySelectorAll("[data-text]")
+  ))
+    each.textContent = t(each.dataset.text);
   if (replay) at("pause").textContent = t(replay.paused ? "go_on" : "pause");
   show();
 }
@@ -55,15 +63,23 @@ function carried() {
 
 function sayCarried() {
   const { payload = [], override = {} } = carried();
-  const mass = payload.reduce((sum, each) => sum + each.mass, 0), count = Object.keys(override).length;
-  at("given").textContent = [mass && t("given_load", { mass: mass.toFixed(1) }), count && t("given_figures", { count })].filter(Boolean).join(" ");
+  const mass = payload.reduce((sum, each) => sum + each.mass, 0),
+    count = Object.keys(override).length;
+  at("given").textContent = [
+    mass && t("given_load", { mass: mass.toFixed(1) }),
+    count && t("given_figures", { count }),
+  ]
+    .filter(Boolean)
+    .join(" ");
 }
 
 // Connection
 
 function connect(id, wait = 500) {
   socket?.close();
-  const mine = new WebSocket(new URL(`api/live/${id}`, location.href.replace(/^http/, "ws").replace(/#.*/, "")));
+  const mine = new WebSocket(
+    new URL(`api/live/${id}`, location.href.replace(/^http/, "ws").replace(/#.*/, "")),
+  );
   socket = mine;
   mine.onmessage = (message) => {
     wait = 500;
@@ -94,10 +110,10 @@ function take(said) {
     if (states.length > 6000) states = states.slice(-3000);
     last = performance.now();
   }
-  if (!take.waits) {
-    take.waits = true;
+  if (!waits) {
+    waits = true;
     requestAnimationFrame(() => {
-      take.waits = false;
+      waits = false;
       show();
     });
   }
@@ -126,23 +142,37 @@ function show() {
   const causes = state?.causes ?? [];
   const tipped = causes.includes("tipped over");
   const outside = state?.status === "outside-model";
-  const moods = outside && !causes.includes("silent") ? ["unknown"] : causes.map((each) => each.replace(/\W/, "_"));
+  const moods =
+    outside && !causes.includes("silent")
+      ? ["unknown"]
+      : causes.map((each) => each.replace(/\W/, "_"));
   const said = JSON.stringify([language, Boolean(state), moods]);
-  if (said !== show.said) {
-    show.said = said;
+  if (said !== shown) {
+    shown = said;
     const also = moods.slice(1).map((each) => t(each));
-    mood = !state ? "idle" : moods[0] ?? "calm";
+    mood = !state ? "idle" : (moods[0] ?? "calm");
     at("alarm").className = mood;
     at("status").textContent = "";
-    at("mark").textContent = { idle: "○", calm: "●", tipped_over: "▼", tip_over: "▲", unknown: "?" }[mood] ?? "✕";
+    at("mark").textContent =
+      { idle: "○", calm: "●", tipped_over: "▼", tip_over: "▲", unknown: "?" }[mood] ?? "✕";
     at("said").textContent = t(mood);
-    at("why").textContent = [has(`live.${mood}_do`) && t(`${mood}_do`, { why: state.message }), also.length && t("also", { names: also.join(", ") })].filter(Boolean).join(" ");
+    at("why").textContent = [
+      has(`live.${mood}_do`) && t(`${mood}_do`, { why: state.message }),
+      also.length && t("also", { names: also.join(", ") }),
+    ]
+      .filter(Boolean)
+      .join(" ");
   }
   at("margin").textContent = number(state?.margin_deg, 1);
-  at("time").textContent = tipped ? "–" : state && state.time_to_tip_s === null && state.margin_deg !== null ? `> ${head?.horizon_s ?? 2}` : number(state?.time_to_tip_s, 1);
+  at("time").textContent = tipped
+    ? "–"
+    : state && state.time_to_tip_s === null && state.margin_deg !== null
+      ? `> ${head?.horizon_s ?? 2}`
+      : number(state?.time_to_tip_s, 1);
   at("tilt").textContent = number(state?.tilt_deg, 1);
   at("phase").textContent = Number.isFinite(state?.margin_deg) && !tipped ? t(state.phase) : "–";
-  if (state?.message && !outside && state.status !== "missing") at("note").textContent = state.message;
+  if (state?.message && !outside && state.status !== "missing")
+    at("note").textContent = state.message;
   draw();
 }
 
@@ -154,10 +184,22 @@ function draw() {
   const least = Math.min(-2, ...seen.map((each) => each.margin_deg));
   const x = (time) => 600 * (1 - (end - time) / SEEN);
   const y = (margin) => 135 - (130 * (margin - least)) / (most - least);
-  at("curve").setAttribute("points", seen.map((each) => `${x(each.t_s).toFixed(1)},${y(each.margin_deg).toFixed(1)}`).join(" "));
+  at("curve").setAttribute(
+    "points",
+    seen.map((each) => `${x(each.t_s).toFixed(1)},${y(each.margin_deg).toFixed(1)}`).join(" "),
+  );
   const limit = head?.margin_on_deg ?? 0;
-  for (const [id, value] of [["zero", 0], ["limit", limit]])
-    for (const [name, to] of [["x1", 0], ["x2", 600], ["y1", y(value)], ["y2", y(value)]]) at(id).setAttribute(name, to);
+  for (const [id, value] of [
+    ["zero", 0],
+    ["limit", limit],
+  ])
+    for (const [name, to] of [
+      ["x1", 0],
+      ["x2", 600],
+      ["y1", y(value)],
+      ["y2", y(value)],
+    ])
+      at(id).setAttribute(name, to);
   at("limit-name").textContent = head ? `${t("limit")} ${limit.toFixed(1)}°` : "";
   at("limit-name").setAttribute("x", 6);
   at("limit-name").setAttribute("y", y(limit) - 5);
@@ -167,7 +209,9 @@ function draw() {
 setInterval(() => {
   const state = states.at(-1);
   const told = (mood === "calm" || mood === "tip_over") && !over && state.margin_deg !== null;
-  at("status").textContent = told ? t("state", { margin: number(state.margin_deg, 1), phase: t(state.phase) }) : "";
+  at("status").textContent = told
+    ? t("state", { margin: number(state.margin_deg, 1), phase: t(state.phase) })
+    : "";
 }, 5000);
 setInterval(show, 100);
 
@@ -184,7 +228,7 @@ function beep(pitch) {
   tone.connect(volume).connect(audio.destination);
   tone.start();
   tone.stop(audio.currentTime + 0.25);
-  document.body.dataset.beeps = Number(document.body.dataset.beeps ?? 0) + 1;
+  document.body.dataset.beeps = String(Number(document.body.dataset.beeps ?? 0) + 1);
 }
 
 function wake() {
@@ -218,16 +262,24 @@ async function ask(path, options) {
 }
 
 function post(path, body) {
-  return ask(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) });
+  return ask(path, {
+    method: "POST",
+    headers: { "content-type": "application/json" },
+    body: JSON.stringify(body),
+  });
 }
 
 async function begin() {
   at("error").textContent = "";
   const body = {};
-  for (const each of ["robot", "stairs", "direction", "facing", "flippers"]) body[each] = at(each).value;
+  for (const each of ["robot", "stairs", "direction", "facing", "flippers"])
+    body[each] = at(each).value;
   for (const each of ["robot", "stairs"]) if (body[each] === GIVEN) body[each] = given[each];
   Object.assign(body, carried());
-  const limits = { resolution: at("resolution").value.trim(), no_data_on: at("silence").value.trim() };
+  const limits = {
+    resolution: at("resolution").value.trim(),
+    no_data_on: at("silence").value.trim(),
+  };
   body.limits = Object.fromEntries(Object.entries(limits).filter(([, value]) => value));
   const made = await post("api/live", body);
   history.replaceState(null, "", `#${made.id}`);
@@ -296,7 +348,8 @@ async function play(id, samples) {
     before = performance.now();
     if (!mine.paused) now += (Number(at("speed").value) * passed) / 1000;
     const due = [];
-    while (next < samples.length && due.length < 500 && !(samples[next].t > now)) due.push(samples[next++]);
+    while (next < samples.length && due.length < 500 && !(samples[next].t > now))
+      due.push(samples[next++]);
     if (due.length) {
       try {
         await post(`api/live/${id}`, { samples: due, recorded: true });
@@ -323,14 +376,20 @@ at("language").onchange = () => {
   speak(at("language").value);
 };
 const catalogue = await ask("api/catalogue", {});
-for (const [id, kind, first] of [["robot", "robots", "absolem"], ["stairs", "stairs", "ibc"]]) {
-  for (const each of catalogue[kind].filter((each) => !each.unweighed)) at(id).append(new Option("", each.name));
+for (const [id, kind, first] of [
+  ["robot", "robots", "absolem"],
+  ["stairs", "stairs", "ibc"],
+]) {
+  for (const each of catalogue[kind].filter((each) => !each.unweighed))
+    at(id).append(new Option("", each.name));
   at(id).value = first;
 }
 for (const id of ["robot", "stairs"]) {
   if (!given[id] || named(given[id])) continue;
   const sheets = [given[id]].flat();
-  at(id).prepend(new Option(sheets.map((each) => each.title || each.name || "?").join(" + "), GIVEN));
+  at(id).prepend(
+    new Option(sheets.map((each) => each.title || each.name || "?").join(" + "), GIVEN),
+  );
 }
 for (const id of ["robot", "stairs", "direction", "facing", "flippers"]) {
   const value = named(given[id]) || !given[id] ? given[id] : GIVEN;

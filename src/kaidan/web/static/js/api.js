@@ -3,6 +3,7 @@
 export class Refused extends Error {}
 export class Unreachable extends Error {}
 
+/** @type {(there: boolean) => void} */
 let reached = () => {};
 export function onReach(listener) {
   reached = listener;
@@ -43,20 +44,28 @@ export function ask(path, body, signal) {
 }
 
 export async function fetchedText(path) {
-  const response = await fetch(`api/${path}`).catch(() => { throw new Unreachable(); });
+  const response = await fetch(`api/${path}`).catch(() => {
+    throw new Unreachable();
+  });
   return response.ok ? response.text() : answered(response);
 }
 
 export async function remove(path) {
-  const response = await fetch(`api/${path}`, { method: "DELETE" }).catch(() => { throw new Unreachable(); });
+  const response = await fetch(`api/${path}`, { method: "DELETE" }).catch(() => {
+    throw new Unreachable();
+  });
   if (!response.ok) await answered(response);
 }
 
 // A file that the server makes of a question.
 export async function fetchedFile(path, body) {
   const response = await fetch(`api/${path}`, {
-    method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body),
-  }).catch(() => { throw new Unreachable(); });
+    method: "POST",
+    headers: { "content-type": "application/json" },
+    body: JSON.stringify(body),
+  }).catch(() => {
+    throw new Unreachable();
+  });
   if (!response.ok) return answered(response);
   return response.blob();
 }
@@ -102,7 +111,8 @@ export class Latest {
     this.#busy = true;
     const abort = new AbortController();
     this.#abort = abort;
-    let answer = null, failed = null;
+    let answer = null,
+      failed = null;
     try {
       answer = await ask(this.path, turn.body, abort.signal);
     } catch (error) {

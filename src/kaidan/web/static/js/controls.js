@@ -5,14 +5,30 @@ import { scaleOf } from "./units.js";
 
 // Slider and number field of one figure. `get` gives the SI value, `set(value, done)` takes it;
 // `done` is false while the slider is under way. An emptied number field gives null: the sheet's value.
+/**
+ * @param {{label: string, kind: string, low: number, high: number, step?: number,
+ *   get: () => any, set: (value: number | null, done: boolean) => void}} figure
+ */
 export function slider({ label, kind, low, high, step, get, set }) {
   const id = fresh("figure");
   const { factor, digits, unit } = scaleOf(kind);
-  const text = (value) => (value === null || value === undefined ? "" : (value * factor).toFixed(digits));
+  const text = (value) =>
+    value === null || value === undefined ? "" : (value * factor).toFixed(digits);
   const finest = step ? step * factor : 10 ** -digits;
-  const common = { min: (low * factor).toFixed(digits), max: (high * factor).toFixed(digits), step: finest };
+  const common = {
+    min: (low * factor).toFixed(digits),
+    max: (high * factor).toFixed(digits),
+    step: finest,
+  };
   const range = h("input", { type: "range", id, ...common, "aria-describedby": `${id}-unit` });
-  const number = h("input", { type: "number", ...common, step: "any", "aria-label": label, inputmode: "decimal", placeholder: "–" });
+  const number = h("input", {
+    type: "number",
+    ...common,
+    step: "any",
+    "aria-label": label,
+    inputmode: "decimal",
+    placeholder: "–",
+  });
   const take = (input, done) => {
     const value = Number(input.value);
     if (input.value === "" && !input.validity.badInput) return set(null, done);
@@ -23,16 +39,20 @@ export function slider({ label, kind, low, high, step, get, set }) {
   range.addEventListener("input", () => take(range, false));
   range.addEventListener("change", () => take(range, true));
   number.addEventListener("change", () => take(number, true));
-  const node = h("div", { class: "figure" },
+  const node = h(
+    "div",
+    { class: "figure" },
     h("label", { for: id }, label),
     range,
-    h("span", { class: "number" }, number, h("span", { id: `${id}-unit`, class: "unit" }, unit)));
+    h("span", { class: "number" }, number, h("span", { id: `${id}-unit`, class: "unit" }, unit)),
+  );
   return {
     node,
     update() {
       const value = get();
       if (document.activeElement !== number) number.value = text(value);
-      if (document.activeElement !== range) range.value = value === null || value === undefined ? range.min : value * factor;
+      if (document.activeElement !== range)
+        range.value = value === null || value === undefined ? range.min : value * factor;
       range.setAttribute("aria-valuetext", `${text(value)} ${unit}`);
     },
   };
@@ -46,7 +66,16 @@ export function choice({ label, options, get, set }) {
     return [input, h("label", { class: "segment" }, input, h("span", {}, text))];
   });
   return {
-    node: h("fieldset", { class: "segments" }, h("legend", {}, label), h("div", {}, inputs.map(([, each]) => each))),
+    node: h(
+      "fieldset",
+      { class: "segments" },
+      h("legend", {}, label),
+      h(
+        "div",
+        {},
+        inputs.map(([, each]) => each),
+      ),
+    ),
     update() {
       for (const [input] of inputs) input.checked = input.value === get();
     },
@@ -79,7 +108,12 @@ export function button(text, onclick, attributes = {}) {
 
 // A file input under its label, with the file that was chosen before the page was built anew.
 export function fileField({ label, id, accept = null, file, take }) {
-  const input = h("input", { type: "file", id, accept, onchange: () => take(input.files[0] ?? null) });
+  const input = h("input", {
+    type: "file",
+    id,
+    accept,
+    onchange: () => take(input.files[0] ?? null),
+  });
   if (file) {
     const chosen = new DataTransfer();
     chosen.items.add(file);
@@ -90,6 +124,13 @@ export function fileField({ label, id, accept = null, file, take }) {
 
 // A file input that looks like a button; the input itself takes focus and keys.
 export function fileButton(text, accept, take) {
-  const input = h("input", { type: "file", accept, onchange: () => { if (input.files[0]) take(input.files[0]); input.value = ""; } });
+  const input = h("input", {
+    type: "file",
+    accept,
+    onchange: () => {
+      if (input.files[0]) take(input.files[0]);
+      input.value = "";
+    },
+  });
   return h("label", { class: "file" }, input, h("span", {}, text));
 }

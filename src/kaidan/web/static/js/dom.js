@@ -10,7 +10,11 @@ function fill(element, attributes, children) {
     if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
     else element.setAttribute(name, value === true ? "" : value);
   }
-  element.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false));
+  element.append(
+    ...children
+      .flat(Infinity)
+      .filter((child) => child !== null && child !== undefined && child !== false),
+  );
   return element;
 }
 
@@ -23,7 +27,11 @@ export function s(tag, attributes = {}, ...children) {
 }
 
 export function replace(element, ...children) {
-  element.replaceChildren(...children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false));
+  element.replaceChildren(
+    ...children
+      .flat(Infinity)
+      .filter((child) => child !== null && child !== undefined && child !== false),
+  );
 }
 
 // Hand a blob to the browser as a file.
@@ -35,7 +43,11 @@ export function download(blob, name) {
 
 // Put a text on the clipboard; false: the browser does not let a page do it.
 export async function copied(text) {
-  if (navigator.clipboard) return navigator.clipboard.writeText(text).then(() => true, () => false);
+  if (navigator.clipboard)
+    return navigator.clipboard.writeText(text).then(
+      () => true,
+      () => false,
+    );
   const field = h("textarea", { readonly: true, class: "visually-hidden" }, text); // over plain HTTP there is no other way
   document.body.append(field);
   field.select();
@@ -47,7 +59,12 @@ export async function copied(text) {
 // Something to fold out, under a summary; it stays as it is when the page is built anew.
 export function fold(name, summary, ...children) {
   const open = kept("open", () => new Set());
-  const node = h("details", { open: open.has(name), ontoggle: () => (node.open ? open.add(name) : open.delete(name)) }, h("summary", {}, summary), children);
+  const node = h(
+    "details",
+    { open: open.has(name), ontoggle: () => (node.open ? open.add(name) : open.delete(name)) },
+    h("summary", {}, summary),
+    children,
+  );
   return node;
 }
 
@@ -59,9 +76,13 @@ export function fresh(prefix) {
 
 // A polyline as the "d" of a path; null breaks it.
 export function line(points) {
-  let path = "", pen = "M";
+  let path = "",
+    pen = "M";
   for (const point of points) {
-    if (point === null || !Number.isFinite(point[0]) || !Number.isFinite(point[1])) { pen = "M"; continue; }
+    if (point === null || !Number.isFinite(point[0]) || !Number.isFinite(point[1])) {
+      pen = "M";
+      continue;
+    }
     path += `${pen}${point[0].toFixed(2)} ${point[1].toFixed(2)}`;
     pen = "L";
   }

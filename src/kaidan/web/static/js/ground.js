@@ -21,23 +21,45 @@ const MORE = [
 ];
 
 export function groundPanel(current) {
-  const number = (name, kind, low, high, step, usual, label = `ground.${name.replace("u.", "")}`) => slider({
-    label: t(label), kind, low, high, step,
-    get: () => state.numbers[name] ?? usual,
-    set: (value, done) => change({ numbers: { [name]: value } }, { push: done }),
-  });
+  const number = (name, kind, low, high, step, usual, label = `ground.${name.replace("u.", "")}`) =>
+    slider({
+      label: t(label),
+      kind,
+      low,
+      high,
+      step,
+      get: () => state.numbers[name] ?? usual,
+      set: (value, done) => change({ numbers: { [name]: value } }, { push: done }),
+    });
   const surface = picker({
-    label: t("ground.surface"), empty: t("ground.none"), get: () => state.surface,
-    groups: () => [["", [
-      ...catalogue.surfaces.map((each) => [each.name, titled(each.title)]),
-      ["own", t("ground.own")]]]],
-    set: (value) => change({ surface: value, numbers: value === "own" ? { mu_low: state.numbers.mu_low ?? 0.6, mu_high: state.numbers.mu_high ?? 0.9 } : { mu_low: null, mu_high: null } }),
+    label: t("ground.surface"),
+    empty: t("ground.none"),
+    get: () => state.surface,
+    groups: () => [
+      [
+        "",
+        [
+          ...catalogue.surfaces.map((each) => [each.name, titled(each.title)]),
+          ["own", t("ground.own")],
+        ],
+      ],
+    ],
+    set: (value) =>
+      change({
+        surface: value,
+        numbers:
+          value === "own"
+            ? { mu_low: state.numbers.mu_low ?? 0.6, mu_high: state.numbers.mu_high ?? 0.9 }
+            : { mu_low: null, mu_high: null },
+      }),
   });
   const low = number("mu_low", "friction", 0.05, 2, 0.01, 0.6, "ground.low");
   const high = number("mu_high", "friction", 0.05, 2, 0.01, 0.9, "ground.high");
   const own = h("div", { class: "figures" }, low.node, high.node);
   const flippers = choice({
-    label: t("ground.flippers"), get: () => state.flippers, set: (value) => change({ flippers: value }),
+    label: t("ground.flippers"),
+    get: () => state.flippers,
+    set: (value) => change({ flippers: value }),
     options: ["best", "flat", "stowed", "angles"].map((each) => [each, t(`ground.${each}`)]),
   });
   const other = h("p", { class: "quiet" });
@@ -45,26 +67,53 @@ export function groundPanel(current) {
   const rear = number("rear", "angle", -Math.PI / 2, Math.PI / 2, Math.PI / 180, 0);
   const angles = h("div", { class: "figures" }, front.node, rear.node);
   const facing = choice({
-    label: t("ground.facing"), get: () => state.facing, set: (value) => change({ facing: value }),
-    options: [["", t("ground.either")], ["nose-first", t("ground.nose-first")], ["tail-first", t("ground.tail-first")]],
+    label: t("ground.facing"),
+    get: () => state.facing,
+    set: (value) => change({ facing: value }),
+    options: [
+      ["", t("ground.either")],
+      ["nose-first", t("ground.nose-first")],
+      ["tail-first", t("ground.tail-first")],
+    ],
   });
   const more = MORE.map((each) => number(...each));
-  const accept = h("input", { type: "checkbox", onchange: () => change({ accept: accept.checked ? "arrested" : "" }) });
+  const accept = h("input", {
+    type: "checkbox",
+    onchange: () => change({ accept: accept.checked ? "arrested" : "" }),
+  });
 
   return {
-    node: h("section", { class: "panel", "aria-label": t("ground.heading") },
-      surface.node, own, flippers.node, other, angles,
-      fold("more", t("ground.more"),
-        facing.node, h("div", { class: "figures" }, more.map((each) => each.node)),
-        h("label", { class: "check" }, accept, h("span", {}, t("ground.accept"))))),
+    node: h(
+      "section",
+      { class: "panel", "aria-label": t("ground.heading") },
+      surface.node,
+      own,
+      flippers.node,
+      other,
+      angles,
+      fold(
+        "more",
+        t("ground.more"),
+        facing.node,
+        h(
+          "div",
+          { class: "figures" },
+          more.map((each) => each.node),
+        ),
+        h("label", { class: "check" }, accept, h("span", {}, t("ground.accept"))),
+      ),
+    ),
     update() {
       const robot = current.robot;
       own.hidden = state.surface !== "own";
       flippers.node.hidden = Boolean(robot) && !robot.front_flippers && !robot.rear_flippers;
       angles.hidden = flippers.node.hidden || state.flippers !== "angles";
-      other.textContent = ["best", "flat", "stowed", "angles"].includes(state.flippers) ? "" : state.flippers;
+      other.textContent = ["best", "flat", "stowed", "angles"].includes(state.flippers)
+        ? ""
+        : state.flippers;
       accept.checked = state.accept === "arrested";
-      for (const each of [surface, low, high, flippers, front, rear, facing, ...more]) each.update();
+      for (const each of [surface, low, high, flippers, front, rear, facing, ...more])
+        each.update();
     },
   };
 }

@@ -8,8 +8,12 @@ export let language = "en";
 
 export async function loadTexts() {
   const found = await (await fetch("api/texts")).json();
-  patterns = Object.fromEntries(Object.entries(found.sentences).map(([name, all]) =>
-    [name, all.map(([en, ja, tables]) => ({ en: new RegExp(en), ja, tables }))]));
+  patterns = Object.fromEntries(
+    Object.entries(found.sentences).map(([name, all]) => [
+      name,
+      all.map(([en, ja, tables]) => ({ en: new RegExp(en), ja, tables })),
+    ]),
+  );
   texts = found;
 }
 
@@ -34,7 +38,9 @@ export function japanese(text, table = "sentence") {
   for (const { en, ja, tables } of patterns[table]) {
     const found = en.exec(text);
     if (found) {
-      const parts = tables.map((of, index) => (of ? japanese(found[index + 1], of) : null) ?? found[index + 1]);
+      const parts = tables.map(
+        (of, index) => (of ? japanese(found[index + 1], of) : null) ?? found[index + 1],
+      );
       return ja.replace(/\{(\d)\}/g, (_, number) => parts[number - 1]);
     }
   }

@@ -15,10 +15,17 @@ import { lengths, setLengths } from "./units.js";
 import { workView } from "./work.js";
 
 const VIEWS = { check: checkView, building: buildingView, work: workView, saved: savedView };
-let views = {}, chip = null, status = null, banner = null, sliding = false, reached = true;
+let views = {},
+  chip = null,
+  status = null,
+  banner = null,
+  sliding = false,
+  reached = true;
 
 const shell = {
-  say: (text) => { status.textContent = text; },
+  say: (text) => {
+    status.textContent = text;
+  },
   sliding: () => sliding,
   share,
   print: printed,
@@ -29,13 +36,23 @@ const shell = {
 };
 
 function select(label, name, options, value) {
-  return h("label", { class: "setting" }, h("span", {}, label),
-    h("select", { id: `setting-${name}`, onchange: (event) => {
-      prefer(name, event.target.value);
-      apply();
-      if (name !== "theme") buildAnew(`setting-${name}`);
-    } },
-      options.map(([key, text]) => h("option", { value: key, selected: key === value }, text))));
+  return h(
+    "label",
+    { class: "setting" },
+    h("span", {}, label),
+    h(
+      "select",
+      {
+        id: `setting-${name}`,
+        onchange: (event) => {
+          prefer(name, event.target.value);
+          apply();
+          if (name !== "theme") buildAnew(`setting-${name}`);
+        },
+      },
+      options.map(([key, text]) => h("option", { value: key, selected: key === value }, text)),
+    ),
+  );
 }
 
 // Escape, or going elsewhere, closes the settings.
@@ -53,7 +70,7 @@ function apply() {
 async function buildAnew(focused) {
   const place = scrollY;
   const drawn = build();
-  document.querySelector(".settings").open = true;
+  /** @type {HTMLDetailsElement} */ (document.querySelector(".settings")).open = true;
   document.getElementById(focused).focus({ preventScroll: true });
   await drawn;
   scrollTo(0, place);
@@ -63,27 +80,117 @@ async function buildAnew(focused) {
 function build() {
   for (const view of Object.values(views)) view.stop?.();
   document.title = t("app.title");
-  chip = h("a", { class: "chip", href: "#answer", onclick: (event) => { event.preventDefault(); const answer = document.getElementById("answer"); answer?.scrollIntoView(); answer?.focus(); } });
+  chip = h("a", {
+    class: "chip",
+    href: "#answer",
+    onclick: (event) => {
+      event.preventDefault();
+      const answer = document.getElementById("answer");
+      answer?.scrollIntoView();
+      answer?.focus();
+    },
+  });
   status = h("p", { role: "status", class: "toast" });
   banner = h("p", { role: "status", class: "banner" });
   sayReach();
   views = Object.fromEntries(Object.entries(VIEWS).map(([name, make]) => [name, make(shell)]));
-  const links = Object.keys(VIEWS).map((name) => h("a", { href: `#/${name}`, "data-view": name, onclick: (event) => {
-    event.preventDefault();
-    openView(name);
-  } }, t(`app.${name}`)));
-  replace(document.getElementById("page"),
-    h("a", { class: "skip", href: "#answer", onclick: (event) => { event.preventDefault(); document.getElementById("answer")?.focus(); } }, t("app.skip")),
-    h("header", {},
-      h("p", { class: "brand" }, h("b", {}, "kaidan"), h("span", { lang: "ja", "aria-hidden": "true" }, " 階段")),
-      h("nav", { "aria-label": "kaidan" }, links, h("a", { href: "live.html", onclick: (event) => { event.currentTarget.href = `live.html${watched()}`; } }, t("app.live"))), chip,
-      h("details", { class: "settings", onkeydown: shutSettings, onfocusout: shutSettings }, h("summary", {}, t("app.settings")), h("div", {},
-        select(t("app.language"), "language", [["en", "English"], ["ja", "日本語"]], language),
-        select(t("app.units"), "lengths", [["mm", "mm"], ["in", "inch"]], lengths),
-        select(t("app.theme"), "theme", ["auto", "light", "dark", "contrast"].map((each) => [each, t(`app.theme_${each}`)]), preference("theme", "auto"))))),
+  const links = Object.keys(VIEWS).map((name) =>
+    h(
+      "a",
+      {
+        href: `#/${name}`,
+        "data-view": name,
+        onclick: (event) => {
+          event.preventDefault();
+          openView(name);
+        },
+      },
+      t(`app.${name}`),
+    ),
+  );
+  replace(
+    document.getElementById("page"),
+    h(
+      "a",
+      {
+        class: "skip",
+        href: "#answer",
+        onclick: (event) => {
+          event.preventDefault();
+          document.getElementById("answer")?.focus();
+        },
+      },
+      t("app.skip"),
+    ),
+    h(
+      "header",
+      {},
+      h(
+        "p",
+        { class: "brand" },
+        h("b", {}, "kaidan"),
+        h("span", { lang: "ja", "aria-hidden": "true" }, " 階段"),
+      ),
+      h(
+        "nav",
+        { "aria-label": "kaidan" },
+        links,
+        h(
+          "a",
+          {
+            href: "live.html",
+            onclick: (event) => {
+              event.currentTarget.href = `live.html${watched()}`;
+            },
+          },
+          t("app.live"),
+        ),
+      ),
+      chip,
+      h(
+        "details",
+        { class: "settings", onkeydown: shutSettings, onfocusout: shutSettings },
+        h("summary", {}, t("app.settings")),
+        h(
+          "div",
+          {},
+          select(
+            t("app.language"),
+            "language",
+            [
+              ["en", "English"],
+              ["ja", "日本語"],
+            ],
+            language,
+          ),
+          select(
+            t("app.units"),
+            "lengths",
+            [
+              ["mm", "mm"],
+              ["in", "inch"],
+            ],
+            lengths,
+          ),
+          select(
+            t("app.theme"),
+            "theme",
+            ["auto", "light", "dark", "contrast"].map((each) => [each, t(`app.theme_${each}`)]),
+            preference("theme", "auto"),
+          ),
+        ),
+      ),
+    ),
     banner,
-    h("main", { id: "main" }, h("h1", { class: "visually-hidden" }, t("app.title")), Object.values(views).map((view) => view.node)),
-    h("div", { id: "sheet" }), status);
+    h(
+      "main",
+      { id: "main" },
+      h("h1", { class: "visually-hidden" }, t("app.title")),
+      Object.values(views).map((view) => view.node),
+    ),
+    h("div", { id: "sheet" }),
+    status,
+  );
   document.body.classList.add("ready");
   return update();
 }
@@ -110,7 +217,7 @@ function openView(name) {
 function update() {
   const open = state.view in views ? state.view : "check";
   for (const [name, view] of Object.entries(views)) view.node.hidden = name !== open;
-  for (const link of document.querySelectorAll("nav a")) {
+  for (const link of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("nav a"))) {
     if (link.dataset.view === open) link.setAttribute("aria-current", "page");
     else link.removeAttribute("aria-current");
   }
@@ -119,7 +226,7 @@ function update() {
 }
 
 async function share() {
-  shell.say(t(await copied(location.href) ? "app.shared" : "app.not_shared"));
+  shell.say(t((await copied(location.href)) ? "app.shared" : "app.not_shared"));
 }
 
 function printed() {
@@ -130,7 +237,14 @@ function printed() {
 async function begin() {
   apply();
   readAddress();
-  for (const name of ["pointerdown", "keydown"]) addEventListener(name, (event) => { sliding = event.target?.type === "range"; }, true);
+  for (const name of ["pointerdown", "keydown"])
+    addEventListener(
+      name,
+      (event) => {
+        sliding = /** @type {HTMLInputElement | null} */ (event.target)?.type === "range";
+      },
+      true,
+    );
   onReach((there) => {
     reached = there;
     if (banner) sayReach();
@@ -139,9 +253,12 @@ async function begin() {
   await loadCatalogue().catch(() => {});
   subscribe(update);
   followAddress();
-  addEventListener("beforeprint", () => fillSheet(document.getElementById("sheet"), views.check.current.answer));
+  addEventListener("beforeprint", () =>
+    fillSheet(document.getElementById("sheet"), views.check.current.answer),
+  );
   build();
-  if ("serviceWorker" in navigator && window.isSecureContext) navigator.serviceWorker.register("sw.js").catch(() => {});
+  if ("serviceWorker" in navigator && window.isSecureContext)
+    navigator.serviceWorker.register("sw.js").catch(() => {});
 }
 
 begin();

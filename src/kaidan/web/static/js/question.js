@@ -14,7 +14,8 @@ export async function loadCatalogue() {
 export async function sheetOf(kind, name) {
   if (!name) return null;
   if (name.startsWith("~")) return unpacked(name);
-  if (!sheets[kind].has(name)) sheets[kind].set(name, await get(`catalogue/${kind}/${encodeURIComponent(name)}`));
+  if (!sheets[kind].has(name))
+    sheets[kind].set(name, await get(`catalogue/${kind}/${encodeURIComponent(name)}`));
   return sheets[kind].get(name);
 }
 
@@ -46,7 +47,8 @@ export function valueOf(sheet, name) {
 export function stairsWithFigures(sheet) {
   const made = withFigures(sheet, state.stairsFigures);
   for (const end of ["lower", "upper"]) {
-    if (!made[`${end}_passage`] || (made[`${end}_turn`] ?? "none") === "none") delete made[`${end}_passage`];
+    if (!made[`${end}_passage`] || (made[`${end}_turn`] ?? "none") === "none")
+      delete made[`${end}_passage`];
   }
   return made;
 }
@@ -63,7 +65,8 @@ export function terrainOf(sheet) {
 
 function ground() {
   const { mu_low: low, mu_high: high } = state.numbers;
-  if (state.surface === "own" && low !== undefined) return { friction: [low, Math.max(low, high ?? low)] };
+  if (state.surface === "own" && low !== undefined)
+    return { friction: [low, Math.max(low, high ?? low)] };
   return state.surface && state.surface !== "own" ? { surface: state.surface } : {};
 }
 
@@ -83,6 +86,7 @@ function flippers(robot) {
 export function bodyOf(robot, stairs) {
   if (!robot || !stairs) return null;
   const { numbers } = state;
+  /** @type {Record<string, any>} */
   const body = {
     robot: state.robot.startsWith("~") ? robot : state.robot,
     stairs: terrainOf(stairs),
@@ -97,11 +101,13 @@ export function bodyOf(robot, stairs) {
     if (numbers[name] !== undefined) body[name] = numbers[name];
   }
   if (numbers.payload_mass) {
-    body.payload = [{
-      mass: numbers.payload_mass,
-      from_front: numbers.payload_behind ?? 0,
-      height: numbers.payload_height ?? 0,
-    }];
+    body.payload = [
+      {
+        mass: numbers.payload_mass,
+        from_front: numbers.payload_behind ?? 0,
+        height: numbers.payload_height ?? 0,
+      },
+    ];
   }
   const doubts = {};
   for (const [name, value] of Object.entries(numbers)) {
@@ -119,11 +125,21 @@ export function quickBody(body) {
 
 export function marginBody(body) {
   const names = ["robot", "flippers", "payload", "acceleration", "direction", "facing", "override"];
-  const rest = Object.fromEntries(names.filter((name) => name in body).map((name) => [name, body[name]]));
+  const rest = Object.fromEntries(
+    names.filter((name) => name in body).map((name) => [name, body[name]]),
+  );
   return rest.flippers === "best" ? { ...rest, flippers: "flat" } : rest;
 }
 
 export function planeBody(body) {
-  const { accept: _, yaw: __, risk: ___, uncertainty: ____, speed: _____, flipper_tolerance: ______, ...rest } = body;
+  const {
+    accept: _,
+    yaw: __,
+    risk: ___,
+    uncertainty: ____,
+    speed: _____,
+    flipper_tolerance: ______,
+    ...rest
+  } = body;
   return rest.flippers === "best" ? { ...rest, flippers: "flat" } : rest;
 }

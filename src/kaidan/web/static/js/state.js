@@ -1,13 +1,32 @@
 // The question, as the address has it: what is shared, bookmarked and gone back to.
 
 const TEXTS = {
-  view: "check", robot: "", stairs: "", surface: "", flippers: "best", direction: "up", facing: "",
-  accept: "", tab: "side",
+  view: "check",
+  robot: "",
+  stairs: "",
+  surface: "",
+  flippers: "best",
+  direction: "up",
+  facing: "",
+  accept: "",
+  tab: "side",
 };
 const NUMBERS = [
-  "mu_low", "mu_high", "front", "rear", "speed", "acceleration", "yaw", "risk", "flipper_tolerance",
-  "payload_mass", "payload_behind", "payload_height",
-  "u.com_from_front", "u.com_height", "u.angle",
+  "mu_low",
+  "mu_high",
+  "front",
+  "rear",
+  "speed",
+  "acceleration",
+  "yaw",
+  "risk",
+  "flipper_tolerance",
+  "payload_mass",
+  "payload_behind",
+  "payload_height",
+  "u.com_from_front",
+  "u.com_height",
+  "u.angle",
 ];
 const TURN = /^s\.(lower|upper)_turn$/;
 const TURNS = ["none", "quarter", "half", "unknown"];
@@ -29,8 +48,10 @@ export function addressOf(from = state) {
     if (name !== "view" && from[name] !== usual) query.set(name, from[name]);
   }
   for (const [name, value] of Object.entries(from.numbers)) query.set(name, String(value));
-  for (const [name, value] of Object.entries(from.robotFigures)) query.set(`r.${name}`, String(value));
-  for (const [name, value] of Object.entries(from.stairsFigures)) query.set(`s.${name}`, String(value));
+  for (const [name, value] of Object.entries(from.robotFigures))
+    query.set(`r.${name}`, String(value));
+  for (const [name, value] of Object.entries(from.stairsFigures))
+    query.set(`s.${name}`, String(value));
   const text = query.toString();
   return `#/${from.view}${text ? `?${text}` : ""}`;
 }
@@ -62,7 +83,8 @@ export function change(patch, { push = true } = {}) {
   for (const [name, value] of Object.entries(patch)) {
     if (typeof value === "object" && value !== null) {
       state[name] = { ...state[name], ...value };
-      for (const [key, each] of Object.entries(state[name])) if (each === null) delete state[name][key];
+      for (const [key, each] of Object.entries(state[name]))
+        if (each === null) delete state[name][key];
     } else state[name] = value;
   }
   const after = addressOf();
@@ -87,7 +109,8 @@ export function followAddress() {
 // Sheets that are in no catalogue travel in the address themselves.
 export function packed(sheet) {
   const lean = JSON.stringify(sheet, (name, value) =>
-    value === null || name === "sources" || name === "notes" ? undefined : value);
+    value === null || name === "sources" || name === "notes" ? undefined : value,
+  );
   const bytes = new TextEncoder().encode(lean);
   let text = "";
   for (const byte of bytes) text += String.fromCharCode(byte);
@@ -96,7 +119,10 @@ export function packed(sheet) {
 
 export function unpacked(text) {
   try {
-    const bytes = Uint8Array.from(atob(text.slice(1).replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
+    const bytes = Uint8Array.from(
+      atob(text.slice(1).replaceAll("-", "+").replaceAll("_", "/")),
+      (c) => c.charCodeAt(0),
+    );
     return JSON.parse(new TextDecoder().decode(bytes));
   } catch {
     return null;

@@ -30,12 +30,15 @@ export function remove(kind, name) {
 
 // Name under which a packed sheet is kept; null: it is not.
 export function nameOf(kind, text) {
-  for (const [name, sheet] of Object.entries(sheetsOf(kind))) if (packed(sheet) === text) return name;
+  for (const [name, sheet] of Object.entries(sheetsOf(kind)))
+    if (packed(sheet) === text) return name;
   return null;
 }
 
 export function exported() {
-  return new Blob([JSON.stringify({ kaidan: "sheets", ...all() }, null, 1)], { type: "application/json" });
+  return new Blob([JSON.stringify({ kaidan: "sheets", ...all() }, null, 1)], {
+    type: "application/json",
+  });
 }
 
 // Number of sheets taken in; null: the text is no such file.

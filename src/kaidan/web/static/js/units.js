@@ -42,7 +42,11 @@ export function shown(value, kind, { plus = false } = {}) {
 // A number of an answer: people read it rounded, `value` holds it as the JSON has it.
 export function figure(value, kind, options = {}) {
   if (value === null || value === undefined) return h("span", {}, "–");
-  return h("data", { value: String(value), "data-of": options.of ?? null }, shown(value, kind, options));
+  return h(
+    "data",
+    { value: String(value), "data-of": options.of ?? null },
+    shown(value, kind, options),
+  );
 }
 
 // Kind of a finding's margin by the unit that the answer gives it in.

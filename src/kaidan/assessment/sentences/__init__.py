@@ -1,0 +1,1 @@
+"""Verdicts, reasons and advice in sentences."""

@@ -1,0 +1,1 @@
+"""Public outcomes of robots on stairs beside kaidan's answers."""

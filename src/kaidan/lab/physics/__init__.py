@@ -1,0 +1,1 @@
+"""Trials in MuJoCo as files: log, picture, film, model."""

@@ -1,0 +1,1 @@
+"""The paper again: what it prints, what kaidan computes, its figures."""

@@ -1,0 +1,66 @@
+"""What the paper states in words, and the captions of its figures."""
+
+PAPER = "Endo & Nagatani 2016, ROBOMECH Journal 3:20, doi:10.1186/s40648-016-0058-y"
+
+
+NOT_PRINTED = (
+    "The other points of the paper's Figs. 13, 16, 19 and 21 stand in its pictures only and are "
+    "not shown."
+)
+
+
+def statements(n: str, spacings: str, worst_deg: float) -> tuple[str, ...]:
+    """Statements of the text that a number of ours confirms or contradicts.
+
+    Parameters
+    ----------
+    n, spacings : str
+        Numbers of contacts at the nosing spacings [mm].
+    worst_deg : float
+        Largest difference of Eqs. (19)-(23) as printed and in closed form [deg].
+    """
+    return (
+        f'"n is an integer greater than 2" cannot be meant: n = {n} at {spacings} mm.',
+        "Eqs. (19)-(23) as printed (arccos) and in closed form differ by "
+        f"{worst_deg:.0e} deg at most at these spacings.",
+    )
+
+
+def captions(friction: float, corrected: tuple[float, float]) -> dict[str, str]:
+    """What each figure shows, and what it does not.
+
+    Parameters
+    ----------
+    friction : float
+        Static friction with which Fig. 7 is drawn [1].
+    corrected : (float, float)
+        Corrected margin of Eq. (24) [deg].
+    """
+    low, high = corrected
+    return {
+        "fig07": (
+            "After Fig. 7: the d-a plane with its five areas and the limits of Eqs. (14)-(18). The "
+            "paper's figure is a schematic diagram without numbers; this one is computed for Kenaf "
+            f"(Table 1) at p = 200 mm and 44.0 deg, with a static friction of {friction:g} "
+            "chosen by us, because the paper prints none. The area of sliding uphill is ours. Area "
+            "names are the paper's."
+        ),
+        "fig10": (
+            "After Fig. 10: the symbols of Eqs. (19)-(23) in state C, drawn to scale for Kenaf "
+            "(Table 1) at p = 150 mm on the steepest slope that holds it, where its centroid is "
+            "plumb above the lowest contact left. The steps and the robot's outline are not of the "
+            "paper."
+        ),
+        "fig11": (
+            "After Fig. 11: the predicted margin theta_s_sup over the nosing spacing for Kenaf "
+            "(Table 1), Eqs. (19)-(23), a = 0. Of this line the text prints one number, 60.2 deg "
+            "at 150 mm. The lower limit theta_s_inf and the end of the model at p = L/2 are ours."
+        ),
+        "fig13_21": (
+            "After Figs. 13 and 21: the predicted margin of Fig. 11 with every experimental number "
+            "that the text prints and no other: at 150 mm Kenaf fell at 55.0-57.0 deg; at 200 mm "
+            "and 44.0 deg it did not fall, but the body rotated; theta_d = 2.6 deg, measured at "
+            "150 mm and 56.8 deg; theta_M = 1.2-2.6 deg at 150 mm. Eq. (24) with these gives "
+            f"{low:.1f}-{high:.1f} deg at 150 mm (computed). {NOT_PRINTED}"
+        ),
+    }

@@ -1,0 +1,1 @@
+"""Answers as recordings for the viewer of Rerun."""

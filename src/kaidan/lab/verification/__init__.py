@@ -1,0 +1,1 @@
+"""The paper's verification test in MuJoCo, for any robot and spacings."""

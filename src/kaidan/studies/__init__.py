@@ -1,1 +1,0 @@
-"""Studies of the models themselves: the paper reproduced, physics calibrated, models compared."""

@@ -1,0 +1,1 @@
+"""Formulas that judge the kernel from outside, and equations of the paper that nothing uses."""
