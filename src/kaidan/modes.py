@@ -138,6 +138,8 @@ TURNING = failure_mode("turning", "", "too little room to turn on a landing")
 NARROW = failure_mode("narrow", "m", "a flight narrower than the robot needs")
 FOOT_UNSEEN = failure_mode("foot_unseen", "", "a first riser that nobody saw")
 """Of a scan: the flight may begin lower, or with a higher riser."""
+GAP = failure_mode("gap", "m", "an end dropping into a gap")
+"""A gap that an end of the robot fits into, or behind which nobody found a floor."""
 LOW = failure_mode("low", "m", "a ceiling lower than the robot needs")
 TWIST = failure_mode("twist", "rad", "tipping on nosings that differ from left to right")
 UNWEIGHED = failure_mode("unweighed", "", "a centroid that nobody measured")

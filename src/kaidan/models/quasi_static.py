@@ -131,6 +131,8 @@ def repeats(question: Question) -> bool:
     stairs = question.terrain
     if not isinstance(stairs, Stairs) or stairs.rise is None or stairs.steps <= LONG_FLIGHT:
         return False
+    if stairs.gaps:
+        return False
     return sum(question.outline.reach) < LONG_FLIGHT / 2 * stairs.nosing_spacing
 
 

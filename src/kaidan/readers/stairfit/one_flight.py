@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from kaidan.readers.flight import FlightEstimate
+from kaidan.readers.flight import LOWEST_CEILING, FlightEstimate
 from kaidan.readers.kinds import Array
 from kaidan.readers.stairfit.corridor import Lane
 from kaidan.readers.stairfit.landing_end import landing_end
@@ -13,9 +13,6 @@ from kaidan.readers.stairfit.quantiles import quantile
 from kaidan.readers.stairfit.steps import MOST_MEASURED, Steps, evenly, steps_of
 from kaidan.readers.stairfit.views import rotated
 from kaidan.text import scans as text
-
-LOWEST_CEILING = 1.2
-"""Height above the nosings from which something is a ceiling and no handrail [m]."""
 
 Placed = tuple[Array, Array, Array]
 """Points along a heading: s, t, z, shape (n,) each [m]."""

@@ -7,7 +7,9 @@ from kaidan.models.landing_figures import TurnFigures
 from kaidan.modes import Direction, Facing, Verdict
 from kaidan.terrain.stairs import Stairs
 
-Binding = Literal["stability", "friction", "width", "headroom", "turning", "landing", "doors", ""]
+Binding = Literal[
+    "stability", "friction", "width", "headroom", "turning", "landing", "gap", "doors", ""
+]
 """What decides, in a word."""
 
 

@@ -26,6 +26,7 @@ _BINDS: dict[str, Binding] = {
     "low": "headroom",
     "landing_room": "landing",
     "turning": "turning",
+    "gap": "gap",
     Undecided.FRICTION_UNKNOWN.value: "friction",
     **{mode.key: "friction" for mode in SUPPLIES},
 }

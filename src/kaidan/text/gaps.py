@@ -1,0 +1,43 @@
+"""Gaps in a flight or its landings, and floors that nobody found, as sentences."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from kaidan.terrain.gap import Gap
+
+_SAME = 1e-6
+"""Length that is rounding [m]."""
+
+
+def stated(gap: "Gap", nosings: Sequence[float]) -> str:
+    """A gap as a fact of the flight whose nosings are at these places [m]."""
+    said = in_words(gap, nosings)
+    return f"{said[0].upper()}{said[1:]}."
+
+
+def in_words(gap: "Gap", nosings: Sequence[float]) -> str:
+    """The same as a part of a sentence."""
+    where = place(gap, nosings)
+    if gap.length is None:
+        return f"no floor was found {where}"
+    return f"a gap of {gap.length * 1e3:.0f} mm, {gap.depth:.2f} m deep, lies {where}"
+
+
+def reason(gap: "Gap", nosings: Sequence[float], end: float) -> str:
+    """Why a gap is no GO for a robot whose narrowest end has a diameter [m]."""
+    where = place(gap, nosings)
+    if gap.length is None:
+        return f"No floor was found {where}: look there before you drive."
+    return (
+        f"A gap of {gap.length * 1e3:.0f} mm lies {where}: an end of the robot, {end * 1e3:.0f} mm "
+        "across, may drop in."
+    )
+
+
+def place(gap: "Gap", nosings: Sequence[float]) -> str:
+    """Where it lies: "before step 3"."""
+    if gap.start is None or (gap.end is not None and gap.end <= nosings[0] + _SAME):
+        return "before the first riser"
+    behind = len(nosings) if gap.end is None else sum(each < gap.end - _SAME for each in nosings)
+    return "behind the last nosing" if behind == len(nosings) else f"before step {behind + 1}"
