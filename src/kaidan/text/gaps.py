@@ -8,6 +8,8 @@ if TYPE_CHECKING:
 
 _SAME = 1e-6
 """Length that is rounding [m]."""
+_AT = 0.05
+"""Distance up to which a floor ends at a nosing [m]."""
 
 
 def stated(gap: "Gap", nosings: Sequence[float]) -> str:
@@ -36,8 +38,16 @@ def reason(gap: "Gap", nosings: Sequence[float], end: float) -> str:
 
 
 def place(gap: "Gap", nosings: Sequence[float]) -> str:
-    """Where it lies: "before step 3"."""
+    """Where it lies: "before step 3"; where its floor ends, if that is not at a nosing."""
     if gap.start is None or (gap.end is not None and gap.end <= nosings[0] + _SAME):
-        return "before the first riser"
-    behind = len(nosings) if gap.end is None else sum(each < gap.end - _SAME for each in nosings)
+        away = nosings[0] - (gap.end or 0.0)
+        far = gap.start is None and away >= _AT
+        return f"from {away:.2f} m before the first riser on" if far else "before the first riser"
+    if gap.end is None:
+        away = gap.start - nosings[-1]
+        return (
+            f"from {away:.2f} m behind the last nosing on" if away >= _AT
+            else "behind the last nosing"
+        )  # fmt: skip
+    behind = sum(each < gap.end - _SAME for each in nosings)
     return "behind the last nosing" if behind == len(nosings) else f"before step {behind + 1}"

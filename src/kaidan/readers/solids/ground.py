@@ -186,10 +186,13 @@ def ends_of(path: Path, solids: Triangles) -> Ends:
 
 
 def _level(along: Iterable[Followed]) -> float:
-    """Length up to which any line finds a floor level, and none finds other steps on it [m]."""
+    """Length up to which any line finds a floor level, and none finds other steps on it [m].
+
+    Between two lines steps may begin sooner.
+    """
     ends = [(one.holes[0].near if one.holes else one.end, one.rise) for one in along]
-    steps = min((end for end, rise in ends if math.isfinite(rise)), default=math.inf)
-    return min(steps, max(end for end, _ in ends))
+    steps = min((end - APART for end, rise in ends if math.isfinite(rise)), default=math.inf)
+    return max(min(steps, max(end for end, _ in ends)), 0.0)
 
 
 def _start(gap: Gap) -> float:
