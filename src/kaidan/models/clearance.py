@@ -46,9 +46,7 @@ def findings_of(question: Question, room: Room, model: str) -> tuple[Finding, ..
     needs = question.needs
     each = []
     if math.isfinite(room.widest):
-        wide, narrow = (
-            room.width_up_to(height) for height in (needs.flat, needs.rearing)
-        )
+        wide, narrow = (room.width_up_to(height) for height in (needs.flat, needs.rearing))
         each.append(_between(NARROW, narrow - needs.off_line, wide - needs.straight, model))
     if math.isfinite(room.headroom):
         high, low = (

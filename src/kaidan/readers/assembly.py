@@ -18,7 +18,7 @@ from kaidan.readers.solids.path import Path
 from kaidan.readers.solids.rays import Triangles
 from kaidan.readers.solids.room import FARTHEST, free_outline, walls_around
 from kaidan.readers.solids.runs import RISES, Run, runs_of
-from kaidan.readers.solids.section import section_of
+from kaidan.readers.solids.section import Section, section_of
 from kaidan.readers.solids.stated import cross_checked
 from kaidan.readers.solids.surroundings import surroundings_of
 from kaidan.terrain.gap import DEEPEST_TREAD
@@ -163,21 +163,14 @@ class _Assembly:
         section = section_of(plates, run.heading, self.solids.of_owners(owners), complete=complete)
         if section is None or np.isnan(section.left).any() or np.isnan(section.right).any():
             return None
-        level = math.nan if below is None else self.plates[below].level
-        path = Path(section.frame, section.lane, section.left, section.right, section.levels, level)
-        foot_notes: list[str] = []
         notes: list[str] = []
-        path = path.over(self._base(path, foot_notes))
-        if not complete:
-            path = self._to_the_floor(path, plates, notes)
-        notes += foot_notes
+        path = self._path(section, plates, below, complete, notes)
         around = surroundings_of(path, self.ground, self.obstacles, self.finishes)
-        frame, levels, left, right = path.frame, path.levels, path.left, path.right
         estimate = FlightEstimate(
-            left=self._placed(frame, left, path.lane[1], levels),
-            right=self._placed(frame, right, path.lane[0], levels),
+            left=self._placed(path, path.left, path.lane[1]),
+            right=self._placed(path, path.right, path.lane[0]),
             heading=run.heading,
-            covariance=np.zeros((len(levels), 2) * 2),
+            covariance=np.zeros((len(path.levels), 2) * 2),
             gravity=0.0,
             scale=0.0,
             floor=path.base,
@@ -190,12 +183,12 @@ class _Assembly:
             notes=(*notes, *around.notes),
         )
         body = self.bodies[owner]
-        s0, s1 = float(np.minimum(left, right)[0]), float(np.maximum(left, right)[-1])
-        lane = around.strip.low, around.strip.high
-        middle = sum(lane) / 2
-        corners = [(s0, lane[0]), (s1, lane[0]), (s1, lane[1]), (s0, lane[1])]
+        s0 = float(min(path.left[0], path.right[0]))
+        s1 = float(max(path.left[-1], path.right[-1]))
+        _, low, high = around.strip
+        lane = [(s0, low), (s1, low), (s1, high), (s0, high)]
         line = estimate.line()
-        foot, head = frame.back(s0, middle), frame.back(s1, middle)
+        foot, head = (path.frame.back(each, (low + high) / 2) for each in (s0, s1))
         measured = {
             "rise": estimate.regular.rise,
             "going": estimate.regular.going,
@@ -209,23 +202,41 @@ class _Assembly:
             name=body.name or body.category,
             category=body.category,
             parents=tuple(name for each in family[1:] for name in (each.identity, each.name)),
-            storey=self._storey_of(family, float(levels[0])),
+            storey=self._storey_of(family, float(path.levels[0])),
             estimate=estimate,
-            lane=np.array([frame.back(*each) for each in corners]) + self.origin[:2],
+            lane=np.array([path.frame.back(*each) for each in lane]) + self.origin[:2],
             lower=self._floor(
                 self._plate_at(path, head=False) if below is None else below, path.base, foot
             ),
             upper=self._floor(
                 run.steps[-1] if complete else self._plate_at(path, head=True),
-                float(levels[-1]),
+                float(path.levels[-1]),
                 head,
             ),
             stated=cross_checked(stated, measured, self.model.facts.get("unit", 1.0)),
         )
 
-    def _placed(self, frame: Any, s: Array, t: float, levels: Array) -> Array:
-        plan = np.array([frame.back(float(each), t) for each in s])
-        return np.column_stack([plan + self.origin[:2], levels])
+    def _placed(self, path: Path, s: Array, t: float) -> Array:
+        plan = np.array([path.frame.back(float(each), t) for each in s])
+        return np.column_stack([plan + self.origin[:2], path.levels])
+
+    def _path(
+        self,
+        section: Section,
+        plates: Sequence[Plate],
+        below: int | None,
+        complete: bool,
+        notes: list[str],
+    ) -> Path:
+        """Way from the floor before a flight to that behind it, and what was taken for granted."""
+        level = math.nan if below is None else self.plates[below].level
+        path = Path(section.frame, section.lane, section.left, section.right, section.levels, level)
+        foot_notes: list[str] = []
+        path = path.over(self._base(path, foot_notes))
+        if not complete:
+            path = self._to_the_floor(path, plates, notes)
+        notes += foot_notes
+        return path
 
     def _family(self, body: Body) -> list[Body]:
         """An element, what it is part of, and so on up."""

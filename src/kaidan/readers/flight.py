@@ -144,7 +144,7 @@ class FlightEstimate:
             return RegularFlight(*(math.nan,) * 6, 0)
         if self._behind_a_gap:
             measured = self._measured[:-2, :-2]
-            return uniform_flight(self.line()[:-1], np.linalg.inv(measured), measured)
+            return uniform_flight(self.line()[:-1], np.asarray(np.linalg.inv(measured)), measured)
         return uniform_flight(self.line(), self.weights, self._measured)
 
     @property

@@ -1,4 +1,4 @@
-"""Straight flights in a row as one line: faces of risers, treads, the landings between, and gaps."""
+"""Straight flights in a row as one line: faces of risers, treads, landings between, and gaps."""
 
 from collections.abc import Sequence
 from typing import NamedTuple

@@ -1,5 +1,6 @@
 """A predicted record in the form of ASTM E2804: what a test on these stairs would write down."""
 
+import math
 from typing import TYPE_CHECKING
 
 from kaidan.modes import Verdict

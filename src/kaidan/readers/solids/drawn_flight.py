@@ -41,22 +41,17 @@ def with_surroundings(flight: FlightEstimate, solids: Triangles) -> FlightEstima
                 path = path.longer(level, *edge)
                 flight = _longer(flight, path)
     around = surroundings_of(path, solids, solids)
-    seen = [each if each < LOOKED else math.nan for each in around.level]
+    before, behind = (each if 0.0 < each < LOOKED else math.nan for each in around.level)
     return replace(
         flight,
         width=around.strip.width,
         headroom=around.headroom,
         clear=around.clear,
         gaps=around.gaps,
-        room_before=_known(flight.room_before, seen[0]),
-        room_behind=_known(flight.room_behind, seen[1]),
+        room_before=float(np.fmin(flight.room_before, before)),
+        room_behind=float(np.fmin(flight.room_behind, behind)),
         notes=(*flight.notes, *around.notes),
     )
-
-
-def _known(along: float, level: float) -> float:
-    """Length of a floor: that of the line that was driven, where it is not a gap's near edge."""
-    return along if not along < level or math.isnan(level) else level
 
 
 def _path_of(flight: FlightEstimate) -> Path:

@@ -77,12 +77,12 @@ def followed(segments: Array, start: float, level: float) -> Followed:
         Height there [m].
     """
     end = min(start + LOOKED, _wall(segments, start, level + WALL))
-    places = _places(segments, start, end, np.arange(start, end, PIECE))
+    places = _places(segments, start + _BESIDE, end, np.arange(start, end, PIECE))
     left, right = _ground(segments, places, np.full(len(places) - 1, level + RISES[1]))
     holes: list[Hole] = []
     near, depth, first = math.nan, 0.0, level
     for k in range(len(places) - 1):
-        at, up = float(places[k]), float(left[k]) - level
+        at, up = float(places[k]) if k else start, float(left[k]) - level
         if up > FLUSH and (math.isnan(near) or _carries(places, left, k)):
             holes += [] if math.isnan(near) else _hole(near - start, at - start, depth)
             return Followed(tuple(holes), float(left[k]), at - start)
@@ -168,9 +168,9 @@ def ends_of(path: Path, solids: Triangles) -> Ends:
     lines = _lines(path, solids)
     places, first = path.nosings, float(path.nosings[0])
     found: list[Gap] = []
-    steps = [_steps(path, t, segments) for t, segments in lines]
-    for k, holes in enumerate(zip(*steps, strict=True)):
-        found += _gaps(holes, float(places[k]) - first, lines)
+    treads = [_steps(path, t, segments) for t, segments in lines]
+    for k, of_tread in enumerate(zip(*treads, strict=True)):
+        found += _gaps(of_tread, float(places[k]) - first, lines)
     level = []
     for head in (False, True):
         along = [_floor(path, t, segments, head=head) for t, segments in lines]
@@ -186,13 +186,10 @@ def ends_of(path: Path, solids: Triangles) -> Ends:
 
 
 def _level(along: Iterable[Followed]) -> float:
-    """Length up to which any line finds a floor level, and none finds other steps on it [m].
-
-    Between two lines steps may begin sooner.
-    """
+    """Length up to which any line finds a floor level, and none finds other steps on it [m]."""
     ends = [(one.holes[0].near if one.holes else one.end, one.rise) for one in along]
-    steps = min((end - APART for end, rise in ends if math.isfinite(rise)), default=math.inf)
-    return max(min(steps, max(end for end, _ in ends)), 0.0)
+    steps = min((end for end, rise in ends if math.isfinite(rise)), default=math.inf)
+    return min(steps, max(end for end, _ in ends))
 
 
 def _start(gap: Gap) -> float:
@@ -230,7 +227,7 @@ def floor_behind(path: Path, solids: Triangles) -> tuple[float, Array] | None:
         return z, np.array([path.left[-1], path.right[-1]])
     here = [k for k, each in enumerate(found) if abs(each.rise - level) <= FLUSH]
     t = np.array([lines[k][0] for k in here]) - path.middle
-    s = np.array([path.at(lines[k][0])[-1] + _BESIDE + found[k].end for k in here])
+    s = np.array([path.at(lines[k][0])[-1] + found[k].end for k in here])
     slope, middle = np.polyfit(t, s, 1) if len(here) > 1 else (0.0, s[0])
     half = (path.lane[1] - path.lane[0]) / 2 - INSET
     return level, middle + slope * np.array([half, -half])
@@ -241,7 +238,8 @@ def _led_to(found: Followed, z: float) -> float:
     if RISES[0] <= found.rise - z <= RISES[1]:
         return found.rise
     beyond = found.holes and math.isfinite(found.holes[0].far)
-    return z if beyond or found.end > DEEPEST_TREAD and not found.holes else math.nan
+    whole = not found.holes and found.end > DEEPEST_TREAD
+    return z if beyond or whole else math.nan
 
 
 def _agreed(levels: Sequence[float]) -> float:
@@ -287,8 +285,8 @@ def _steps(path: Path, t: float, segments: Array) -> list[list[Hole]]:
 
 def _floor(path: Path, t: float, segments: Array, *, head: bool) -> Followed:
     if head:
-        return followed(segments, float(path.at(t)[-1]) + _BESIDE, float(path.levels[-1]))
-    return followed(segments * _MIRROR, _BESIDE - float(path.at(t)[0]), path.base)
+        return followed(segments, float(path.at(t)[-1]), float(path.levels[-1]))
+    return followed(segments * _MIRROR, -float(path.at(t)[0]), path.base)
 
 
 def _gaps(

@@ -1,4 +1,4 @@
-"""The way up a flight: its nosings as a line in a lane, level before the foot and behind the head."""
+"""The way up a flight: its nosings as a line in a lane, and the floors at both ends."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -34,7 +34,7 @@ class Path:
 
     @cached_property
     def nosings(self) -> Array:
-        """s of the nosings in the middle of the lane, shape (m,) [m]."""
+        """Nosings in the middle of the lane, s, shape (m,) [m]."""
         return np.asarray((self.left + self.right) / 2)
 
     @cached_property
@@ -44,7 +44,7 @@ class Path:
         return float((self.left - self.right).mean()) / (high - low - 2 * INSET)
 
     def at(self, t: float) -> Array:
-        """s of the nosings at a place across, shape (m,) [m]."""
+        """Nosings at a place across, s, shape (m,) [m]."""
         return np.asarray(self.nosings + self.skew * (t - self.middle))
 
     def square(self, points: Array) -> Array:
@@ -54,7 +54,7 @@ class Path:
         return np.column_stack([s, flat[:, 1], points[:, 2]])
 
     def line(self, before: float, behind: float) -> Array:
-        """s and z along which heights are measured, shape (m + 3, 2) [m].
+        """Line above which heights are measured, s and z, shape (m + 3, 2) [m].
 
         Through the nosings, down to the floor before the first at the slope of the flight, and on
         over both floors.

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.readers.flight import LOWEST_CEILING
+from kaidan.readers.solids.ground import APART
 from kaidan.readers.solids.path import Path
 from kaidan.readers.solids.rays import Triangles
 
@@ -47,7 +48,7 @@ class Strip(NamedTuple):
 
     @property
     def width(self) -> float:
-        """[m]"""
+        """Clear width [m]."""
         return self.high - self.low
 
 
@@ -65,7 +66,8 @@ def free_strips(
     around : Triangles
         Solids that may stand in the way, those of the flight among them.
     ends : (float, float)
-        Lengths of the floors before the first and behind the last nosing [m].
+        Lengths of the floors before the first and behind the last nosing as lines found them, side
+        by side: between two of them other steps may begin sooner [m].
     finishes : frozenset of int
         Solids of which what lies low is a floor finish.
 
@@ -74,7 +76,7 @@ def free_strips(
     list of Strip
         One at least; of width 0 where there is nothing free.
     """
-    before, behind = (min(each, BEYOND) for each in ends)
+    before, behind = (min(max(each - APART, 0.0), BEYOND) for each in ends)
     line = path.line(before, behind)
     low, high = path.lane
     corners = [path.frame.back(s, t) for s in (line[0, 0], line[-1, 0]) for t in path.lane]

@@ -149,8 +149,8 @@ def with_gap(
     """
     last, line = steps.at[-1], steps.line
     if eye is not None:
-        s, _, z = (float(each[0]) for each in rotated(eye[None], flight.heading))
-        if s > last[0] or z - last[1] < ABOVE:
+        ahead, _, up = (float(each[0]) for each in rotated(eye[None], flight.heading))
+        if ahead > last[0] or up - last[1] < ABOVE:
             return flight
     low, high = steps.width
     s, t, z = evenly(MOST_MEASURED, *cloud)
@@ -165,9 +165,7 @@ def with_gap(
         return flight
     places = steps.at[:, 0] - steps.at[0, 0]
     gap = Gap(start=round(float(places[-1]) + start, MICROMETRE))
-    return replace(
-        flight, gaps=(gap,), notes=(*flight.notes, in_words(gap, places.tolist()))
-    )
+    return replace(flight, gaps=(gap,), notes=(*flight.notes, in_words(gap, places.tolist())))
 
 
 def tilted(flight: FlightEstimate, turn: Array) -> FlightEstimate:
