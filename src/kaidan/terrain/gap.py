@@ -41,7 +41,7 @@ class Gap(Sheet):
     )
     depth: float = quantity("m", 0.0, 100.0, "below the lower of its two edges", default=0.0)
     beside: float = quantity(
-        "m", 0.0, 100.0, "clear width of the way past it; 0: it lies right across", default=0.0
+        "m", 0.0, 100.0, "clear width past it; 0: it lies right across", default=0.0
     )
 
     @model_validator(mode="after")

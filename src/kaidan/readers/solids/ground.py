@@ -311,7 +311,7 @@ def _gaps(
 
 
 def _overlapping(holes: Iterable[Hole]) -> list[list[Hole]]:
-    """Holes in groups of those that overlap along the way."""
+    """Holes in groups of those that overlap along the flight."""
     groups: list[list[Hole]] = []
     for each in sorted(holes):
         if groups and each.near <= max(one.far for one in groups[-1]):

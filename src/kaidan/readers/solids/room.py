@@ -57,7 +57,7 @@ def free_strips(
 ) -> list[Strip]:
     """What is free across a flight and above its nosings, heights ascending, widths descending.
 
-    All that stands or hangs along the way is seen in one picture, along the line of the nosings: a
+    All that stands or hangs along the flight is seen in one picture, along the line of the nosings: a
     robot that goes straight passes where a strip that is free up to its height holds its width.
 
     Parameters
