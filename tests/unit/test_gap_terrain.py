@@ -161,6 +161,18 @@ def test_the_closed_form_knows_gaps_too():
     assert (answer.verdict, answer.governs) == ("caution", "gap")
 
 
+def test_a_plan_is_searched_with_the_gap_where_it_lies():
+    """A uniform flight is searched on fewer steps, which put the gap elsewhere: the plan that came
+    out was a NO-GO, and flat flippers are none."""
+    gap = Gap(start=2.9, end=3.2, depth=1.5)
+    found, flat = (
+        assess("absolem", Stairs(**LONG, gaps=[gap]), friction=1.0, **how)
+        for how in ({}, {"flippers": "flat"})
+    )
+    assert found.verdict == flat.verdict == "caution"
+    assert found.margin_deg >= flat.margin_deg
+
+
 PLACES = [0.0, 0.3, 0.6]
 
 

@@ -154,7 +154,7 @@ class FlightEstimate:
             return False
         before, last = (float(each) for each in self.line()[-2:, 0])
         return any(
-            gap.end is not None and gap.start is not None and before < gap.start < gap.end
+            gap.end is not None and gap.start is not None and before < gap.start < last
             and gap.end > last - UNCHECKED for gap in self.gaps
         )  # fmt: skip
 

@@ -367,9 +367,7 @@ class Stairs(Sheet):
         What begins less than a tread is deep from the flight must be crossed; before another one
         the robot may come to stand.
         """
-        if not gaps:
-            return self.model_copy(update={"gaps": ()}) if self.gaps else self
-        first, last = 0.0, self.nosing_places[-1]
+        last = self.nosing_places[-1] if gaps else 0.0
         before = [-gap.end for gap in gaps if gap.end is not None]
         behind = [gap.start - last for gap in gaps if gap.start is not None]
         lower, upper = (
@@ -378,11 +376,13 @@ class Stairs(Sheet):
         )
         crossed = tuple(
             gap for gap in gaps
-            if not (gap.end is not None and gap.end <= first - lower)
+            if not (gap.end is not None and gap.end <= -lower)
             and not (gap.start is not None and gap.start >= last + upper)
         )  # fmt: skip
         ends = zip(("lower_landing", "upper_landing"), (lower, upper), self.landings, strict=True)
         shorter = {name: length for name, length, now in ends if length < now}
+        if crossed == self.gaps and not shorter:
+            return self
         return self.model_copy(update={"gaps": crossed, **shorter})
 
     @property

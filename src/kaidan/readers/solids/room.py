@@ -57,8 +57,8 @@ def free_strips(
 ) -> list[Strip]:
     """What is free across a flight and above its nosings, heights ascending, widths descending.
 
-    All that stands or hangs along the flight is seen in one picture, along the line of the nosings: a
-    robot that goes straight passes where a strip that is free up to its height holds its width.
+    All that stands or hangs along it is seen in one picture, along the line of the nosings: a robot
+    that goes straight passes where a strip that is free up to its height holds its width.
 
     Parameters
     ----------

@@ -17,6 +17,8 @@ STRIP = 0.05
 """Depth of the strips across the way in which points are counted [m]."""
 HOLE = 0.15
 """Length without points from which there is a gap [m]: edges and coarse cells lack fewer."""
+BEYOND = 0.3
+"""Length of the level behind a gap that says that it is one [m]: more than stray points make."""
 FARTHEST = 1.5
 """Distance behind the nosing up to which a level is looked at [m]: longer than most robots."""
 FEW = 0.1
@@ -59,7 +61,7 @@ def gap_behind(ahead: Array, over: Array, *, going: float, tight: float) -> floa
         end = k + round(HOLE / STRIP)
         if seen[k:end].any() or stands[max(k - 1, 0) : end].any():
             continue
-        goes_on = seen[end:].any()
+        goes_on = seen[end:].sum() * STRIP >= BEYOND
         ends = going / 2 <= seen[:k].sum() * STRIP and k * STRIP < DEEPEST_TREAD
         return k * STRIP if goes_on or ends else math.nan
     return math.nan
