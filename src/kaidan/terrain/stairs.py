@@ -41,7 +41,7 @@ _ODD_RISE = (0.005, 0.6)
 _GOING = (0.02, 2.5)
 _MOST_RISERS = 10_000
 _MOST_OPENINGS = 1_000
-_MOST_GAPS = 100
+_MOST_GAPS = 2 * _MOST_RISERS
 _STEEPEST = 1.5533
 """Past 89 degrees no goings are left [rad]."""
 
