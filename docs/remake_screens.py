@@ -64,13 +64,13 @@ def live(page: Page) -> None:
     page.get_by_role("textbox", name="Flippers").fill("flat")
     page.get_by_label("Speed of the replay").select_option("5")
     samples = "\n".join(
-        f"{k / 10},{0.567 + 0.4 * (k / 90) ** 4:.4f},0,0" for k in range(100)
+        f"{k / 10},{0.567 + 0.17 * (k / 90) ** 4:.4f},{k % 2 / 1000},0" for k in range(100)
     ).encode()  # it rears at the end
     recording = {"name": "climb.csv", "mimeType": "text/csv",
                  "buffer": b"t,inclination,inclination_rate,acceleration\n" + samples}  # fmt: skip
     page.get_by_label("Recorded climb (CSV, bag, MCAP)").set_input_files(recording)
     page.get_by_role("button", name="Replay").click()
-    page.wait_for_selector("#alarm.alarm")
+    page.wait_for_selector("#alarm.tip_over")
 
 
 SCREENS = {

@@ -15,18 +15,21 @@ class Row(NamedTuple):
 
 
 def climb(seconds=7.0, rate=20.0):
-    """Rows: a second level, two seconds nose up to the slope, on it, the last second rearing."""
+    """Rows: a second level, two seconds nose up to the slope, on it, the last second rearing.
+
+    Its rate is never twice the same, as that of a sensor that is alive.
+    """
     rows = []
     for k in range(int(seconds * rate)):
-        t = k / rate
+        t, noise = k / rate, 1e-4 * (k % 2)
         if t < 1:
-            rows.append(Row(t, 0.0, 0.0))
+            rows.append(Row(t, 0.0, noise))
         elif t < 3:
-            rows.append(Row(t, SLOPE * (t - 1) / 2, SLOPE / 2))
+            rows.append(Row(t, SLOPE * (t - 1) / 2, SLOPE / 2 + noise))
         elif t < seconds - 1:
-            rows.append(Row(t, SLOPE, 0.0))
+            rows.append(Row(t, SLOPE, noise))
         else:
-            rows.append(Row(t, SLOPE + 0.3 * (t - seconds + 1), 0.3))
+            rows.append(Row(t, SLOPE + 0.3 * (t - seconds + 1), 0.3 + noise))
     return rows
 
 

@@ -16,10 +16,10 @@ UNITS = {"m": 1.0, "mm": 1e-3, "ft": 0.3048}
 def parsed_here(patch):
     """Let the parser run in this process, which has it already, and not in one of its own."""
 
-    def parsed(source, path, around):
+    def parsed(source, path):
         said = io.TextIOWrapper(io.BytesIO())
         with redirect_stdout(said):
-            ifc_child.main(str(path), around)
+            ifc_child.main(str(path))
         line, _, rest = said.buffer.getvalue().partition(b"\n")
         return line, rest
 
@@ -118,6 +118,24 @@ class House:
         """Solid of a side view (s, z), from t to the right over a width."""
         return self.extruded(corners, width, self.axes((0, t, 0), (0, -1, 0), (1, 0, 0)))
 
+    def faces(self, polygons):
+        """Surface of polygons with corners x, y, z, each seen from where its corners turn left."""
+        made = []
+        for corners in polygons:
+            loop = self.make("IfcPolyLoop", [self.point(*each) for each in corners])
+            made.append(self.make("IfcFace", [self.make("IfcFaceOuterBound", loop, True)]))
+        return self.make("IfcFaceBasedSurfaceModel", [self.make("IfcConnectedFaceSet", made)])
+
+    def triangles(self, polygons):
+        """The same as triangles, each polygon with corners of its own; not in IFC2x3."""
+        corners = [[float(v) * self.scale for v in each] for face in polygons for each in face]
+        index, first = [], 1
+        for face in polygons:
+            index += [(first, first + k, first + k + 1) for k in range(1, len(face) - 1)]
+            first += len(face)
+        points = self.make("IfcCartesianPointList3D", corners)
+        return self.make("IfcTriangulatedFaceSet", points, None, None, index, None)
+
     def shape(self, items, kind="SweptSolid"):
         body = self.make("IfcShapeRepresentation", self.context, "Body", kind, list(items))
         return self.make("IfcProductDefinitionShape", None, None, [body])
@@ -201,6 +219,34 @@ def monolith(house, rises, goings, width=1.0, *, last=True):
         top += [(s, z), (s + going, z)]
         s += going
     return house.side([(0, 0), *top, (s, z - 0.3), (0.3, -0.0)], width, t=width / 2)
+
+
+def box(low, high):
+    """Faces of a box, seen from without."""
+    (x0, y0, z0), (x1, y1, z1) = low, high
+    return [
+        [(x0, y0, z0), (x0, y1, z0), (x1, y1, z0), (x1, y0, z0)],
+        [(x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1)],
+        [(x0, y0, z0), (x1, y0, z0), (x1, y0, z1), (x0, y0, z1)],
+        [(x1, y0, z0), (x1, y1, z0), (x1, y1, z1), (x1, y0, z1)],
+        [(x1, y1, z0), (x0, y1, z0), (x0, y1, z1), (x1, y1, z1)],
+        [(x0, y1, z0), (x0, y0, z0), (x0, y0, z1), (x0, y1, z1)],
+    ]
+
+
+def blocks(rises, goings, width=1.0, *, thick=0.15, shell=False):
+    """Faces of treads from the origin along x, the last riser left to the floor: a box for each.
+
+    Of a shell only its top and its riser are drawn.
+    """
+    found, s, z, half = [], 0.0, 0.0, width / 2
+    for rise, going in zip(rises[:-1], goings, strict=True):
+        low, z = z, z + rise
+        faces = box((s, -half, max(low - thick, 0.0)), (s + going, half, z))
+        riser = [(s, half, low), (s, -half, low), (s, -half, z), (s, half, z)]
+        found += [faces[1], riser] if shell else faces
+        s += going
+    return found
 
 
 def boards(house, rises, goings, width=1.0, overhang=0.03, thickness=0.04):

@@ -114,6 +114,8 @@ FALL_UPHILL = failure_mode("fall_uphill", "rad", "falling over its uphill end")
 SLIDES_DOWN = failure_mode("slides_down", "rad", "sliding down for lack of friction")
 """The paper's slipping, Eq. (4)."""
 SLIDES_UP = failure_mode("slides_up", "rad", "sliding on uphill for lack of friction")
+GAP_JAM = failure_mode("gap_jam", "rad", "jamming because its track has a gap")
+"""Driven in MuJoCo such robots jammed with friction to spare."""
 DRIVE = failure_mode("drive", "rad", "too little traction of the drive")
 STUCK = failure_mode("stuck", "rad", "getting stuck")
 """Its margin is minus a right angle: no slope of the stairs would do."""
@@ -140,6 +142,10 @@ FOOT_UNSEEN = failure_mode("foot_unseen", "", "a first riser that nobody saw")
 """Of a scan: the flight may begin lower, or with a higher riser."""
 GAP = failure_mode("gap", "m", "an end dropping into a gap")
 """A gap that an end of the robot fits into, or behind which nobody found a floor."""
+ACROSS = failure_mode("across", "", "one track meeting other ground than the other")
+"""On a profile that is not built across the path: nobody stated that both meet the same."""
+FLOOR_FINISH = failure_mode("floor_finish", "", "an end riser that is drawn and stated otherwise")
+"""Of a building model: a floor or the steps may be drawn without their finish."""
 LOW = failure_mode("low", "m", "a ceiling lower than the robot needs")
 TWIST = failure_mode("twist", "rad", "tipping on nosings that differ from left to right")
 UNWEIGHED = failure_mode("unweighed", "", "a centroid that nobody measured")

@@ -111,6 +111,23 @@ def test_a_scan_without_the_floor_is_no_go_yet():
     )
 
 
+@pytest.mark.parametrize(
+    ("drawn", "said"),
+    [
+        ({"first_rise_drawn": 0.33},
+         "Drawn 2.31 m, stated 2.16 m: floor finish missing? Measure it: first riser 330 mm drawn, "
+         "180 mm stated."),
+        ({"first_rise_drawn": 0.23, "last_rise_drawn": 0.13},
+         "Floor finish missing? Measure it: first riser 230 mm drawn, 180 mm stated, last riser "
+         "130 mm drawn, 180 mm stated."),
+    ],
+)  # fmt: skip
+def test_an_end_riser_drawn_and_stated_otherwise_is_no_go_yet(drawn, said):
+    """Twelve risers of 180 mm: 2.16 m."""
+    answer = asked(rise=0.18, going=0.29, steps=12, **drawn)
+    assert (answer.verdict, answer.governs, answer.reason) == ("caution", "floor_finish", said)
+
+
 def test_a_scan_without_the_landing_says_what_nobody_knows():
     """From the foot nobody sees the landing's surface: that alone takes no GO."""
     answer = asked(head_seen=False)

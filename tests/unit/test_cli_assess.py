@@ -553,3 +553,21 @@ def test_it_writes_nothing_anywhere(tmp_path, monkeypatch):
     running.send_signal(signal.SIGKILL)
     running.wait(timeout=60)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_points_that_are_no_stairs_and_points_that_are_not_built_across(tmp_path):
+    """A floor has no stairs, exit code 3; of blocks somebody has to say what lies beside them."""
+
+    def asked(points, *words):
+        file = tmp_path / "profile.csv"
+        file.write_text("x,z\n" + "".join(f"{x},{z}\n" for x, z in points))
+        manner = ["--friction", "1", "--flippers", "flat"]
+        code, text = by_default("absolem", "--points", str(file), *manner, *words)
+        return code, text.splitlines()[0].split("  ")[0]
+
+    floor = [(-3, 0), (3, 0)]
+    blocks = [(-3, 0), (0, 0), (0, 0.05), (0.2, 0.05), (0.2, 0.01), (0.4, 0.01), (0.4, 0.06)]
+    blocks += [(0.6, 0.06), (0.6, 0), (3, 0)]
+    assert asked(floor) == (3, "OUTSIDE THE MODEL")
+    assert asked(blocks) == (0, "CAUTION")
+    assert asked(blocks, "--uniform-across") == (0, "GO")

@@ -2,8 +2,12 @@
 
 import json
 import math
+import os
+import signal
 import subprocess
 import sys
+import time
+from contextlib import contextmanager
 
 import pytest
 from typer.testing import CliRunner
@@ -13,6 +17,7 @@ from kaidan.errors import InputError
 from kaidan.robot import Robot
 from kaidan.terrain.stairs import Stairs
 from kaidan.verbs.monitor import MonitorAnswer, MonitorState, monitor
+from kaidan.verbs.monitor.sources import is_live
 
 SHAPE = ("--angle", "50deg", "--nosing-spacing", "150mm")
 HEAD = "t,inclination,inclination_rate,acceleration\n"
@@ -140,7 +145,7 @@ def test_refusals(rocking, tmp_path):
 
 
 def test_most_samples_not_judged_is_no_answer(tmp_path):
-    result = run("kenaf", *SHAPE, "-", text=CALM + "0.2,x,0,0\n0.3,,0,0\n0.4,0.8,0\n")
+    result = run("kenaf", *SHAPE, "-", text=CALM + "0.12,x,0,0\n0.14,,0,0\n0.16,0.8,0\n")
     assert result.exit_code == 2
     assert result.stdout.splitlines()[-3:] == [
         "5 samples, 3 not judged (60 %); lowest margin +13.8 deg at t = 0.100 s; alarm never "
@@ -161,20 +166,92 @@ def test_a_garbled_row_is_counted_and_the_next_one_taken(tmp_path):
     )
 
 
+@contextmanager
+def piped(*words):
+    """The command on a pipe that stays open."""
+    command = [sys.executable, "-m", "kaidan", "monitor", "kenaf", *SHAPE, "-", *words]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(command, encoding="utf-8", **pipes) as process:
+        yield process
+
+
+def sent(process, text):
+    process.stdin.write(text)
+    process.stdin.flush()
+
+
+def rows(count, begin=0.0):
+    """Rows of a sensor of 100 Hz that is alive."""
+    return "".join(f"{begin + 0.01 * k:.2f},0.8,{1e-3 * (k % 2)},0\n" for k in range(count))
+
+
 def test_a_stream_is_answered_line_by_line():
     """A live sensor: the first answer comes before the second sample is sent."""
-    with subprocess.Popen(
-        [sys.executable, "-c", "from kaidan.cli import main; main()", "monitor", "kenaf", *SHAPE,
-         "-", "--json"],
-        stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8",
-    ) as process:  # fmt: skip
-        assert process.stdin is not None
-        assert process.stdout is not None
-        process.stdin.write(HEAD + "0,0.8,0,0\n")
-        process.stdin.flush()
+    with piped("--json") as process:
+        sent(process, HEAD + "0,0.8,0,0\n")
         assert json.loads(process.stdout.readline())["alarm"] is False
-        process.stdin.write("1,1.05,0,0\n")
-        process.stdin.flush()
+        sent(process, "0.1,1.05,0,0\n")
         assert json.loads(process.stdout.readline())["alarm"] is True
         process.stdin.close()
         assert process.wait(timeout=60) == 1
+
+
+def test_a_pipe_that_stops_is_an_alarm_while_it_is_open():
+    with piped("--json") as process:
+        sent(process, HEAD + rows(30))
+        for _ in range(30):
+            last = json.loads(process.stdout.readline())
+        begin = time.monotonic()
+        missing = json.loads(process.stdout.readline())
+        assert time.monotonic() - begin < 5.0  # 0.2 s, on a machine that has other things to do
+        assert (last["alarm"], last["due_s"]) == (False, 0.2)
+        assert (missing["status"], missing["causes"], missing["row"]) == ("missing", ["silent"], 31)
+        sent(process, rows(130, begin=9.0))
+        back = [json.loads(process.stdout.readline()) for _ in range(130)]
+        assert "silent" in back[0]["causes"]
+        process.stdin.close()
+        total = json.loads(process.stdout.readline())
+        assert total["raised"]["silent"] >= 1
+        assert process.wait(timeout=60) == 1
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="skipped: no such signals")
+def test_a_pipe_that_stopped_is_left_with_the_summary():
+    with piped("--changes") as process:
+        sent(process, HEAD + rows(30))
+        while "silent" not in process.stdout.readline():
+            pass
+        process.send_signal(signal.SIGINT)
+        assert process.wait(timeout=60) == 1
+        said = process.stdout.read()
+        assert "alarm raised once, first in row 31\nSILENT  No sample came in time." in said
+        assert process.stderr.read() == ""
+
+
+def test_a_recording_in_a_pipe_or_a_file_is_not_measured_by_the_clock(tmp_path):
+    with piped("--recorded") as process:
+        sent(process, HEAD + rows(30))
+        time.sleep(0.8)
+        sent(process, rows(30, begin=0.3))
+        process.stdin.close()
+        assert process.wait(timeout=60) == 0
+    file = tmp_path / "calm.csv"
+    file.write_text(HEAD + rows(60))
+    assert not is_live(file)
+    assert is_live(file, follow=True)
+    assert is_live("serial:/dev/ttyUSB0")
+    assert is_live(os.devnull) == (os.name == "posix")
+
+
+def test_own_limits_of_the_sensor():
+    slow = HEAD + "".join(f"{k},0.8,{1e-3 * (k % 2)},0\n" for k in range(9))
+    assert run("kenaf", *SHAPE, "-", text=slow).exit_code == 1
+    assert run("kenaf", *SHAPE, "-", "--no-data", "3s", text=slow).exit_code == 0
+    still = HEAD + "".join(f"{0.01 * k},0.8,0,0\n" for k in range(99))
+    frozen = run("kenaf", *SHAPE, "-", text=still)
+    assert frozen.exit_code == 1
+    assert "FROZEN  All values stayed the same. State --resolution" in frozen.stdout
+    assert "ALARM  frozen" in frozen.stdout
+    assert run("kenaf", *SHAPE, "-", "--resolution", "0.1deg", text=still).exit_code == 0
+    refused = run("kenaf", *SHAPE, "-", "--unjudged", "10.5", text=still)
+    assert refused.exit_code == 2

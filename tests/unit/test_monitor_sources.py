@@ -5,6 +5,7 @@ import os
 import sys
 import threading
 import time
+from itertools import pairwise
 from types import SimpleNamespace
 
 import pytest
@@ -14,7 +15,8 @@ from climbs import SLOPE, climb, csv_of, imu_of, recording
 from kaidan import InputError, Question, Stairs
 from kaidan.cli import run
 from kaidan.errors import MissingExtraError
-from kaidan.verbs.monitor import Monitor, open_samples
+from kaidan.verbs.monitor import Monitor, Sample, open_samples
+from kaidan.verbs.monitor.arrivals import MOST_WAITING, Arrivals
 from kaidan.verbs.monitor.live import LiveMonitor
 from kaidan.verbs.monitor.recordings import sample_of_imu
 
@@ -116,6 +118,31 @@ def test_a_file_that_grows_is_followed_line_by_line(tmp_path):
     writer.join()
 
 
+def test_a_live_source_is_read_in_the_background():
+    go_on = threading.Event()
+
+    def source():
+        yield from (Sample(0.01 * k, 0.5, 0.0, 0.0) for k in range(MOST_WAITING + 5))
+        go_on.wait(60)
+        raise InputError("it broke")
+
+    arrivals, taken = Arrivals(source()), []
+    while len(taken) < MOST_WAITING + 5:
+        came = arrivals.take()
+        assert 0 < len(came) <= MOST_WAITING  # as many as a server takes at once
+        taken += came
+    assert [each.sample.t for each in taken] == [0.01 * k for k in range(MOST_WAITING + 5)]
+    assert all(a.at <= b.at for a, b in pairwise(taken))
+    assert arrivals.take(0.05) == []
+    go_on.set()
+    for _ in range(2):
+        with pytest.raises(InputError, match="it broke"):
+            arrivals.take(60)
+    ended = Arrivals(iter([Sample(0.0, 0.5, 0.0, 0.0)]))
+    assert len(ended.take(60)) == 1
+    assert ended.take(60) is None
+
+
 def test_live_states_are_those_of_the_monitor_with_tilt_and_phase(tmp_path):
     (tmp_path / "climb.csv").write_text(csv_of(climb()))
     watch, plain = (
@@ -137,7 +164,5 @@ def test_going_down_the_uphill_end_is_up_all_the_same():
     down = Question.of("kenaf", FLIGHT, direction="down", facing="nose-first")
     assert not down.nose_up
     watch = LiveMonitor(down)
-    from kaidan.verbs.monitor import Sample
-
     state = watch.feed(Sample(0.0, -SLOPE, 0.0, 0.0))
     assert (state.tilt_deg, state.phase.value) == (pytest.approx(math.degrees(SLOPE)), "traverse")

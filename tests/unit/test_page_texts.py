@@ -6,13 +6,14 @@ from pathlib import Path
 import kaidan
 from kaidan.modes import FAILURE_MODES, Phase, Undecided, Verdict
 from kaidan.text.page import page_texts
+from kaidan.verbs.monitor import Cause
 
 TEXTS = page_texts()
 SCRIPTS = Path(kaidan.__file__).parent / "web" / "static" / "js"
 # Topics whose names the page makes of an answer's words.
 OPEN = {"verdict", "mode", "phase", "figure", "ground", "binds", "stairs"}
 OPEN |= {"side", "chart", "app", "answer", "guide", "saved", "live"}
-OPEN |= {"robot", "measure", "work", "landing"}
+OPEN |= {"robot", "measure", "work", "landing", "kind", "outcome"}
 
 
 def test_every_text_is_there_in_japanese():
@@ -55,7 +56,8 @@ def test_the_live_page_has_its_texts_and_none_is_left_over():
     own = "".join((SCRIPTS.parent / f"live.{kind}").read_text() for kind in ("html", "js"))
     said = set(re.findall(r"""data-text="(\w+)\"|\bt\("(\w+)\"""", own))
     made = {"idle", "calm", *(phase.value for phase in Phase)}
-    made |= {mood + more for mood in ("alarm", "silent", "unknown") for more in ("", "_do")}
+    moods = {"unknown", *(cause.replace(" ", "_").replace("-", "_") for cause in Cause)}
+    made |= {mood + more for mood in moods for more in ("", "_do")}
     assert {first or second for first, second in said} | made | {"go_on"} == TEXTS["live"].keys()
 
 

@@ -50,17 +50,19 @@ def test_the_service_answers_as_assess(logic):
 
 def test_the_status_follows_the_climb(logic):
     watch = logic.Climb(PARAMETERS)
-    assert watch.status(0.0).level == logic.STALE
+    assert watch.status().level == logic.STALE
     levels = []
     for t, message in messages():
         state = watch.feed(message, t)
         assert state.t_s == pytest.approx(t)
-        levels.append(watch.status(t).level)
+        levels.append(watch.status().level)
     assert levels[0] == logic.OK
     assert levels[-1] == logic.ERROR
-    assert dict(watch.status(7.0).values)["phase"] == "traverse"
-    silent = watch.status(20.0)
-    assert (silent.level, silent.message[:13]) == (logic.STALE, "no sample for")
+    assert dict(watch.status().values)["phase"] == "traverse"
+    assert watch.overdue(t + 0.1) is None
+    assert watch.overdue(t + 0.25).causes == ("tipped over", "silent")
+    silent = watch.status()
+    assert (silent.level, silent.message) == (logic.STALE, "alarm: tipped over, silent")
 
 
 def test_parameters_without_meaning_are_refused(logic):
@@ -165,6 +167,41 @@ def test_the_node_publishes_margins_alarm_and_diagnostics(node, logic):
     (status,) = node.sent["/diagnostics"][0].status
     assert status.level == bytes([logic.ERROR])
     assert {each.key for each in status.values} >= {"margin_deg", "tilt_deg", "phase"}
+
+
+def test_the_node_says_that_messages_no_longer_come(node, logic):
+    come = [(t, message) for t, message in messages() if t < 1.5]  # 20 a second
+    for t, message in come:
+        node.time = t
+        node.subscriptions["imu"](message)
+        node.timers[1]()
+    assert [each.data for each in node.sent["~/alarm"]] == [False] * len(come)
+    for _ in range(10):  # looked at every 50 ms
+        node.time += 0.05
+        node.timers[1]()
+    said = [json.loads(each.data) for each in node.sent["~/state"]][len(come) :]
+    assert all(each["causes"] == ["silent"] for each in said)
+    assert len(said) == 7  # from 0.2 s on
+    assert node.sent["~/alarm"][-1].data is True
+    node.timers[0]()
+    assert node.sent["/diagnostics"][-1].status[0].level == bytes([logic.STALE])
+
+
+def test_a_frozen_sensor_is_an_error_of_its_own_name(logic):
+    watch = logic.Climb(PARAMETERS | {"no_data_s": 1.0})
+    (_, first), *_ = messages()
+    for k in range(80):
+        first.header.stamp.nanosec = 10_000_000 * k
+        watch.feed(first, 0.01 * k)
+    assert watch.status()[:2] == (logic.ERROR, "alarm: frozen")
+    assert watch.overdue(0.79 + 0.9) is None
+    coarse = logic.Climb(PARAMETERS | {"resolution_deg": 0.1})
+    for k in range(80):
+        first.header.stamp.nanosec = 10_000_000 * k
+        coarse.feed(first, 0.01 * k)
+    assert coarse.status()[:2] == (logic.OK, "no alarm")
+    with pytest.raises(kaidan.InputError, match="no_data_on"):
+        logic.Climb(PARAMETERS | {"no_data_s": -1.0})
 
 
 def test_the_service_takes_parameters_that_were_changed(node):

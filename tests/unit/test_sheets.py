@@ -282,8 +282,8 @@ def test_what_is_no_table_is_no_sheet(data):
         (
             {**FLIGHT, "run": 0.28},
             "stairs: run is not a known field; known: name, title, rise, going, steps, "
-            "first_rise, last_rise, rises, goings, cross_slopes, skews, nosing_overhang, "
-            "nosing_radius_low, "
+            "first_rise, last_rise, first_rise_drawn, last_rise_drawn, rises, goings, "
+            "cross_slopes, skews, nosing_overhang, nosing_radius_low, "
             "nosing_radius_high, open_risers, width, headroom, clear, gaps, lower_landing, "
             "upper_landing, lower_leaf, upper_leaf, lower_landing_width, upper_landing_width, "
             "lower_turn, upper_turn, lower_passage, upper_passage, foot_seen, head_seen, "

@@ -13,6 +13,7 @@ from kaidan.terrain.profile import Profile
 from kaidan.terrain.room import Room
 from kaidan.terrain.stairs import Stairs
 from kaidan.terrain.stairs_uncertainty import StairsUncertainty
+from kaidan.text import terrain
 from kaidan.text.assessment import stairs_line
 from kaidan.traversal import Phase
 from kaidan.verbs.monitor.live import LiveMonitor
@@ -196,7 +197,7 @@ def test_a_riser_that_leans_is_entered_from_its_foot():
 
 
 @pytest.mark.parametrize("direction", ["up", "down"])
-def test_level_ground_and_a_ramp_are_a_go(direction):
+def test_a_ramp_is_a_go(direction):
     slope = math.radians(20)
     foot, top = (0.0, 0.0), (2 * math.cos(slope), 2 * math.sin(slope))
     ramp = Profile.of_points([(-3, 0), foot, top, (top[0] + 3, top[1])])
@@ -205,8 +206,7 @@ def test_level_ground_and_a_ramp_are_a_go(direction):
     # by hand: on a plane tan(slope) wherever the load is, so 45 - 20 degrees to spare
     assert (answer.verdict, answer.governs) == ("go", "slides_down")
     assert answer.margin_deg == pytest.approx(25.0, abs=1e-6)
-    level = Profile.of_points([(-3, 0), (3, 0)])
-    assert assess("kenaf", level, **asked).verdict == "go"
+    assert "Assumed: both tracks meet the same profile: a ramp." in answer.notes
 
 
 def test_a_drop_that_only_the_impact_softens_is_no_go_ahead():
@@ -259,10 +259,76 @@ def test_a_profile_that_falls_is_driven_down_only():
         assess("kenaf", Profile.of_points(edge), friction=3.0)
 
 
-def test_a_floor_without_a_step_says_so():
-    level = assess("kenaf", Profile.of_points([(-3, 0), (3, 0)]), friction=1.0)
-    assert level.verdict == "go"
-    assert "The terrain is a floor without a step." in level.notes
-    # by hand: nothing has to be overcome on a floor
-    assert level.required_friction == pytest.approx(0.0, abs=1e-12)
-    assert level.findings["slides_down"].margin == pytest.approx(45.0, abs=1e-9)
+FLOOR = Profile.of_points([(-3, 0), (3, 0)])
+
+
+@pytest.mark.parametrize("robot", ["kenaf", "absolem", "talon"])
+def test_a_floor_has_no_stairs_to_be_judged(robot):
+    """It was a GO with 0.00 of friction required; `kaidan read` ends with 3 likewise."""
+    answer = assess(robot, FLOOR, friction=1.0)
+    assert (answer.verdict, answer.exit_code) == ("outside-model", 3)
+    assert answer.required_friction is None
+    assert answer.reason == (
+        "The contact model has no answer: the terrain is level, so there are no stairs."
+    )
+    assert answer.what_would_help == ()
+
+
+@pytest.mark.parametrize("model", ["closed-form", "support-polygon", "physics"])
+def test_no_other_model_judges_a_floor(model):
+    assert assess("kenaf", FLOOR, friction=1.0, model=model).verdict == "outside-model"
+
+
+def test_a_scanned_floor_is_level():
+    """3 mm of noise, a point every centimetre; a ramp that climbs 1 in 20 is none."""
+    x = np.arange(-3.0, 3.0, 0.01)
+    noise = np.random.default_rng(1).normal(0.0, 0.003, len(x))
+    for z, level in ((noise, True), (noise + 0.05 * np.maximum(x, 0.0), False)):
+        answer = assess("kenaf", Profile.of_points(np.column_stack([x, z])), friction=1.0)
+        assert (answer.verdict == "outside-model") is level
+
+
+def blocks(*heights, width=0.2):
+    """Blocks side by side on a floor [m]."""
+    line = [(-3.0, 0.0), (0.0, 0.0)]
+    for k, height in enumerate(heights):
+        line += [(k * width, height), ((k + 1) * width, height)]
+    return [*line, (len(heights) * width, 0.0), (len(heights) * width + 3.0, 0.0)]
+
+
+UNBUILT = {
+    "rubble": blocks(0.05, 0.01, 0.06, 0.02, 0.05),
+    "pallet": blocks(0.144, 0.122, 0.144, 0.122, 0.144, width=0.1),
+    "ditch": [(-3, 0), (0, 0), (0, -0.05), (0.2, -0.05), (0.2, 0), (3, 0)],
+}
+BUILT = {
+    "threshold": blocks(0.06),
+    "step": [(-3, 0), (0, 0), (0, 0.06), (3, 0.06)],
+    "ramp with a step": [(-3, 0), (0, 0), (2, 0.4), (2, 0.44), (5, 0.44)],
+}
+
+
+@pytest.mark.parametrize("line", [*UNBUILT.values()], ids=UNBUILT)
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_what_is_not_built_across_is_no_go_before_somebody_says_so(line, mirrored):
+    """Left and right track may meet other blocks; nothing else keeps it from a GO."""
+    line = [(-x, z) for x, z in reversed(line)] if mirrored else line
+    answer = assess("absolem", Profile.of_points(line), **ASKED)
+    assert (answer.verdict, answer.governs) == ("caution", "across")
+    assert answer.reason == (
+        "The profile is no flight of steps, single step, ramp or threshold. One track may meet "
+        "other ground than the other."
+    )
+    (change,) = answer.what_would_help
+    assert (change.change, change.verdict) == (terrain.STATE, "go")
+    stated = assess("absolem", Profile.of_points(line), **ASKED, uniform_across=True)
+    assert (stated.verdict, stated.margin_deg) == ("go", answer.margin_deg)
+    assert "Assumed: both tracks meet the same profile, as stated." in stated.notes
+    assert "both tracks meet the same profile, as stated" in str(stated)
+
+
+@pytest.mark.parametrize("line", [*BUILT.values()], ids=BUILT)
+def test_what_is_built_across_is_a_go_that_says_what_is_assumed(line):
+    answer = assess("absolem", Profile.of_points(line), **ASKED)
+    assert answer.verdict == "go"
+    assert "both tracks meet the same profile: a " in str(answer)

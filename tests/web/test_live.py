@@ -66,11 +66,10 @@ def test_an_alarm_from_a_replay_is_seen_and_heard(page, tmp_path):
     page.get_by_label("Recorded climb (CSV, bag, MCAP)").set_input_files(tmp_path / "climb.csv")
     page.get_by_role("button", name="Replay").click()
     wait_for(page, "calm")
-    assert "ALARM" in wait_for(page, "alarm")[0]
+    assert "ALARM" in wait_for(page, "tip_over")[0]
     assert page.get_by_role("alert").first.get_attribute("id") == "alarm"
     page.wait_for_selector("body[data-beeps]")
-    if pictures():
-        page.screenshot(path=pictures() / f"live-{page.viewport_size['width']}.png")
+    shot(page, "tip_over")
     page.get_by_text("The climb is over.").wait_for()
     assert page.inner_text("#margin") != "–"
 
@@ -78,9 +77,82 @@ def test_an_alarm_from_a_replay_is_seen_and_heard(page, tmp_path):
 def test_a_sensor_that_falls_silent_is_noticed(desk, server, climbing):
     ready(desk, climbing)
     fed(server, climbing, ROWS[:40])
-    assert "NO DATA" in wait_for(desk, "calm", "silent")[0]
-    fed(server, climbing, ROWS[40:60])
+    said, why, margin, _ = wait_for(desk, "calm", "silent")
+    assert (said, why) == ("SENSOR SILENT", "No sample comes in time: stop.")
+    assert margin == "–"  # what it was is no longer so
+    fed(server, climbing, ROWS[40:60], recorded=True)
     wait_for(desk, "calm", "silent", "calm")
+
+
+def test_a_server_that_is_gone_is_a_silent_sensor_too(desk, server, climbing):
+    ready(desk, climbing)
+    fed(server, climbing, ROWS[:40], recorded=True)
+    wait_for(desk, "calm")
+    server.stop()
+    try:
+        wait_for(desk, "calm", "silent")
+    finally:
+        server.start()
+
+
+def alive(count, begin=0.0, tilt=0.7):
+    """Samples of a sensor of 100 Hz that is alive."""
+    return [
+        {"t": begin + 0.01 * k, "inclination": tilt, "inclination_rate": 1e-3 * (k % 3),
+         "acceleration": 0.0}
+        for k in range(count)
+    ]  # fmt: skip
+
+
+BLIND = {
+    "no_data": ("NO DATA", lambda k, row: row | {"inclination": None}),
+    "half_blind": ("HALF BLIND", lambda k, row: row | ({"inclination": None} if k % 2 else {})),
+    "frozen": ("SENSOR FROZEN", lambda k, row: row | {"inclination_rate": 0.0}),
+    "clock": ("CLOCK FAULT", lambda k, row: row | {"t": 0.5}),
+}
+
+
+@pytest.mark.parametrize("mood", BLIND)
+def test_what_blinds_the_monitor_is_named(page, server, climbing, mood):
+    word, change = BLIND[mood]
+    ready(page, climbing)
+    good = alive(50)
+    bad = [change(k, row) for k, row in enumerate(alive(80, begin=0.5))]
+    fed(server, climbing, good + bad, recorded=True)
+    found = page.wait_for_function(
+        "word => document.getElementById('alarm').innerText.includes(word)", arg=word
+    )
+    assert found
+    if mood == "frozen":
+        assert page.inner_text("#margin") == page.inner_text("#time") == "–"
+    shot(page, mood)
+
+
+def test_past_zero_it_says_that_the_robot_has_tipped_over_and_nothing_says_otherwise(
+    page, server, climbing
+):
+    ready(page, climbing)
+    fed(server, climbing, alive(50), recorded=True)
+    page.get_by_text("Margin 20.1 degrees, on the flight.").wait_for()
+    fed(server, climbing, alive(50, begin=0.5, tilt=1.4), recorded=True)
+    said, why, margin, phase = wait_for(page, "tipped_over")
+    assert said == "TIPPED OVER"
+    assert why.startswith("The robot has tipped over.")
+    assert margin.startswith("−")
+    assert phase == page.inner_text("#time") == "–"
+    assert page.inner_text("#status") == ""
+    page.wait_for_timeout(5500)  # a sentence for a screen reader comes every 5 s
+    assert page.inner_text("#status") == ""
+    assert "NO ALARM" not in page.inner_text("main")
+    shot(page, "tipped_over")
+    fed(server, climbing, alive(1, begin=1.0, tilt=1.4))  # live, and then silent
+    page.get_by_text("Also: SENSOR SILENT.").wait_for()
+    assert page.inner_text("#said") == "TIPPED OVER"
+
+
+def shot(page, name):
+    if pictures():
+        page.screenshot(path=pictures() / f"live-{name}-{page.viewport_size['width']}.png")
 
 
 def test_a_posture_of_which_nothing_can_be_foreseen_is_not_called_free_of_alarm(desk, server):
@@ -136,6 +208,14 @@ def test_it_watches_own_stairs_a_load_and_changed_figures(desk):
     assert sent["override"] == {"com_height": 0.3}
     assert sent["payload"] == [{"mass": 20, "from_front": 0.2, "height": 0.5}]
     assert begun.value.json()["stairs"] == "measured"
+    assert sent["limits"] == {}
+    desk.get_by_label("Resolution of the sensor").fill("0.1deg")
+    desk.get_by_label("Alarm without data after").fill("1s")
+    with desk.expect_response("**/api/live") as begun:
+        desk.get_by_role("button", name="Watch a sensor").click()
+    assert begun.value.request.post_data_json["limits"] == {
+        "resolution": "0.1deg", "no_data_on": "1s",
+    }  # fmt: skip
     desk.locator("#robot").select_option("kenaf")
     assert desk.inner_text("#given") == ""
 
@@ -151,7 +231,7 @@ def test_a_robot_that_cannot_be_watched_is_not_taken_for_another(desk):
 
 
 def test_the_numbers_are_those_of_the_server_also_for_who_comes_later(desk, server, climbing):
-    last = fed(server, climbing, ROWS[:100])["states"][-1]
+    last = fed(server, climbing, ROWS[:100], recorded=True)["states"][-1]
     ready(desk, climbing)
     margin = f"{last['margin_deg']:.1f}"  # the states come one by one
     desk.locator("#margin").get_by_text(margin, exact=True).wait_for()
@@ -172,12 +252,12 @@ def test_it_works_from_the_keyboard_in_japanese_and_for_assistive_technology(des
     axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="skipped: no axe")
     ready(desk)
     order = []
-    for _ in range(13):
+    for _ in range(15):
         desk.keyboard.press("Tab")
         order.append(desk.evaluate("document.activeElement.id || document.activeElement.tagName"))
     assert order == [
         "back", "language", "sound", "try", "robot", "stairs", "direction", "facing", "flippers",
-        "file", "speed", "replay", "watch",
+        "resolution", "silence", "file", "speed", "replay", "watch",
     ]  # fmt: skip
     desk.get_by_label("Language").select_option("ja")
     assert desk.inner_text("#said") == "未開始"

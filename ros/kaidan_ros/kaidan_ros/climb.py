@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import kaidan
 from kaidan.errors import KaidanError
-from kaidan.verbs.monitor import AlarmLimits
+from kaidan.verbs.monitor import AlarmLimits, Cause
 from kaidan.verbs.monitor.live import LiveMonitor, LiveState
 from kaidan.verbs.monitor.recordings import sample_of_imu
 
@@ -24,10 +24,19 @@ PARAMETERS: dict[str, Any] = {
     "clear_margin_deg": 7.2,
     "alarm_time_s": 0.5,
     "clear_time_s": 1.0,
-    "silent_s": 1.0,
+    "no_data_s": 0.0,
+    "resolution_deg": 0.0,
 }
-"""Parameters of the node with their defaults; texts are written as on the command line."""
-_LIMITS = {"alarm_margin_deg", "clear_margin_deg", "alarm_time_s", "clear_time_s", "silent_s"}
+"""Parameters of the node with their defaults; texts are written as on the command line, and 0 s
+without data is the limit that goes with the rate of the sensor."""
+_LIMITS = {
+    "alarm_margin_deg",
+    "clear_margin_deg",
+    "alarm_time_s",
+    "clear_time_s",
+    "no_data_s",
+    "resolution_deg",
+}
 OK, WARN, ERROR, STALE = range(4)
 """Levels of a diagnostic status."""
 
@@ -75,11 +84,11 @@ class Climb:
             margin_off=math.radians(values["clear_margin_deg"]),
             time_on=values["alarm_time_s"],
             time_off=values["clear_time_s"],
+            no_data_on=values["no_data_s"] or None,
+            resolution=math.radians(values["resolution_deg"]),
         )
-        self.silent = float(values["silent_s"])
         self._watch = LiveMonitor(self.question, limits=self.limits)
         self._last: LiveState | None = None
-        self._came = math.nan
         self._row = 0
 
     def assess(self) -> Assessed:
@@ -96,19 +105,25 @@ class Climb:
         stamp = message.header.stamp
         t = float(stamp.sec) + 1e-9 * float(stamp.nanosec)
         sample = sample_of_imu(message, t, nose_up=self.question.nose_up, row=self._row)
-        self._came, self._last = now, self._watch.feed(sample)
+        self._last = self._watch.feed(sample, now)
         return self._last
 
-    def status(self, now: float) -> Status:
-        """Diagnostic status at a time [s]: a sensor that is silent is worse than an alarm."""
+    def overdue(self, now: float) -> LiveState | None:
+        """State if the next message has not come in time at a time [s], else None."""
+        missing = self._watch.overdue(now)
+        self._last = missing or self._last
+        return missing
+
+    def status(self) -> Status:
+        """Diagnostic status: a sensor that is silent is worse than an alarm."""
         last = self._last
         if last is None:
             return Status(STALE, "no sample has come", self._values(None))
-        if now - self._came > self.silent:
-            silence = now - self._came
-            return Status(STALE, f"no sample for {silence:.1f} s", self._values(last))
+        causes = ", ".join(last.causes)
+        if Cause.SILENT in last.causes:
+            return Status(STALE, f"alarm: {causes}", self._values(last))
         if last.alarm:
-            return Status(ERROR, "alarm: it may tip over", self._values(last))
+            return Status(ERROR, f"alarm: {causes}", self._values(last))
         if not last.judged:
             return Status(WARN, last.message or last.status.value, self._values(last))
         return Status(OK, "no alarm", self._values(last))

@@ -11,10 +11,13 @@ from sensor_msgs.msg import Imu
 from std_msgs.msg import Bool, Float64, String
 from std_srvs.srv import Trigger
 
+from kaidan.verbs.monitor.live import LiveState
 from kaidan_ros.climb import PARAMETERS, Climb
 
 PERIOD = 0.5
 """Between two diagnostics [s]."""
+LOOK = 0.05
+"""Between two looks whether a message is overdue [s]."""
 
 
 class KaidanNode(Node):
@@ -34,6 +37,7 @@ class KaidanNode(Node):
         self.create_service(Trigger, "~/assess", self.assess)
         self.create_subscription(Imu, "imu", self.take, qos_profile_sensor_data)
         self.create_timer(PERIOD, self.diagnose)
+        self.create_timer(LOOK, self.look)
 
     def assess(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         """Answer the service; with parameters that were changed a new climb begins."""
@@ -49,7 +53,15 @@ class KaidanNode(Node):
 
     def take(self, message: Imu) -> None:
         """Publish what the monitor says of a sample."""
-        state = self.climb.feed(message, self._now())
+        self._publish(self.climb.feed(message, self._now()))
+
+    def look(self) -> None:
+        """Publish the alarm of a message that has not come in time."""
+        missing = self.climb.overdue(self._now())
+        if missing is not None:
+            self._publish(missing)
+
+    def _publish(self, state: LiveState) -> None:
         if state.margin_deg is not None:
             self._margin.publish(Float64(data=state.margin_deg))
             time = math.inf if state.time_to_tip_s is None else state.time_to_tip_s
@@ -59,7 +71,7 @@ class KaidanNode(Node):
 
     def diagnose(self) -> None:
         """Publish the diagnostic status."""
-        level, text, values = self.climb.status(self._now())
+        level, text, values = self.climb.status()
         status = DiagnosticStatus(
             level=bytes([level]),
             name="kaidan: tip-over",

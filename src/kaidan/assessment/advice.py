@@ -27,9 +27,11 @@ from kaidan.models import judge
 from kaidan.models.centroid import shift_of_centroid
 from kaidan.models.findings import Findings
 from kaidan.modes import (
+    ACROSS,
     ENERGY,
     FAILURE_MODES,
     FALLS,
+    GAP_JAM,
     GROUSER_SPEED,
     IMPACT,
     LANDING_ROOM,
@@ -47,7 +49,7 @@ from kaidan.modes import (
 from kaidan.question import Question
 from kaidan.robot import Posture
 from kaidan.text import advice as text
-from kaidan.text import measuring
+from kaidan.text import measuring, terrain
 from kaidan.text import unweighed as weighing
 
 if TYPE_CHECKING:
@@ -199,6 +201,9 @@ def _candidates(
         yield _weighed(found)
         return
     slips = governs in SLIPS
+    if governs == ACROSS.key:
+        yield Candidate(terrain.STATE, question.changed(uniform_across=True))
+        return
     if question.yaw:
         yield Candidate(text.STRAIGHT, question.changed(yaw=0.0))
     if governs != Undecided.FRICTION_UNKNOWN:
@@ -223,7 +228,7 @@ def _candidates(
         least = min(each.friction or math.inf for each in friction)
         friction += with_less_friction(question, found, search, least)
     yield from sorted(friction, key=lambda one: one.friction or math.inf)
-    if slips:
+    if slips or governs == GAP_JAM.key:
         yield from grousers(question)
     if governs == POSTURE_TOLERANCE.key and question.tolerance > CLOSER:
         closer = question.changed(flipper_tolerance=CLOSER)

@@ -13,6 +13,7 @@ from kaidan.assessment.plans import GENTLE, cost_of_drop, off
 from kaidan.errors import InputError
 from kaidan.models import planned
 from kaidan.models.findings import ROUNDING as NO_MARGIN
+from kaidan.models.gap import most_friction
 from kaidan.models.quasi_static import profile_of
 from kaidan.modes import Facing, Phase
 from kaidan.outline import Outline
@@ -226,7 +227,8 @@ class Scores:
 
     @cached_property
     def _friction(self) -> tuple[float, float]:
-        return self.question.friction
+        low, high = self.question.friction
+        return min(low, most_friction(self.question)), high
 
     @cached_property
     def _allowances(self) -> tuple[float, float]:

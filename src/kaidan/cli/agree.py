@@ -26,7 +26,17 @@ def register(app: typer.Typer) -> None:
 
 
 @question(
-    without=("points", "theta_d", "theta_m", "uncertainty", "yaw", "risk", "accept", "model"),
+    without=(
+        "points",
+        "uniform_across",
+        "theta_d",
+        "theta_m",
+        "uncertainty",
+        "yaw",
+        "risk",
+        "accept",
+        "model",
+    ),
     flippers="stowed",
 )
 def agree(

@@ -2,13 +2,12 @@
 
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from kaidan.cli import options
-from kaidan.cli.monitor import Follow, Places, opened
+from kaidan.cli.monitor import Follow, NoData, Places, Recorded, Resolution, limits_of
 
 if TYPE_CHECKING:
     from kaidan.verbs.monitor import Sample
@@ -54,6 +53,9 @@ def live(
     payload: options.PayloadText = None,
     pace: Pace = None,
     follow: Follow = False,
+    recorded: Recorded = False,
+    no_data: NoData = None,
+    resolution: Resolution = None,
 ) -> None:
     """Send samples of ROBOT on STAIRS to the live page of a server, which judges and shows them.
 
@@ -63,7 +65,9 @@ def live(
     """
     from kaidan.errors import InputError
     from kaidan.question import Question
+    from kaidan.verbs.monitor import open_samples
     from kaidan.verbs.monitor.sending import Channel
+    from kaidan.verbs.monitor.sources import is_live
 
     if len(places) != 2:
         raise InputError("write ROBOT STAIRS SAMPLES")
@@ -75,34 +79,42 @@ def live(
         flippers=flippers,
         payload=payload or (),
     )
-    channel = Channel.at(to, requested, token=token or "")
+    limits = limits_of(no_data_on=no_data, resolution=resolution)
+    channel = Channel.at(to, requested, limits=limits, token=token or "")
     typer.echo(channel.page)
-    whole = not follow and Path(places[1]).is_file()
+    live = pace is None and not recorded and is_live(places[1], follow=follow)
     with (
         suppress(KeyboardInterrupt),
-        opened(places[1], follow=follow, nose_up=requested.nose_up) as samples,
+        open_samples(places[1], follow=follow, nose_up=requested.nose_up) as samples,
     ):
-        for bundle in _bundles(samples, pace, whole=whole):
-            channel.send(bundle)
+        for bundle in _live(samples) if live else _recorded(samples, pace):
+            channel.send(bundle, recorded=not live)
     typer.echo(channel.end())
 
 
-def _bundles(
-    samples: "Iterable[Sample]", pace: float | None, *, whole: bool
-) -> "Iterator[list[Sample]]":
-    """Samples as they are due; without a pace each as it comes, or many of a whole file."""
+def _live(samples: "Iterator[Sample]") -> "Iterator[list[Sample]]":
+    """Samples as they come; those that came while others were sent, at once."""
+    from kaidan.verbs.monitor.arrivals import Arrivals
+
+    arrivals = Arrivals(samples)
+    while (came := arrivals.take()) is not None:
+        yield [each.sample for each in came]
+
+
+def _recorded(samples: "Iterable[Sample]", pace: float | None) -> "Iterator[list[Sample]]":
+    """Samples as they are due; without a pace many at once."""
     import math
     import time
     from itertools import islice
 
-    if whole and pace is None:
+    if pace is None:
         left = iter(samples)
         while bundle := list(islice(left, _AT_ONCE)):
             yield bundle
         return
     begun: tuple[float, float] | None = None
     for each in samples:
-        if pace is not None and math.isfinite(each.t):
+        if math.isfinite(each.t):
             begun = begun or (each.t, time.monotonic())
             time.sleep(max(0.0, begun[1] + (each.t - begun[0]) / pace - time.monotonic()))
         yield [each]

@@ -1,7 +1,7 @@
 """``kaidan monitor``: margin, time to tip-over and alarm from samples of a file or a stream."""
 
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from json import dumps
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,7 +11,7 @@ from kaidan.cli import options
 from kaidan.cli.tables import echo
 
 if TYPE_CHECKING:
-    from kaidan.verbs.monitor import AlarmLimits, Monitor, Sample
+    from kaidan.verbs.monitor import AlarmLimits, Monitor, MonitorState, Sample
 
 Places = Annotated[
     list[str],
@@ -35,10 +35,18 @@ AlarmTime = Annotated[
 ClearTime = Annotated[
     str | None, typer.Option(help="Time to tip-over above which it may be cleared [1s].")
 ]
-Unjudged = Annotated[
-    int | None,
+NoData = Annotated[
+    str | None,
     typer.Option(
-        min=1, help="Samples in a row that cannot be judged at which the alarm is raised [10]."
+        help="Time without data at which the alarm is raised [0.2s or 3 periods, whichever is "
+        "longer]; a source below 5 Hz needs it."
+    ),
+]
+Resolution = Annotated[
+    str | None,
+    typer.Option(
+        help="Resolution of the inclination, for a coarse sensor: same values at rest are not "
+        "frozen [0deg]."
     ),
 ]
 Horizon = Annotated[str | None, typer.Option(help="How far ahead it predicts [2s].")]
@@ -47,6 +55,12 @@ Strict = Annotated[
 ]
 Follow = Annotated[
     bool, typer.Option("--follow", help="Wait at the end of the file for what is written next.")
+]
+Recorded = Annotated[
+    bool,
+    typer.Option(
+        "--recorded", help="A pipe holds a recording: its stamps alone tell the time, no clock."
+    ),
 ]
 Changes = Annotated[
     bool, typer.Option("--changes", help="Only samples at which alarm or status change.")
@@ -81,10 +95,12 @@ def monitor(
     clear_margin: ClearMargin = None,
     alarm_time: AlarmTime = None,
     clear_time: ClearTime = None,
-    unjudged: Unjudged = None,
+    no_data: NoData = None,
+    resolution: Resolution = None,
     horizon: Horizon = None,
     strict: Strict = False,
     follow: Follow = False,
+    recorded: Recorded = False,
     changes: Changes = False,
     as_json: AsJsonLines = False,
 ) -> None:
@@ -92,14 +108,16 @@ def monitor(
 
     Inclination and its rate count nose up, acceleration (without gravity) and position up the
     stairs; position is 0 where a nosing meets the uphill tip of the flat. What is not known counts
-    as the worst case. Rows that cannot be read are counted and left out.
+    as the worst case. Rows that cannot be read are counted and left out. A sensor that is silent,
+    frozen, half blind or without a clock is an alarm.
 
     Exit code: 0 no alarm, 1 the alarm was raised, 2 bad input or more than half of the samples not
     judged, 3 outside the model.
     """
     from kaidan.errors import InputError
     from kaidan.question import Question
-    from kaidan.verbs.monitor import Monitor
+    from kaidan.verbs.monitor import Monitor, open_samples
+    from kaidan.verbs.monitor.sources import is_live
 
     if len(places) > 2:
         raise InputError(f"too many arguments: {' '.join(places)}; write ROBOT [STAIRS] SAMPLES")
@@ -120,72 +138,82 @@ def monitor(
         payload=payload,
         override=override,
     )
-    limits = _limits(alarm_margin, clear_margin, alarm_time, clear_time, unjudged, horizon)
+    limits = limits_of(
+        margin_on=alarm_margin,
+        margin_off=clear_margin,
+        time_on=alarm_time,
+        time_off=clear_time,
+        no_data_on=no_data,
+        resolution=resolution,
+        horizon=horizon,
+    )
     watch = Monitor.of(requested, limits=limits, strict=strict)
+    say = _said(changes=changes, as_json=as_json)
+    live = is_live(places[-1], follow=follow) and not recorded
     with (
         suppress(KeyboardInterrupt),
-        opened(places[-1], follow=follow, nose_up=requested.nose_up) as samples,
+        open_samples(places[-1], follow=follow, nose_up=requested.nose_up) as samples,
     ):
-        _follow(watch, samples, changes=changes, as_json=as_json)
+        for state in _as_they_come(watch, samples) if live else map(watch.feed, samples):
+            say(state)
     answer = watch.answer()
     echo(dumps(answer.to_dict()) if as_json else f"\n{answer}")
     raise typer.Exit(answer.exit_code)
 
 
-def _follow(watch: "Monitor", samples: Iterable["Sample"], *, changes: bool, as_json: bool) -> None:
-    """Print the state after each sample as it comes."""
+def _as_they_come(watch: "Monitor", samples: "Iterator[Sample]") -> "Iterator[MonitorState]":
+    """States of samples as they come, and of one that does not."""
+    from kaidan.verbs.monitor.arrivals import Arrivals
+
+    arrivals, due = Arrivals(samples), None
+    while (came := arrivals.take(due)) is not None:
+        for sample, at in came:
+            state = watch.feed(sample, at)
+            yield state
+            due = state.due_s
+        if not came and (missing := watch.overdue(arrivals.now())):
+            yield missing
+            due = None
+
+
+def _said(*, changes: bool, as_json: bool) -> "Callable[[MonitorState], None]":
+    """What prints a state."""
     from kaidan.text.monitor import HEAD, row
 
-    before = None
-    for sample in samples:
-        state = watch.feed(sample)
-        if before is None and not as_json:
+    before: tuple[object, ...] = ()
+
+    def say(state: "MonitorState") -> None:
+        nonlocal before
+        if not before and not as_json:
             echo(HEAD)
-        if (state.alarm, state.status) != before or not changes:
+        if (state.causes, state.status) != before or not changes:
             echo(dumps(state.model_dump(mode="json")) if as_json else row(state))
-        before = (state.alarm, state.status)
+        before = (state.causes, state.status)
+
+    return say
 
 
-def _limits(
-    alarm_margin: str | None,
-    clear_margin: str | None,
-    alarm_time: str | None,
-    clear_time: str | None,
-    unjudged: int | None,
-    horizon: str | None,
-) -> "AlarmLimits":
+_LIMITS = {
+    "margin_on": ("angle", "--alarm-margin"),
+    "margin_off": ("angle", "--clear-margin"),
+    "time_on": ("time", "--alarm-time"),
+    "time_off": ("time", "--clear-time"),
+    "no_data_on": ("time", "--no-data"),
+    "resolution": ("angle", "--resolution"),
+    "horizon": ("time", "--horizon"),
+}
+"""Kind of each limit, and the option that states it."""
+
+
+def limits_of(**texts: str | None) -> "AlarmLimits":
+    """Limits of the options that are given."""
     from kaidan.units import parse
     from kaidan.verbs.monitor import AlarmLimits
 
-    texts = {
-        "margin_on": (alarm_margin, "angle", "--alarm-margin"),
-        "margin_off": (clear_margin, "angle", "--clear-margin"),
-        "time_on": (alarm_time, "time", "--alarm-time"),
-        "time_off": (clear_time, "time", "--clear-time"),
-        "horizon": (horizon, "time", "--horizon"),
-    }
-    values = {
-        name: parse(text, kind, option=option)
-        for name, (text, kind, option) in texts.items()
-        if text is not None
-    }
-    return AlarmLimits(**values, **({} if unjudged is None else {"unjudged_on": unjudged}))
-
-
-@contextmanager
-def opened(origin: str, *, follow: bool, nose_up: bool) -> Iterator[Iterator["Sample"]]:
-    """Samples of a file or of standard input, as they come."""
-    import io
-    import sys
-
-    from kaidan.verbs.monitor import open_samples
-    from kaidan.verbs.monitor.samples import lines_of, samples_of
-
-    if origin != "-":
-        with open_samples(origin, follow=follow, nose_up=nose_up) as samples:
-            yield samples
-        return
-    if isinstance(sys.stdin, io.TextIOWrapper):
-        sys.stdin.reconfigure(encoding="utf-8", errors="replace")
-    origin = "standard input"
-    yield samples_of(lines_of(sys.stdin, origin=origin), origin=origin)
+    given = {name: text for name, text in texts.items() if text is not None}
+    return AlarmLimits(
+        **{
+            name: parse(text, _LIMITS[name][0], option=_LIMITS[name][1])
+            for name, text in given.items()
+        }
+    )

@@ -55,6 +55,14 @@ PointsFile = Annotated[
         help="Own profile instead of STAIRS: CSV with columns x,z in metres, from bottom to top.",
     ),
 ]
+UniformAcross = Annotated[
+    bool,
+    typer.Option(
+        "--uniform-across",
+        help="Both tracks meet the same profile, although it is no flight, step, ramp or "
+        "threshold.",
+    ),
+]
 Rise = Annotated[str | None, typer.Option(help="Rise of uniform stairs, for example 180mm or 7in.")]
 Going = Annotated[str | None, typer.Option(help="Going of uniform stairs, for example 280mm.")]
 Angle = Annotated[str | None, typer.Option(help="Angle of uniform stairs, for example 50deg.")]

@@ -25,7 +25,10 @@ def register(app: typer.Typer) -> None:
     app.command("plane")(plane)
 
 
-@question(without=("points", "uncertainty", "yaw", "risk", "accept", "model"), flippers="stowed")
+@question(
+    without=("points", "uniform_across", "uncertainty", "yaw", "risk", "accept", "model"),
+    flippers="stowed",
+)
 def plane(
     requested: "Question",
     accelerate: Accelerate = False,

@@ -17,6 +17,7 @@ def question_options(
     robot: options.RobotName,
     stairs: options.TerrainName = None,
     points: options.PointsFile = None,
+    uniform_across: options.UniformAcross = False,
     rise: options.Rise = None,
     going: options.Going = None,
     angle: options.Angle = None,

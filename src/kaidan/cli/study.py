@@ -15,7 +15,17 @@ if TYPE_CHECKING:
 group = typer.Typer(
     name="study", help="Study a fleet of robots on a stock of stairs.", no_args_is_help=True
 )
-_NOT_OPTIONS = ("robot", "stairs", "points", "rise", "going", "angle", "nosing_spacing", "steps")
+_NOT_OPTIONS = (
+    "robot",
+    "stairs",
+    "points",
+    "rise",
+    "going",
+    "angle",
+    "nosing_spacing",
+    "steps",
+    "uniform_across",
+)
 
 Robots = Annotated[
     str,

@@ -9,7 +9,8 @@ from dataclasses import replace
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from kaidan.modes import FOOT_UNSEEN, MODELS, Verdict
+from kaidan.modes import ACROSS, FLOOR_FINISH, FOOT_UNSEEN, MODELS, FailureMode, Verdict
+from kaidan.text import terrain as text
 
 if TYPE_CHECKING:
     from kaidan.models.findings import Findings
@@ -34,8 +35,26 @@ def judge(question: "Question", *, known: "Findings | None" = None) -> "Findings
 
         return judge_range(question, judge)
     found: Findings = import_module(MODELS[question.model].module).judge(question, known=known)
+    return beside(question, found)
+
+
+def beside(question: "Question", found: "Findings") -> "Findings":
+    """Findings of a model with those that are found beside it, whichever model it is.
+
+    Parameters
+    ----------
+    question : Question
+    found : Findings
+        Of a model, in one place of the centroid.
+
+    Returns
+    -------
+    Findings
+    """
     if found.outside:
         return found
+    if question.profile.is_level:
+        return type(found)(model=found.model, outside=text.NO_STAIRS)
     if (room := question.room) is not None:
         from kaidan.models.clearance import findings_of
 
@@ -48,13 +67,28 @@ def judge(question: "Question", *, known: "Findings | None" = None) -> "Findings
         from kaidan.models import landings
 
         found = landings.beside(question, found)
-    if not all(flight.foot_seen for flight in question.flights):
+    if doubted := _in_doubt(question):
         from kaidan.models.findings import Finding
 
-        unseen = Finding.certain(FOOT_UNSEEN, -math.inf, failing=Verdict.CAUTION, model=found.model)
-        found = replace(found, each=(*found.each, unseen))
+        more = (
+            Finding.certain(mode, -math.inf, failing=Verdict.CAUTION, model=found.model)
+            for mode in doubted
+        )
+        found = replace(found, each=(*found.each, *more))
     if question.uneven_across:
         from kaidan.models.two_tracks import beside
 
         found = beside(question, found)
+    return found
+
+
+def _in_doubt(question: "Question") -> list[FailureMode]:
+    """What nobody saw or stated of the terrain, or what a file states unlike its drawing."""
+    found = []
+    if not all(flight.foot_seen for flight in question.flights):
+        found.append(FOOT_UNSEEN)
+    if any(flight.first_rise_drawn or flight.last_rise_drawn for flight in question.flights):
+        found.append(FLOOR_FINISH)
+    if not question.meets_the_same:
+        found.append(ACROSS)
     return found

@@ -16,7 +16,7 @@ from kaidan.contact import Status
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.clearance import run_up_margin
 from kaidan.mechanics.oblique import equivalent_slope_across
-from kaidan.models import belts, support_polygon, traction
+from kaidan.models import belts, gap, support_polygon, traction
 from kaidan.models.balance import balance
 from kaidan.models.contact_figures import figures_of
 from kaidan.models.drive_limits import traction_limit
@@ -185,12 +185,14 @@ def findings_of(
     if question.yaw and isinstance(flight, Stairs):
         across = float(equivalent_slope_across(theta_s=flight.angle, psi=question.yaw))
         friction = math.hypot(friction, across)
+    required = friction if held is None else held.worst.required
     slides = _supply(driven, found, over, extremes, friction, held)
     balanced = found if math.isinf(most) else _seen_no_farther(question, found, slides, most)
     each = [
         *slides,
         *_obstacles(driven, found, phase, phases),
         *traction.too_fast_on_grousers(question),
+        *gap.jams(driven, found, required, extremes if held is None else held.worst, phase),
         *balance(question, driven, balanced, over, phase, held),
     ]
     gripping = Later(lambda: [traction.figures_of(driven, found, friction, held, phase)])
@@ -198,7 +200,7 @@ def findings_of(
     return Findings(
         model=_NAME,
         each=tuple(each),
-        required_friction=friction if held is None else held.worst.required,
+        required_friction=required,
         figures=Later(lambda: (*_figures(question, driven, found, phase, modes), *gripping)),
         notes=()
         if phase

@@ -43,7 +43,7 @@ _STEPS = {
     "driven-grousers": 1e-3,
     "shoe-chain": 2.5e-4,
 }
-_NO_PART = ("theta_d", "theta_M", "risk", "accept", "trials", "track")
+_NO_PART = ("theta_d", "theta_M", "risk", "accept", "trials", "track", "uniform_across")
 """Fields of a question that play no part in a trial."""
 
 

@@ -53,6 +53,11 @@ class QuestionFields(Sheet):
         | Annotated[Profile, Tag("profile")],
         Discriminator(_kind_of_terrain),
     ] = Field(description="one flight, several from bottom to top, or a profile of any shape")
+    uniform_across: bool = Field(
+        default=False,
+        description="whether both tracks meet the same profile, stated of one that is no flight, "
+        "step, ramp or threshold",
+    )
     surface: Surface | None = Field(
         default=None, description="friction of the tracks; without it no GO can be given"
     )
@@ -186,6 +191,15 @@ class QuestionFields(Sheet):
     def landings(self) -> tuple[Landing, ...]:
         """Landings on which the way turns, from bottom to top; none of a profile."""
         return landings_of(self.flights)
+
+    @property
+    def meets_the_same(self) -> bool:
+        """Whether both tracks meet the same ground, as far as the question states it.
+
+        A flight is built so across the way, as are a step, a ramp and a threshold.
+        """
+        profile = self.terrain if isinstance(self.terrain, Profile) else None
+        return profile is None or self.uniform_across or self.profile.shape != "irregular"
 
     @property
     def uneven_across(self) -> bool:

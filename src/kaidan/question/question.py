@@ -89,6 +89,7 @@ class Question(QuestionFields):
         model: str = "contact",
         trials: Any = 1,
         track: str | None = None,
+        uniform_across: bool = False,
         override: Any = (),
         uncertainty: Any = (),
     ) -> Self:
@@ -143,6 +144,9 @@ class Question(QuestionFields):
         track : {"smooth-belt", "yielding-belt", "driven-grousers"}, optional
             Of the physics; without it yielding-belt where the sheet says how it yields, else
             smooth-belt.
+        uniform_across : bool
+            Whether both tracks meet the same profile, of one that is no flight, step, ramp or
+            threshold; without it such a profile is no GO.
         override : mapping or str
             The user's own figures for the robot: {"com_height": 0.2} or "com_height=200mm".
         uncertainty : mapping or str
@@ -175,6 +179,7 @@ class Question(QuestionFields):
         return cls(
             robot=doubted(sheet, doubts, "com_from_front", "com_height", "flat_length"),
             terrain=terrain,
+            uniform_across=uniform_across,
             surface=ground,
             direction=word_of("direction", direction, ("up", "down")),
             facing=word_of("facing", "nose-first" if facing is None else facing, FACINGS),

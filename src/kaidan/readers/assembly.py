@@ -2,16 +2,20 @@
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from kaidan.readers.building import Building, Doorway, Flight, Floor, Storey
+from kaidan.errors import InputError
+from kaidan.readers.accounting import MOVING, RAMPS, Drawn, Refused, accounted
+from kaidan.readers.building import Building, Flight, Floor, Storey
+from kaidan.readers.doorways import doorways_of
 from kaidan.readers.estimate import Refusal
-from kaidan.readers.flight import FlightEstimate
+from kaidan.readers.flight import LAST_SPREAD, FlightEstimate
 from kaidan.readers.kinds import Array, Bodies, Body, Provenance
+from kaidan.readers.naming import named_apart
 from kaidan.readers.solids.ground import FLUSH, floor_before, floor_behind
 from kaidan.readers.solids.levels import Plate, plates_of
 from kaidan.readers.solids.path import Path
@@ -19,7 +23,7 @@ from kaidan.readers.solids.rays import Triangles
 from kaidan.readers.solids.room import FARTHEST, free_outline, walls_around
 from kaidan.readers.solids.runs import RISES, Run, runs_of
 from kaidan.readers.solids.section import Section, section_of
-from kaidan.readers.solids.stated import cross_checked
+from kaidan.readers.solids.stated import stated_rise
 from kaidan.readers.solids.surroundings import surroundings_of
 from kaidan.terrain.gap import DEEPEST_TREAD
 
@@ -27,14 +31,15 @@ LANDS = 0.05
 """Distance behind the edge of a floor at which one stands on it [m]."""
 OF_STOREY = 0.3
 """Difference up to which a floor is that of a storey [m]."""
-STAIRS = ("IfcStair", "IfcStairFlight")
-RAMPS = ("IfcRamp", "IfcRampFlight")
+STAIRS = ("stair", "flight")
 LIKE_STAIRS = 0.05
 """Spread of rises up to which solids that nobody called stairs are some [m]."""
 UNLIKE = 0.015
 """Difference from the other depths by which the last tread is no tread [m]."""
-WITHOUT_LEAF = ("SLIDING", "FOLDING", "LIFTING", "ROLLINGUP", "REVOLVING")
-"""Operations of doors without a leaf that opens about a hinge."""
+OVERHEAD_OR_BESIDE = (
+    "IfcRailing", "IfcDoor", "IfcWall", "IfcColumn", "IfcBeam", "IfcRoof", "IfcCurtainWall",
+)  # fmt: skip
+"""What nobody stands on, by the beginning of its category."""
 _FEWEST_UNNAMED = 3
 
 
@@ -62,6 +67,7 @@ class _Assembly:
         self.by_id = {each.identity: each for each in self.bodies}
         storeys = [Storey(each["id"], each["name"], each["level"]) for each in self._storeys()]
         self.storeys = tuple(sorted(storeys, key=lambda one: one.level))
+        self.unit: float = model.facts.get("unit", 1.0)
         meshes = [(each.vertices, each.faces) for each in self.bodies]
         everything = Triangles.of(meshes)
         self.origin = (
@@ -72,13 +78,7 @@ class _Assembly:
         self.origin[2] = 0.0  # levels stay those of the model
         self.all = Triangles(everything.corners - self.origin, everything.owner)
         self.is_stair = [self._stair(each) for each in self.bodies]
-        standing = {
-            k
-            for k, each in enumerate(self.bodies)
-            if each.category not in ("IfcRailing", "IfcDoor", *RAMPS)
-            and not each.category.startswith(("IfcWall", "IfcColumn", "IfcBeam", "IfcRoof"))
-            and each.category not in ("IfcCovering", "IfcCurtainWall")
-        }
+        standing = {k for k, each in enumerate(self.bodies) if self._carries(each)}
         doors = {k for k, each in enumerate(self.bodies) if each.category == "IfcDoor"}
         self.solids = self.all.of_owners(standing)
         self.obstacles = self.all.of_owners(set(range(len(self.bodies))) - doors)
@@ -90,6 +90,8 @@ class _Assembly:
         self.plates = plates_of(self.solids)
         self.runs = runs_of(self.plates)
         self.floors: dict[str, Floor] = {}
+        self.used: set[int] = set()
+        self.refused: list[Refused] = []
         self._cleared: dict[int, tuple[Array, Array]] = {}
 
     def _storeys(self) -> Sequence[Mapping[str, Any]]:
@@ -98,55 +100,69 @@ class _Assembly:
 
     def _stair(self, body: Body) -> bool:
         """Whether an element is a stair or part of one."""
-        seen = set()
-        at: Body | None = body
-        while at is not None and at.identity not in seen:
-            if at.category in STAIRS:
-                return True
-            seen.add(at.identity)
-            at = self.by_id.get(at.parent)
-        return False
+        return any(each.facts.get("kind") in STAIRS for each in self._family(body))
+
+    def _carries(self, body: Body) -> bool:
+        """Whether an element may be stood on: no ramp, lift or escalator, and none of its parts."""
+        other = (*MOVING, *(() if body.category == "IfcSlab" else RAMPS))
+        if any(each.facts.get("kind") in other for each in self._family(body)):
+            return False
+        if body.category == "IfcCovering":
+            return body.facts.get("type") == "FLOORING"
+        return not body.category.startswith(OVERHEAD_OR_BESIDE)
 
     def building(self) -> Building:
-        flights, refusals = [], []
+        flights = []
         for run in self.runs:
             owner = self._owner(run)
-            if math.isnan(run.heading):
-                if self.is_stair[owner]:
-                    refusals.append(self._refusal(run, owner))
-                continue
-            flight = self._flight(run, owner)
-            if flight is not None:
+            flight = self._judged(run, owner)
+            if isinstance(flight, Flight):
                 flights.append(flight)
-        refusals += [
-            Refusal("ramp-element", {}, self._of(each))
-            for each in self.bodies
-            if each.category == "IfcRamp" or (each.category == "IfcRampFlight" and not each.parent)
-        ]
+                self.used.update(run.steps, () if run.below is None else (run.below,))
+            elif flight is not None and self.is_stair[owner]:
+                self.refused.append(Refused(owner, frozenset(run.steps), flight))
+                self.used.update(run.steps)
+        named = named_apart(flights)
+        drawn = Drawn(
+            bodies=self.bodies,
+            plates=self.plates,
+            used=frozenset(self.used),
+            flights=named,
+            refused=self.refused,
+            storeys={each.identity: each.name for each in self.storeys},
+            unit=self.unit,
+            provenance=self.model.provenance,
+        )
         return Building(
             storeys=self.storeys,
             floors=self.floors,
-            flights=_named_apart(tuple(_told_apart(flights))),
-            doors=tuple(self._doors()),
-            refusals=tuple(
-                {(each.why, each.provenance.element): each for each in refusals}.values()
-            ),
+            flights=named,
+            doors=tuple(doorways_of(self.bodies, self.unit)),
+            elements=accounted(drawn),
             provenance=self.model.provenance,
         )
+
+    def _judged(self, run: Run, owner: int) -> Flight | Refusal | None:
+        """Flight of a run, or why there is none; None: nobody called it stairs."""
+        if math.isnan(run.heading):
+            turn = math.degrees(run.turned)
+            why = "winders" if len(run.steps) <= 5 and turn < 100 else "curved"
+            return Refusal(why, {"turn_deg": turn}, self._of(self.bodies[owner]))
+        flight = self._flight(run, owner)
+        try:
+            if flight is not None:
+                flight.estimate.stairs()
+        except InputError as error:
+            return Refusal("no-sheet", {"reason": str(error)}, self._of(self.bodies[owner]))
+        return flight
 
     def _of(self, body: Body) -> Provenance:
         return replace(self.model.provenance, element=body.identity)
 
     def _owner(self, run: Run) -> int:
         """Number of the element that most treads of a run belong to."""
-        treads = run.steps[:-1] if run.complete and len(run.steps) > 1 else run.steps
-        counts = Counter(self.plates[k].owners[0] for k in treads)
+        counts = Counter(self.plates[k].owners[0] for k in self._treads(run))
         return counts.most_common(1)[0][0]
-
-    def _refusal(self, run: Run, owner: int) -> Refusal:
-        turn = math.degrees(run.turned)
-        why = "winders" if len(run.steps) <= 5 and turn < 100 else "curved"
-        return Refusal(why, {"turn_deg": turn}, self._of(self.bodies[owner]))
 
     def _flight(self, run: Run, owner: int) -> Flight | None:
         plates = [self.plates[k] for k in run.steps]
@@ -166,14 +182,19 @@ class _Assembly:
         notes: list[str] = []
         path = self._path(section, plates, below, complete, notes)
         around = surroundings_of(path, self.ground, self.obstacles, self.finishes)
+        body = self.bodies[owner]
+        family = self._family(body)
+        stated, drawn = self._as_stated(path, family)
         estimate = FlightEstimate(
-            left=self._placed(path, path.left, path.lane[1]),
-            right=self._placed(path, path.right, path.lane[0]),
+            left=self._placed(stated, path.left, path.lane[1]),
+            right=self._placed(stated, path.right, path.lane[0]),
             heading=run.heading,
             covariance=np.zeros((len(path.levels), 2) * 2),
             gravity=0.0,
             scale=0.0,
-            floor=path.base,
+            floor=stated.base,
+            drawn_first=drawn[0],
+            drawn_last=drawn[1],
             width=around.strip.width,
             headroom=around.headroom,
             clear=around.clear,
@@ -182,26 +203,17 @@ class _Assembly:
             open_risers=section.open_risers,
             notes=(*notes, *around.notes),
         )
-        body = self.bodies[owner]
         s0 = float(min(path.left[0], path.right[0]))
         s1 = float(max(path.left[-1], path.right[-1]))
         _, low, high = around.strip
         lane = [(s0, low), (s1, low), (s1, high), (s0, high)]
-        line = estimate.line()
         foot, head = (path.frame.back(each, (low + high) / 2) for each in (s0, s1))
-        measured = {
-            "rise": estimate.regular.rise,
-            "going": estimate.regular.going,
-            "risers": float(len(line)),
-            "treads": float(len(line) - 1),
-        }
-        family = self._family(body)
-        stated = {name: v for each in family for name, v in each.facts.get("stated", {}).items()}
         return Flight(
             identity=body.identity,
             name=body.name or body.category,
             category=body.category,
             parents=tuple(name for each in family[1:] for name in (each.identity, each.name)),
+            elements=self._elements(run, owner),
             storey=self._storey_of(family, float(path.levels[0])),
             estimate=estimate,
             lane=np.array([path.frame.back(*each) for each in lane]) + self.origin[:2],
@@ -213,12 +225,7 @@ class _Assembly:
                 float(path.levels[-1]),
                 head,
             ),
-            stated=cross_checked(stated, measured, self.model.facts.get("unit", 1.0)),
         )
-
-    def _placed(self, path: Path, s: Array, t: float) -> Array:
-        plan = np.array([path.frame.back(float(each), t) for each in s])
-        return np.column_stack([plan + self.origin[:2], path.levels])
 
     def _path(
         self,
@@ -237,6 +244,40 @@ class _Assembly:
             path = self._to_the_floor(path, plates, notes)
         notes += foot_notes
         return path
+
+    def _as_stated(self, path: Path, family: Sequence[Body]) -> tuple[Path, tuple[float, float]]:
+        """Path whose end risers are as stated, and those that are drawn otherwise [m].
+
+        Where an element states the rise of its steps, and an end riser alone is another, a floor is
+        drawn without its finish, or steps without theirs: no drawing says which.
+        """
+        rises = np.diff(path.levels)
+        first, last = math.nan, math.nan
+        if len(rises) < 2:
+            return path, (first, last)
+        real = (float(np.median(rises[:-1])),)
+        found = (stated_rise(each.facts.get("stated", {}), real, self.unit) for each in family)
+        rise = next((each for each in found if math.isfinite(each)), math.nan)
+        base, levels = path.base, path.levels
+        if abs(levels[0] - base - rise) > LAST_SPREAD:
+            first, base = float(levels[0] - base), float(levels[0]) - rise
+        if abs(rises[-1] - rise) > LAST_SPREAD:
+            last, levels = float(rises[-1]), np.append(levels[:-1], levels[-2] + rise)
+        return replace(path, base=base, levels=levels), (first, last)
+
+    def _elements(self, run: Run, owner: int) -> tuple[str, ...]:
+        """GlobalIds of what the treads of a run are drawn as, and of what these are part of."""
+        owners = [owner, *(k for number in self._treads(run) for k in self.plates[number].owners)]
+        family = (each.identity for k in owners for each in self._family(self.bodies[k]))
+        return tuple(dict.fromkeys(family))
+
+    def _treads(self, run: Run) -> tuple[int, ...]:
+        """Surfaces of a run without what it leads to."""
+        return run.steps[:-1] if run.complete and len(run.steps) > 1 else run.steps
+
+    def _placed(self, path: Path, s: Array, t: float) -> Array:
+        plan = np.array([path.frame.back(float(each), t) for each in s])
+        return np.column_stack([plan + self.origin[:2], path.levels])
 
     def _family(self, body: Body) -> list[Body]:
         """An element, what it is part of, and so on up."""
@@ -365,67 +406,3 @@ class _Assembly:
         walls = walls_around(self.obstacles, plate.level, low, high)
         shape = free_outline(plate.shape, walls, at[None])
         return Plate(plate.level, shape, plate.owners).corners, walls
-
-    def _doors(self) -> Iterator[Doorway]:
-        unit = self.model.facts.get("unit", 1.0)
-        for body in self.bodies:
-            if body.category != "IfcDoor" or len(body.vertices) == 0:
-                continue
-            low, high = body.vertices.min(axis=0), body.vertices.max(axis=0)
-            width, height = body.facts.get("door") or (None, None)
-            width = width * unit if width else float((high - low)[:2].max())
-            operation = body.facts.get("operation", "")
-            x, y = body.facts.get("opens", (0.0, 0.0))
-            yield Doorway(
-                identity=body.identity,
-                name=body.name or "door",
-                x=float(low[0] + high[0]) / 2,
-                y=float(low[1] + high[1]) / 2,
-                level=float(low[2]),
-                width=width,
-                height=height * unit if height else float(high[2] - low[2]),
-                leaf=_leaf(operation, width),
-                opens=(float(x), float(y)),
-                both="DOUBLE_SWING" in operation or "OPPOSITE" in operation,
-            )
-
-
-def _leaf(operation: str, width: float) -> float:
-    """Width of a leaf that opens about a hinge [m]; zero: none does, NaN: not stated."""
-    if not operation:
-        return math.nan
-    if any(word in operation for word in WITHOUT_LEAF):
-        return 0.0
-    return width / 2 if operation.startswith("DOUBLE_DOOR") else width
-
-
-def _told_apart(flights: Sequence[Flight]) -> Iterator[Flight]:
-    """Flights with identities of their own."""
-    total = Counter(each.identity for each in flights)
-    seen: Counter[str] = Counter()
-    for each in sorted(flights, key=lambda one: float(one.estimate.middle[0, 2])):
-        seen[each.identity] += 1
-        if total[each.identity] == 1:
-            yield each
-            continue
-        number = seen[each.identity]
-        yield replace(
-            each,
-            identity=f"{each.identity}.{number}",
-            name=f"{each.name} {number}",
-            parents=(each.identity, each.name, *each.parents),
-        )
-
-
-def _named_apart(flights: Sequence[Flight]) -> tuple[Flight, ...]:
-    """Flights with names of their own; the model's one still means all of them."""
-    total = Counter(each.name for each in flights)
-    seen: Counter[str] = Counter()
-    found = []
-    for each in flights:
-        seen[each.name] += 1
-        more = total[each.name] > 1
-        name = f"{each.name} {seen[each.name]}" if more else each.name
-        parents = (each.name, *each.parents) if more else each.parents
-        found.append(replace(each, name=name, parents=parents))
-    return tuple(found)

@@ -4,6 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,6 +59,9 @@ class Flight:
     category: str
     parents: tuple[str, ...]
     """GlobalIds and names by which it is meant too: of the whole staircase."""
+    elements: tuple[str, ...]
+    """GlobalIds of all that its treads are drawn as, the one with most of them first, and of what
+    these are part of."""
     storey: str
     """Name of the storey that it belongs to."""
     estimate: FlightEstimate
@@ -67,7 +71,33 @@ class Flight:
     """Key of the floor at its foot."""
     upper: str
     """Key of the floor at its head."""
-    stated: tuple[Stated, ...] = ()
+
+
+Outcome = Literal["judged", "judged in part", "refused", "not understood"]
+"""What became of an element: flights, flights and something else, a reason, or no idea."""
+
+
+@dataclass(frozen=True, eq=False)
+class Element:
+    """A stair, a flight, a ramp, a lift or an escalator of the file, and what became of it."""
+
+    identity: str
+    """GlobalId."""
+    name: str
+    category: str
+    kind: str
+    """Stair, flight, ramp, ramp flight, lift, escalator, moving walk, transport element; empty: it
+    is called none of these, and flights are drawn as it."""
+    storey: str
+    """Name of the storey that the file puts it into; empty: none."""
+    flights: tuple[str, ...]
+    """Identities of its flights."""
+    outcome: Outcome
+    """Of itself and of its parts."""
+    refusals: tuple[Refusal, ...]
+    """Why what is drawn of itself is not judged; of its parts they say it themselves."""
+    stated: tuple[Stated, ...]
+    """What it states, beside what all of its flights are."""
 
 
 @dataclass(frozen=True)
@@ -120,8 +150,14 @@ class Building:
     floors: Mapping[str, Floor]
     flights: tuple[Flight, ...]
     doors: tuple[Doorway, ...]
-    refusals: tuple[Refusal, ...]
+    elements: tuple[Element, ...]
+    """All elements for going up, and others that flights are drawn as."""
     provenance: Provenance
+
+    @property
+    def refusals(self) -> tuple[Refusal, ...]:
+        """Why elements are not judged, or not all of them."""
+        return tuple(refusal for each in self.elements for refusal in each.refusals)
 
     @cached_property
     def staircases(self) -> tuple[tuple[Flight, ...], ...]:

@@ -30,6 +30,8 @@ class Refusal:
     numbers: Mapping[str, float | str]
     """What was measured, by the names that the sentence uses."""
     provenance: Provenance
+    name: str = ""
+    """What the file calls the part of it that this is about."""
 
     def __str__(self) -> str:
         return sentence(self.why, self.numbers)
@@ -47,6 +49,8 @@ class LandingEstimate:
     """Height in the frame of the flights [m]."""
     turn: float = 0.0
     """Heading of the flight above less that of the flight below, to the left positive [rad]."""
+    leaf: float = 0.0
+    """Leaf of a door opposite that opens onto it [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,6 +89,7 @@ class StairsEstimate:
                 self.name if len(self.flights) == 1 else f"{self.name}-{number + 1}",
                 lower=below.depth,
                 upper=above.depth,
+                leaves=(below.leaf, above.leaf),
             )
             for number, (flight, below, above) in enumerate(
                 zip(self.flights, self.landings, self.landings[1:], strict=False)

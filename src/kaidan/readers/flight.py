@@ -98,6 +98,11 @@ class FlightEstimate:
     overhang: float = 0.0
     """Overhang of the nosings over the treads below [m]."""
     open_risers: bool = False
+    drawn_first: float = math.nan
+    """First riser as it is drawn, where the file states another, which counts here [m]; NaN: not
+    so."""
+    drawn_last: float = math.nan
+    """Last riser likewise [m]."""
     notes: tuple[str, ...] = ()
     """What the reader must know, as sentences."""
 
@@ -157,6 +162,22 @@ class FlightEstimate:
             gap.end is not None and gap.start is not None and before < gap.start < last
             and gap.end > last - UNCHECKED for gap in self.gaps
         )  # fmt: skip
+
+    @property
+    def drawn_rises(self) -> Array:
+        """Risers from bottom to top as they were drawn or measured, shape (m,) [m]."""
+        found = np.diff(self.line()[:, 1], prepend=0.0)
+        for end, drawn in ((0, self.drawn_first), (-1, self.drawn_last)):
+            found[end] = drawn if math.isfinite(drawn) else found[end]
+        return found
+
+    @property
+    def typical_step(self) -> tuple[float, float]:
+        """Middle one of the rises between the end risers, and of the goings [m]; NaN: one step."""
+        if len(self) < 2:
+            return math.nan, math.nan
+        going, rise = np.diff(self.line(), axis=0).T
+        return float(np.median(rise[:-1] if len(rise) > 1 else rise)), float(np.median(going))
 
     @property
     def last_rise(self) -> tuple[float, float]:
@@ -259,7 +280,12 @@ class FlightEstimate:
         return first, math.sqrt(max(apart, 0.0))
 
     def stairs(
-        self, name: str = "stairs", *, lower: float = math.nan, upper: float = math.nan
+        self,
+        name: str = "stairs",
+        *,
+        lower: float = math.nan,
+        upper: float = math.nan,
+        leaves: tuple[float, float] = (0.0, 0.0),
     ) -> Stairs:
         """Data sheet: uniform where the steps are all alike as far as can be seen, else their list.
 
@@ -269,6 +295,8 @@ class FlightEstimate:
             What people call it.
         lower, upper : float
             Lengths of the landings [m]; NaN: not seen.
+        leaves : (float, float)
+            Leaves of doors opposite that open onto the lower and onto the upper one [m].
 
         Returns
         -------
@@ -319,6 +347,10 @@ class FlightEstimate:
                 first_rise=min(first, LARGEST_DOUBT),
                 last_rise=min(last, LARGEST_DOUBT),
             )
+        opening = zip(("lower_leaf", "upper_leaf"), leaves, strict=True)
+        sheet |= {key: leaf for key, leaf in opening if leaf > 0.0}
+        drawn = {"first_rise_drawn": self.drawn_first, "last_rise_drawn": self.drawn_last}
+        sheet |= {key: round(v, MICROMETRE) for key, v in drawn.items() if math.isfinite(v)}
         seen = {"foot_seen": self.begins, "head_seen": self.ends}
         sheet |= {key: False for key, was in seen.items() if not was}
         sheet |= {"clear": self.clear, "gaps": self.gaps}

@@ -238,6 +238,7 @@ def _exact(question: Question) -> dict[str, Any]:
         "acceleration": question.acceleration,
         "speed": question.speed,
         "yaw": question.yaw,
+        "uniform_across": question.uniform_across,
         "fall_reserve": question.fall_reserve,
         "risk": question.risk,
         "accept": question.accept.value,

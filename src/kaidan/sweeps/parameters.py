@@ -28,6 +28,7 @@ WORDS = (
     "payload",
     "accept",
     "model",
+    "uniform_across",
     "override",
     "uncertainty",
 )

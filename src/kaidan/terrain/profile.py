@@ -25,6 +25,7 @@ from kaidan.terrain.doubt import (
 )
 from kaidan.terrain.flights import line_of_flights
 from kaidan.terrain.polyline import ROUGHNESS, convex_corners, frozen, measured_line, upper_envelope
+from kaidan.terrain.shape import Shape, is_level, shape_of
 from kaidan.terrain.stairs import Stairs
 from kaidan.terrain.stairs_uncertainty import StairsUncertainty
 
@@ -271,10 +272,15 @@ class Profile:
         """Height of the last point above the first [m]; negative: the profile falls."""
         return float(self.points[-1, 1] - self.points[0, 1])
 
+    @cached_property
+    def shape(self) -> Shape:
+        """What it is from its lower to its upper end: see `kaidan.terrain.shape`."""
+        return shape_of(self.points, self.nosings, self.edges)
+
     @property
     def is_level(self) -> bool:
-        """Whether it is a floor without a step: all points within `ROUGHNESS`."""
-        return float(np.ptp(self.points[:, 1])) <= ROUGHNESS
+        """Whether it is a floor without a step."""
+        return is_level(self.points, self.edges)
 
     @property
     def falls(self) -> bool:

@@ -93,6 +93,15 @@ class Stairs(Sheet):
     last_rise: float | None = quantity(
         "m", *_ODD_RISE, "last riser of a uniform flight, where it differs", default=None
     )
+    first_rise_drawn: float | None = quantity(
+        "m",
+        *_ODD_RISE,
+        "first riser as drawn, where figures of the same file make it the one stated here",
+        default=None,
+    )
+    last_rise_drawn: float | None = quantity(
+        "m", *_ODD_RISE, "last riser as drawn, likewise", default=None
+    )
     rises: tuple[_Rise, ...] | None = Field(
         default=None,
         min_length=2,
@@ -397,6 +406,12 @@ class Stairs(Sheet):
             return ((self.rise, self.going),) * max(1, self.steps - 2)
         pairs = tuple(zip(self.step_rises[1:], self.step_goings, strict=True))
         return pairs[:-1] if self.head_seen and len(pairs) > 2 else pairs
+
+    @property
+    def mean_step(self) -> tuple[float, float]:
+        """Mean rise and going of the regular steps [m]."""
+        rises, goings = zip(*self.regular_steps, strict=True)
+        return sum(rises) / len(rises), sum(goings) / len(goings)
 
     @property
     def twisted(self) -> bool:

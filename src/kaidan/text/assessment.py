@@ -10,7 +10,7 @@ from kaidan.modes import (
     Undecided,
     Verdict,
 )
-from kaidan.text import dynamic, limits, measuring, plan, traction, turning
+from kaidan.text import dynamic, limits, measuring, plan, terrain, traction, turning
 from kaidan.text.tables import decimals
 from kaidan.text.unweighed import rows, thresholds
 from kaidan.text.words import place, subject
@@ -51,6 +51,9 @@ def text(answer: "Assessment") -> str:
     if answer.verdict != "outside-model":
         lines.append(_row("margin", f"{margin_line(answer)}, on {stairs_line(answer)}"))
     lines.append(_row("friction", friction_line(answer)))
+    assumed = terrain.assumed(answer.question)
+    if assumed:
+        lines.append(_row("assumed", assumed))
     slip = None if answer.traction is None else traction.slip(answer.question, answer.traction)
     if slip is not None:
         lines.append(_row("grousers", slip))

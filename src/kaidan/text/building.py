@@ -1,5 +1,6 @@
 """A building and its flights, as text."""
 
+from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from kaidan.modes import Phase, Verdict
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
         BuildingAnswer,
         CellShown,
         DoorShown,
+        ElementShown,
         FlightShown,
         WayShown,
     )
@@ -22,16 +24,21 @@ _HEADS = {
     "storey": "storey",
     "steps": "n",
     "rise_m": "rise",
+    "first_rise_m": "first",
+    "last_rise_m": "last",
     "going_m": "going",
     "angle_deg": "[deg]",
     "width_m": "width",
     "headroom_m": "headroom",
 }
 
+OUTCOMES = ("judged", "judged in part", "refused", "not understood")
+"""What may have become of an element, the best first."""
+
 
 def text(found: "BuildingAnswer") -> str:
     """The flights and their verdicts as a table, then the ways to each storey."""
-    lines = [heading(found)]
+    lines = [heading(found), *filter(None, [account(found)])]
     if found.flights:
         lines += ["", _table(found), "", key(), *(f"  {each}" for each in plans(found))]
     for each in found.flights:
@@ -42,10 +49,9 @@ def text(found: "BuildingAnswer") -> str:
         for way in found.ways:
             if way.robot == robot:
                 lines += way_lines(found, way)
-    if found.refusals:
-        lines += ["", "Not judged"]
-    lines += [f"  {each}" for each in found.refusals]
-    lines += [f"Note: {each}." for each in found.notes]
+    said = not_judged(found)
+    lines += ["", "Not judged", *(f"  {each}" for each in said)] if said else []
+    lines += [f"Note: {each}{'' if each.endswith('?') else '.'}" for each in notes(found)]
     return "\n".join(lines)
 
 
@@ -57,6 +63,35 @@ def heading(found: "BuildingAnswer") -> str:
         f"{found.path}: {found.ifc_schema}, {_count(len(found.storeys), 'storey')}, {flights}; "
         f"going {found.direction}, {ground}"
     )
+
+
+def account(found: "BuildingAnswer") -> str:
+    """How many elements for going up there are, and what became of them; empty: there are none."""
+    if not found.elements:
+        return ""
+    kinds = Counter(each.kind or "other element" for each in found.elements)
+    outcomes = Counter(str(each.outcome) for each in found.elements)
+    parts = ", ".join(_count(number, kind) for kind, number in kinds.items())
+    became = ", ".join(f"{outcomes[name]} {name}" for name in OUTCOMES if outcomes[name])
+    return f"{parts}: {became}"
+
+
+def not_judged(found: "BuildingAnswer") -> list[str]:
+    """Elements that are not judged, or not all of them, each with its reason."""
+    return [f"{named(each)}: {why}" for each in found.elements for why in each.reasons]
+
+
+def named(element: "ElementShown") -> str:
+    """Name of an element, what it is, and its GlobalId."""
+    return f"{element.name} ({element.kind or element.category}, {element.identity})"
+
+
+def notes(found: "BuildingAnswer") -> list[str]:
+    """What was repaired in the file, and what elements state otherwise than they are drawn."""
+    return [
+        *found.notes,
+        *(f"{each.name}: {note}" for each in found.elements for note in each.notes),
+    ]
 
 
 def key() -> str:
@@ -102,9 +137,11 @@ def steps_of(flight: "FlightShown") -> str:
     """Steps of a flight in a few words."""
     width, headroom = flight.width_m * 1e3, flight.headroom_m
     above = "" if headroom is None else f", headroom {headroom * 1e3:.0f}"
+    first = "not drawn" if flight.first_rise_m is None else f"{flight.first_rise_m * 1e3:.1f}"
     return (
         f"{flight.steps} risers of {flight.rise_m * 1e3:.1f} by {flight.going_m * 1e3:.1f} mm, "
-        f"{flight.angle_deg:.1f} deg, width {width:.0f}{above} mm"
+        f"first {first}, last {flight.last_rise_m * 1e3:.1f} mm, {flight.angle_deg:.1f} deg, "
+        f"width {width:.0f}{above} mm"
     )
 
 
@@ -117,6 +154,9 @@ def cell_text(cell: "CellShown") -> str:
 
 def disagreement(one: "Stated") -> str:
     """A stated figure that no unit makes the measured one, with both numbers."""
+    if one.quantity in ("height", "finish"):
+        said = f"drawn {one.measured:.2f} m, stated {one.value:.2f} m ({one.name})"
+        return f"{said}: floor finish missing?" if one.quantity == "finish" else said
     if one.quantity in ("risers", "treads"):
         return f"{one.name} states {one.value:.0f} {one.quantity}, {one.measured:.0f} are drawn"
     return (

@@ -3,7 +3,16 @@
 from html import escape
 from typing import TYPE_CHECKING
 
-from kaidan.text.building import cell_text, heading, key, plans, steps_of
+from kaidan.text.building import (
+    account,
+    cell_text,
+    heading,
+    key,
+    not_judged,
+    notes,
+    plans,
+    steps_of,
+)
 
 if TYPE_CHECKING:
     from kaidan.verbs.building.answer import BuildingAnswer
@@ -35,6 +44,7 @@ def page(found: "BuildingAnswer", plan: str) -> str:
         '<html lang="en"><head><meta charset="utf-8"><title>kaidan building</title>',
         f"<style>{_STYLE}</style></head><body>",
         f"<h1>{escape(found.path.rpartition('/')[2])}</h1><p>{escape(heading(found))}</p>",
+        f"<p>{escape(account(found))}</p>",
         "<h2>Flights</h2>",
         _flights(found),
         f"<p>{escape(key())}</p>",
@@ -42,8 +52,8 @@ def page(found: "BuildingAnswer", plan: str) -> str:
         f"<h2>Ways from {escape(found.start)}</h2>" if found.ways else "",
         _ways(found),
         "<h2>Plan</h2>" + plan[plan.find("<svg") :] if plan else "",
-        _list("Not judged", found.refusals),
-        _list("Notes", [*found.notes, *_notes(found)]),
+        _list("Not judged", not_judged(found)),
+        _list("Notes", [*notes(found), *_of_flights(found)]),
         "</body></html>",
     ]
     return "\n".join(part for part in parts if part) + "\n"
@@ -83,7 +93,7 @@ def _ways(found: "BuildingAnswer") -> str:
     return f"<table><tr>{heads}</tr>" + "\n".join(rows) + "</table>" if rows else ""
 
 
-def _notes(found: "BuildingAnswer") -> list[str]:
+def _of_flights(found: "BuildingAnswer") -> list[str]:
     return [f"{each.name}: {note}" for each in found.flights for note in each.notes]
 
 

@@ -24,8 +24,6 @@ def notes(question: "Question", found: "Traverse", *, driven_risers: int | None)
             f"The risers are alike, so the traverse repeats itself: {driven_risers} of them are "
             "driven, and steps are counted on those."
         )
-    if found.profile.is_level:
-        each.append("The terrain is a floor without a step.")
     if question.yaw:
         each.append(
             "At a yaw both tracks' contacts on the flight judge tipping; entering, landing and "

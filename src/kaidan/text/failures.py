@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from kaidan.modes import FAILURE_MODES, SUPPLIES, Verdict
-from kaidan.text import dynamic, gaps, traction, turning, unweighed
+from kaidan.text import dynamic, gaps, terrain, traction, turning, unweighed
 from kaidan.text.words import place
 
 if TYPE_CHECKING:
@@ -206,6 +206,29 @@ def _room(
     return f"A landing is {short:.0f} mm shorter than the robot."
 
 
+def _jams(
+    question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
+) -> str:
+    spare = finding.margin(question.risk)
+    if spare == 0.0:
+        return (
+            "Its track has a gap, and the part behind it comes against a riser"
+            f"{at(conclusion)}. There such robots jammed in simulations."
+        )
+    needed = found.required_friction
+    most = math.tan(math.atan(needed) + spare)
+    return (
+        f"Its track has a gap, and it needs a friction of {needed:.2f}{at(conclusion)}. Beyond "
+        f"{most:.2f} such robots jammed in simulations."
+    )
+
+
+def _across(
+    question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
+) -> str:
+    return terrain.UNKNOWN
+
+
 def _unseen(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
@@ -213,6 +236,25 @@ def _unseen(
         "The floor before the first riser was not seen, so that riser may be higher than the "
         "others: scan it again with the floor in view."
     )
+
+
+def _finish(
+    question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
+) -> str:
+    """Heights of the flight, and the end riser that makes the difference."""
+    flight = next(one for one in question.flights if one.first_rise_drawn or one.last_rise_drawn)
+    stated, drawn = list(flight.step_rises), list(flight.step_rises)
+    said = []
+    ends = (("first", 0, flight.first_rise_drawn), ("last", -1, flight.last_rise_drawn))
+    for name, end, rise in ends:
+        if rise is not None:
+            drawn[end] = rise
+            said.append(
+                f"{name} riser {1e3 * rise:.0f} mm drawn, {1e3 * stated[end]:.0f} mm stated"
+            )
+    heights = [f"{sum(each):.2f} m" for each in (drawn, stated)]
+    differs = f"Drawn {heights[0]}, stated {heights[1]}: f" if heights[0] != heights[1] else "F"
+    return f"{differs}loor finish missing? Measure it: {', '.join(said)}."
 
 
 def _too_fast(
@@ -335,6 +377,9 @@ SAYINGS: dict[str, Saying] = {
     "landing_room": _room,
     "turning": _turns,
     "foot_unseen": _unseen,
+    "gap_jam": _jams,
+    "across": _across,
+    "floor_finish": _finish,
     "posture_change": _changes,
     "flipper_torque": _torque,
     "posture_tolerance": _tolerance,

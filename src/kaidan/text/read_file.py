@@ -55,7 +55,8 @@ def text(found: "FileAnswer") -> str:
     for staircase in found.staircases:
         lines += _staircase(staircase)
     for refusal in found.refusals:
-        where = f"{refusal.element}: " if refusal.element else ""
+        where = " #".join(filter(None, (refusal.name, refusal.element)))
+        where = f"{where}: " if where else ""
         lines.append(f"  {where}{refusal.sentence}")
     lines += [f"  {note}" for note in found.notes]
     return "\n".join(lines)
@@ -119,6 +120,16 @@ def _flight(flight: "FlightRead", name: str) -> list[str]:
             f"  {'':<10}{flight.angle_deg:.2f} +- {flight.angle_sigma_deg:.2f} deg, nosing to "
             f"nosing {_mm(flight.spacing_m)} +- {_mm(flight.spacing_sigma_m)}",
         ]
+    ends = [
+        f"{label} {_mm(value)}"
+        for label, value in (
+            ("first riser", flight.first_rise_m),
+            ("last riser", flight.last_rise_m),
+        )
+        if value is not None
+    ]
+    if ends:
+        lines.append(f"  {'':<10}{', '.join(ends)}")
     seen = [
         f"{label} {_mm(value)}"
         for label, value in (("clear width", flight.width_m), ("headroom", flight.headroom_m))

@@ -8,7 +8,23 @@ REFUSALS: Mapping[str, str] = {
     "rubble": "Its heights do not repeat as steps do: {residual_mm:.0f} mm are left over.",
     "curved": "It is a curved flight: it turns by {turn_deg:.0f} deg.",
     "winders": "It has winders: its nosings turn by {turn_deg:.0f} deg.",
-    "ramp-element": "It is drawn as a ramp: there are no steps to judge.",
+    "ramp-element": "It is a ramp of {angle_deg:.1f} deg, {height_m:.2f} m high: there are no "
+    "steps to judge.",
+    "lift": "It is a lift: robots are not judged on lifts.",
+    "escalator": "It is an escalator: its steps move, so they are not judged as stairs.",
+    "moving-walk": "It is a moving walk: it moves, so it is not judged.",
+    "transport": "It is a transport element of no stated type: it is not judged.",
+    "single-step": "It is a single step of {rise_mm:.0f} mm: only flights of two risers or more "
+    "are judged.",
+    "no-sheet": "Its steps are none that stairs have: {reason}.",
+    "no-flight": "Not understood: its {count} level surfaces, from {low_m:.2f} to {high_m:.2f} m, "
+    "make no straight flight.",
+    "left-over": "Not understood: its level surfaces from {low_m:.2f} to {high_m:.2f} m belong to "
+    "none of its flights.",
+    "no-treads": "Not understood: nothing of it is level and free above.",
+    "no-slope": "Not understood: it is called a ramp, and nothing of it slopes.",
+    "undrawn": "Not understood: nothing of it is drawn.",
+    "damaged": "Not understood: no shape can be made of what is drawn.",
     "ladder": "It is a ladder of {angle_deg:.0f} deg; tracks take up to 60 deg.",
     "flat": "It is level: its heights differ by {height_mm:.0f} mm.",
     "none": "No stairs are in it.",

@@ -4,7 +4,7 @@ import math
 from typing import TYPE_CHECKING
 
 from kaidan.modes import FAILURE_MODES, MODELS, Undecided, Verdict
-from kaidan.text import dynamic, failures, turning
+from kaidan.text import dynamic, failures, terrain, turning
 
 if TYPE_CHECKING:
     from kaidan.assessment.verdict import Conclusion
@@ -58,6 +58,7 @@ def notes(question: "Question", found: "Findings", conclusion: "Conclusion") -> 
             each.append(say(question, found, own, finding))
     turns = failures.figure_of(found, "turns") or ()
     each += [*turning.lines(turns), turning.IN_LINE] if turns else []
+    each += terrain.note(question)
     each += found.notes
     for name, value in (("theta_d", question.allowance_d), ("theta_M", question.allowance_M)):
         if value.source == "default":

@@ -9,7 +9,7 @@ import numpy as np
 from kaidan.assessment import judged, off_plan
 from kaidan.assessment.answer import Assessment
 from kaidan.assessment.plan_search import Found
-from kaidan.models import planned
+from kaidan.models import beside, planned
 from kaidan.models.planned import Part, Planned
 from kaidan.modes import SUPPLIES, Undecided
 from kaidan.question import Question
@@ -52,7 +52,7 @@ def planned_report(
     -------
     TraverseReport
     """
-    findings = off_plan(question, planned.findings(question, driven), search)
+    findings = off_plan(question, beside(question, planned.findings(question, driven)), search)
     answer = judged(question, findings, advice=False, search=search)
     governing = _governing(driven, answer)
     share = max(most // len(driven.parts), 2)

@@ -32,6 +32,8 @@ class RefusalRead(Part):
     """Reason in words, with its numbers."""
     element: str
     """Part of the file; empty: all of it."""
+    name: str
+    """What the file calls that part."""
     numbers: dict[str, float | str]
     """What was measured."""
 
@@ -223,5 +225,6 @@ def _refusal(found: Refusal) -> RefusalRead:
         why=found.why,
         sentence=str(found),
         element=found.provenance.element,
+        name=found.name,
         numbers=dict(found.numbers),
     )

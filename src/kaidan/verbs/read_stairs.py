@@ -31,6 +31,10 @@ class FlightRead(Part):
     """Mean rise of a step [m]; null: one step alone."""
     going_m: float | None
     """Mean going of a step [m]."""
+    first_rise_m: float | None
+    """First riser as drawn or measured [m]; null: the lower floor was not seen."""
+    last_rise_m: float | None
+    """Last riser likewise [m]; null: one step alone."""
     angle_deg: float | None
     """Slope of the line through the nosings [deg]."""
     angle_sigma_deg: float | None
@@ -136,13 +140,16 @@ def _flight(
 ) -> FlightRead:
     regular = flight.regular
     if sheet is not None:  # a list of steps has the mean of those that are regular
-        rise_m, going_m = (sum(each) / len(each) for each in zip(*sheet.regular_steps, strict=True))
+        rise_m, going_m = sheet.mean_step
         regular = replace(regular, rise=rise_m, going=going_m)
+    rises = flight.drawn_rises
     going, rise = flight.doubt_of_a_step()
     return FlightRead(
         steps=len(flight),
         rise_m=regular.rise,
         going_m=regular.going,
+        first_rise_m=float(rises[0]) if flight.begins else None,
+        last_rise_m=float(rises[-1]) if len(rises) > 1 else None,
         angle_deg=math.degrees(regular.angle),
         angle_sigma_deg=math.degrees(flight.angle_sigma),
         spacing_m=regular.spacing,

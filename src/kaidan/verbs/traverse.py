@@ -11,7 +11,7 @@ from kaidan.assessment.plan_search import Found
 from kaidan.contact import Placement as Place
 from kaidan.contact import RotationRecord, rotated
 from kaidan.mechanics import STANDARD_GRAVITY
-from kaidan.models import planned
+from kaidan.models import beside, planned
 from kaidan.models.planned import Planned
 from kaidan.models.quasi_static import Basis, findings_of, traverse_of
 from kaidan.modes import SUPPLIES, Phase, Undecided
@@ -110,7 +110,8 @@ def traverse_report(
         from kaidan.verbs.planned_report import planned_report
 
         return planned_report(question, passage, most=most, search=search)
-    found = off_plan(question, findings_of(question, Basis(question, passage)), search)
+    found = beside(question, findings_of(question, Basis(question, passage)))
+    found = off_plan(question, found, search)
     assessment = judged(question, found, advice=False, search=search)
     return report_of(
         question, passage, assessment, governing=governing_row(passage, assessment), most=most

@@ -19,7 +19,7 @@ from starlette.exceptions import HTTPException
 from kaidan.errors import InputError, shown
 from kaidan.text.monitor import summary
 from kaidan.verbs.monitor import AlarmLimits, Sample
-from kaidan.verbs.monitor.live import LiveMonitor
+from kaidan.verbs.monitor.live import LiveMonitor, LiveState
 from kaidan.verbs.monitor.samples import NEEDED, OPTIONAL
 from kaidan.web.asking import live_question
 from kaidan.web.bodies import json_of
@@ -32,6 +32,8 @@ REMEMBERED = 1_200
 """States that who comes later is sent."""
 MOST_WATCHERS = 50
 """Most pages that watch a channel."""
+_AGAIN = 0.05
+"""When to look again for a sample while others are judged [s]."""
 UNKNOWN, TOO_MANY = 4404, 4429
 """Why a websocket is closed: no such channel; too many watch it."""
 
@@ -51,6 +53,7 @@ class Channel:
         self.watchers: set[asyncio.Queue[dict[str, Any]]] = set()
         self.fed = time.monotonic()
         self._turn = asyncio.Lock()
+        self._due: asyncio.TimerHandle | None = None
 
     def head(self) -> dict[str, Any]:
         """What a page must know before the first state."""
@@ -68,7 +71,9 @@ class Channel:
             "horizon_s": limits.horizon,
         }
 
-    async def feed(self, samples: list[Sample], *, again: bool = False) -> list[dict[str, Any]]:
+    async def feed(
+        self, samples: list[Sample], *, again: bool = False, recorded: bool = False
+    ) -> list[dict[str, Any]]:
         """States after samples, which those who watch get too.
 
         Parameters
@@ -76,7 +81,10 @@ class Channel:
         samples : list of Sample
         again : bool
             Whether the climb begins anew.
+        recorded : bool
+            Whether their stamps alone tell the time: they may come when they like.
         """
+        arrived = None if recorded else time.monotonic()
         async with self._turn:
             if again:
                 self.monitor = self.monitor.again()
@@ -84,18 +92,36 @@ class Channel:
                 self._tell(self.head())
             self.fed = time.monotonic()
             watch = self.monitor
-            made = await run_in_threadpool(
-                lambda: [watch.feed(each).model_dump(mode="json") for each in samples]
+            states = await run_in_threadpool(
+                lambda: [_state(watch.feed(each, arrived)) for each in samples]
             )
-            states = [{"kind": "state", **each} for each in made]
-            self.states.extend(states)
             for each in states:
-                self._tell(each)
-            return states
+                self._say(each)
+        if states:
+            self._expect(states[-1]["due_s"])
+        return states
+
+    def _say(self, state: dict[str, Any]) -> None:
+        self.states.append(state)
+        self._tell(state)
+
+    def _expect(self, due: float | None) -> None:
+        """Look in time [s] whether the next sample has come; None: no more is expected."""
+        if self._due is not None:
+            self._due.cancel()
+        loop = asyncio.get_running_loop()
+        self._due = None if due is None else loop.call_later(due, self._look)
+
+    def _look(self) -> None:
+        if self._turn.locked():  # a sample is being judged
+            self._expect(_AGAIN)
+        elif missing := self.monitor.overdue(time.monotonic()):
+            self._say(_state(missing))
 
     def end(self) -> dict[str, Any]:
         """Summary of the climb, which those who watch get too."""
         said = {"kind": "end", "text": summary(self.monitor.answer())}
+        self._expect(None)
         self._tell(said)
         return said
 
@@ -150,12 +176,15 @@ def add(app: FastAPI) -> None:
 
     @app.post("/api/live/{name}")
     async def feed(name: str, request: Request) -> dict[str, Any]:
-        """Samples of a climb; "again": from its start; "end": with the summary."""
+        """Samples of a climb; "again": from its start; "recorded"; "end": with the summary."""
         channel, body = known(name), await json_of(request)
-        for key in body.keys() - {"samples", "again", "end"}:
-            raise InputError(f"live: {shown(key)} is not known; known: again, end, samples")
+        for key in body.keys() - {"samples", "again", "end", "recorded"}:
+            raise InputError(
+                f"live: {shown(key)} is not known; known: again, end, recorded, samples"
+            )
         samples = samples_of(body.get("samples") or [])
-        states = await channel.feed(samples, again=bool(body.get("again")))
+        again, recorded = bool(body.get("again")), bool(body.get("recorded"))
+        states = await channel.feed(samples, again=again, recorded=recorded)
         said: dict[str, Any] = {"states": states}
         return said | ({"summary": channel.end()["text"]} if body.get("end") else {})
 
@@ -186,6 +215,10 @@ def add(app: FastAPI) -> None:
             gone.cancel()
             with suppress(WebSocketDisconnect, RuntimeError):  # it has gone already
                 await socket.close()
+
+
+def _state(state: LiveState) -> dict[str, Any]:
+    return {"kind": "state", **state.model_dump(mode="json")}
 
 
 async def _until_gone(socket: WebSocket) -> None:

@@ -25,7 +25,7 @@ def _parsed(monkeypatch):
 
 def drawn(house, folder):
     path = house.write(folder / "house.ifc")
-    (found,) = building_of(read(Source.of(path), Hints(), around=True)).flights
+    (found,) = building_of(read(Source.of(path), Hints())).flights
     return found.estimate
 
 
@@ -124,7 +124,7 @@ def test_what_nobody_may_be_walled_in_by_is_no_flight_of_its_own(tmp_path):
     house.add("IfcStairFlight", "next", [monolith(house, [RISE] * 4, [GOING] * 3)],
               at=(END + 0.3, 0, HEAD))  # fmt: skip
     path = house.write(tmp_path / "house.ifc")
-    for each in building_of(read(Source.of(path), Hints(), around=True)).flights:
+    for each in building_of(read(Source.of(path), Hints())).flights:
         assert each.estimate.width == pytest.approx(1.0, abs=NEAR)
 
 

@@ -40,7 +40,7 @@ def _parsed(monkeypatch):
 def drawn(house, folder):
     """The flight that was drawn."""
     path = house.write(folder / "house.ifc")
-    (found,) = building_of(read(Source.of(path), Hints(), around=True)).flights
+    (found,) = building_of(read(Source.of(path), Hints())).flights
     return found.estimate
 
 
@@ -177,7 +177,7 @@ def test_one_tread_that_is_missing_is_a_gap_of_both_parts(tmp_path):
         for k in range(9) if k != 4
     ])  # fmt: skip
     path = house.write(tmp_path / "house.ifc")
-    lower, upper = building_of(read(Source.of(path), Hints(), around=True)).flights
+    lower, upper = building_of(read(Source.of(path), Hints())).flights
     assert spans(lower.estimate) == [pytest.approx((4 * GOING, 5 * GOING), abs=NEAR)]
     assert spans(upper.estimate)[-1] == pytest.approx((-GOING, 0.0), abs=NEAR)
 

@@ -23,8 +23,8 @@ NEAR = 1e-4
 """What the reader promises of a drawn step [m]."""
 
 
-def building(path, *, around=True):
-    return building_of(read(Source.of(path), Hints(), around=around))
+def building(path):
+    return building_of(read(Source.of(path), Hints()))
 
 
 def drawn(house):
@@ -244,7 +244,7 @@ def stated(tmp_path_factory):
 
 
 def test_stated_figures_are_checked_in_every_plausible_unit(stated):
-    (flight,) = building(stated).flights
+    (flight,) = building(stated).elements
     found = {each.name: (each.unit, each.agrees) for each in flight.stated}
     assert found == {
         "RiserHeight": ("ft", True),

@@ -1,6 +1,8 @@
 """Live climbs: what is fed comes out, to who knows the climb's name, and as the monitor says it."""
 
 import json
+import subprocess
+import sys
 
 import pytest
 
@@ -8,6 +10,7 @@ import kaidan
 from climbs import SLOPE, climb, csv_of, recording
 from kaidan import Stairs
 from kaidan.cli import run
+from kaidan.text.monitor import summary
 from kaidan.web.asking import live_question
 
 BODY = {"robot": "kenaf", "stairs": {"angle": SLOPE, "nosing_spacing": 0.150}}
@@ -42,14 +45,49 @@ def test_states_are_those_of_the_monitor_and_come_to_who_watches(client):
 
 def test_who_comes_later_is_sent_what_was_and_again_begins_anew(client):
     name = client.post("/api/live", json=BODY).json()["id"]
-    client.post(f"/api/live/{name}", json={"samples": ROWS[:3]})
+    client.post(f"/api/live/{name}", json={"samples": ROWS[:3], "recorded": True})
     with watched(client, name) as socket:
         assert [json.loads(socket.recv(5))["kind"] for _ in range(4)] == ["begin"] + 3 * ["state"]
         ended = client.post(
-            f"/api/live/{name}", json={"samples": ROWS[:1], "again": True, "end": True}
+            f"/api/live/{name}",
+            json={"samples": ROWS[:1], "again": True, "end": True, "recorded": True},
         ).json()
         assert [json.loads(socket.recv(5))["kind"] for _ in range(3)] == ["begin", "state", "end"]
     assert ended["summary"].startswith("1 samples, 0 not judged")
+
+
+def test_a_sensor_that_falls_silent_is_said_to_who_watches_and_a_recording_never_is(client):
+    name = client.post("/api/live", json=BODY).json()["id"]
+    with watched(client, name) as socket:
+        client.post(f"/api/live/{name}", json={"samples": ROWS[:20], "recorded": True})
+        client.post(f"/api/live/{name}", json={"samples": [ROWS[20]]})
+        came = [json.loads(socket.recv(5)) for _ in range(1 + 21)]
+        assert (came[-2]["due_s"], came[-1]["due_s"]) == (None, pytest.approx(0.2, abs=0.01))
+        missing = json.loads(socket.recv(5))
+        assert (missing["status"], missing["causes"]) == ("missing", ["silent"])
+        assert missing["margin_deg"] is None
+        client.post(f"/api/live/{name}", json={"samples": ROWS[21:60], "recorded": True})
+        back = [json.loads(socket.recv(5))["causes"] for _ in ROWS[21:60]]
+        assert (back[0], back[-1]) == (["silent"], [])
+        with pytest.raises(TimeoutError):
+            socket.recv(0.5)
+    # who comes later knows it too
+    client.post(f"/api/live/{name}", json={"samples": [ROWS[60]]})
+    with watched(client, name) as socket:
+        while json.loads(socket.recv(5)).get("status") != "missing":
+            pass
+    ended = client.post(f"/api/live/{name}", json={"end": True}).json()["summary"]
+    assert "SILENT  No sample came in time." in ended
+
+
+def test_limits_of_the_sensor_are_taken(client):
+    limits = {"resolution": "0.1deg", "no_data_on": "3s"}
+    name = client.post("/api/live", json=BODY | {"limits": limits}).json()["id"]
+    slow = [
+        {"t": t, "inclination": 0.6, "inclination_rate": 0, "acceleration": 0} for t in range(9)
+    ]
+    states = client.post(f"/api/live/{name}", json={"samples": slow, "recorded": True}).json()
+    assert not any(state["alarm"] for state in states["states"])
 
 
 def test_an_unknown_climb_is_neither_seen_nor_fed(client):
@@ -69,7 +107,7 @@ def test_an_unknown_climb_is_neither_seen_nor_fed(client):
         ({"samples": [{"t": "x"}]}, "samples[0]: t = 'x' is not a number"),
         ({"samples": [{"x": 1}]}, "samples[0]: 'x' is not known; known: t, inclination"),
         ({"samples": [{}] * 2001}, "samples: 2001 are more than 2000 at once"),
-        ({"stop": 1}, "live: 'stop' is not known; known: again, end, samples"),
+        ({"stop": 1}, "live: 'stop' is not known; known: again, end, recorded, samples"),
         ({"end": True}, "no samples came"),
     ],
 )
@@ -84,6 +122,7 @@ def test_a_climb_that_cannot_be_watched_is_refused(client):
     for body, text in (
         ({"robot": "kenaf"}, "live: no stairs"),
         (BODY | {"limits": 5}, "limits = 5 is not a table"),
+        (BODY | {"limits": {"unjudged_on": 10.5}}, "alarm: unjudged_on is not a known field"),
         (BODY | {"limits": {"margin_on": 1.0, "margin_off": 0.5}}, "margin_off"),
         ({"robot": "kenaf", "stairs": [[0, 0], [1, 0]]}, "the monitor needs the spacing"),
     ):
@@ -127,7 +166,7 @@ def test_the_sender_brings_a_file_to_the_page(client, tmp_path, capsys):
     words = ["live", "kenaf", str(stairs), str(file), "--to", str(client.base_url)]
     assert run(words) == 0
     page, *said = capsys.readouterr().out.splitlines()
-    assert said[0] == str(kaidan.monitor("kenaf", flight, file)).splitlines()[-1]
+    assert said == summary(kaidan.monitor("kenaf", flight, file)).splitlines()
     name = page.partition("#")[2]
     assert page.endswith(f"/live.html#{name}")
     assert run([*words[:-1], page, "--pace", "1000"]) == 0  # a page that waits
@@ -135,6 +174,27 @@ def test_the_sender_brings_a_file_to_the_page(client, tmp_path, capsys):
     assert "--to 'nowhere' is no address" in capsys.readouterr().err
     assert run(["live", "kenaf", "ibc", str(file), "--to", "http://127.0.0.1:1/"]) == 2
     assert "no answer" in capsys.readouterr().err
+
+
+def test_a_sensor_that_is_sent_through_a_pipe_has_to_come_in_time(client, tmp_path):
+    stairs = tmp_path / "flight.toml"
+    stairs.write_text(Stairs.inclined(angle=SLOPE, nosing_spacing=0.150).to_toml())
+    words = ["live", "kenaf", str(stairs), "-", "--to", str(client.base_url), "--no-data", "1s"]
+    with subprocess.Popen(
+        [sys.executable, "-m", "kaidan", *words], encoding="utf-8",
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+    ) as process:  # fmt: skip
+        name = process.stdout.readline().strip().partition("#")[2]
+        with watched(client, name) as socket:
+            process.stdin.write(csv_of(climb()[:30]))
+            process.stdin.flush()
+            came = [json.loads(socket.recv(10)) for _ in range(1 + 30)]
+            assert {each["due_s"] for each in came[2:]} == {1.0}
+            missing = json.loads(socket.recv(10))
+            assert missing["causes"] == ["silent"]
+        process.stdin.close()
+        assert "SILENT  No sample came in time." in process.stdout.read()
+        assert process.wait(timeout=60) == 0
 
 
 def test_a_robot_without_stated_flippers_is_watched_stowed():

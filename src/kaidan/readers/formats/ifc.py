@@ -1,7 +1,7 @@
 """Building models: IFC2x3, IFC4 and IFC4x3 as text, alone or zipped, as `Bodies` in metres.
 
-What the parser rejects though its meaning is plain is repaired in the text: the name of an old
-schema, and ``*`` where nothing is derived. The parser itself runs in a process of its own, see
+What the parser rejects or skips though its meaning is plain is repaired in the text: the name of an
+old schema, and ``*`` where nothing is derived. The parser itself runs in a process of its own, see
 `kaidan.readers.formats.ifc_child`.
 """
 
@@ -38,24 +38,26 @@ END = b"END-ISO-10303-21"
 _TAIL = 4096
 _SCHEMA = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'([^']*)'[^)]*\)\s*\)", re.IGNORECASE)
 _KNOWN = {b"IFC2X3", b"IFC4", b"IFC4X3_ADD2"}
-_DERIVED = re.compile(
-    rb"(?<==)\s*(?!IFC(?:SIUNIT|GEOMETRICREPRESENTATIONSUBCONTEXT|ORIENTEDEDGE)\b)"
-    rb"IFC\w+\s*\((?:'(?:[^']|'')*'|[^;'])*;",
-    re.IGNORECASE,
-)
-"""Instances in which nothing is derived; those that are left out have ``*`` by right."""
-_STAR = re.compile(rb"(?<=[(,])(\s*)\*(\s*)(?=[,)])")
+_DERIVING = {
+    b"IFCSIUNIT",
+    b"IFCGEOMETRICREPRESENTATIONSUBCONTEXT",
+    b"IFCORIENTEDEDGE",
+    b"IFCMIRROREDPROFILEDEF",
+}
+"""Entities of which an attribute is derived, so that they have ``*`` by right."""
+_STAR = re.compile(rb"[(,]\s*\*")
+_INSTANCE = re.compile(rb"#\d+\s*=\s*(IFC\w+)", re.IGNORECASE)
+_LONGEST = 4096
+"""Bytes before an asterisk in which its instance begins."""
 
 
-def read(source: Source, hints: Hints, *, around: bool = False) -> Bodies:
-    """Stairs, slabs and railings of a building model, tessellated.
+def read(source: Source, hints: Hints) -> Bodies:
+    """Stairs and slabs of a building model, tessellated, and what limits the way over them.
 
     Parameters
     ----------
     source : Source
     hints : Hints
-    around : bool
-        Also what limits width, headroom and landings: walls, columns, beams, roofs, doors.
 
     Returns
     -------
@@ -71,7 +73,7 @@ def read(source: Source, hints: Hints, *, around: bool = False) -> Bodies:
     """
     notes: list[str] = []
     with _plain_file(source, notes) as path:
-        line, rest = _parsed(source, path, around)
+        line, rest = _parsed(source, path)
     try:
         found = json.loads(line)
         bodies = tuple(_bodies(source, found, rest))
@@ -151,21 +153,31 @@ def _repaired(source: Source, content: bytes | None, notes: list[str]) -> bytes 
     if END not in _tail(source, content):
         raise source.refuse(f"it ends in the middle: {END.decode()} is missing")
     sound = named in _KNOWN and match.group(0).count(b"'") == 2
-    old = named != b"IFC2X3" and meant == b"IFC2X3"
     if content is None:
         content = source.content()
-    starred = old or b"IFCLOCALPLACEMENT(*" in content
+    starred = list(_starred(content))
     if sound and not starred:
         return None
+    repaired = bytearray(content)
+    for place in starred:
+        repaired[place : place + 1] = b"$"
     if not sound:
         notes.append(f"its schema {named.decode()} is read as {meant.decode()}")
-        content = (
-            content[: match.start()] + b"FILE_SCHEMA(('" + meant + b"'))" + (content[match.end() :])
-        )
+        repaired[match.start() : match.end()] = b"FILE_SCHEMA(('" + meant + b"'))"
     if starred:
         notes.append("asterisks in it where nothing is derived are read as not given")
-        content = _DERIVED.sub(lambda one: _STAR.sub(rb"\1$\2", one.group()), content)
-    return content
+    return bytes(repaired)
+
+
+def _starred(content: bytes) -> Iterator[int]:
+    """Places of asterisks where nothing is derived: an attribute that is not given."""
+    for star in _STAR.finditer(content):
+        before = content[max(0, star.start() - _LONGEST) : star.end()]
+        instances = list(_INSTANCE.finditer(before))
+        if not instances or instances[-1].group(1).upper() in _DERIVING:
+            continue
+        if before.count(b"'", instances[-1].end()) % 2 == 0:  # in no text
+            yield star.end() - 1
 
 
 def _tail(source: Source, content: bytes | None) -> bytes:
@@ -186,7 +198,7 @@ def _meant(schema: bytes) -> bytes | None:
     return b"IFC4" if schema.startswith(b"IFC4") else None
 
 
-def _parsed(source: Source, path: Path, around: bool) -> tuple[bytes, bytes]:
+def _parsed(source: Source, path: Path) -> tuple[bytes, bytes]:
     """First line of the child's output, and the rest.
 
     Raises
@@ -196,7 +208,7 @@ def _parsed(source: Source, path: Path, around: bool) -> tuple[bytes, bytes]:
     """
     size = path.stat().st_size
     seconds = MOST_SECONDS + SECONDS_A_MB * size / 1e6
-    child = [sys.executable, ifc_child.__file__, str(path.absolute()), "around" if around else ""]
+    child = [sys.executable, ifc_child.__file__, str(path.absolute())]
     env = {**os.environ, ifc_child.MEMORY: str(MEMORY + MEMORY_A_BYTE * size)}
     try:
         done = subprocess.run(child, capture_output=True, timeout=seconds, env=env, check=False)

@@ -18,6 +18,7 @@ MEMORY = "KAIDAN_IFC_MEMORY"
 MANY = 1000
 """Elements from which several threads save more than they cost."""
 STAIRS = ("IfcStair", "IfcStairFlight", "IfcRamp", "IfcRampFlight")
+TRANSPORT = "IfcTransportElement"
 LEVELS = ("IfcSlab",)
 ROUND = ("IfcWall", "IfcColumn", "IfcBeam", "IfcRoof", "IfcCovering", "IfcDoor", "IfcCurtainWall")
 """What limits width, headroom and landings."""
@@ -29,9 +30,62 @@ LIKE_STAIRS = re.compile(
     re.IGNORECASE,
 )
 """Names of stairs in the languages of most models."""
+_ALONE = r"(?<![^\W_])(?:{})(?![^\W_])"
+CALLED = {
+    kind: re.compile(f"{parts}|{_ALONE.format(words)}", re.IGNORECASE)
+    for kind, parts, words in (
+        (
+            "escalator",
+            r"escalator|rolltreppe|fahrtreppe|roltrap|rulltrapp|эскалатор|エスカレータ|扶梯|에스컬레이터",
+            r"escalera\W+mec.*|scala\W+mobile|escalier\W+(?:m[eé]canique|roulant)",
+        ),
+        (
+            "moving walk",
+            r"travelator|moving\W*walk|fahrsteig|rollsteig|動く歩道|自动人行道",
+            r"trottoir\W+roulant",
+        ),
+        (
+            "lift",
+            r"elevator|aufzug|fahrstuhl|ascen[sc]|výtah|лифт|エレベータ|昇降機|电梯|電梯|엘리베이터",
+            r"lifts?|hissi?",
+        ),
+        (
+            "ramp",
+            r"hellingbaan|pochyln|пандус|スロープ|斜路|坡道|경사로",
+            r"ramp(?!art)\w*|rampa|rampe",
+        ),
+        (
+            "stair",
+            r"stair|trepp|stiege|escalier|escal(?:er|ad)|schod|lestn|лестн|階段|楼梯|계단|merdiven",
+            r"scal[ae]|trap(?:pen?|pa)?|escada|porras\w*",
+        ),
+    )
+}
+"""What the name of an element makes of it, the first that fits: an escalator is called stairs too.
+Short words must stand alone, as in "Lift 1" and no "uplift"."""
+BY_NAME = {
+    "IfcBuildingElementProxy": tuple(CALLED),
+    "IfcBuiltElement": tuple(CALLED),
+    "IfcElementAssembly": tuple(CALLED),
+    "IfcSlab": ("ramp",),
+    "IfcStair": ("escalator", "moving walk"),
+    "IfcStairFlight": ("escalator", "moving walk"),
+    TRANSPORT: ("escalator", "moving walk", "lift"),
+}
+"""Which names count for which elements."""
+BY_CATEGORY = {
+    "IfcStair": "stair",
+    "IfcStairFlight": "flight",
+    "IfcRamp": "ramp",
+    "IfcRampFlight": "ramp flight",
+    TRANSPORT: "transport element",
+}
+BY_TYPE = {"ELEVATOR": "lift", "ESCALATOR": "escalator", "MOVINGWALKWAY": "moving walk"}
+MOVING = {"transport element", *BY_TYPE.values()}
+"""Kinds of what nobody drives on, which is named and not tessellated."""
 
 
-def main(path: str, around: bool) -> None:
+def main(path: str) -> None:
     """Read a model and write what was found."""
     _bound_memory()
     import ifcopenshell
@@ -39,12 +93,13 @@ def main(path: str, around: bool) -> None:
     import ifcopenshell.util.unit
 
     model: Any = ifcopenshell.open(path, format=".ifc")
-    wanted = {each.id(): each for each in _wanted(model, around)}
+    wanted = {each.id(): each for each in _wanted(model)}
     if not wanted:
         _write({"schema": model.schema, "storeys": _storeys(model), "bodies": []}, [])
         return
-    shapes = _shapes(model, list(wanted.values()))
-    bodies = [_body(each, key in shapes) for key, each in wanted.items()]
+    kinds = {key: _kind(each) for key, each in wanted.items()}
+    shapes = _shapes(model, [each for key, each in wanted.items() if kinds[key] not in MOVING])
+    bodies = [_body(each, kinds[key], key in shapes) for key, each in wanted.items()]
     found = {
         "schema": model.schema,
         "unit": ifcopenshell.util.unit.calculate_unit_scale(model),
@@ -67,8 +122,8 @@ def _bound_memory() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (bytes_, bytes_))
 
 
-def _wanted(model: Any, around: bool) -> Iterator[Any]:
-    """Elements to tessellate."""
+def _wanted(model: Any) -> Iterator[Any]:
+    """Elements that are stairs or ramps or are called so, that carry them or limit them."""
 
     def of(*kinds: str) -> Iterator[Any]:
         for kind in kinds:
@@ -77,17 +132,50 @@ def _wanted(model: Any, around: bool) -> Iterator[Any]:
             except RuntimeError:  # not in this schema
                 continue
 
-    stairs = list(of(*STAIRS))
-    for each in stairs:
+    assemblies = [each for each in of("IfcElementAssembly") if _kind(each)]
+    wholes = [*of(*STAIRS), *assemblies]
+    for each in wholes:
         yield each
         yield from _parts(each)
-    yield from of(*LEVELS, "IfcRailing")
+    drawn_as_others = not any(_kind(each) in ("stair", "flight") for each in wholes)
+    yield from of(*LEVELS, "IfcRailing", TRANSPORT)
     for each in of(*UNNAMED):
-        name = f"{each.Name or ''} {each.ObjectType or ''}"
-        if not stairs or LIKE_STAIRS.search(name):
+        if drawn_as_others or _kind(each) or LIKE_STAIRS.search(_called(each)):
             yield each
-    if around:
-        yield from of(*ROUND)
+    yield from of(*ROUND)
+
+
+def _called(element: Any) -> str:
+    """Its name, and what its author calls its type."""
+    import ifcopenshell.util.element as elements
+
+    kind = elements.get_type(element)
+    of_type = "" if kind is None else _text(kind.Name)
+    return f"{_text(element.Name)} {_text(element.ObjectType)} {of_type}"
+
+
+def _category(element: Any) -> str:
+    """What the schema calls an element, however its parts are put together."""
+    name: str = element.is_a()
+    return name.removesuffix("StandardCase").removesuffix("ElementedCase")
+
+
+def _kind(element: Any) -> str:
+    """What an element is for going up: stair, flight, ramp, lift and so on; empty: none of them."""
+    import ifcopenshell.util.element as elements
+
+    category = _category(element)
+    if category == TRANSPORT:
+        stated = elements.get_predefined_type(element) or ""
+        word = BY_TYPE.get(stated) or BY_TYPE.get(getattr(element, "OperationType", None) or "")
+        if word:
+            return word
+    if category in BY_NAME:
+        name = _called(element)
+        for kind in BY_NAME[category]:
+            if CALLED[kind].search(name):
+                return kind
+    return BY_CATEGORY.get(category, "")
 
 
 def _parts(element: Any) -> list[Any]:
@@ -130,24 +218,24 @@ def _shapes(model: Any, wanted: list[Any]) -> dict[int, tuple[Any, Any]]:
             return found
 
 
-def _body(element: Any, has_shape: bool) -> dict[str, Any]:
+def _body(element: Any, kind: str, has_shape: bool) -> dict[str, Any]:
     import ifcopenshell.util.element as elements
 
     parent = elements.get_aggregate(element)
     storey = elements.get_container(element, ifc_class="IfcBuildingStorey")
-    facts: dict[str, Any] = {"step": element.id()}
-    if element.is_a() in ("IfcStair", "IfcStairFlight", "IfcBuildingElementProxy", "IfcSlab"):
+    represented = getattr(element, "Representation", None) is not None
+    facts: dict[str, Any] = {"step": element.id(), "kind": kind, "represented": represented}
+    if kind or _category(element) in ("IfcBuildingElementProxy", "IfcSlab"):
         facts["stated"] = _stated(element)
     if element.is_a("IfcDoor"):
         facts["door"] = [element.OverallWidth, element.OverallHeight]
         facts["operation"] = _operation(element)
         facts["opens"] = _opens(element)
-    kind = elements.get_predefined_type(element)
     return {
         "id": _identity(element),
         "name": _text(element.Name),
-        "category": element.is_a(),
-        "type": _text(kind),
+        "category": _category(element),
+        "type": _text(elements.get_predefined_type(element)),
         "parent": _identity(parent) if parent is not None and parent.is_a("IfcElement") else "",
         "storey": _identity(storey) if storey is not None else "",
         "shape": has_shape,
@@ -238,7 +326,7 @@ def _write(found: dict[str, Any], arrays: list[Any]) -> None:
 if __name__ == "__main__":
     gc.disable()  # it ends soon, and what it makes holds on to itself nowhere
     try:
-        main(sys.argv[1], sys.argv[2] == "around")
+        main(sys.argv[1])
     except ImportError:
         sys.exit(4)
     except (MemoryError, RecursionError) as error:

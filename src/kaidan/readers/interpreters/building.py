@@ -9,12 +9,15 @@ import numpy as np
 
 from kaidan.errors import InputError, did_you_mean, shown
 from kaidan.readers.assembly import building_of
-from kaidan.readers.building import Building, Flight, Floor
+from kaidan.readers.building import SAME_FLOOR, WALL, Building, Element, Flight, Floor
 from kaidan.readers.estimate import Found, LandingEstimate, Refusal, StairsEstimate
 from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import Array, Bodies
+from kaidan.terrain.stairs import Stairs
 from kaidan.text.building import disagreement
 
+DEEPEST = 5.0
+"""Length of a landing beyond which it makes no difference [m]."""
 GLOBAL_ID = 22
 """Characters of one."""
 
@@ -76,13 +79,19 @@ def _staircase(building: Building, flights: Sequence[Flight]) -> StairsEstimate:
     floors = building.floors
     ends = [floors[flights[0].lower], *(floors[each.upper] for each in flights)]
     landings = [
-        _landing(floor, flights[k - 1] if k else None, flights[k] if k < len(flights) else None)
+        _landing(
+            building,
+            floor,
+            flights[k - 1] if k else None,
+            flights[k] if k < len(flights) else None,
+        )
         for k, floor in enumerate(ends)
     ]
     name = flights[0].name if len(flights) == 1 else _shared_name(flights)
+    elements = [each for each in building.elements if _of(each, flights)]
     notes = [f"{each.name}: {note}" for each in flights for note in each.estimate.notes] + [
         f"{each.name}: {disagreement(one)}"
-        for each in flights
+        for each in elements
         for one in each.stated
         if not one.agrees
     ]
@@ -96,7 +105,9 @@ def _staircase(building: Building, flights: Sequence[Flight]) -> StairsEstimate:
                 "storey": flights[0].storey,
                 "elements": [each.identity for each in flights],
                 "stated": {
-                    each.identity: {one.name: one.value for one in each.stated} for each in flights
+                    each.identity: {one.name: one.value for one in each.stated}
+                    for each in elements
+                    if each.stated
                 },
             }
         ),
@@ -121,7 +132,23 @@ def _shared_name(flights: Sequence[Flight]) -> str:
     return names[0] if names else flights[0].name
 
 
-def _landing(floor: Floor, below: Flight | None, above: Flight | None) -> LandingEstimate:
+def _of(element: Element, flights: Sequence[Flight]) -> bool:
+    """Whether all flights of an element are among these."""
+    return bool(element.flights) and set(element.flights) <= {each.identity for each in flights}
+
+
+def flight_sheet(building: Building, flight: Flight) -> Stairs:
+    """Data sheet of one flight, with what is clear at its foot and at its head.
+
+    The same that a question about ``FILE#PART`` takes.
+    """
+    (sheet,) = _staircase(building, (flight,)).stairs()
+    return sheet
+
+
+def _landing(
+    building: Building, floor: Floor, below: Flight | None, above: Flight | None
+) -> LandingEstimate:
     """Landing between two flights, or before the first or behind the last."""
     turn = 0.0
     if below is not None and above is not None:
@@ -131,7 +158,23 @@ def _landing(floor: Floor, below: Flight | None, above: Flight | None) -> Landin
     away = flight.estimate.heading if below is not None else flight.estimate.heading + math.pi
     start = flight.estimate.middle[at, :2]
     depth, width = room_on(floor, start, away)
-    return LandingEstimate(depth=depth, width=width, level=floor.level, turn=turn)
+    depth, leaf = _to_a_door(building, floor, start, away, min(depth, DEEPEST), flight)
+    return LandingEstimate(depth=depth, width=width, level=floor.level, turn=turn, leaf=leaf)
+
+
+def _to_a_door(
+    building: Building, floor: Floor, at: Array, heading: float, depth: float, flight: Flight
+) -> tuple[float, float]:
+    """Length of a landing, to a door whose leaf opens onto it if one does, and that leaf [m]."""
+    ahead = np.array([math.cos(heading), math.sin(heading)])
+    end = depth if math.isfinite(depth) else DEEPEST
+    found = []
+    for door in building.doors:
+        away = float(ahead @ (np.array([door.x, door.y]) - at))
+        beside = abs(door.level - floor.level) < SAME_FLOOR and away < end + WALL
+        if beside and door.opens_onto(at, heading, flight.estimate.width):
+            found.append((min(away, end), door.leaf))
+    return min(found, key=lambda one: one[0] - one[1], default=(depth, 0.0))
 
 
 def room_on(floor: Floor, start: Array, heading: float) -> tuple[float, float]:

@@ -1,7 +1,8 @@
 """Level surfaces that can be stood on: treads, landings, floors.
 
-Faces that look up are gathered by height and joined where they meet; a face with something a hand's
-breadth above it, such as the concrete below a tread, is none.
+Level faces with nothing of their own solid above them are gathered by height and joined where they
+meet; one with something a hand's breadth above it, such as the concrete below a tread, is none.
+Which way a face looks in the file says nothing: programs turn some, and leave out others.
 """
 
 import math
@@ -13,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.readers.solids.rays import Triangles, first_hits
+from kaidan.readers.solids.rays import Triangles, hits, inside
 
 Array = NDArray[np.float64]
 
@@ -27,8 +28,15 @@ LEAST_AREA = 0.02
 """Least area of a tread [m^2]."""
 LEAST_SPACE = 0.25
 """Space above a face that it takes to set a foot on it [m]."""
+THICKEST = 0.6
+"""Space below a surface of its own solid in which a face is its underside [m], where no sides are
+drawn that would close it: slabs are thinner, and people do not walk where it is lower."""
 INWARD = 0.7
 """Where it is looked whether a face is covered: between its middle and its corners [1]."""
+WITHIN = np.array([0.47, 0.31, 0.22])
+"""Place in a face from which it is looked up: off its middle, where edges of others may lie [1]."""
+OFF = 1e-4
+"""Height above a face from which it is looked up [m]: less than the thickness of any sheet."""
 LEVELED = 1e-6
 """Grid on which outlines meet [m]."""
 
@@ -95,7 +103,7 @@ def plates_of(solids: Triangles) -> list[Plate]:
     Parameters
     ----------
     solids : Triangles
-        Faces of all solids, looking outward.
+        Faces of all solids.
 
     Returns
     -------
@@ -103,8 +111,10 @@ def plates_of(solids: Triangles) -> list[Plate]:
     """
     normals = solids.normals
     length = np.linalg.norm(normals, axis=1)
-    level = normals[:, 2] > math.cos(STEEPEST_TREAD) * np.maximum(length, 1e-12)
+    level = np.abs(normals[:, 2]) > math.cos(STEEPEST_TREAD) * np.maximum(length, 1e-12)
     up = np.flatnonzero(level & (length > 1e-8))
+    above = np.einsum("k,nkj->nj", WITHIN, solids.corners[up]) + np.array([0.0, 0.0, OFF])
+    up = up[~inside(above, solids.shells[up], solids)]
     if len(up) == 0:
         return []
     heights = solids.corners[up, :, 2].mean(axis=1)
@@ -163,8 +173,10 @@ def _uncovered(plates: list[Plate], solids: Triangles) -> NDArray[np.bool_]:
         of += [number] * len(some)
     if not points:
         return np.zeros(0, dtype=bool)
-    starts = np.vstack(points)
-    over = first_hits(starts, np.array([0.0, 0.0, 1.0]), solids) < LEAST_SPACE
+    owner = np.array([each.owners[0] for each in plates])[of]
+    ray, face, above = hits(np.vstack(points), np.array([0.0, 0.0, 1.0]), solids)
+    own = solids.owner[face] == owner[ray]
+    over = np.bincount(ray[above < np.where(own, THICKEST, LEAST_SPACE)], minlength=len(of)) > 0
     count = np.bincount(of, minlength=len(plates))
     covered = np.bincount(of, weights=over, minlength=len(plates))
     return np.asarray(covered < 0.5 * count)

@@ -14,9 +14,10 @@ from kaidan.outline import Outline
 from kaidan.progress import progress, working
 from kaidan.question import Question
 from kaidan.readers.assembly import building_of
-from kaidan.readers.building import Building, Flight
+from kaidan.readers.building import Building, Element, Flight
 from kaidan.readers.formats.ifc import read
 from kaidan.readers.hints import Hints
+from kaidan.readers.interpreters.building import flight_sheet
 from kaidan.readers.opening import Source
 from kaidan.readers.recognition import recognised
 from kaidan.robot import Robot
@@ -26,13 +27,14 @@ from kaidan.text.building import disagreement, hooking
 from kaidan.verbs.building.answer import (
     BuildingAnswer,
     CellShown,
+    ElementShown,
     FlightShown,
     FloorShown,
     StoreyShown,
     TurnShown,
     WayShown,
 )
-from kaidan.verbs.building.judging import Judge, sheet_of
+from kaidan.verbs.building.judging import Judge
 from kaidan.verbs.building.turning import turn_on
 from kaidan.verbs.building.ways import doors_of, ways_of
 
@@ -92,7 +94,7 @@ def building(
     if form.kind != "building":
         raise source.refuse(f"{form.title} is no building model; write an IFC file")
     with working("the model is read"):
-        bodies = read(source, Hints(), around=True)
+        bodies = read(source, Hints())
         found = building_of(bodies)
     return _answered(found, str(bodies.facts["schema"]), sheets, Judge(flippers, manner),
                      direction, start, manner)  # fmt: skip
@@ -107,7 +109,8 @@ def _answered(
     start: str | None,
     manner: dict[str, Any],
 ) -> BuildingAnswer:
-    flights, stairs, refusals = _with_sheets(found)
+    flights = list(found.flights)
+    stairs = {each.identity: flight_sheet(found, each) for each in flights}
     storeys = [
         StoreyShown(identity=each.identity, name=each.name, level_m=each.level)
         for each in found.storeys
@@ -152,32 +155,16 @@ def _answered(
         turns=turns,
         doors=doors,
         ways=ways,
-        refusals=[*(f"{each.provenance.element}: {each}" for each in found.refusals), *refusals],
+        elements=[_element(each) for each in found.elements],
         notes=list(found.provenance.notes),
     )
-
-
-def _with_sheets(found: Building) -> tuple[list[Flight], dict[str, Stairs], list[str]]:
-    """Flights that a data sheet takes, their sheets, and why the others have none."""
-    flights, stairs, refusals = [], {}, []
-    for flight in found.flights:
-        try:
-            stairs[flight.identity] = sheet_of(found, flight)
-        except InputError as error:
-            refusals.append(f"{flight.identity}: {error}")
-        else:
-            flights.append(flight)
-    return flights, stairs, refusals
 
 
 def _asked(found: Building, judge: Judge, robot: Robot, stairs: dict[str, Stairs]) -> Any:
     """Verdicts and turns of one robot, each worked out once."""
 
     def cell(flight: Flight, up: bool) -> CellShown:
-        sheet = stairs.get(flight.identity)
-        if sheet is None:
-            raise InputError(f"{flight.identity}: no data sheet takes its steps")
-        return judge.cell(robot, flight, sheet, "up" if up else "down")
+        return judge.cell(robot, flight, stairs[flight.identity], "up" if up else "down")
 
     @cache
     def turn(before: Flight, after: Flight) -> TurnShown:
@@ -223,32 +210,45 @@ def _hooking(flight: Flight, robots: Sequence[Robot]) -> Iterator[str]:
 def _flight(flight: Flight, sheet: Stairs, robots: Sequence[Robot]) -> FlightShown:
     estimate = flight.estimate
     left, right = estimate.left[:, :2], estimate.right[:, :2]
-    headroom = estimate.headroom
+    (rise, going), rises = sheet.mean_step, estimate.drawn_rises
     return FlightShown(
         identity=flight.identity,
         name=flight.name,
         storey=flight.storey,
         category=flight.category,
         steps=len(estimate),
-        rise_m=round(estimate.regular.rise, 6),
-        going_m=round(estimate.regular.going, 6),
+        rise_m=round(rise, 6),
+        going_m=round(going, 6),
+        first_rise_m=round(float(rises[0]), 6) if estimate.begins else None,
+        last_rise_m=round(float(rises[-1]), 6),
         angle_deg=math.degrees(sheet.angle),
         nosing_spacing_m=sheet.nosing_spacing,
         irregularity_m=sheet.irregularity,
         width_m=estimate.width,
-        headroom_m=headroom,
+        headroom_m=estimate.headroom,
         overhang_m=estimate.overhang,
         open_risers=estimate.open_risers,
         lower=flight.lower,
         upper=flight.upper,
-        notes=[
-            *estimate.notes,
-            *(disagreement(one) for one in flight.stated if not one.agrees),
-            *_hooking(flight, robots),
-        ],
+        notes=[*estimate.notes, *_hooking(flight, robots)],
         lane=_places(flight.lane),
         nosings=_places(np.hstack([left, right])),
+        elements=flight.elements,
         sheet=sheet,
+    )
+
+
+def _element(found: Element) -> ElementShown:
+    return ElementShown(
+        identity=found.identity,
+        name=found.name,
+        category=found.category,
+        kind=found.kind,
+        storey=found.storey,
+        outcome=found.outcome,
+        flights=found.flights,
+        reasons=[str(each) for each in found.refusals],
+        notes=[disagreement(one) for one in found.stated if not one.agrees],
     )
 
 

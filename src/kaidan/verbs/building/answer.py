@@ -5,10 +5,20 @@ from typing import Any, ClassVar, Literal
 from kaidan.answer import Answer, Part
 from kaidan.models.landing_figures import TurnFigures
 from kaidan.modes import Direction, Facing, Verdict
+from kaidan.readers.building import Outcome
 from kaidan.terrain.stairs import Stairs
 
 Binding = Literal[
-    "stability", "friction", "width", "headroom", "turning", "landing", "gap", "doors", ""
+    "stability",
+    "friction",
+    "width",
+    "headroom",
+    "turning",
+    "landing",
+    "gap",
+    "doors",
+    "drawing",
+    "",
 ]
 """What decides, in a word."""
 
@@ -38,9 +48,13 @@ class FlightShown(Part):
     steps: int
     """Risers, the last one onto the floor included."""
     rise_m: float
-    """Of the regular flight that fits best [m]."""
+    """Mean rise of its regular steps [m]."""
     going_m: float
-    """The same [m]."""
+    """Mean going likewise [m]."""
+    first_rise_m: float | None
+    """First riser as it is drawn [m]; null: no floor is drawn at its foot."""
+    last_rise_m: float
+    """Last riser likewise [m]."""
     angle_deg: float
     """Slope of the line through the nosings [deg]."""
     nosing_spacing_m: float
@@ -65,8 +79,34 @@ class FlightShown(Part):
     """Corners of the clear lane in the plan, the foot's right one first [m]."""
     nosings: tuple[tuple[float, float, float, float], ...]
     """Ends of each nosing in the plan: x, y of the left one, x, y of the right one [m]."""
+    elements: tuple[str, ...]
+    """GlobalIds of what its treads are drawn as, and of what these are part of."""
     sheet: Stairs
     """Data sheet with which it is judged."""
+
+
+class ElementShown(Part):
+    """A stair, a flight, a ramp, a lift or an escalator of the file, and what became of it."""
+
+    identity: str
+    """GlobalId."""
+    name: str
+    """Name in the model."""
+    category: str
+    """What the model calls it, such as IfcTransportElement."""
+    kind: str
+    """Stair, flight, ramp, ramp flight, lift, escalator, moving walk, transport element; empty: it
+    is called none of these, and flights are drawn as it."""
+    storey: str
+    """Storey that the model puts it into; empty: none."""
+    outcome: Outcome
+    """What became of it and of its parts."""
+    flights: tuple[str, ...]
+    """Identities of its flights."""
+    reasons: tuple[str, ...]
+    """Why what is drawn of itself is not judged; of its parts they say it themselves."""
+    notes: tuple[str, ...]
+    """What it states otherwise than it is drawn."""
 
 
 class FloorShown(Part):
@@ -202,21 +242,34 @@ class BuildingAnswer(Answer):
     """Doors at the ends of flights."""
     ways: tuple[WayShown, ...]
     """To each storey, for each robot."""
-    refusals: tuple[str, ...]
-    """What is drawn as stairs and is not judged, and why."""
+    elements: tuple[ElementShown, ...]
+    """Every stair, flight, ramp, lift and escalator, and what became of it."""
     notes: tuple[str, ...]
     """What had to be repaired in the file."""
 
     def columns(self) -> dict[str, list[Any]]:
-        """Columns of a table with one line for each robot on each flight."""
+        """Columns of a table with one line for each robot on each flight.
+
+        Elements that are not judged, or not all of them, follow with a line for each: name, storey,
+        outcome and reason.
+        """
         by_id = {each.identity: each for each in self.flights}
-        of_flight = ("name", "storey", "steps", "rise_m", "going_m", "width_m", "headroom_m")
-        return {
-            **{name: [getattr(one, name) for one in self.cells] for name in CellShown.model_fields},
-            **{
-                name: [getattr(by_id[one.flight], name) for one in self.cells] for name in of_flight
-            },
-        }
+        of_flight = ("name", "storey", "steps", "rise_m", "going_m", "first_rise_m", "last_rise_m",
+                     "width_m", "headroom_m")  # fmt: skip
+        rows: list[dict[str, Any]] = [
+            {name: getattr(one, name) for name in CellShown.model_fields}
+            | {name: getattr(by_id[one.flight], name) for name in of_flight}
+            | {"elements": " ".join(by_id[one.flight].elements), "outcome": "judged"}
+            for one in self.cells
+        ]
+        rows += [
+            {"name": each.name, "storey": each.storey, "elements": each.identity,
+             "outcome": each.outcome, "reason": " ".join(each.reasons)}
+            for each in self.elements
+            if each.outcome != "judged"
+        ]  # fmt: skip
+        names = (*CellShown.model_fields, *of_flight, "elements", "outcome")
+        return {name: [row.get(name) for row in rows] for name in names}
 
     @property
     def exit_code(self) -> int:

@@ -4,69 +4,28 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import numpy as np
-
 from kaidan.assessment import with_plan
 from kaidan.assessment.verdict import conclude
 from kaidan.modes import SUPPLIES, Undecided, Verdict
 from kaidan.question import Question
-from kaidan.readers.building import SAME_FLOOR, WALL, Building, Flight
-from kaidan.readers.interpreters.building import room_on
-from kaidan.readers.kinds import Array
+from kaidan.readers.building import Flight
 from kaidan.robot import Robot
 from kaidan.terrain.stairs import Stairs
 from kaidan.text import verdicts
 from kaidan.verbs.building.answer import Binding, CellShown
 from kaidan.verbs.comparison import laid
 
-DEEPEST = 5.0
-"""Length of a landing beyond which it makes no difference [m]."""
 _BINDS: dict[str, Binding] = {
     "narrow": "width",
     "low": "headroom",
     "landing_room": "landing",
     "turning": "turning",
     "gap": "gap",
+    "foot_unseen": "drawing",
+    "floor_finish": "drawing",
     Undecided.FRICTION_UNKNOWN.value: "friction",
     **{mode.key: "friction" for mode in SUPPLIES},
 }
-
-
-def sheet_of(building: Building, flight: Flight) -> Stairs:
-    """Data sheet of a flight, with what is clear at its foot and at its head.
-
-    Raises
-    ------
-    InputError
-        Steps that no sheet takes.
-    """
-    estimate = flight.estimate
-    ends = (
-        (flight.lower, estimate.middle[0, :2], estimate.heading + math.pi),
-        (flight.upper, estimate.middle[-1, :2], estimate.heading),
-    )
-    room = [_room(building, flight, *end) for end in ends]
-    (lower, lower_leaf), (upper, upper_leaf) = room
-    sheet = estimate.stairs(flight.identity, lower=lower, upper=upper)
-    leaves = {"lower_leaf": lower_leaf, "upper_leaf": upper_leaf}
-    return sheet.model_copy(update={name: leaf for name, leaf in leaves.items() if leaf > 0.0})
-
-
-def _room(
-    building: Building, flight: Flight, key: str, at: Array, heading: float
-) -> tuple[float, float]:
-    """Length of a landing, to a door whose leaf opens onto it if one does, and that leaf [m]."""
-    floor = building.floors[key]
-    depth = min(room_on(floor, at, heading)[0], DEEPEST)
-    ahead = np.array([math.cos(heading), math.sin(heading)])
-    end = depth if math.isfinite(depth) else DEEPEST
-    found = []
-    for door in building.doors:
-        away = float(ahead @ (np.array([door.x, door.y]) - at))
-        beside = abs(door.level - floor.level) < SAME_FLOOR and away < end + WALL
-        if beside and door.opens_onto(at, heading, flight.estimate.width):
-            found.append((min(away, end), door.leaf))
-    return min(found, key=lambda one: one[0] - one[1], default=(depth, 0.0))
 
 
 class Judge:

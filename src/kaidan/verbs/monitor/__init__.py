@@ -16,6 +16,7 @@ from typing import Any
 from kaidan.errors import InputError, shown
 from kaidan.question import Question
 from kaidan.verbs.monitor.alarm import AlarmLimits as AlarmLimits
+from kaidan.verbs.monitor.alarm import Cause as Cause
 from kaidan.verbs.monitor.answer import MonitorAnswer as MonitorAnswer
 from kaidan.verbs.monitor.answer import MonitorState as MonitorState
 from kaidan.verbs.monitor.answer import SampleStatus as SampleStatus

@@ -4,6 +4,7 @@ from enum import StrEnum
 from typing import ClassVar
 
 from kaidan.answer import Answer, Part
+from kaidan.verbs.monitor.alarm import Cause
 
 LEAST_SHARE = 0.5
 """Share of the samples that must have been judged for an answer of no alarm."""
@@ -27,6 +28,8 @@ class SampleStatus(StrEnum):
     """Not judged: a row that cannot be read."""
     OUTSIDE_MODEL = "outside-model"
     """Not judged: two nosings do not carry the robot everywhere on these stairs."""
+    MISSING = "missing"
+    """No sample: none came in time."""
 
 
 class MonitorState(Part):
@@ -52,6 +55,11 @@ class MonitorState(Part):
     """Time until an angle is used up [s]; 0 if it is, None if it is not within the horizon."""
     alarm: bool
     """Whether the alarm is on."""
+    causes: tuple[Cause, ...]
+    """Why it is on, the most urgent first."""
+    due_s: float | None
+    """Time within which the next sample has to arrive [s]; None in a recording. Who takes states
+    over a line that may break off has an alarm if none comes for longer."""
 
     @property
     def judged(self) -> bool:
@@ -82,10 +90,14 @@ class MonitorAnswer(Answer):
     """Time of that sample [s]."""
     alarms: int
     """Times that the alarm was raised."""
+    raised: dict[str, int]
+    """Times that it was raised by each cause."""
     first_alarm_row: int | None
     """Line or number of the sample that raised it first."""
     first_alarm_t_s: float | None
     """Time of that sample [s]."""
+    rate_hz: float | None
+    """Samples a second, at the end [Hz]; None if their stamps do not tell."""
     inside_model: bool
     """Whether two nosings carry the robot everywhere on these stairs."""
     states: tuple[MonitorState, ...] = ()

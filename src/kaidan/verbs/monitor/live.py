@@ -53,27 +53,18 @@ class LiveMonitor:
         self._sign = 1.0 if question.nose_up else -1.0
         self._phase = Phase.ENTER
 
-    def feed(self, sample: Sample) -> LiveState:
-        """Take one sample.
-
-        Parameters
-        ----------
-        sample : Sample
-            The next one.
-
-        Returns
-        -------
-        LiveState
-        """
-        state = self._watch.feed(sample)
+    def feed(self, sample: Sample, arrived: float | None = None) -> LiveState:
+        """Take one sample; see `kaidan.verbs.monitor.online.Monitor.feed`."""
+        state = self._watch.feed(sample, arrived)
         tilt = self._sign * sample.inclination if state.judged else math.nan
         if state.judged:
             self._phase = self._next_phase(tilt / self.slope)
-        return LiveState(
-            **{name: getattr(state, name) for name in MonitorState.model_fields},
-            tilt_deg=math.degrees(tilt),
-            phase=self._phase,
-        )
+        return self._state(state, tilt)
+
+    def overdue(self, now: float) -> LiveState | None:
+        """State if the next sample has not arrived in time, else None."""
+        state = self._watch.overdue(now)
+        return None if state is None else self._state(state, math.nan)
 
     def answer(self) -> MonitorAnswer:
         """Answer to all samples so far; see `kaidan.verbs.monitor.online.Monitor.answer`."""
@@ -82,6 +73,13 @@ class LiveMonitor:
     def again(self) -> Self:
         """The same monitor before its first sample."""
         return type(self)(self.question, limits=self.limits)
+
+    def _state(self, state: MonitorState, tilt: float) -> LiveState:
+        return LiveState(
+            **{name: getattr(state, name) for name in MonitorState.model_fields},
+            tilt_deg=math.degrees(tilt),
+            phase=self._phase,
+        )
 
     def _next_phase(self, share: float) -> Phase:
         if share >= ON_FLIGHT:

@@ -1,7 +1,6 @@
 """Online prediction of tip-over: a monitor that takes one sample after the other."""
 
 import math
-from collections import Counter
 from collections.abc import Iterable
 from typing import Literal, Self
 
@@ -17,7 +16,9 @@ from kaidan.robot import Payload, Posture, Robot
 from kaidan.terrain.stairs import Stairs
 from kaidan.verbs.monitor.alarm import Alarm, AlarmLimits
 from kaidan.verbs.monitor.answer import MonitorAnswer, MonitorState, SampleStatus
+from kaidan.verbs.monitor.liveness import Liveness
 from kaidan.verbs.monitor.samples import Sample
+from kaidan.verbs.monitor.tally import UNJUDGED, Tally
 
 REGULAR = 1e-6
 """Largest irregularity of stairs on which a position says where the nosings are [m]."""
@@ -29,13 +30,7 @@ LARGEST_POSITION = 1e4
 """Largest position on a flight [m]: no flight is longer."""
 LARGEST_SPEED = 10.0
 """Largest speed between two positions [m/s]: no tracked robot is faster on stairs."""
-
-UNJUDGED = (
-    SampleStatus.NOT_FINITE,
-    SampleStatus.IMPLAUSIBLE,
-    SampleStatus.UNREADABLE,
-    SampleStatus.OUTSIDE_MODEL,
-)
+_NO_FIGURES = (math.nan,) * 4
 
 
 class Monitor:
@@ -93,8 +88,9 @@ class Monitor:
             raise InputError(f"nose = {shown(nose)} is not known; known: up, down")
         stance = robot.stance(posture, payload)
         self.strict = strict
-        self._alarm = Alarm(AlarmLimits() if limits is None else limits)
-        self._names = (robot.name, stairs.name)
+        limits = AlarmLimits() if limits is None else limits
+        self._alarm, self._liveness = Alarm(limits), Liveness(limits)
+        self._tally = Tally(robot.name, stairs.name)
         self._sign = 1.0 if nose == "up" else -1.0
         L, front = stance.flat_length, stance.com_from_front
         self._outlook = Outlook(
@@ -105,11 +101,7 @@ class Monitor:
         )
         self._regular = stairs.irregularity <= REGULAR
         self._last: Sample | None = None
-        self._statuses: Counter[str] = Counter()
-        self._alarms = 0
-        self._first_unjudged = ""
-        self._lowest: MonitorState | None = None
-        self._first_alarm: MonitorState | None = None
+        self._row = 0
 
     @classmethod
     def of(
@@ -142,13 +134,16 @@ class Monitor:
         """Whether two nosings carry the robot everywhere, so that there is a prediction."""
         return bool(two_contacts_remain(L=self._outlook.L, p=self._outlook.p))
 
-    def feed(self, sample: Sample) -> MonitorState:
+    def feed(self, sample: Sample, arrived: float | None = None) -> MonitorState:
         """Take one sample.
 
         Parameters
         ----------
         sample : Sample
             The next one.
+        arrived : float, optional
+            When it came, by a clock that never goes back [s]; None in a recording, in which the
+            stamps alone tell the time.
 
         Returns
         -------
@@ -163,14 +158,30 @@ class Monitor:
         outside = status is SampleStatus.OUTSIDE_MODEL
         if self.strict and status is not SampleStatus.OK and not outside:
             raise InputError(f"samples, row {sample.row}: {message}")
-        was_on = self._alarm.on
-        if status in UNJUDGED:
-            figures: tuple[float, ...] = (math.nan,) * 4
-            self._first_unjudged = self._first_unjudged or message
-            message += "" if outside else self._alarm.not_judged()
-        else:
-            figures = self._judge(sample, status)
-        return self._counted(self._state(sample, status, message, figures), was_on)
+        judged = status not in UNJUDGED
+        self._liveness.take(sample, judged=judged, arrived=arrived)
+        self._row = sample.row
+        figures = self._judge(sample, status) if judged else _NO_FIGURES
+        return self._tally.count(self._state(sample, status, message, figures))
+
+    def overdue(self, now: float) -> MonitorState | None:
+        """State if the next sample has not arrived in time, which raises the alarm.
+
+        Parameters
+        ----------
+        now : float
+            By the clock of the arrivals [s].
+
+        Returns
+        -------
+        MonitorState or None
+            None while nothing is overdue, or no sample has come.
+        """
+        if not self._liveness.overdue(now):
+            return None
+        missing = Sample(math.nan, math.nan, math.nan, math.nan, row=self._row)
+        text = f"no sample came for {self._liveness.limit:.2g} s"
+        return self._tally.count(self._state(missing, SampleStatus.MISSING, text, _NO_FIGURES))
 
     def answer(self, states: Iterable[MonitorState] = ()) -> MonitorAnswer:
         """Answer to all samples so far.
@@ -189,26 +200,8 @@ class Monitor:
         InputError
             No sample has come.
         """
-        samples = sum(self._statuses.values())
-        if not samples:
-            raise InputError("no samples came")
-        lowest, first = self._lowest, self._first_alarm
-        robot, stairs = self._names
-        return MonitorAnswer(
-            robot=robot,
-            stairs=stairs,
-            samples=samples,
-            judged=samples - sum(self._statuses[status] for status in UNJUDGED),
-            statuses=dict(self._statuses),
-            first_unjudged=self._first_unjudged,
-            lowest_margin_deg=None if lowest is None else lowest.margin_deg,
-            lowest_margin_t_s=None if lowest is None else lowest.t_s,
-            alarms=self._alarms,
-            first_alarm_row=None if first is None else first.row,
-            first_alarm_t_s=None if first is None else first.t_s,
-            inside_model=self.inside_model,
-            states=tuple(states),
-        )
+        rate, inside = self._liveness.rate, self.inside_model
+        return self._tally.answer(states, rate=rate, inside_model=inside)
 
     def _judge(self, sample: Sample, status: SampleStatus) -> tuple[float, ...]:
         """Both angles [rad], centroid margin [m] and time [s] of a sample; sets the alarm."""
@@ -222,8 +215,13 @@ class Monitor:
         if math.isnan(motion.speed):
             motion = here._replace(position=math.nan)
         time = self._outlook.time_to_tip(motion, self._alarm.limits.horizon)
-        in_time = status is not SampleStatus.TIME_DOUBTFUL
-        self._alarm.judged(min(downhill, uphill), time, may_clear=in_time)
+        at_rest = self._outlook.angles(here._replace(a=0.0), now)
+        self._alarm.judged(
+            min(downhill, uphill),
+            time,
+            tipped=float(np.minimum(*at_rest)[0]) <= 0,
+            may_clear=status is not SampleStatus.TIME_DOUBTFUL and not self._liveness.raised,
+        )
         if math.isfinite(sample.t):
             self._last = sample._replace(position=self._position(sample))
         return downhill, uphill, zmp, time
@@ -232,6 +230,8 @@ class Monitor:
         self, sample: Sample, status: SampleStatus, message: str, figures: tuple[float, ...]
     ) -> MonitorState:
         downhill, uphill, zmp, time = figures
+        tipping = () if self._alarm.cause is None else (self._alarm.cause,)
+        causes = (*tipping, *self._liveness.raised)
         return MonitorState(
             t_s=sample.t,
             row=sample.row,
@@ -242,19 +242,10 @@ class Monitor:
             margin_uphill_deg=math.degrees(uphill),
             centroid_margin_mm=1e3 * zmp,
             time_to_tip_s=time,
-            alarm=self._alarm.on,
+            alarm=bool(causes),
+            causes=causes,
+            due_s=self._liveness.due,
         )
-
-    def _counted(self, state: MonitorState, was_on: bool) -> MonitorState:
-        """State, counted."""
-        self._statuses[state.status] += 1
-        if state.alarm and not was_on:
-            self._alarms += 1
-            self._first_alarm = self._first_alarm or state
-        lowest = None if self._lowest is None else self._lowest.margin_deg
-        if state.margin_deg is not None and (lowest is None or state.margin_deg < lowest):
-            self._lowest = state
-        return state
 
     def _check(self, sample: Sample) -> tuple[SampleStatus, str]:
         """Status of a sample and what is wrong with it."""

@@ -9,6 +9,7 @@ from urllib.parse import urldefrag, urljoin, urlsplit
 from kaidan.answer import plain
 from kaidan.errors import InputError, short
 from kaidan.question import Question
+from kaidan.verbs.monitor.alarm import AlarmLimits
 from kaidan.verbs.monitor.samples import Sample
 
 PATIENCE = 10.0
@@ -26,7 +27,9 @@ class Channel(NamedTuple):
     """Of the server; empty: it has none."""
 
     @classmethod
-    def at(cls, url: str, question: Question, *, token: str = "") -> Self:
+    def at(
+        cls, url: str, question: Question, *, limits: AlarmLimits | None = None, token: str = ""
+    ) -> Self:
         """Channel of a page that waits, whose address ends in its name, else a new one.
 
         Parameters
@@ -35,6 +38,8 @@ class Channel(NamedTuple):
             Address of a server or of a page.
         question : Question
             What is driven: of a new channel.
+        limits : AlarmLimits, optional
+            When its alarm is raised and cleared.
         token : str
             Of the server.
 
@@ -56,14 +61,15 @@ class Channel(NamedTuple):
                 "facing": question.facing,
                 "flippers": question.posture.model_dump(mode="json"),
                 "payload": [each.model_dump(mode="json") for each in question.payload],
+                "limits": {} if limits is None else limits.model_dump(exclude_defaults=True),
             }
             name = str(_posted(urljoin(root, "api/live"), body, token)["id"])
         return cls(urljoin(root, f"api/live/{name}"), urljoin(root, f"live.html#{name}"), token)
 
-    def send(self, samples: list[Sample]) -> None:
-        """Send samples."""
+    def send(self, samples: list[Sample], *, recorded: bool = False) -> None:
+        """Send samples; of a recording they may come when they like."""
         given = [plain(each._asdict()) for each in samples]
-        _posted(self.address, {"samples": given}, self.token)
+        _posted(self.address, {"samples": given, "recorded": recorded}, self.token)
 
     def end(self) -> str:
         """End the climb; its summary."""

@@ -1,6 +1,8 @@
 """Where samples come from: a file, one that still grows, a recording of ROS, a serial line."""
 
 import os
+import stat
+import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,10 +15,30 @@ from kaidan.verbs.monitor.samples import Sample, lines_of, samples_of
 
 SERIAL = "serial:"
 """How the name of a serial line begins: ``serial:/dev/ttyUSB0``, ``serial:COM3:57600``."""
+STANDARD_INPUT = "-"
+"""Name of standard input."""
 BAUD = 115_200
 """Rate of a serial line where none is stated."""
 PAUSE = 0.05
 """How often a file that grows is looked at [s]."""
+
+
+def is_live(path: str | os.PathLike[str], *, follow: bool = False) -> bool:
+    """Whether samples come as they are measured: from a line, a pipe, or a file that is followed.
+
+    Parameters
+    ----------
+    path, follow
+        As `open_samples` has them.
+    """
+    origin = os.fspath(path)
+    if follow or origin.startswith(SERIAL):
+        return True
+    try:
+        mode = os.stat(sys.stdin.fileno() if origin == STANDARD_INPUT else origin).st_mode
+    except (AttributeError, OSError, ValueError):  # no standard input; what opens a file says why
+        return False
+    return not stat.S_ISREG(mode) and not stat.S_ISDIR(mode)
 
 
 @contextmanager
@@ -28,8 +50,9 @@ def open_samples(
     Parameters
     ----------
     path : str or path
-        CSV file (see `kaidan.verbs.monitor.samples`), recording of ROS (.bag, .mcap, .db3 or a
-        folder), or ``serial:DEVICE`` or ``serial:DEVICE:BAUD`` with CSV lines.
+        CSV file (see `kaidan.verbs.monitor.samples`), ``-`` for standard input, recording of ROS
+        (.bag, .mcap, .db3 or a folder), or ``serial:DEVICE`` or ``serial:DEVICE:BAUD`` with CSV
+        lines.
     follow : bool
         Whether the end of a CSV file is waited at for what is written next.
     nose_up : bool
@@ -47,6 +70,10 @@ def open_samples(
         ``kaidan[bags]`` or ``kaidan[serial]`` is needed.
     """
     origin = short(os.fspath(path))
+    if origin == STANDARD_INPUT:
+        origin = "standard input"
+        yield samples_of(lines_of(_standard_input(), origin=origin), origin=origin)
+        return
     if origin.startswith(SERIAL):
         with _serial(origin) as line:
             yield samples_of(lines_of(line, origin=origin), origin=origin)
@@ -61,6 +88,15 @@ def open_samples(
     with file:
         lines = cast(TextIO, _Growing(file)) if follow else file
         yield samples_of(lines_of(lines, origin=origin), origin=origin)
+
+
+def _standard_input() -> TextIO:
+    """Standard input; a buffer of its own lets the command end while a thread waits for a line."""
+    try:
+        number = sys.stdin.fileno()
+    except (AttributeError, OSError, ValueError):
+        return sys.stdin
+    return open(number, encoding="utf-8", errors="replace", closefd=False)
 
 
 @contextmanager

@@ -77,6 +77,8 @@ def _manner(question: Question, assessment: Assessment) -> Iterator[InputRow]:
         low, high = each.low_deg, each.high_deg
         value = f"{high:.3g} deg" if low == high else f"{low:.3g} to {high:.3g} deg"
         yield _row("manner", name, value, source=each.source)
+    if question.uniform_across:
+        yield _row("manner", "both tracks meet the same profile", "yes")
     if question.yaw:
         yield _row("manner", "yaw", human(question.yaw, unit="rad"))
     if "fall_reserve" in stated and question.fall_reserve is not None:

@@ -4,9 +4,9 @@ import { has, japanese, language, loadTexts, setLanguage, t as text, titled } fr
 import { unpacked } from "./js/state.js";
 import { preference, prefer } from "./js/storage.js";
 
-const SILENT = 1.0; // s without a state after which the sensor counts as silent
 const SEEN = 20; // s of the chart
 const TICK = 50; // ms between two requests of a replay
+const TIPPING = ["tipped over", "tip-over"]; // causes of the robot itself; the others are the sensor's
 const GIVEN = "~"; // value of a list for the sheet that the question has in the place of a name
 const at = (id) => document.getElementById(id);
 const named = (sheet) => typeof sheet === "string";
@@ -109,25 +109,40 @@ function number(value, digits) {
   return value === null || value === undefined ? "–" : value.toFixed(digits).replace("-", "−");
 }
 
-function show() {
+// The last state, without numbers that are no longer known; that a sample is missing the server cannot say without a line to it.
+function current() {
   const state = states.at(-1);
-  const silence = (performance.now() - last) / 1000;
-  const silent = Boolean(state) && !over && !replay?.paused && silence > SILENT;
+  if (!state || over) return state;
+  const late = state.due_s !== null && performance.now() - last > 1000 * state.due_s;
+  const missing = late || socket?.readyState !== WebSocket.OPEN;
+  if (!missing && !state.causes.includes("frozen")) return state;
+  const tipping = state.causes.filter((each) => TIPPING.includes(each));
+  const causes = missing ? [...new Set([...tipping, "silent", ...state.causes])] : state.causes;
+  return { ...state, margin_deg: null, time_to_tip_s: null, tilt_deg: null, causes };
+}
+
+function show() {
+  const state = current();
+  const causes = state?.causes ?? [];
+  const tipped = causes.includes("tipped over");
   const outside = state?.status === "outside-model";
-  const next = !state ? "idle" : silent ? "silent" : state.alarm ? "alarm" : outside ? "unknown" : "calm";
-  if (next !== mood || !at("said").textContent || language !== show.language) {
-    mood = next;
-    show.language = language;
+  const moods = outside && !causes.includes("silent") ? ["unknown"] : causes.map((each) => each.replace(/\W/, "_"));
+  const said = JSON.stringify([language, Boolean(state), moods]);
+  if (said !== show.said) {
+    show.said = said;
+    const also = moods.slice(1).map((each) => t(each));
+    mood = !state ? "idle" : moods[0] ?? "calm";
     at("alarm").className = mood;
-    at("mark").textContent = { idle: "○", calm: "●", alarm: "▲", silent: "✕", unknown: "?" }[mood];
+    at("status").textContent = "";
+    at("mark").textContent = { idle: "○", calm: "●", tipped_over: "▼", tip_over: "▲", unknown: "?" }[mood] ?? "✕";
     at("said").textContent = t(mood);
-    at("why").textContent = has(`live.${mood}_do`) ? t(`${mood}_do`, { s: SILENT, why: state?.message }) : "";
+    at("why").textContent = [has(`live.${mood}_do`) && t(`${mood}_do`, { why: state.message }), also.length && t("also", { names: also.join(", ") })].filter(Boolean).join(" ");
   }
   at("margin").textContent = number(state?.margin_deg, 1);
-  at("time").textContent = state && state.time_to_tip_s === null && state.margin_deg !== null ? `> ${head?.horizon_s ?? 2}` : number(state?.time_to_tip_s, 1);
+  at("time").textContent = tipped ? "–" : state && state.time_to_tip_s === null && state.margin_deg !== null ? `> ${head?.horizon_s ?? 2}` : number(state?.time_to_tip_s, 1);
   at("tilt").textContent = number(state?.tilt_deg, 1);
-  at("phase").textContent = state && !outside ? t(state.phase) : "–";
-  if (state?.message && !outside) at("note").textContent = state.message;
+  at("phase").textContent = Number.isFinite(state?.margin_deg) && !tipped ? t(state.phase) : "–";
+  if (state?.message && !outside && state.status !== "missing") at("note").textContent = state.message;
   draw();
 }
 
@@ -151,9 +166,10 @@ function draw() {
 // For a screen reader: a sentence now and then; the alarm speaks for itself at once.
 setInterval(() => {
   const state = states.at(-1);
-  if (state && mood !== "silent" && mood !== "unknown" && !over) at("status").textContent = t("state", { margin: number(state.margin_deg, 1), phase: t(state.phase) });
+  const told = (mood === "calm" || mood === "tip_over") && !over && state.margin_deg !== null;
+  at("status").textContent = told ? t("state", { margin: number(state.margin_deg, 1), phase: t(state.phase) }) : "";
 }, 5000);
-setInterval(show, 250);
+setInterval(show, 100);
 
 // Sound
 
@@ -183,8 +199,8 @@ function setLoud(on) {
 }
 
 setInterval(() => {
-  if (loud && mood === "alarm" && !over) beep(880);
-  if (loud && (mood === "silent" || mood === "unknown") && !over) beep(440);
+  if (!loud || over || mood === "idle" || mood === "calm") return;
+  beep(mood === "tip_over" || mood === "tipped_over" ? 880 : 440);
 }, 450);
 at("sound").onclick = () => setLoud(!loud);
 at("try").onclick = () => {
@@ -211,6 +227,8 @@ async function begin() {
   for (const each of ["robot", "stairs", "direction", "facing", "flippers"]) body[each] = at(each).value;
   for (const each of ["robot", "stairs"]) if (body[each] === GIVEN) body[each] = given[each];
   Object.assign(body, carried());
+  const limits = { resolution: at("resolution").value.trim(), no_data_on: at("silence").value.trim() };
+  body.limits = Object.fromEntries(Object.entries(limits).filter(([, value]) => value));
   const made = await post("api/live", body);
   history.replaceState(null, "", `#${made.id}`);
   over = false;
@@ -274,7 +292,7 @@ async function play(id, samples) {
     while (next < samples.length && due.length < 500 && !(samples[next].t > now)) due.push(samples[next++]);
     if (due.length) {
       try {
-        await post(`api/live/${id}`, { samples: due });
+        await post(`api/live/${id}`, { samples: due, recorded: true });
       } catch (error) {
         at("error").textContent = error.message;
         break;
@@ -290,7 +308,6 @@ async function play(id, samples) {
 
 at("pause").onclick = () => {
   replay.paused = !replay.paused;
-  last = performance.now();
   at("pause").textContent = t(replay.paused ? "go_on" : "pause");
 };
 

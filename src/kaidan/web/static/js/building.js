@@ -56,16 +56,40 @@ export function buildingView() {
         h("thead", {}, h("tr", {}, h("th", { scope: "col" }, t("building.flight")), found.robots.map((name) => h("th", { scope: "col" }, name)))),
         h("tbody", {}, found.flights.map((flight, row) => h("tr", {},
           h("th", { scope: "row" }, flight.name || flight.identity, h("div", { class: "quiet" },
-            `${flight.storey} · ${flight.steps} × `, figure(flight.rise_m, "length"), " / ", figure(flight.going_m, "length"), ", ", figure(flight.angle_deg, "degrees"))),
+            `${flight.storey} · ${flight.steps} × `, figure(flight.rise_m, "length"), " / ", figure(flight.going_m, "length"), ", ", figure(flight.angle_deg, "degrees"), h("br"),
+            ends(flight))),
           found.cells.slice(row * wide, (row + 1) * wide).map((cell) => h("td", {}, verdictOf(cell), h("div", {}, said(cell.reason)),
             button(t("building.open"), () => open(flight, cell), { "aria-label": `${t("building.open")}: ${flight.name}, ${cell.robot}` })))))))),
       plans(found),
       found.ways.length === 0 ? null : [h("h3", {}, t("building.ways", { start: found.start })), ways(found)],
-      list(t("building.refusals"), found.refusals), list(t("building.notes"), found.notes),
+      account(found.elements), notes(found),
     ];
   }
 
   return { node, update() { replace(boxes, robotBoxes(chosen)); ground.update(); } };
+}
+
+// First and last riser as they are drawn; none: no floor is drawn at the foot.
+function ends(flight) {
+  return [t("building.first"), " ", flight.first_rise_m === null ? t("building.not_drawn") : figure(flight.first_rise_m, "length"), ", ",
+    t("building.last"), " ", figure(flight.last_rise_m, "length")];
+}
+
+// What became of every element for going up, and the reasons of those that are not judged.
+function account(elements) {
+  if (elements.length === 0) return null;
+  const word = (table, key) => t(`${table}.${(key || "other").replaceAll(" ", "_")}`);
+  const counted = (key) => [...elements.reduce((counts, each) => counts.set(each[key], (counts.get(each[key]) ?? 0) + 1), new Map())]
+    .map(([name, count]) => `${count} × ${word(key, name)}`).join(", ");
+  const left = elements.filter((each) => each.reasons.length > 0);
+  return [h("h3", {}, t("building.elements")), h("p", { class: "account" }, `${counted("kind")}: ${counted("outcome")}`),
+    left.length === 0 ? null : [h("h3", {}, t("building.refusals")), h("ul", { class: "not-judged" }, left.map((each) => h("li", {},
+      h("b", {}, each.name), ` (${word("kind", each.kind)}, ${each.identity}): `, each.reasons.map((why) => said(why)))))]];
+}
+
+function notes(found) {
+  const entries = [...found.notes, ...[...found.flights, ...found.elements].flatMap((each) => each.notes.map((note) => `${each.name}: ${note}`))];
+  return entries.length === 0 ? null : [h("h3", {}, t("building.notes")), h("ul", {}, entries.map((each) => said(each, "li")))];
 }
 
 function verdictOf(cell) {
@@ -124,8 +148,4 @@ function plan(storey, flights, every) {
         const [x, y] = middle(flight.lane);
         return s("text", { x, y: y + 5 }, flight.name);
       })));
-}
-
-function list(heading, entries) {
-  return entries.length === 0 ? null : [h("h3", {}, heading), h("ul", {}, entries.map((each) => said(each, "li")))];
 }
