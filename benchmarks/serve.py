@@ -18,6 +18,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import httpx
@@ -28,11 +29,11 @@ from record import finish, options
 STAIRS = ("ibc", "ada", "osha-ship")
 
 
-def questions(different: int) -> list[dict[str, object]]:
-    """So many different questions with a stated posture."""
+def questions(different: int, least: float = 0.5) -> list[dict[str, object]]:
+    """So many different questions with a stated posture, at the least friction and above."""
     return [
         {"robot": "absolem", "stairs": STAIRS[k % 3], "flippers": ("flat", "stowed")[k % 2],
-         "friction": round(0.5 + 0.001 * k, 3)}
+         "friction": round(least + 0.001 * k, 4)}
         for k in range(different)
     ]  # fmt: skip
 
@@ -89,9 +90,10 @@ async def user(client: httpx.AsyncClient, seconds: float, asked: itertools.cycle
         await asyncio.sleep(max(0.0, 1.0 - took))
 
 
-async def load(address: str, users: int, seconds: float, different: int, warm: bool) -> dict:
+async def load(
+    address: str, users: int, seconds: float, every: list[dict[str, object]], warm: bool
+) -> dict:
     """Latencies of many users [ms], and errors."""
-    every = questions(different)
     limits = httpx.Limits(max_connections=users)
     async with httpx.AsyncClient(base_url=address, timeout=60, limits=limits) as client:
         if warm:
@@ -120,15 +122,21 @@ def memory(pid: int) -> dict[int, float]:
     return {int(a): int(b) / 1024 for a, b in (line.split() for line in listed.splitlines())}
 
 
+def handles(pid: int) -> int:
+    """Files and sockets that a process has open (Linux)."""
+    return len(list(Path(f"/proc/{pid}/fd").iterdir()))
+
+
 def growth(address: str, pid: int, requests: int) -> dict:
     """Growth of memory after a tenth of the requests [MB], without the answers it remembers."""
     frictions = itertools.count(4000)
     with httpx.Client(base_url=address, timeout=60) as client:
         before: dict[int, float] = {}
+        open_before = 0
         remembered = 0.0
         for k in range(requests):
             if k == requests // 10:
-                before = memory(pid)
+                before, open_before = memory(pid), handles(pid)
             if k % 4 == 0:
                 client.post("/api/estimate", json={"robot": f"nobody{k}", "stairs": "ibc"})
             elif k % 4 == 1:
@@ -140,34 +148,39 @@ def growth(address: str, pid: int, requests: int) -> dict:
                 remembered += len(answer.content) / 1e6 if before else 0.0
         after = memory(pid)
     return {
+        "handles_growth": handles(pid) - open_before,
         "server_growth_mb": after[pid] - before[pid] - min(remembered, 64.0),
         "workers_growth_mb": sum(after.values()) - sum(before.values()) - after[pid] + before[pid],
         "server_mb": after[pid],
     }
 
 
+@contextmanager
+def started(folder: Path):
+    """A server in a process of its own, with its state in a folder, and its address."""
+    server = subprocess.Popen(
+        [sys.executable, "-m", "kaidan", "serve", "--port", "0", "--state", str(folder)],
+        stdout=subprocess.PIPE, text=True, cwd=folder,
+    )  # fmt: skip
+    try:
+        assert server.stdout is not None
+        address = re.match(r"\S+", server.stdout.readline())[0]
+        time.sleep(2.0)
+        yield server, address
+    finally:
+        server.terminate()
+        server.wait(20)
+
+
 def main(arguments: argparse.Namespace) -> dict[str, float]:
-    with tempfile.TemporaryDirectory() as folder:
-        server = subprocess.Popen(
-            [sys.executable, "-m", "kaidan", "serve", "--port", "0", "--state", folder],
-            stdout=subprocess.PIPE, text=True, cwd=Path(folder),
-        )  # fmt: skip
-        try:
-            assert server.stdout is not None
-            address = re.match(r"\S+", server.stdout.readline())[0]
-            time.sleep(2.0)
-            found = {}
-            for name, warm in (("new", False), ("again", True)):
-                each = asyncio.run(
-                    load(address, arguments.users, arguments.seconds, arguments.different, warm)
-                )
-                found |= {f"{name}_{key}": value for key, value in each.items()}
-            each = asyncio.run(sliders(address, arguments.sliders, arguments.seconds / 3))
-            found |= {f"slider_{key}": value for key, value in each.items()}
-            found |= growth(address, server.pid, arguments.requests)
-        finally:
-            server.terminate()
-            server.wait(20)
+    with tempfile.TemporaryDirectory() as folder, started(Path(folder)) as (server, address):
+        found, every = {}, questions(arguments.different)
+        for name, warm in (("new", False), ("again", True)):
+            each = asyncio.run(load(address, arguments.users, arguments.seconds, every, warm))
+            found |= {f"{name}_{key}": value for key, value in each.items()}
+        each = asyncio.run(sliders(address, arguments.sliders, arguments.seconds / 3))
+        found |= {f"slider_{key}": value for key, value in each.items()}
+        found |= growth(address, server.pid, arguments.requests)
     return found | {"load_of_the_machine": os.getloadavg()[0]}
 
 
@@ -190,5 +203,6 @@ if __name__ == "__main__":
             "slider_errors": 0,
             "slider_p95_ms": 100,
             "server_growth_mb": 8,
+            "handles_growth": 0,
         },
     )

@@ -10,11 +10,19 @@ class KaidanError(Exception):
     """Root of everything kaidan raises on purpose."""
 
 
+LONGEST = 290
+"""Characters of an error's text at most: one line on a screen, with the name of the command."""
+
+
 class InputError(KaidanError):
     """An input without physical meaning, or one that cannot be read.
 
-    The text names the owner, the field, the value with its unit and what is allowed.
+    The text names the owner, the field, the value with its unit and what is allowed; of one that is
+    too long the middle is left out.
     """
+
+    def __init__(self, text: str = "") -> None:
+        super().__init__(within(text))
 
 
 class RefusedError(InputError):
@@ -25,21 +33,64 @@ class RefusedError(InputError):
 
 
 def shown(value: Any) -> str:
-    """Text of any value in one short line, for the text of an error."""
-    text = " ".join(repr(value).split())
+    """Text of any value in one short line, for the text of an error.
+
+    Examples
+    --------
+    >>> shown(10**5000), shown("x" * 100)[-6:]
+    ('a number of more than 300 digits', 'xxx...')
+    """
+    try:
+        text = repr(value)
+    except (ValueError, OverflowError):  # an integer of more digits than Python writes
+        text = "a number of more than 300 digits" if isinstance(value, int) else _unshown(value)
+    except Exception:  # nested without end, or a class with a fault of its own
+        text = _unshown(value)
+    text = short(" ".join(text.split()))
     return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def _unshown(value: Any) -> str:
+    return f"a {type(value).__name__} that cannot be written"
 
 
 def short(name: object) -> str:
     """Name of a file or a thing as it stands in an error: printable and not endless."""
     text = "".join(c if c.isprintable() else "�" for c in str(name))
-    return text if len(text) <= 200 else f"{text[:120]}...{text[-60:]}"
+    return text if len(text) <= 150 else f"{text[:87]}...{text[-60:]}"
+
+
+def within(text: str, most: int = LONGEST) -> str:
+    """Text as long as an error may be: its beginning and its end, which say most.
+
+    Examples
+    --------
+    >>> within("a" * 50 + "b" * 50, 20)
+    'aaaaaaaaaaaa...bbbbb'
+    """
+    end = most // 4
+    return text if len(text) <= most else f"{text[: most - end - 3]}...{text[-end:]}"
+
+
+def listed(names: Iterable[object], most: int = 120) -> str:
+    """Names with commas between them, as many as a line of an error has room for.
+
+    Examples
+    --------
+    >>> listed(["mass", "title", "track"], 12)
+    'mass, title and 1 more'
+    """
+    every = [short(name) for name in names]
+    kept = next((k for k in range(len(every)) if len(", ".join(every[: k + 1])) > most), len(every))
+    kept = max(kept, 1)
+    more = f" and {len(every) - kept} more" if len(every) > kept else ""
+    return ", ".join(every[:kept]) + more
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
     """What may have been meant, as the end of a sentence; empty if nothing is close."""
     by_lower = {each.lower(): each for each in known}
-    close = get_close_matches(word.strip().lower(), by_lower, n=1)
+    close = get_close_matches(str(word).strip().lower(), by_lower, n=1)
     return f"; did you mean {by_lower[close[0]]}?" if close else ""
 
 
@@ -105,7 +156,7 @@ class UnknownNameError(InputError):
         hint = f" Did you mean {' or '.join(map(repr, meant))}?" if meant else ""
         super().__init__(
             f"no {kind} is called {shown(name)} and no such file exists{elsewhere}.{hint} "
-            f"Known: {', '.join(known)}."
+            f"Known: {listed(known, 190)}."
         )
 
 

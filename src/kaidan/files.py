@@ -3,7 +3,9 @@
 import csv
 import io
 import os
+import re
 import secrets
+import stat
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,6 +14,10 @@ from typing import IO, Any
 from kaidan.answer import plain
 from kaidan.errors import InputError, short, shown
 
+_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
+"""How a text begins that a spreadsheet takes for a formula."""
+_FIGURES = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?|-\d+(?:\.\d+)?deg(?:[,/:+][\w.-]+)*")
+"""A number, or a posture such as -68deg,-20deg/land:flat."""
 PASSING = ".kaidan-"
 """How the name of a file begins that is not whole yet."""
 
@@ -40,13 +46,28 @@ def json_text(value: Any) -> str:
 
 
 def csv_text(columns: Mapping[str, Iterable[Any]]) -> str:
-    """CSV with one header line; NaN and None become empty fields."""
+    """CSV with one header line; NaN and None become empty fields, see `cell_of` for texts."""
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(columns)
-    rows = zip(*(plain(list(column)) for column in columns.values()), strict=True)
+    rows = zip(*(map(cell_of, plain(list(column))) for column in columns.values()), strict=True)
     writer.writerows(rows)
     return buffer.getvalue()
+
+
+def cell_of(value: Any) -> Any:
+    """Value as a cell of a table: a text that a spreadsheet takes for a formula gets a quote.
+
+    Numbers and angles of flippers stay as they are.
+
+    Examples
+    --------
+    >>> [cell_of(each) for each in ("=1+1", "-x", "-68deg,-20deg", "-0.5", -0.5, "ibc")]
+    ["'=1+1", "'-x", '-68deg,-20deg', '-0.5', -0.5, 'ibc']
+    """
+    if isinstance(value, str) and value.startswith(_FORMULA) and not _FIGURES.fullmatch(value):
+        return f"'{value}"
+    return value
 
 
 LARGEST_TABLE = 100_000_000
@@ -137,7 +158,7 @@ def whole_file(path: Path, *, durable: bool = False) -> Iterator[IO[bytes]]:
     Parameters
     ----------
     path : Path
-        File; a link stays a link, what it points to is replaced.
+        File; a link stays a link, what it points to is replaced and keeps its mode.
     durable : bool
         Whether it is on disk, and not only in the system's memory, when this ends.
 
@@ -154,6 +175,8 @@ def whole_file(path: Path, *, durable: bool = False) -> Iterator[IO[bytes]]:
         flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
         handle = os.open(passing, flags, 0o666)
         try:
+            if target.exists() and hasattr(os, "fchmod"):
+                os.fchmod(handle, stat.S_IMODE(target.stat().st_mode))
             with os.fdopen(handle, "wb") as file:
                 yield file
                 file.flush()

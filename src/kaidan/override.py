@@ -5,7 +5,7 @@ from typing import Any
 
 from pydantic.fields import FieldInfo
 
-from kaidan.errors import InputError, did_you_mean
+from kaidan.errors import InputError, did_you_mean, listed
 from kaidan.robot import Robot
 from kaidan.sheet import Sheet, bounds, table_of, words_of
 from kaidan.units import kind_of_unit
@@ -47,7 +47,7 @@ def unit_of_figure(name: str, sheet: type[Sheet] = Robot) -> str:
         known = [each for each, field in fields.items() if bounds(field)[0] is not None]
         words = [each for each, field in fields.items() if words_of(field.annotation)]
         meant = did_you_mean(_last(name), [*known, *words])
-        hint = f"{' K' if meant else '; k'}nown there: {', '.join(known)}" if known else ""
+        hint = f"{' K' if meant else '; k'}nown there: {listed(known)}" if known else ""
         raise InputError(f"{name!r} is no figure of a robot's sheet{meant}{hint}")
     return unit
 

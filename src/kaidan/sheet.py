@@ -21,12 +21,14 @@ from pydantic import (
 from pydantic import model_validator as model_validator
 from pydantic.fields import FieldInfo
 
-from kaidan.errors import InputError, did_you_mean, fault
+from kaidan.errors import LONGEST, InputError, did_you_mean, fault, listed, shown
 from kaidan.units import kind_of_unit, parse
 
 PLACEHOLDER = "FILL IN"
 """What stands for a value that the user has yet to fill in; no sheet accepts it."""
 
+_ROOM = LONGEST - 30
+"""Characters for several faults of one sheet, beside how many more there are."""
 _TEXTS = (str, dict)
 """Types of fields that hold texts."""
 _MISTAKEN_UNITS = {
@@ -99,7 +101,7 @@ class Sheet(BaseModel):
                 ]
                 if not wrong:
                     return sheet
-        raise InputError("; ".join(wrong)) from None
+        raise InputError(_of_several(wrong)) from None
 
     @classmethod
     def _in_si(cls, data: Mapping[Any, Any], wrong: list[str]) -> dict[Any, Any]:
@@ -138,7 +140,7 @@ class Sheet(BaseModel):
         if kind == "missing":
             return f"{where} is missing" + (f" ({field.description})" if field else "")
         if kind == "extra_forbidden":
-            known, hint = ", ".join(cls.model_fields), cls._meant(str(path[-1]))
+            known, hint = listed(cls.model_fields), cls._meant(str(path[-1]))
             known = f"{hint} Known: {known}" if hint else f"; known: {known}"
             return f"{where} is not a known field{known if len(path) == 1 else ''}"
         of_unit = f" {unit}" if unit and unit != "1" else ""
@@ -312,6 +314,17 @@ def is_list(field: FieldInfo | None) -> bool:
     return field is not None and bool(_item_limits(field.annotation))
 
 
+def _of_several(wrong: Sequence[str]) -> str:
+    """Several faults in one line, as many as an error has room for."""
+    if len(whole := "; ".join(wrong)) <= LONGEST:
+        return whole
+    kept = next(
+        (k for k in range(1, len(wrong)) if len("; ".join(wrong[: k + 1])) > _ROOM), len(wrong)
+    )
+    more = f"; and {len(wrong) - kept} more" if len(wrong) > kept else ""
+    return "; ".join(wrong[:kept]) + more
+
+
 def _path(path: Sequence[int | str]) -> str:
     text = ""
     for part in path:
@@ -334,7 +347,7 @@ def _shown(value: Any) -> str:
             return f"{value:.12g}"
         except OverflowError:
             return "a number of more than 300 digits"
-    return repr(value)[:60]
+    return shown(value)
 
 
 def _write_table(table: Mapping[str, Any], path: tuple[str, ...], lines: list[str]) -> None:

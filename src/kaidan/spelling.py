@@ -26,6 +26,8 @@ BEST = "best"
 PREPARED = ("traverse", "land")
 """Phases that a change of posture may prepare."""
 
+LARGEST = 10**300
+"""Largest whole number that is taken for a figure: no decimal number is larger."""
 Terrain = Stairs | tuple[Stairs, ...] | Profile
 _Sheet = TypeVar("_Sheet", Robot, Stairs, Surface)
 _NONE: Mapping[str, float] = {}
@@ -339,6 +341,8 @@ def quantity_of(name: str, given: Any, kind: str) -> Any:
     """SI value of a text with its unit; anything else as it is, for the sheet to judge."""
     if isinstance(given, str):
         return parse(given, kind, option=name)
+    if isinstance(given, int) and abs(given) > LARGEST:
+        raise InputError(f"{name} = {shown(given)} is beyond any figure")
     return given.item() if isinstance(given, np.generic) else given
 
 

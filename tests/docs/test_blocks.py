@@ -57,6 +57,9 @@ ELSEWHERE = {
     "    PYTHONMALLOC=malloc pytest tests/unit/contact "
     'tests/agreement/test_native_and_plain_kernel.py -m "not slow"': "by hand",
     "pip install -e .": ".ci/run, within '.[dev]'",
+    "python3 -m venv fresh && fresh/bin/pip install -c constraints.txt '.[test]'": "by hand",
+    "fresh/bin/kaidan doctor && fresh/bin/python -m pytest -q tests/unit/mechanics "
+    'tests/unit/readers tests/validation -m "not slow"': "by hand",
     "pip install '.[docs]'": ".ci/run, within '.[dev]'",
     "ruff format --check . && ruff check . && mypy && lint-imports": ".ci/run",
     'pytest -n auto -m "not slow"': ".ci/run",

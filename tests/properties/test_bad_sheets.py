@@ -83,7 +83,7 @@ def assert_refused_well(error, start=""):
     text = str(error)
     assert text.startswith(start)
     assert text.isprintable(), "one line, nothing that steers a terminal"
-    assert len(text) < 20_000
+    assert len(text) < 300
 
 
 @by_sheet

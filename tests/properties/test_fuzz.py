@@ -289,7 +289,7 @@ COMMANDS = list(commands())
 def assert_one_line(text):
     assert text
     assert text.isprintable()
-    assert len(text) < 3_000
+    assert len(text) < 300
     assert RAW not in text
 
 

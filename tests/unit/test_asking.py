@@ -155,3 +155,31 @@ def test_on_a_terminal_a_question_is_put_again(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(sys, "stdin", Terminal(""))
     with pytest.raises(InputError, match="the answers end before friction_low"):
         asking.ask(Surface)
+
+
+ASKING = "import sys; from kaidan.cli import asking, main; asking.PATIENCE = 0.5; main()"
+
+
+def asked_through(tmp_path, source):
+    """The command with what a shell command writes to it; its exit code and what it says."""
+    words = f"'{sys.executable}' -c '{ASKING}' new surface x.toml --ask"
+    done = subprocess.run(
+        ["sh", "-c", f"{source} | {words}"], cwd=tmp_path, capture_output=True, text=True,
+        timeout=60, check=False,
+    )  # fmt: skip
+    return done.returncode, done.stderr.splitlines()[-1]
+
+
+@pytest.mark.parametrize("answers", ["yes y", "yes ''", "cat /dev/zero", "printf 'Mat\\n0.5\\n'"])
+def test_it_ends_whatever_a_pipe_says(tmp_path, answers):
+    code, said = asked_through(tmp_path, answers)
+    assert code == 2
+    assert said.startswith("kaidan: ")
+    assert len(said) < 300
+
+
+def test_a_pipe_that_stays_open_need_not_end(tmp_path):
+    """Who answers by program and keeps the pipe waits for the sheet, not the sheet for the end."""
+    code, _ = asked_through(tmp_path, "(printf 'Mat\\n0.5\\n0.7\\n'; sleep 3)")
+    assert code == 0
+    assert Surface.named(str(tmp_path / "x.toml")).friction_low == 0.5

@@ -86,6 +86,31 @@ def test_csv_has_empty_fields_for_what_is_no_number():
     assert text == 'a,b\n1.5,"x,y"\n,\n'
 
 
+@pytest.mark.parametrize("name", ["=cmd|' /C calc'!A0", "+1", "-x", "@SUM(1)", "\t=1", "-2+3"])
+def test_a_text_that_a_spreadsheet_takes_for_a_formula_is_quoted(name):
+    """What the spreadsheet shows begins with a quote; CSV then quotes commas as ever."""
+    cell = files.csv_text({"robot": [name], "margin_deg": [-1.5]}).splitlines()[1]
+    quoted = f"'{name}" if name != "+1" else name  # a number is one
+    assert cell == f"{quoted},-1.5"
+
+
+def test_numbers_and_angles_of_flippers_are_not_quoted():
+    texts = ["-68deg,-20deg", "-5deg,flat/land:-60deg,-20deg", "-4.5deg+arm-out", "-0.5", "+2e-3"]
+    text = files.csv_text({"flippers": texts})
+    assert [each.strip('"') for each in text.splitlines()[1:]] == texts
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no modes there")
+@pytest.mark.parametrize("mode", [0o600, 0o640, 0o444, 0o755])
+def test_a_replaced_file_keeps_its_mode(tmp_path, mode):
+    path = tmp_path / "a.csv"
+    path.write_text("old")
+    path.chmod(mode)
+    files.write_all({path: "new"})
+    assert path.read_text() == "new"
+    assert path.stat().st_mode & 0o7777 == mode
+
+
 def test_files_are_written_whole_with_ordinary_rights(tmp_path):
     path = tmp_path / "a.csv"
     path.write_text("old")

@@ -4,6 +4,7 @@ import os
 import shutil
 import threading
 import time
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
@@ -42,7 +43,9 @@ class Running:
     def start(self):
         self.opened = listening("127.0.0.1", self.port)
         self.port = self.opened.getsockname()[1]
-        self.server = server_of(State(self.folder), host="127.0.0.1", token="", workers=1)
+        self.held = ExitStack()
+        kept = self.held.enter_context(State(self.folder))
+        self.server = server_of(kept, host="127.0.0.1", token="", workers=1)
         self.thread = threading.Thread(target=self.server.run, kwargs={"sockets": [self.opened]})
         self.thread.start()
         while not self.server.started:
@@ -52,6 +55,7 @@ class Running:
     def stop(self):
         self.server.should_exit = True
         self.thread.join()
+        self.held.close()
         self.opened.close()
 
     @property

@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from kaidan.arguments import known_arguments
 from kaidan.assessment.answer import Assessment as Assessment
 from kaidan.assessment.answer import Change, fill_in
 from kaidan.assessment.verdict import conclude
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from kaidan.assessment.unweighed import CentroidShown
 
 
+@known_arguments
 def assess(robot: Any, stairs: Any = None, **manner: Any) -> Assessment:
     """Whether a tracked robot can take a flight of stairs, and by how much.
 

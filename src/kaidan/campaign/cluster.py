@@ -76,7 +76,7 @@ class DaskWorkers:
         self.work, self.tries, self.version = work, tries, work.version()
         self.address, self.patience = address, patience
         client = distributed().Client
-        if not _ADDRESS.fullmatch(address):
+        if not isinstance(address, str) or not _ADDRESS.fullmatch(address):
             raise InputError(
                 f"{shown(address)} is no address of a Dask scheduler; write for example "
                 "tcp://10.0.0.1:8786"

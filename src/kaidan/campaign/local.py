@@ -13,9 +13,12 @@ from multiprocessing import connection
 from types import TracebackType
 from typing import Protocol, Self
 
+from kaidan.arguments import whole
 from kaidan.campaign.job import CRASHED, FAILED, Ended, Reply, Task, Work, perform
 from kaidan.errors import InputError
 
+MOST_WORKERS = 1024
+"""Most workers."""
 TRIES = 3
 """Times that a trial may kill its worker before it is given up."""
 AT_HAND = 0.5
@@ -107,7 +110,7 @@ class LocalWorkers:
 
     def __init__(self, work: Work, count: int | None = None, *, tries: int = TRIES) -> None:
         self.work, self.tries, self.version = work, tries, work.version()
-        self._slots = [_Slot() for _ in range(count or processors())]
+        self._slots = [_Slot() for _ in range(hands(count))]
         self._suspects: deque[Task] = deque()
         self._deaths: dict[str, int] = {}
         self._stillborn = 0
@@ -221,6 +224,11 @@ class LocalWorkers:
 
 def _nothing() -> None:
     """Do nothing: a process that comes back from it has begun."""
+
+
+def hands(stated: int | None) -> int:
+    """Number of workers: as stated, else one for each processor that this process may use."""
+    return processors() if stated is None else whole("workers", stated, 1, MOST_WORKERS)
 
 
 def processors() -> int:

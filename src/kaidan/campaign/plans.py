@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 import numpy as np
 from pydantic import BaseModel, Field, TypeAdapter, field_validator
 
-from kaidan.errors import InputError
+from kaidan.errors import InputError, listed
 from kaidan.physics import SmoothBelt, TrackModel, TrialSpec
 from kaidan.question import Question
 from kaidan.robot import Payload, Posture, Robot
@@ -251,7 +251,7 @@ def _set(sheet: dict[str, Any], name: str, value: Any) -> None:
     for part in path:
         place = place.get(part) if isinstance(place, dict) else None
     if not isinstance(place, dict) or last not in place:
-        known = f"; known there: {', '.join(place)}" if isinstance(place, dict) else ""
+        known = f"; known there: {listed(place)}" if isinstance(place, dict) else ""
         raise InputError(f"grid: {name!r} is no field of a trial{known}")
     place[last] = value
 

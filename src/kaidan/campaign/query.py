@@ -18,7 +18,7 @@ from kaidan.campaign.store_files import (
     schema_of,
 )
 from kaidan.errors import InputError, short, shown
-from kaidan.files import whole_file
+from kaidan.files import cell_of, whole_file
 
 EXPORTS = (".parquet", ".csv")
 
@@ -145,9 +145,21 @@ def export(folder: str | Path, file: str | Path) -> int:
     count = 0
     with whole_file(file) as stream, _writer(suffix, stream, schema) as writer:
         for batch in read_batches(folder):
-            writer.write_batch(batch)
+            writer.write_batch(_as_cells(batch) if suffix == ".csv" else batch)
             count += batch.num_rows
     return count
+
+
+def _as_cells(batch: Any) -> Any:
+    """Batch whose texts no spreadsheet takes for formulas."""
+    pa = arrow("pyarrow")
+    columns = [
+        pa.array(map(cell_of, column.to_pylist()), column.type)
+        if pa.types.is_string(column.type)
+        else column
+        for column in batch.columns
+    ]
+    return pa.record_batch(columns, schema=batch.schema)
 
 
 def _writer(suffix: str, stream: IO[bytes], schema: Any) -> Any:

@@ -6,7 +6,7 @@ from types import TracebackType
 from typing import Self
 
 from kaidan.campaign.job import Ended, Reply, Task, Work, perform
-from kaidan.campaign.local import processors
+from kaidan.campaign.local import hands
 
 
 class ThreadWorkers:
@@ -21,7 +21,7 @@ class ThreadWorkers:
     """
 
     def __init__(self, work: Work, count: int | None = None) -> None:
-        self.work, self.count, self.version = work, count or processors(), work.version()
+        self.work, self.count, self.version = work, hands(count), work.version()
         self._pool = ThreadPoolExecutor(self.count, thread_name_prefix="kaidan")
         self._futures: dict[Future[Reply], Task] = {}
 

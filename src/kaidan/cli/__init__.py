@@ -134,9 +134,12 @@ def run(words: Sequence[str]) -> int:
     """
     for name, value in _START_LIGHTLY.items():
         os.environ.setdefault(name, value)
+    closed = sys.stdout is None  # by who started it
     for name in ("stdout", "stderr"):
-        if getattr(sys, name) is None:  # closed by who started it
+        if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
+    if closed:
+        return _complain("the answer cannot be written: standard output is closed")
     from kaidan.errors import KaidanError, RefusedError
     from kaidan.modes import Verdict
 
@@ -217,10 +220,12 @@ def _fault(error: Exception) -> str:
 
 def _complain(text: str, code: int = 2) -> int:
     """Say in one line what is wrong; the exit code."""
+    from kaidan.errors import within
     from kaidan.text.tables import printable
 
     line = printable(" ".join(text.split()))
-    return _say("kaidan: " + _ENDLESS.sub(lambda word: f"{word.group()[:57]}...", line), code)
+    line = _ENDLESS.sub(lambda word: f"{word.group()[:57]}...", line)
+    return _say(f"kaidan: {within(line)}", code)
 
 
 def _say(text: str, code: int) -> int:

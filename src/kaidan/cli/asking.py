@@ -3,6 +3,8 @@
 import os
 import sys
 from collections.abc import Iterator
+from contextlib import suppress
+from itertools import islice
 from typing import Any
 
 import typer
@@ -13,6 +15,10 @@ from kaidan.text.tables import human
 
 PATIENCE = 10.0
 """How long a pipe may stay silent [s]."""
+LONGEST_LINE = 10_000
+"""Bytes of an answer at most."""
+MOST_LEFT = 1000
+"""Lines behind the last answer that are looked at: more are empty without end."""
 _ASKED = {
     "robot": (
         "title",
@@ -220,51 +226,69 @@ def _meant(sheet: type[Sheet], key: str, said: str) -> Any:
 
 
 class _Answers:
-    """Lines of standard input: one at a time from a terminal, all at once from a pipe."""
+    """Lines of standard input, taken one at a time: from a terminal, a pipe or a file."""
 
     def __init__(self) -> None:
         self.terminal = sys.stdin is not None and sys.stdin.isatty()
-        self._lines: Iterator[str] = iter(() if self.terminal else _piped().splitlines())
+        self._lines = iter(sys.stdin.readline, "") if self.terminal else _piped()
 
     def next(self, prompt: str, name: str) -> str:
         """Answer to a question."""
         from kaidan.errors import InputError
 
         typer.echo(prompt, nl=not self.terminal, err=True)
-        line = sys.stdin.readline() if self.terminal else next(self._lines, None)
-        if line is None or (self.terminal and not line):
+        line = next(self._lines, None)
+        if line is None:
             raise InputError(guide.ended(name))
         return line
 
     def end(self) -> None:
-        """Refuse what a pipe says beyond the last question: answers that are one off are wrong."""
+        """Refuse what a pipe says beyond the last question: answers that are one off are wrong.
+
+        A pipe that stays open and says nothing has ended; one that never ends has said too much.
+        """
         from kaidan.errors import InputError
 
-        more = next((line for line in self._lines if line.strip()), None)
+        lines = () if self.terminal else islice(_until_silent(self._lines), MOST_LEFT)
+        more = next((line for line in lines if line.strip()), None)
         if more is not None:
-            raise InputError(guide.too_many(more))
+            raise InputError(guide.too_many(more.strip()))
 
 
-def _piped() -> str:
-    """Everything that a pipe or a file says; refused when it stays silent."""
+def _until_silent(lines: Iterator[str]) -> Iterator[str]:
+    from kaidan.errors import InputError
+
+    with suppress(InputError):
+        yield from lines
+
+
+def _piped() -> Iterator[str]:
+    """Lines of a pipe or a file; refused when it stays silent, or says a line without end."""
     import select
 
     from kaidan.errors import InputError
 
     if sys.stdin is None:
-        return ""
+        return
     try:
         handle = sys.stdin.fileno()
     except (OSError, ValueError):  # replaced by a program that runs this one
-        return sys.stdin.read()
+        yield from sys.stdin
+        return
     if os.name == "nt":  # where a pipe cannot be waited for
-        return sys.stdin.read()
-    said = b""
-    while True:
+        yield from sys.stdin
+        return
+    said, ended = b"", False
+    while said or not ended:
+        line, newline, rest = said.partition(b"\n")
+        if newline or ended:
+            said = rest
+            yield line.decode("utf-8", errors="replace")
+            continue
+        if len(said) > LONGEST_LINE:
+            raise InputError(guide.too_many(said[:60].decode("utf-8", errors="replace")))
         ready, _, _ = select.select([handle], [], [], PATIENCE)
         if not ready:
             raise InputError(guide.silent(PATIENCE))
-        piece = os.read(handle, 65536)
-        if not piece:
-            return said.decode("utf-8", errors="replace")
-        said += piece
+        piece = os.read(handle, 4096)
+        said, ended = said + piece, not piece

@@ -14,7 +14,8 @@ Port = Annotated[int, typer.Option(min=0, max=65535, help="Port to listen at.")]
 Token = Annotated[
     str | None,
     typer.Option(
-        envvar="KAIDAN_TOKEN", help="Token that clients must send [made up where one is needed]."
+        envvar="KAIDAN_TOKEN",
+        help="Token that clients must send, 16 characters at least [made up where one is needed].",
     ),
 ]
 Processes = Annotated[
@@ -48,23 +49,22 @@ def serve(
     from kaidan.campaign.local import processors
     from kaidan.errors import needed
 
-    for module in ("fastapi", "uvicorn", "python_multipart"):
+    for module in ("fastapi", "uvicorn", "httptools", "python_multipart"):
         needed(module, "kaidan serve", "web")
-    from kaidan.web.server import is_local, listening, new_token, server_of
+    from kaidan.web.server import is_local, listening, server_of, token_for
     from kaidan.web.state import State, usual_folder
 
+    token = token_for(host, token)
     if not is_local(host):
-        token = token or new_token()
         typer.echo(
             f"kaidan: whoever reaches {host} and knows the token can ask; nothing is encrypted",
             err=True,
         )
-    with listening(host, port) as opened:
-        kept = State(state or usual_folder())
+    with listening(host, port) as opened, State(state or usual_folder()) as kept:
         shown = f"[{host}]" if ":" in host else host
         secret = f"?token={token}" if token else ""
         typer.echo(f"http://{shown}:{opened.getsockname()[1]}/{secret}")
         sys.stdout.flush()
         count = workers or processors()
-        server = server_of(kept, host=host, token=token or "", workers=count)
+        server = server_of(kept, host=host, token=token, workers=count)
         server.run(sockets=[opened])

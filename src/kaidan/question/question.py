@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from kaidan.allowance import Allowance
+from kaidan.arguments import known_arguments
 from kaidan.errors import InputError
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.measures import kinetic_energy_height, sudden_stop_height
@@ -66,6 +67,7 @@ class Question(QuestionFields):
     __hash__ = QuestionFields.__hash__
 
     @classmethod
+    @known_arguments
     def of(
         cls,
         robot: Any,

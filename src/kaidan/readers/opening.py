@@ -93,14 +93,23 @@ class Source:
 
     @cached_property
     def members(self) -> tuple[zipfile.ZipInfo, ...]:
-        """Files in it, where it is a zip archive; none otherwise, or where it is damaged."""
+        """Files in it, where it is a zip archive; none otherwise, or where it is damaged.
+
+        Raises
+        ------
+        InputError
+            One of them has no name.
+        """
         if not self.head.startswith(b"PK\x03\x04"):
             return ()
         try:
             with zipfile.ZipFile(self.path) as archive:
-                return tuple(each for each in archive.infolist() if not each.is_dir())
+                every = archive.infolist()
         except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError):
             return ()
+        if not all(each.filename for each in every):
+            raise self.refuse("an entry of the archive has no name")
+        return tuple(each for each in every if not each.is_dir())
 
     @contextmanager
     def opened(self) -> Iterator[IO[bytes]]:
@@ -115,8 +124,13 @@ class Source:
     def foreign(self, where: str = "") -> Iterator[None]:
         """Whatever a library raises over a damaged file becomes one line about the file.
 
-        A panic of a library written in Rust is no `Exception`, and is one all the same here.
+        What it warns of or logs is not said. A panic of a library written in Rust is no
+        `Exception`, and is one all the same here.
         """
+        import logging
+
+        before = logging.root.manager.disable
+        logging.disable(logging.CRITICAL)
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
@@ -129,6 +143,8 @@ class Source:
             lines = str(error).split("\n")
             text = short(lines[0]) or type(error).__name__
             raise self.refuse(f"cannot be read: {text}", where) from None
+        finally:
+            logging.disable(before)
 
     def content(self, largest: int = LARGEST) -> bytes:
         """All of its bytes.

@@ -87,9 +87,10 @@ def is_splats(source: Source) -> bool:
 
 
 def is_xacro(source: Source) -> bool:
-    """Test of a robot's XML with macros; what xacro has expanded keeps their name space only."""
+    """Test of a robot's XML with macros, comments aside; once expanded it has none."""
+    said = re.sub(rb"<!--.*?(?:-->|\Z)", b"", source.head, flags=re.DOTALL)
     return xml("robot", "xacro")(source) and bool(
-        re.search(rb"<xacro:|\$\{|\$\((?:arg|find|eval|env)", source.head)
+        re.search(rb"<xacro:|\$\{|\$\((?:arg|find|eval|env)", said)
     )
 
 

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from kaidan import catalog
 from kaidan.allowance import Allowance
-from kaidan.errors import InputError, shown
+from kaidan.errors import InputError, listed, shown
 from kaidan.robot.drive import Drive
 from kaidan.robot.flippers import FlipperPair, Posture
 from kaidan.robot.masses import CentroidRange, Payload, State, Uncertainty
@@ -302,7 +302,7 @@ class Robot(Sheet):
         if name is None:
             return 0.0, 0.0
         if name not in self.states:
-            known = ", ".join(self.states) or "none"
+            known = listed(self.states) or "none"
             raise InputError(f"robot {self.name!r} has no state {shown(name)}; known: {known}")
         state = self.states[name]
         share = 1.0 if state.mass is None or self.mass is None else state.mass / self.mass

@@ -61,6 +61,11 @@ class Track(Sheet):
     belly_clearance: float | None = quantity(
         "m", 0.0, 1.0, "height of the belly above the underside of the track", default=None
     )
+    drawn_as: Literal["wheels", "box"] | None = Field(
+        default=None,
+        description="what a file draws in place of a belt, which is then assumed unless belt "
+        "states it; none: a belt",
+    )
     belt: Literal["smooth", "grousers"] | None = Field(
         default=None, description="surface of the belts; none: not known, and taken as smooth"
     )
@@ -141,6 +146,11 @@ class Track(Sheet):
             if getattr(self, length) is not None and getattr(self, stiffness) is not None:
                 raise self.refuse(f"give either {length} or {stiffness}, not both")
         return self
+
+    @property
+    def assumed_over(self) -> Literal["wheels", "box"] | None:
+        """What a belt that nobody stated is assumed over; None: it is none of these."""
+        return None if self.belt is not None else self.drawn_as
 
     @property
     def has_grousers(self) -> bool:

@@ -7,6 +7,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from kaidan.arguments import known_arguments
 from kaidan.campaign import Condition, Setting, VerificationTest, carry_out, read_batches
 from kaidan.errors import InputError, shown
 from kaidan.spelling import robot_of
@@ -28,6 +29,7 @@ class Experiment(NamedTuple):
     """Trials that the store had already."""
 
 
+@known_arguments
 def experiment(robot: Any, *, store: str | Path | None = None, **options: Any) -> Verification:
     """Test in MuJoCo at which slopes a robot falls: the paper's verification test.
 
@@ -57,6 +59,8 @@ def experiment(robot: Any, *, store: str | Path | None = None, **options: Any) -
     ----------
     Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, "Verification test", Figs. 12-21.
     """
+    if not isinstance(store, str | Path | None):
+        raise InputError(f"store = {shown(store)} is not a path")
     how = {name: options.pop(name) for name in _HOW if name in options}
     return carried_out(plan_of(robot, **options), store, **how).verification
 

@@ -11,6 +11,7 @@ from typing import Any, Literal
 import numpy as np
 
 from kaidan.answer import Answer, Part
+from kaidan.arguments import known_arguments
 from kaidan.mechanics.margin import theta_s_sup, theta_s_sup_arccos, theta_s_sup_corrected
 from kaidan.mechanics.measures import energy_margin_backward, kinetic_energy_height
 from kaidan.mechanics.plane import contact_count
@@ -112,6 +113,7 @@ class Reproduction(Answer):
     """The triangle of Fig. 10."""
 
 
+@known_arguments
 def reproduce() -> Reproduction:
     """Reproduce the paper: what its text prints, what kaidan computes, and the difference.
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.answer import Answer, Part
+from kaidan.arguments import known_arguments, whole
 from kaidan.assessment import found_plan
 from kaidan.assessment.uncertain_inputs import GROUPS, doubts_of, without
 from kaidan.errors import InputError, MissingExtraError
@@ -22,6 +23,10 @@ from kaidan.sweeps.plan import Along, Plan
 from kaidan.sweeps.running import carried_out
 from kaidan.terrain.stairs import Stairs
 
+MOST_SAMPLES = 2**20
+"""Most samples."""
+LARGEST_SEED = 2**31
+"""Largest seed that is taken."""
 SAMPLES = 256
 """Draws of each column; every input takes as many again."""
 _BEYOND = 4.0
@@ -86,6 +91,7 @@ class _Drawn(NamedTuple):
     bounds: tuple[float, float]
 
 
+@known_arguments
 def sensitivity(
     robot: Any,
     stairs: Any = None,
@@ -135,7 +141,8 @@ def sensitivity(
     doi:10.21105/joss.00097, SALib.
     """
     question, _ = found_plan(Question.ask(robot, stairs, **manner))
-    if samples < 8 or samples & (samples - 1):
+    whole("seed", seed, 0, LARGEST_SEED)
+    if whole("samples", samples, 8, MOST_SAMPLES) & (samples - 1):
         raise InputError(f"samples = {samples} is not a power of two from 8 on")
     drawn, left_out = _inputs(question)
     if not drawn:

@@ -3,13 +3,15 @@
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.errors import InputError, shown
+from kaidan.arguments import flag, known_arguments
+from kaidan.errors import InputError, listed, shown
 from kaidan.mechanics.verdict import Judged, judged
+from kaidan.spelling import word_of
 from kaidan.sweeps import compiled, compiled_pairs
 
 Engine = Literal["auto", "numpy", "compiled"]
@@ -57,6 +59,7 @@ _RANGES = {
 }
 
 
+@known_arguments
 def verdicts(
     inputs: Mapping[str, Any],
     *,
@@ -103,7 +106,8 @@ def verdicts(
     array([0, 0, 2], dtype=int8)
     """
     arrays, shape = _broadcast(inputs)
-    if checked:
+    word_of("engine", engine, get_args(Engine))
+    if flag("checked", checked):
         _check(arrays)
     if out is None:
         out = Judged(*(np.empty(shape, _type_of(name)) for name in Judged._fields))
@@ -113,8 +117,6 @@ def verdicts(
     size = int(np.prod(shape))
     if engine == "auto":
         engine = "compiled" if size >= _WORTH_COMPILING and compiled.available() else "numpy"
-    if engine not in ("numpy", "compiled"):
-        raise InputError(f"engine = {shown(engine)} is not known; known: auto, numpy, compiled")
     kernel = compiled_pairs.kernel() if engine == "compiled" else _numpy_kernel
     step = _CHUNK[engine]
     flat_in = [_chunks(array, shape, step) for array in arrays.values()]
@@ -137,6 +139,7 @@ def verdicts(
     return out
 
 
+@known_arguments
 def stream(
     chunks: Iterable[Mapping[str, Any]], *, engine: Engine = "auto", checked: bool = True
 ) -> Iterator[Judged]:
@@ -159,6 +162,11 @@ def stream(
     Judged
         Answer of each chunk.
     """
+    word_of("engine", engine, get_args(Engine))
+    try:
+        chunks = iter(chunks)
+    except TypeError:
+        raise InputError(f"chunks = {shown(chunks)} is no source of tables") from None
     if engine == "auto" and compiled.available():
         engine = "compiled"
     out: Judged | None = None
@@ -175,10 +183,10 @@ def _broadcast(inputs: Mapping[str, Any]) -> tuple[dict[str, Array], tuple[int, 
         raise InputError(f"inputs = {shown(inputs)} is not a mapping of names to numbers")
     unknown = inputs.keys() - INPUTS.keys()
     if unknown:
-        raise InputError(f"unknown input {min(map(shown, unknown))}; known: {', '.join(INPUTS)}")
+        raise InputError(f"unknown input {min(map(shown, unknown))}; known: {listed(INPUTS)}")
     missing = [name for name in INPUTS if name not in inputs and name not in _DEFAULTS]
     if missing:
-        raise InputError(f"missing input: {', '.join(missing)}")
+        raise InputError(f"missing input: {listed(missing)}")
     arrays = {
         name: numbers_of(name, inputs[name] if name in inputs else _DEFAULTS[name])
         for name in INPUTS

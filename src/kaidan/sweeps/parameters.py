@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any, NamedTuple
 
-from kaidan.errors import InputError, did_you_mean, shown
+from kaidan.errors import InputError, did_you_mean, listed, shown
 from kaidan.override import OVERRIDES, unit_of_figure
 from kaidan.question import Question
 from kaidan.robot import Payload, Robot
@@ -115,7 +115,7 @@ def parameter(name: str) -> Parameter:
         return Parameter(name, "number" if unit == "1" else kind_of_unit(unit), unit)
     known = (*NUMBERS, *OVERRIDES, *SHAPE, *WORDS)
     raise InputError(
-        f"unknown parameter {shown(name)}; known: {', '.join(known)}, and figures of the robot's "
+        f"unknown parameter {shown(name)}; known: {listed(known)}, and figures of the robot's "
         f"sheet such as track.front_radius or payload.height{did_you_mean(name, known)}"
     )
 

@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel
 
-from kaidan.errors import InputError
+from kaidan.arguments import flag
+from kaidan.errors import InputError, shown
 from kaidan.modes import CONTACT
 from kaidan.spelling import BEST
 from kaidan.sweeps.parameters import UNDRIVEN, parameter, settled
@@ -104,6 +105,7 @@ class Plan:
         InputError
             An unknown parameter, a dimension with two lengths, or too many cells.
         """
+        flag("screen", screen)
         base: dict[str, Any] = {}
         varied: dict[str, Given] = {}
         labels: dict[str, tuple[Any, ...]] = {}
@@ -289,7 +291,8 @@ def _label(name: str, value: Any) -> Any:
         return "..".join(f"{end:g}" for end in value)
     if isinstance(value, tuple):
         return "+".join(str(_label(name, each)) for each in value)
-    return str(getattr(value, "name", value))
+    called = getattr(value, "name", value)
+    return called if isinstance(called, str) else shown(called)
 
 
 def _plain(value: Any) -> Any:
@@ -303,6 +306,9 @@ def _canonical(value: Any) -> str:
         return value.model_dump_json()
     if isinstance(value, Profile):
         return json.dumps(value.to_dict())
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(map(_canonical, value)) + "]"
-    return repr(value)
+    try:
+        if isinstance(value, list | tuple):
+            return "[" + ", ".join(map(_canonical, value)) + "]"
+        return repr(value)
+    except (RecursionError, ValueError, RuntimeError):  # nested or written without end
+        raise InputError(f"{shown(value)} is no value of a parameter") from None

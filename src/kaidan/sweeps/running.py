@@ -13,7 +13,7 @@ from kaidan.campaign.query import read_batches
 from kaidan.campaign.runner import Kept, conduct
 from kaidan.campaign.store import Store
 from kaidan.campaign.threads import ThreadWorkers
-from kaidan.errors import InputError, KaidanError
+from kaidan.errors import InputError, KaidanError, shown
 from kaidan.sweeps.cells import CELLS, LISTS, REFUSED
 from kaidan.sweeps.plan import Plan
 from kaidan.sweeps.swept import Swept
@@ -56,6 +56,8 @@ def carried_out(
     MissingExtraError
         pyarrow (for a store) or distributed is not installed.
     """
+    if not isinstance(store, str | Path | None):
+        raise InputError(f"store = {shown(store)} is not a path")
     with (
         _workers(scheduler, workers) as hands,
         Progress(len(plan.chunks), shown=progress, what="chunks") as bar,

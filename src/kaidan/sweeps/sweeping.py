@@ -3,12 +3,14 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from kaidan.arguments import known_arguments
 from kaidan.sweeps.pairs import Engine
 
 if TYPE_CHECKING:
     import xarray
 
 
+@known_arguments
 def sweep(
     robot: Any,
     stairs: Any = None,

@@ -68,6 +68,8 @@ class Swept:
     def dataset(self) -> "xarray.Dataset":
         """The same as a Dataset of xarray: codes with their meanings, units in the attributes.
 
+        Where flippers or facing vary, those of the answer are `flippers_found`, `facing_found`.
+
         Raises
         ------
         MissingExtraError
@@ -82,8 +84,9 @@ class Swept:
             elif name == "governs":
                 codes = np.searchsorted(np.array(self.governs, dtype=str), array.astype(str))
                 variables[name] = (dims, codes.astype(np.int16), _flags(self.governs))
-            elif array.dtype == object:
-                variables[name] = (dims, array.astype(str))
+            elif array.dtype == object:  # beside what was asked, where that varies
+                own = f"{name}_found" if name in self.plan.parameters else name
+                variables[own] = (dims, array.astype(str))
             else:
                 unit, meaning = _MEANINGS.get(name, ("", f"margin of {name}"))
                 unit = unit or name.rpartition("_")[2]

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from kaidan.errors import InputError, needed, shown
+from kaidan.errors import InputError, listed, needed, shown
 from kaidan.mechanics.plane import contact_count
 from kaidan.mechanics.verdict import Judged
 from kaidan.models.closed_form import MODES
@@ -122,7 +122,7 @@ def formula_table(
     unknown = set(parameters) - set(PARAMETERS)
     if unknown:
         raise InputError(
-            f"unknown parameter {shown(sorted(unknown)[0])}; known: {', '.join(PARAMETERS)}"
+            f"unknown parameter {shown(sorted(unknown)[0])}; known: {listed(PARAMETERS)}"
         )
     given = {name: _labelled(name, value) for name, value in parameters.items()}
     if surface is not None and "friction" in given:

@@ -23,6 +23,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import Field
 
 from kaidan import catalog
+from kaidan.arguments import known_arguments
 from kaidan.errors import InputError
 from kaidan.sheet import Sheet, model_validator, quantity
 from kaidan.terrain.gap import DEEPEST_TREAD, Gap
@@ -301,6 +302,7 @@ class Stairs(Sheet):
         return catalog.load("stairs", name, cls.from_text)
 
     @classmethod
+    @known_arguments
     def inclined(cls, *, angle: float | str, nosing_spacing: float | str, steps: int = 12) -> Self:
         """Uniform flight from its angle and its nosing spacing.
 

@@ -13,6 +13,7 @@ from kaidan.modes import (
 from kaidan.text import dynamic, limits, measuring, plan, terrain, traction, turning
 from kaidan.text.tables import decimals
 from kaidan.text.unweighed import rows, thresholds
+from kaidan.text.verdicts import belt_assumed
 from kaidan.text.words import place, subject
 
 if TYPE_CHECKING:
@@ -32,6 +33,8 @@ NO_FRICTION = 0.005
 def text(answer: "Assessment") -> str:
     """Answer on one screen: the verdict, why, what to do, what decides, what is not known."""
     lines = [headline(answer), f"  {answer.reason}"]
+    if assumed := belt_assumed(answer.question.robot):
+        lines.append(_row("assumed", assumed))
     if answer.plan is not None and plan.line(answer.plan):
         lines.append(_row("posture", plan.line(answer.plan)))
     lines += [_row("landing", line) for line in turning.lines(answer.turns)]
@@ -91,7 +94,9 @@ def change_name(answer: "Assessment") -> str:
 def short(answer: "Assessment") -> str:
     """Answer in one line: the verdict, for whom, its margin and what decides."""
     margin = "" if answer.margin_deg is None else f"  {answer.margin_deg:+.1f} deg"
-    return f"{headline(answer)}{margin}  {answer.governs}{place(answer.phase, answer.step)}"
+    assumed = "" if answer.question.robot.track.assumed_over is None else "  belt assumed"
+    decides = f"{answer.governs}{place(answer.phase, answer.step)}"
+    return f"{headline(answer)}{margin}  {decides}{assumed}"
 
 
 def headline(answer: "Assessment") -> str:

@@ -25,6 +25,8 @@ REFUSALS: Mapping[str, str] = {
     "no-slope": "Not understood: it is called a ramp, and nothing of it slopes.",
     "undrawn": "Not understood: nothing of it is drawn.",
     "damaged": "Not understood: no shape can be made of what is drawn.",
+    "unclear": "It shows {steps} steps whose risers point up to {turn_deg:.0f} deg apart: "
+    "something stands before them, or the flight turns. Scan again with nothing in the way.",
     "ladder": "It is a ladder of {angle_deg:.0f} deg; tracks take up to 60 deg.",
     "flat": "It is level: its heights differ by {height_mm:.0f} mm.",
     "none": "No stairs are in it.",
@@ -39,6 +41,11 @@ REFUSALS: Mapping[str, str] = {
     "com_height, or weigh the robot (kaidan measure robot --help).",
     "mesh-tracks": "Its tracks are meshes, which are not opened ({names}): state flat_length, "
     "com_from_front and com_height, or measure them. Its masses add up to {mass_kg:.1f} kg.",
+    "no-track": "It has no track: the file names and declares none, and draws no wheels that "
+    "overlap. If the robot has belts, state them: --override track.belt=smooth.",
+    "wheels": "It has wheels and no track: a nosing drops between wheels of {radius_mm:.0f} mm "
+    "radius that stand {gap_mm:.0f} mm apart. If a belt runs over them, state it: "
+    "--override track.belt=smooth.",
     "no-flat-run": "Nothing on which it stands is level within 3 deg: this is no tracked robot, or "
     "its axes are others than x forward and z up.",
     "splats": "These are Gaussian splats, whose centres are no surface: export a mesh or a point "

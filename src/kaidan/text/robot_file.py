@@ -6,6 +6,12 @@ from typing import Protocol
 MOST_NAMES = 4
 """Names of links that one sentence lists."""
 
+BELT_ASSUMED: Mapping[str, str] = {
+    "wheels": "The file draws wheels alone. A belt over them is assumed: check that there is one.",
+    "box": "The file draws a box for each track. A belt round it is assumed, with square ends.",
+}
+"""What is assumed of a belt, by what a file draws in its place."""
+
 FAULTS: Mapping[str, str] = {
     "no-mass": "No mass is stated for {who}: counted as 0 kg.",
     "zero-mass": "A mass of 0 kg is stated for {who}.",
@@ -20,8 +26,10 @@ FAULTS: Mapping[str, str] = {
     "off-middle": "The centroid lies {aside_mm:.0f} mm to the {side} of the middle of the tracks: "
     "axes may be swapped, or a mass misplaced.",
     "outside": "The centroid lies beyond the flat run: front may be another axis than {forward}.",
-    "wheels-for-tracks": "Its track is {wheels:.0f} wheels a side: the belt over them is taken for "
-    "granted. A robot on wheels without belts is not judged.",
+    "wheels-for-belt": BELT_ASSUMED["wheels"],
+    "box-for-belt": BELT_ASSUMED["box"],
+    "locked": "Locked flippers, whose joints have no travel: {who}. They are judged at the angle "
+    "of the file.",
     "everything": "Nothing is called or declared a track: all shapes are taken.",
     "seen-only": "Without shapes for contact, those for the eye are taken: {who}.",
     "mesh-tracks": "Tracks that are meshes are not opened: {who}.",
@@ -100,6 +108,13 @@ def posture(angles: Mapping[str, float], flippers: Mapping[str, float]) -> str:
     return f", {', '.join(parts)}" if parts else ""
 
 
+KEPT = ("wheels-for-belt", "box-for-belt")
+"""Faults that a sheet keeps as figures."""
+DRAWN: Mapping[str, str] = {
+    "wheels": "wheels that overlap",
+    "box": "shape of the tracks",
+}
+"""What tells what a file draws in place of a belt."""
 STATED = "stated by the user"
 LOWER_EDGE = "longest lower edge of the hull of {how}"
 END_WHEEL = "wheel at the {end} end of the flat run"
@@ -112,6 +127,7 @@ OUTERMOST = "outermost shapes on both sides"
 HIGHEST = "highest shape, flippers apart"
 GROUSERS = "boxes that stand out of the track"
 DECLARED = "declared by a plugin"
+BARE = "middle part of the flat run that no track carries"
 PIVOTS = "pivot of {joint}"
 TIP = "farthest wheel of {joint}"
 ROOT = "wheel about the pivot of {joint}"

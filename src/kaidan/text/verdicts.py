@@ -5,12 +5,13 @@ from typing import TYPE_CHECKING
 
 from kaidan.modes import FAILURE_MODES, MODELS, Undecided, Verdict
 from kaidan.text import dynamic, failures, terrain, turning
+from kaidan.text.robot_file import BELT_ASSUMED
 
 if TYPE_CHECKING:
     from kaidan.assessment.verdict import Conclusion
     from kaidan.models.findings import Findings
     from kaidan.question import Question
-    from kaidan.robot import Stance
+    from kaidan.robot import Robot, Stance
 
 
 def reason(question: "Question", found: "Findings", conclusion: "Conclusion") -> str:
@@ -60,6 +61,7 @@ def notes(question: "Question", found: "Findings", conclusion: "Conclusion") -> 
     each += [*turning.lines(turns), turning.IN_LINE] if turns else []
     each += terrain.note(question)
     each += found.notes
+    each += [assumed] if (assumed := belt_assumed(question.robot)) else []
     for name, value in (("theta_d", question.allowance_d), ("theta_M", question.allowance_M)):
         if value.source == "default":
             each.append(
@@ -72,6 +74,12 @@ def notes(question: "Question", found: "Findings", conclusion: "Conclusion") -> 
     sheets = (question.robot.notes, *(flight.notes for flight in question.flights))
     each += (" ".join(said.split()) for said in sheets if said)
     return tuple(each)
+
+
+def belt_assumed(robot: "Robot") -> str:
+    """What the belt of a robot is assumed over; empty where it is known."""
+    over = robot.track.assumed_over
+    return "" if over is None else BELT_ASSUMED[over]
 
 
 def _of_drive(question: "Question", stance: "Stance") -> list[str]:

@@ -8,6 +8,7 @@ from typing import Any
 
 from kaidan import catalog
 from kaidan.answer import Answer, Part
+from kaidan.arguments import known_arguments, several
 from kaidan.assessment import with_plan
 from kaidan.assessment.verdict import conclude
 from kaidan.errors import InputError
@@ -100,6 +101,7 @@ class Comparison(Answer):
         return {name: [getattr(cell, name) for cell in self.cells] for name in Cell.model_fields}
 
 
+@known_arguments
 def compare(
     robots: Sequence[Any] | None = None,
     stairs: Sequence[Any] | None = None,
@@ -141,7 +143,7 @@ def compare(
     [('ibc', 'go'), ('osha-ship', 'no-go')]
     """
     gross = catalog.gross_robots()
-    asked = [*catalog.names("robots"), *gross] if robots is None else list(robots)
+    asked = [*catalog.names("robots"), *gross] if robots is None else several("robots", robots)
     apart = [each for each in asked if isinstance(each, str) and each.strip().lower() in gross]
     known = [sheet_of(each, Robot)
              for each in asked if each not in apart]  # fmt: skip
@@ -150,7 +152,8 @@ def compare(
     if not known:
         raise InputError(f"no centroid is published of {', '.join(apart)}: nothing to compare")
     flights = [
-        sheet_of(each, Stairs) for each in (catalog.names("stairs") if stairs is None else stairs)
+        sheet_of(each, Stairs)
+        for each in (catalog.names("stairs") if stairs is None else several("stairs", stairs))
     ]
     if not flights:
         raise InputError("compare: no stairs are given")
@@ -194,10 +197,10 @@ def laid(robot: Robot, flippers: Any) -> Any:
 @contextmanager
 def _judging(questions: Sequence[Question], workers: int | None) -> Iterator[Iterator[Cell]]:
     """Cells of some questions one by one; many share several processes."""
-    from kaidan.campaign.local import processors
+    from kaidan.campaign.local import hands
 
     most = sum(each.model == CONTACT.name for each in questions) // WORTH_A_PROCESS
-    count = min(processors() if workers is None else workers, most)
+    count = min(hands(workers), most)
     if count < 2:
         yield map(_cell, questions)
         return

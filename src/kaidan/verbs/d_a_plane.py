@@ -4,6 +4,7 @@ import math
 from typing import Any, Literal
 
 from kaidan.answer import Answer, Part
+from kaidan.arguments import flag, known_arguments
 from kaidan.errors import InputError
 from kaidan.mechanics.slipping import slip_acceleration_up
 from kaidan.mechanics.tipping import a_r0, a_rn
@@ -114,6 +115,7 @@ class Plane(Answer):
         return 0 if self.plan is None or self.plan.found or self.plan.needless else 1
 
 
+@known_arguments
 def plane(robot: Any, stairs: Any = None, *, accelerate: bool = False, **manner: Any) -> Plane:
     """The paper's d-a plane: limits of acceleration over the progress.
 
@@ -147,6 +149,7 @@ def plane(robot: Any, stairs: Any = None, *, accelerate: bool = False, **manner:
     ----------
     Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Figs. 3 and 7, Eqs. (14)-(18).
     """
+    flag("accelerate", accelerate)
     return d_a_plane(Question.in_one_posture(robot, stairs, **manner), accelerate=accelerate)
 
 

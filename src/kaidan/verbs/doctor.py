@@ -7,6 +7,7 @@ from typing import Literal
 
 from kaidan import contact
 from kaidan.answer import Answer, Part
+from kaidan.arguments import known_arguments
 
 
 class Extra(Part):
@@ -37,6 +38,7 @@ class Diagnosis(Answer):
     """Optional parts."""
 
 
+@known_arguments
 def doctor() -> Diagnosis:
     """Say what is installed and which contact kernel answers.
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from kaidan import catalog
 from kaidan.allowance import AllowanceShown
 from kaidan.answer import Answer, Part
+from kaidan.arguments import known_arguments, several, whole
 from kaidan.errors import InputError, shown
 from kaidan.mechanics.margin import theta_s_inf, theta_s_sup, theta_s_sup_corrected
 from kaidan.mechanics.plane import contact_count, two_contacts_remain
@@ -28,6 +29,8 @@ STEP = 0.005
 """Between the spacings where nobody states their number [m]."""
 SPACINGS = (0.01, 5.0)
 """Nosing spacings of a curve [m]."""
+MOST_POINTS = 100_000
+"""Most spacings of a curve."""
 FINE = 600
 """Spacings of a curve that is drawn."""
 
@@ -110,6 +113,7 @@ _COLUMNS = (
 )
 
 
+@known_arguments
 def margin(
     robot: Any,
     *,
@@ -155,7 +159,7 @@ def margin(
     Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eqs. (19)-(24), Fig. 11.
     """
     question = question_of(robot, **manner)
-    beside = [sheet_of(each, Stairs) for each in stairs]
+    beside = [sheet_of(each, Stairs) for each in several("stairs", stairs)]
     return margin_curve(question, spacings(question, start, to, points, beside), beside)
 
 
@@ -189,7 +193,11 @@ def spacings(
     high = math.ceil(farthest / 0.01) * 0.01 if to is None else _spacing(to, ends[1])
     if not low < high:
         raise InputError(f"{ends[0]} {1e3 * low:g} mm is not less than {ends[1]} {1e3 * high:g} mm")
-    count = points if points is not None else max(2, math.floor((high - low) / STEP + 1e-6) + 1)
+    count = (
+        whole("points", points, 2, MOST_POINTS)
+        if points is not None
+        else max(2, math.floor((high - low) / STEP + 1e-6) + 1)
+    )
     if points is None and start is None and to is None:
         return np.round(low + STEP * np.arange(count), 6)
     return np.linspace(low, high, count)

@@ -5,7 +5,8 @@ from collections.abc import Callable, Mapping
 from typing import Any, ClassVar
 
 from kaidan.answer import Answer, Part
-from kaidan.errors import InputError
+from kaidan.arguments import known_arguments
+from kaidan.errors import InputError, shown
 from kaidan.mechanics.weighing import (
     combined_uncertainty,
 )
@@ -100,6 +101,7 @@ class RobotMeasurement(Answer):
         return found | said
 
 
+@known_arguments
 def measure_robot(
     *,
     name: str = "robot",
@@ -192,7 +194,14 @@ def measure_robot(
         "tape": stated_value("u_tape", u_tape),
         "angle": stated_value("u_angle", u_angle),
     }
-    at = {key: stated_value(key, given) for key, given in stated.items() if given is not None}
+    if not isinstance(name, str):
+        raise InputError(f"name = {shown(name)} is not a text")
+    needed = {"flat_length", "front_inset", "rear_inset"}
+    at = {
+        key: stated_value(key, given)
+        for key, given in stated.items()
+        if given is not None or key in needed
+    }
     over, on = word_of("over", over, ("front", "rear")), word_of("on", on, ("end", "ramp"))
     along = way_along(at)
     height = way_up(at, over, on)

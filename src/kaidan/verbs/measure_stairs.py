@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, Literal
 
 from kaidan.answer import Answer
+from kaidan.arguments import known_arguments, several
 from kaidan.errors import InputError, shown
 from kaidan.mechanics.weighing import (
     combined_uncertainty,
@@ -88,6 +89,7 @@ class StairsMeasurement(Answer):
         return found | {f"sources.{key}": said for key, said in sources(self).items()}
 
 
+@known_arguments
 def measure_stairs(
     *,
     name: str = "stairs",
@@ -173,7 +175,7 @@ upper_landing_width, upper_passage, upper_leaf : float or str, optional
     at = {
         key: value_of(given, "length", option=key)
         for key, given in stated.items()
-        if given is not None
+        if given is not None or not key.endswith("st_rise")
     }
     tape = stated_value("u_tape", u_tape)
     odd = [key for key in ("first_rise", "last_rise") if key in at]
@@ -189,8 +191,8 @@ upper_landing_width, upper_passage, upper_leaf : float or str, optional
         return float(regular_step(total=a["total_going"], odd=0.0, count=count - 1))
 
     checks = {
-        "rises": [value_of(each, "length", option="rises") for each in rises],
-        "goings": [value_of(each, "length", option="goings") for each in goings],
+        "rises": [value_of(each, "length", option="rises") for each in several("rises", rises)],
+        "goings": [value_of(each, "length", option="goings") for each in several("goings", goings)],
     }
     mean_rise, mean_going = rise(**at), going(**at)
     _agree(checks["rises"], mean_rise, "rise", "the total rise and the number of risers")

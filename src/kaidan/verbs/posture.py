@@ -4,6 +4,7 @@ import math
 from typing import Any, ClassVar
 
 from kaidan.answer import Answer, Part
+from kaidan.arguments import known_arguments
 from kaidan.assessment import with_plan
 from kaidan.assessment.answer import VerdictName
 from kaidan.assessment.plan import PlanShown, plan_of
@@ -16,6 +17,7 @@ from kaidan.models.findings import Findings
 from kaidan.modes import CONTACT, Facing, Verdict
 from kaidan.question import Question
 from kaidan.text import verdicts
+from kaidan.units import range_of
 
 
 class PostureTried(Part):
@@ -67,6 +69,7 @@ class PostureAnswer(Answer):
         return Verdict(self.after.verdict).exit_code
 
 
+@known_arguments
 def posture(
     robot: Any,
     stairs: Any = None,
@@ -109,9 +112,10 @@ def posture(
     sheet = question.robot
     if not sheet.flippers() and not sheet.states:
         raise InputError(f"robot {sheet.name!r} has no flippers, so it has no posture to choose")
-    if not -math.pi <= limits[0] < limits[1] <= math.pi:
+    low, high = range_of(limits, "angle", option="limits")
+    if not -math.pi <= low < high <= math.pi:
         raise InputError(
-            f"limits = {math.degrees(limits[0]):g} to {math.degrees(limits[1]):g} deg: write a "
+            f"limits = {math.degrees(low):g} to {math.degrees(high):g} deg: write a "
             "smaller and a larger angle within -180 to 180 deg"
         )
     free = ("flippers",) if facing is not None else ("flippers", "facing")

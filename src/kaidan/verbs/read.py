@@ -5,6 +5,7 @@ from os import PathLike, fspath
 from typing import Any, ClassVar
 
 from kaidan.answer import Answer, Part
+from kaidan.arguments import known_arguments, several, table
 from kaidan.errors import InputError, short, shown
 from kaidan.modes import Verdict
 from kaidan.override import paths_of
@@ -95,6 +96,7 @@ class FileAnswer(Answer):
         return {each.sheet.name: each.sheet for each in flights if each.sheet is not None}
 
 
+@known_arguments
 def read(
     file: str | PathLike[str],
     *,
@@ -145,6 +147,8 @@ def read(
     MissingExtraError
         Its reader needs an optional package.
     """
+    if not isinstance(file, str | PathLike):
+        raise InputError(f"file = {shown(file)} is not a path")
     path, element = split_element(fspath(file))
     given = {
         "unit": None if unit is None else word_of("unit", unit, UNITS),
@@ -189,9 +193,12 @@ def joint_angles(given: Any) -> dict[str, float]:
     """
     if isinstance(given, Mapping):
         return {
-            str(name): quantity_of(f"joint {name}", value, "angle") for name, value in given.items()
+            name: quantity_of(f"joint {short(name)}", value, "angle")
+            for name, value in table("joints", given).items()
         }
-    texts = [given] if isinstance(given, str) else list(given or ())
+    texts = [given] if isinstance(given, str) else several("joints", () if given is None else given)
+    if not all(isinstance(text, str) for text in texts):
+        raise InputError(f"joints = {shown(given)}: write NAME=ANGLE, for example arm=30deg")
     found: dict[str, float] = {}
     for text in ",".join(texts).split(",") if texts else ():
         name, equals, value = text.partition("=")
@@ -209,7 +216,7 @@ def _numbers(name: str, given: Any, count: int) -> tuple[float, ...] | None:
     try:
         items = given.split(",") if isinstance(given, str) else list(given)
         values = tuple(float(each) for each in items)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         values = ()
     if len(values) != count:
         raise InputError(f"{name} = {shown(given)} is not {count} numbers with commas between them")

@@ -6,6 +6,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from kaidan.arguments import known_arguments
 from kaidan.assessment import Assessment, found_plan, judged, off_plan
 from kaidan.assessment.plan_search import Found
 from kaidan.contact import Placement as Place
@@ -48,6 +49,7 @@ PLACEMENTS = 13
 """Placements of a rotation that are listed."""
 
 
+@known_arguments
 def traverse(robot: Any, stairs: Any = None, **manner: Any) -> TraverseReport:
     """Follow a robot over stairs from landing to landing: phases, events, poses, forces.
 

@@ -3,6 +3,7 @@
 from collections.abc import AsyncIterator, Mapping
 from contextlib import asynccontextmanager
 from pathlib import Path
+from sqlite3 import OperationalError
 from typing import Any, Literal
 
 from fastapi import FastAPI, Request
@@ -23,11 +24,12 @@ from kaidan.text.japanese import patterns
 from kaidan.text.page import page_texts
 from kaidan.web import file_routes, job_routes, live_routes, openapi, report_routes
 from kaidan.web.asking import VERBS
-from kaidan.web.bodies import GONE, LARGEST_UPLOAD, json_of, while_there
+from kaidan.web.bodies import GONE, LARGEST_UPLOAD, client_of, json_of, while_there
 from kaidan.web.job_table import JobTable
 from kaidan.web.jobs import Jobs
 from kaidan.web.remembered import Remembered
 from kaidan.web.sessions import Sessions
+from kaidan.web.space import FULL, is_full
 from kaidan.web.state import State
 from kaidan.web.urgency import Hands
 from kaidan.web.workers import Limits
@@ -43,6 +45,7 @@ _SHEETS: Mapping[str, type[Robot | Stairs | Surface]] = {
     "stairs": Stairs,
     "surfaces": Surface,
 }
+_KINDS = {404: "not-found", 405: "method", 413: "too-large", 429: "share", 503: "busy"}
 
 
 def app_of(state: State, *, workers: int, limits: Limits | None = None) -> FastAPI:
@@ -51,7 +54,7 @@ def app_of(state: State, *, workers: int, limits: Limits | None = None) -> FastA
     Parameters
     ----------
     state : State
-        Folder that it keeps; it gives it back when it ends.
+        Folder that it keeps things in.
     workers : int
         Processes that answer quick questions, and as many for those that take longer.
     limits : Limits, optional
@@ -62,9 +65,8 @@ def app_of(state: State, *, workers: int, limits: Limits | None = None) -> FastA
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        with state:
-            async with hands, jobs:
-                yield
+        async with hands, jobs:
+            yield
 
     app = FastAPI(
         title="kaidan",
@@ -81,9 +83,10 @@ def app_of(state: State, *, workers: int, limits: Limits | None = None) -> FastA
     _add_catalogue(app)
     _add_verbs(app, Remembered(hands.ask))
     report_routes.add(app, hands.thorough)
-    file_routes.add(app, hands.thorough)
-    job_routes.add(app, jobs, Sessions(state.folder / "key"))
-    live_routes.add(app)
+    files = file_routes.Files(state.passing)
+    file_routes.add(app, hands.thorough, files)
+    job_routes.add(app, jobs, Sessions(state.folder / "key"), files)
+    live_routes.add(app, hands)
     app.openapi = lambda: openapi.described(app)  # type: ignore[method-assign]
     app.mount("/", StaticFiles(directory=STATIC, html=True), name="page")
     return app
@@ -98,11 +101,17 @@ def _add_errors(app: FastAPI) -> None:
     async def let_go(request: Request, error: Exception) -> Response:
         return Response(status_code=GONE)  # it left in the middle of its body; nobody reads this
 
+    @app.exception_handler(OSError)
+    @app.exception_handler(OperationalError)
+    async def say_full(request: Request, error: Exception) -> JSONResponse:
+        if not is_full(error):
+            raise error
+        return JSONResponse({"error": FULL, "kind": "full"}, 507)
+
     @app.exception_handler(HTTPException)
     async def say(request: Request, error: Exception) -> JSONResponse:
         assert isinstance(error, HTTPException)
-        kind = {404: "not-found", 405: "method", 413: "too-large"}.get(error.status_code, "input")
-        said = {"error": str(error.detail), "kind": kind}
+        said = {"error": str(error.detail), "kind": _KINDS.get(error.status_code, "input")}
         return JSONResponse(said, error.status_code, headers=dict(error.headers or {}))
 
     @app.exception_handler(RequestValidationError)
@@ -147,7 +156,7 @@ def _add_verbs(app: FastAPI, hands: Remembered) -> None:
         async def answer(request: Request) -> Response:
             body = await json_of(request)
             task = {"kind": kind, "verb": verb, "body": body}
-            return await while_there(request, hands.ask(task))
+            return await while_there(request, hands.ask(task, client_of(request)))
 
         app.add_api_route(
             path, answer, methods=["POST"], name=path.removeprefix("/api/").replace("/", "_"),

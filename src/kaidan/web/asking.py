@@ -9,10 +9,11 @@ from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 from kaidan.answer import Answer, plain
+from kaidan.arguments import refuse_unknown
 from kaidan.errors import InputError, shown
 from kaidan.question import Question
 from kaidan.robot import Robot
-from kaidan.web.keywords import READ, made, refuse_unknown, robot_of, sheet_of
+from kaidan.web.keywords import READ, made, robot_of, sheet_of
 
 if TYPE_CHECKING:
     from kaidan.verbs.report import Report

@@ -9,18 +9,25 @@ from fastapi import Request
 from fastapi.responses import Response
 from starlette.datastructures import FormData, UploadFile
 from starlette.exceptions import HTTPException
+from starlette.requests import HTTPConnection
 
 from kaidan.errors import InputError
+from kaidan.web.shares import network_of
 from kaidan.web.workers import Reply
 
 LARGEST_BODY = 2 << 20
 """Largest body of a question [bytes]."""
 LARGEST_UPLOAD = 256 << 20
 """Largest upload [bytes]."""
-FORM = {"max_files": 1, "max_fields": 32, "max_part_size": LARGEST_BODY}
-"""What a form may have."""
+FORM = {"max_files": 1, "max_fields": 32, "max_part_size": LARGEST_BODY // 8}
+"""What a form may have; its fields are held in memory."""
 GONE = 499
 """Status of what nobody reads any more."""
+
+
+def client_of(request: HTTPConnection) -> str:
+    """Who asks, as fair shares count clients."""
+    return network_of(request.client.host if request.client else "")
 
 
 def type_of(request: Request) -> str:
@@ -84,7 +91,7 @@ def fields_of(form: FormData) -> dict[str, Any]:
 
 def sent(reply: Reply) -> Response:
     """Response of a reply."""
-    headers = {"Retry-After": "1"} if reply.status == 503 else None
+    headers = {"Retry-After": "1"} if reply.status in (429, 503) else None
     return Response(reply.content, reply.status, headers, "application/json")
 
 

@@ -2,17 +2,20 @@
 
 import shutil
 import tempfile
-from collections.abc import Awaitable, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import asynccontextmanager
 from pathlib import Path
+from typing import Any
 
 from fastapi import FastAPI, Request
 from fastapi.responses import Response
-from starlette.datastructures import UploadFile
+from starlette.concurrency import run_in_threadpool
 
 from kaidan.errors import InputError
 from kaidan.web import openapi
-from kaidan.web.bodies import FORM, fields_of, file_of, sent
+from kaidan.web.bodies import FORM, client_of, fields_of, file_of, type_of, while_there
 from kaidan.web.long_work import UPLOAD
+from kaidan.web.shares import Places
 from kaidan.web.workers import Workers
 
 _PIECE = 1 << 20
@@ -24,34 +27,64 @@ _ROUTES = {
 }
 
 
-def add(app: FastAPI, hands: Workers) -> None:
+MOST_UPLOADS = 16
+"""Files that may be on their way at once, of all clients."""
+
+
+class Files:
+    """What takes files of clients in, so many at once.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of passing files.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder, self._places = folder, Places(MOST_UPLOADS, "files on their way")
+
+    @asynccontextmanager
+    async def taken(self, request: Request) -> AsyncIterator[tuple[Path | None, dict[str, Any]]]:
+        """File of a form, in a folder of its own until this ends, and the other fields.
+
+        Raises
+        ------
+        HTTPException
+            Too many files are on their way.
+        """
+        if type_of(request) != "multipart/form-data":  # another form would be held in memory
+            yield None, {}
+            return
+        with self._places.held(client_of(request)):
+            folder = Path(tempfile.mkdtemp(dir=self._folder))
+            try:
+                async with request.form(**FORM) as form:
+                    sent, fields = file_of(form), fields_of(form)
+                    if sent is not None:
+                        with (folder / UPLOAD).open("wb") as kept:
+                            await run_in_threadpool(shutil.copyfileobj, sent.file, kept, _PIECE)
+                yield None if sent is None else folder / UPLOAD, fields
+            finally:
+                shutil.rmtree(folder, ignore_errors=True)
+
+
+def add(app: FastAPI, hands: Workers, files: Files) -> None:
     """Add the routes that take a file."""
     for verb, summary in _ROUTES.items():
         app.add_api_route(
-            f"/api/{verb}", _answer(verb, hands), methods=["POST"], name=verb,
+            f"/api/{verb}", _answer(verb, hands, files), methods=["POST"], name=verb,
             summary=summary, openapi_extra=openapi.uploaded(verb),
         )  # fmt: skip
 
 
-def _answer(verb: str, hands: Workers) -> Callable[[Request], Awaitable[Response]]:
+def _answer(verb: str, hands: Workers, files: Files) -> Callable[[Request], Awaitable[Response]]:
     async def answer(request: Request) -> Response:
-        async with request.form(**FORM) as form:
-            file = file_of(form)
+        async with files.taken(request) as (file, fields):
             if file is None:
                 raise InputError(f"{verb}: no file: send multipart/form-data with a part file")
-            folder = Path(tempfile.mkdtemp(dir=hands.folder))
-            try:
-                await keep(file, folder)
-                task = {"kind": verb, "folder": str(folder), "body": fields_of(form)}
-                return sent(await hands.ask(task, seconds=hands.limits.file_seconds))
-            finally:
-                shutil.rmtree(folder, ignore_errors=True)
+            task = {"kind": verb, "folder": str(file.parent), "body": fields}
+            seconds = hands.limits.file_seconds
+            reply = hands.ask(task, client_of(request), seconds=seconds)
+            return await while_there(request, reply)
 
     return answer
-
-
-async def keep(file: UploadFile, folder: Path) -> None:
-    """Write a file of a client into a folder, under a name that is not the client's."""
-    with (folder / UPLOAD).open("wb") as kept:
-        while piece := await file.read(_PIECE):
-            kept.write(piece)

@@ -1,5 +1,6 @@
 """What every request passes: host, origin, token, and the headers of every response."""
 
+import asyncio
 import hmac
 import ipaddress
 from collections.abc import Collection
@@ -25,6 +26,10 @@ HEADERS = {
 """Headers of every response: the page loads nothing from elsewhere and runs no script but its
 own."""
 TOKEN_COOKIE = "kaidan_token"
+SHORTEST_TOKEN = 16
+"""Fewest characters of a token: nobody guesses so many, a second for each try."""
+MISSED = 1.0
+"""How long the answer to a wrong token takes [s]."""
 _SAFE = ("GET", "HEAD", "OPTIONS")
 _LOCAL = ("localhost", "127.0.0.1", "[::1]")
 
@@ -75,6 +80,8 @@ class Guard:
             await send(message)
 
         answer = self._answer(scope)
+        if answer is not None and answer.status_code == 401:
+            await asyncio.sleep(MISSED)
         if answer is None:
             await self.app(scope, receive, with_headers)
         elif scope["type"] == "websocket":
@@ -89,8 +96,11 @@ class Guard:
         if not self._is_ours(host):
             return _refused(421, "host", "the server is not known by this name")
         origin = headers.get("origin")
-        unsafe = scope["type"] == "websocket" or scope["method"] not in _SAFE
-        if unsafe and origin is not None and urlsplit(origin).netloc.lower() != host.lower():
+        try:
+            elsewhere = origin is not None and urlsplit(origin).netloc.lower() != host.lower()
+        except ValueError:
+            return _refused(400, "origin", "the Origin of the request is no address")
+        if elsewhere and (scope["type"] == "websocket" or scope["method"] not in _SAFE):
             return _refused(403, "origin", "a page of elsewhere may not ask here")
         return self._without_token(scope, headers) if self.token else None
 

@@ -9,16 +9,16 @@ from starlette.exceptions import HTTPException
 
 from kaidan.errors import InputError, did_you_mean, shown
 from kaidan.web import openapi
-from kaidan.web.bodies import FORM, fields_of, file_of, json_of, object_of, type_of
-from kaidan.web.file_routes import keep
+from kaidan.web.bodies import client_of, json_of, object_of, type_of
+from kaidan.web.file_routes import Files
 from kaidan.web.job_table import Job
-from kaidan.web.jobs import Jobs
+from kaidan.web.jobs import Asker, Jobs
 from kaidan.web.long_work import DOCUMENTS, FILES, JOBS, RESULT, TEXT
 from kaidan.web.report_routes import OF_A_DOCUMENT
 from kaidan.web.sessions import COOKIE, HEADER, KEPT, Sessions
 
 
-def add(app: FastAPI, jobs: Jobs, sessions: Sessions) -> None:
+def add(app: FastAPI, jobs: Jobs, sessions: Sessions, files: Files) -> None:
     """Add the routes of jobs."""
 
     def owner_of(request: Request) -> str | None:
@@ -42,12 +42,13 @@ def add(app: FastAPI, jobs: Jobs, sessions: Sessions) -> None:
     async def new_job(request: Request) -> JSONResponse:
         """Begin long work in the background."""
         session = request.headers.get(HEADER) or request.cookies.get(COOKIE, "")
-        owner = sessions.owner(session)
+        owner, client = sessions.owner(session), client_of(request)
+        line = owner or client
         if owner is None:
             session = sessions.new()
             owner = sessions.owner(session)
         assert owner is not None
-        job = await _begun(request, jobs, owner)
+        job = await _begun(request, jobs, files, Asker(owner, line, client))
         answer = JSONResponse(job.shown(), 201, {HEADER: session})
         answer.set_cookie(
             COOKIE, session, max_age=KEPT, httponly=True, samesite="strict", path="/api"
@@ -92,26 +93,20 @@ def add(app: FastAPI, jobs: Jobs, sessions: Sessions) -> None:
         return StreamingResponse(stream, media_type="text/event-stream")
 
 
-async def _begun(request: Request, jobs: Jobs, owner: str) -> Job:
+async def _begun(request: Request, jobs: Jobs, files: Files, asker: Asker) -> Job:
     """Job of a request, either JSON or a form with a file."""
+    jobs.refuse_more(asker)  # before it is read
     if type_of(request) != "multipart/form-data":
         asked = await json_of(request)
         verb, body = _checked(asked.get("verb"), asked.get("body"))
         if verb in FILES:
             raise InputError(f"{verb}: no file: send multipart/form-data with a part file")
-        job = jobs.add(owner, verb, body)
-        jobs.start(job)
-        return job
-    async with request.form(**FORM) as form:
-        fields = fields_of(form)
+        return jobs.add(asker, verb, body)
+    async with files.taken(request) as (file, fields):
         verb, body = _checked(fields.get("verb"), object_of(str(fields.get("body", "{}"))))
-        file = file_of(form)
         if verb not in FILES or file is None:
             raise InputError(f"{verb}: a form with a part file begins a job of {', '.join(FILES)}")
-        job = jobs.add(owner, verb, body)
-        await keep(file, jobs.table.files(job))
-        jobs.start(job)
-        return job
+        return jobs.add(asker, verb, body, file)
 
 
 def _checked(verb: Any, body: Any) -> tuple[str, Mapping[str, Any]]:

@@ -4,7 +4,8 @@ from collections.abc import Callable, Collection, Mapping
 from typing import Any, TypeVar
 
 from kaidan import catalog
-from kaidan.errors import InputError, UnknownNameError, did_you_mean, shown
+from kaidan.arguments import refuse_unknown
+from kaidan.errors import InputError, UnknownNameError, shown
 from kaidan.robot import Payload, Posture, PostureChange, Robot
 from kaidan.spelling import JOINT
 from kaidan.surface import Surface
@@ -18,14 +19,6 @@ _CATALOGUES: dict[type[Any], tuple[catalog.Folder, ...]] = {
     Stairs: ("stairs",),
     Surface: ("surfaces",),
 }
-
-
-def refuse_unknown(verb: str, values: Mapping[str, Any], known: Collection[str]) -> None:
-    """Refuse a keyword that is none of those known."""
-    for name in values:
-        if name not in known:
-            hint = did_you_mean(name, known) or f"; known: {', '.join(sorted(known))}"
-            raise InputError(f"{verb}: {shown(name)} is not known{hint}")
 
 
 def made(values: Mapping[str, Any], several: Collection[str] = ()) -> dict[str, Any]:

@@ -6,9 +6,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from kaidan.answer import Answer
+from kaidan.arguments import refuse_unknown
 from kaidan.errors import InputError, shown
 from kaidan.web.asking import VERBS, answered, building_of, read_of, report_of
-from kaidan.web.keywords import made, refuse_unknown
+from kaidan.web.keywords import made
 
 FILES = ("read", "building")
 """Jobs that need a file."""

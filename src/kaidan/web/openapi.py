@@ -68,7 +68,12 @@ class JobList(BaseModel):
     jobs: list[JobShown]
 
 
-_ERRORS = {"422": "the question has no meaning, or takes too long", "503": "ask again"}
+_ERRORS = {
+    "422": "the question has no meaning, or takes too long",
+    "429": "the address has its share: ask again",
+    "503": "ask again",
+    "507": "the disk of the server is full",
+}
 
 
 def asked(verb: str, answer: type[BaseModel]) -> dict[str, Any]:
@@ -121,9 +126,10 @@ def job_request() -> dict[str, Any]:
         "required": ["verb", "body"],
         "properties": {"verb": {"enum": list(JOBS)}, "body": {"type": "object"}},
     }
+    responses = _responses(JobShown)
     return {
         "requestBody": {"required": True, "content": {"application/json": {"schema": schema}}},
-        "responses": {"201": _responses(JobShown)["200"], "422": _responses(JobShown)["422"]},
+        "responses": {"201": responses.pop("200"), **responses},
     }
 
 

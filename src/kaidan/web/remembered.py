@@ -16,8 +16,8 @@ MOST = 64 << 20
 class Answering(Protocol):
     """Who answers, as `kaidan.web.urgency.Hands.ask`."""
 
-    def __call__(self, task: Mapping[str, Any], /) -> Awaitable[Reply]:
-        """Reply to a task."""
+    def __call__(self, task: Mapping[str, Any], client: str, /) -> Awaitable[Reply]:
+        """Reply to a task of a client."""
         ...
 
 
@@ -47,15 +47,16 @@ class Remembered:
         self._replies: OrderedDict[bytes, Reply] = OrderedDict()
         self._coming: dict[bytes, _Coming] = {}
 
-    async def ask(self, task: Mapping[str, Any]) -> Reply:
-        """Reply to a task."""
+    async def ask(self, task: Mapping[str, Any], client: str) -> Reply:
+        """Reply to a task of a client."""
         key = hashlib.sha256(json.dumps(task, sort_keys=True).encode()).digest()
         if key in self._replies:
             self._replies.move_to_end(key)
             return self._replies[key]
         if key not in self._coming:
-            self._coming[key] = _Coming(asyncio.create_task(self._answered(key, task)), set())
-            self._coming[key].answer.add_done_callback(lambda done: self._forget(key, done))
+            answer = asyncio.create_task(self._answered(key, task, client))
+            answer.add_done_callback(lambda done: self._forget(key, done))
+            self._coming[key] = _Coming(answer, set())
         coming, me = self._coming[key], object()
         coming.waiting.add(me)
         try:
@@ -71,8 +72,8 @@ class Remembered:
         if key in self._coming and self._coming[key].answer is answer:
             del self._coming[key]
 
-    async def _answered(self, key: bytes, task: Mapping[str, Any]) -> Reply:
-        reply = await self._answer(task)
+    async def _answered(self, key: bytes, task: Mapping[str, Any], client: str) -> Reply:
+        reply = await self._answer(task, client)
         if reply.status == 200:
             self._replies[key] = reply
             self._size += len(reply.content)

@@ -4,7 +4,7 @@ from fastapi import FastAPI, Request
 from fastapi.responses import Response
 
 from kaidan.web import openapi
-from kaidan.web.bodies import json_of, sent
+from kaidan.web.bodies import client_of, json_of, sent
 from kaidan.web.long_work import DOCUMENTS, document_format
 from kaidan.web.workers import Workers
 
@@ -21,7 +21,8 @@ def add(app: FastAPI, hands: Workers) -> None:
         body = await json_of(request)
         form = document_format(body, (*DOCUMENTS, "json"))
         task = {"kind": "report", "format": form, "body": body}
-        reply = await hands.ask(task, seconds=hands.limits.file_seconds)
+        client, seconds = client_of(request), hands.limits.file_seconds
+        reply = await hands.ask(task, client, seconds=seconds)
         if form == "json" or reply.status != 200:
             return sent(reply)
         headers = {

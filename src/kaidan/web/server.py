@@ -9,8 +9,13 @@ import uvicorn
 
 from kaidan.errors import InputError, short
 from kaidan.web.app import app_of
-from kaidan.web.guard import Guard
+from kaidan.web.connections import Connection
+from kaidan.web.guard import SHORTEST_TOKEN, Guard
+from kaidan.web.pace import Paced
 from kaidan.web.state import State
+
+_SAID = 4096
+"""Longest message of a page on a websocket [bytes]; it has nothing to say there."""
 
 
 def is_local(host: str) -> bool:
@@ -52,7 +57,7 @@ def server_of(state: State, *, host: str, token: str, workers: int, **how: Any) 
     Parameters
     ----------
     state : State
-        Folder that it keeps.
+        Folder that it keeps things in; who made it gives it back.
     host : str
         Address at which it listens.
     token : str
@@ -64,16 +69,42 @@ def server_of(state: State, *, host: str, token: str, workers: int, **how: Any) 
     """
     hosts = () if is_local(host) else (host, socket.gethostname(), socket.getfqdn())
     config = uvicorn.Config(
-        Guard(app_of(state, workers=workers, **how), token=token, hosts=hosts),
+        Guard(Paced(app_of(state, workers=workers, **how)), token=token, hosts=hosts),
         log_level="warning",
         access_log=False,
         server_header=False,
         proxy_headers=False,
+        http=Connection,
+        ws_max_size=_SAID,
+        timeout_keep_alive=int(Connection.patience.head),  # which ends the connection then
         timeout_graceful_shutdown=5,
     )
     return uvicorn.Server(config)
 
 
-def new_token() -> str:
-    """Token that nobody guesses."""
-    return secrets.token_urlsafe(24)
+def token_for(host: str, stated: str | None) -> str:
+    """Token that clients must send: what was stated, or a new one where one is needed.
+
+    Parameters
+    ----------
+    host : str
+        Address at which the server listens.
+    stated : str or None
+        What who runs it wants it to be.
+
+    Returns
+    -------
+    str
+        Empty: no token is needed.
+
+    Raises
+    ------
+    InputError
+        One that can be guessed, where others can reach the server.
+    """
+    if stated and not is_local(host) and len(stated) < SHORTEST_TOKEN:
+        raise InputError(
+            f"--token has {len(stated)} characters: at {short(host)} it needs {SHORTEST_TOKEN}; "
+            "without --token the server makes one"
+        )
+    return stated or ("" if is_local(host) else secrets.token_urlsafe(24))

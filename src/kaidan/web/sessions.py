@@ -2,14 +2,18 @@
 
 import hashlib
 import hmac
-import os
 import secrets
 from pathlib import Path
+
+from kaidan.errors import InputError, short
+from kaidan.files import whole_file
 
 COOKIE = "kaidan_session"
 HEADER = "X-Kaidan-Session"
 KEPT = 30 * 86_400
 """How long a browser keeps a session [s]."""
+_KEY = 32
+"""Length of a key [bytes]."""
 
 
 class Sessions:
@@ -19,13 +23,21 @@ class Sessions:
     ----------
     key : Path
         File of the key; made if it is not there, readable by its owner alone.
+
+    Raises
+    ------
+    InputError
+        It cannot be written, or is no key.
     """
 
     def __init__(self, key: Path) -> None:
         if not key.exists():
-            with open(os.open(key, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
-                file.write(secrets.token_bytes(32))
+            with whole_file(key, durable=True) as file:
+                file.write(secrets.token_bytes(_KEY))
+            key.chmod(0o600)
         self._key = key.read_bytes()
+        if len(self._key) != _KEY:  # anybody could sign with an empty one
+            raise InputError(f"{short(key)}: no key of a server; remove it, and sessions with it")
 
     def new(self) -> str:
         """Session that nobody had before."""

@@ -11,9 +11,13 @@ from kaidan.errors import InputError, short
 
 
 def usual_folder() -> Path:
-    """Folder of a server that is given none: that of the user's programs."""
-    base = os.environ.get("XDG_STATE_HOME") or os.environ.get("LOCALAPPDATA")
-    return Path(base or Path.home() / ".local" / "state") / "kaidan"
+    """Folder of a server that is given none: that of the user's programs.
+
+    A relative one is ignored, as the XDG Base Directory Specification has it.
+    """
+    stated = (os.environ.get(name, "") for name in ("XDG_STATE_HOME", "LOCALAPPDATA"))
+    bases = (Path(base) for base in stated if Path(base).is_absolute())
+    return next(bases, Path.home() / ".local" / "state") / "kaidan"
 
 
 class State:

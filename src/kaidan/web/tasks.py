@@ -13,6 +13,7 @@ from kaidan.files import whole_file
 from kaidan.web.asking import answered, building_of, read_of, report_of, samples_of_file
 from kaidan.web.long_work import RESULT, TEXT, UPLOAD, result_of
 from kaidan.web.sheets import sheets_of
+from kaidan.web.space import FULL, is_full
 
 Done = tuple[dict[str, Any], bytes]
 """How a task ended, and what is to be sent."""
@@ -28,30 +29,35 @@ def done(task: Mapping[str, Any]) -> Done:
     """
     try:
         return {"status": 200}, _DO[task["kind"]](task)
-    except RefusedError as error:
-        return refusal(422, "refused", str(error))
-    except MissingExtraError as error:
-        return refusal(422, "missing-extra", str(error))
-    except KaidanError as error:
-        return refusal(422, "input", str(error))
     except MemoryError:
         text = "the answer needs more memory than a question may take: ask for less"
         head, content = refusal(422, "memory", text)
         return head | {"spent": True}, content
     except Exception as error:
-        from traceback import extract_tb
+        return _refused(error)
 
-        frames = extract_tb(error.__traceback__)
-        place = f"{os.path.basename(frames[-1].filename)}:{frames[-1].lineno}"
-        return refusal(
-            500, "fault", f"a fault of kaidan itself, {type(error).__name__} in {place}: {error}"
-        )
+
+def _refused(error: Exception) -> Done:
+    """What is sent for an error."""
+    if is_full(error):
+        return refusal(507, "full", FULL)
+    if isinstance(error, KaidanError):
+        kinds = {RefusedError: "refused", MissingExtraError: "missing-extra"}
+        kind = next((kind for each, kind in kinds.items() if isinstance(error, each)), "input")
+        return refusal(422, kind, str(error))
+    from traceback import extract_tb
+
+    frames = extract_tb(error.__traceback__)
+    place = f"{os.path.basename(frames[-1].filename)}:{frames[-1].lineno}"
+    return refusal(
+        500, "fault", f"a fault of kaidan itself, {type(error).__name__} in {place}: {error}"
+    )
 
 
 def prepare(verb: str) -> None:
     """Import and load what a verb needs, by answering it once."""
     question = {"robot": "absolem", "stairs": "ibc", "flippers": "flat"}
-    done({"kind": "ask", "verb": verb, "body": question})
+    done({"kind": "live" if verb == "live" else "ask", "verb": verb, "body": question})
 
 
 def refusal(status: int, kind: str, text: str) -> Done:
@@ -107,6 +113,24 @@ def _sheets(task: Mapping[str, Any]) -> bytes:
         return json.dumps(sheets_of(UPLOAD)).encode()
 
 
+def _live(task: Mapping[str, Any]) -> bytes:
+    from kaidan.web.watching import begun
+
+    return begun(task["body"])
+
+
+def _feed(task: Mapping[str, Any]) -> bytes:
+    from kaidan.web.watching import fed
+
+    return fed(task["monitor"], task["samples"], task["arrived"], ends=task["ends"])
+
+
+def _overdue(task: Mapping[str, Any]) -> bytes:
+    from kaidan.web.watching import missed
+
+    return missed(task["monitor"], task["now"])
+
+
 def _job(task: Mapping[str, Any]) -> bytes:
     folder = Path(task["folder"])
     with chdir(folder):
@@ -126,4 +150,7 @@ _DO: Mapping[str, Callable[[Mapping[str, Any]], bytes]] = {
     "sheets": _sheets,
     "job": _job,
     "samples": _samples,
+    "live": _live,
+    "feed": _feed,
+    "overdue": _overdue,
 }

@@ -7,16 +7,17 @@ import shutil
 import signal
 import sys
 import tempfile
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple, Self
 
 from kaidan.progress import Follower
+from kaidan.web.shares import share_of
 from kaidan.web.worker import LENGTH
 
-_LAST = 15
+_LAST = 19
 """By how much other processes go before a job."""
 
 
@@ -116,6 +117,8 @@ class Workers:
     first : str
         Verb that these answer once before the first question, whose reply would wait for their
         imports otherwise.
+    most : int, optional
+        How many of them one client may keep busy; all without it.
     """
 
     def __init__(
@@ -127,12 +130,15 @@ class Workers:
         nice: int = 0,
         ready: int = 0,
         first: str = "",
+        most: int | None = None,
     ) -> None:
         self.count, self.limits, self.folder = count, limits, folder
         self.nice, self.ready, self.first = nice, ready, first
+        self.most = count if most is None else most
+        self._working: Counter[str] = Counter()
         self._idle: list[_Worker | None] = [None] * count
         self._all: set[_Worker] = set()
-        self._line: deque[asyncio.Future[_Worker | None]] = deque()
+        self._line: dict[str, deque[asyncio.Future[_Worker | None]]] = {}
         self._under_way: set[asyncio.Task[Reply]] = set()
 
     async def __aenter__(self) -> Self:
@@ -141,33 +147,43 @@ class Workers:
         return self
 
     async def __aexit__(self, *ended: object) -> None:
-        for turn in self._line:
-            turn.cancel()
+        for line in self._line.values():
+            for turn in line:
+                turn.cancel()
         for worker in tuple(self._all):
             await self._drop(worker)
 
-    async def ask(self, task: Mapping[str, Any], *, seconds: float | None = None) -> Reply:
+    async def ask(
+        self, task: Mapping[str, Any], client: str, *, seconds: float | None = None
+    ) -> Reply:
         """Reply to a task, whatever becomes of its worker.
 
-        Who gives up while the task waits takes it out of the line; one that has begun is ended.
+        Clients take turns, however many tasks each has in the line. Who gives up while the task
+        waits takes it out of the line; one that has begun is ended.
 
         Parameters
         ----------
         task : mapping
             See ``kaidan.web.tasks``.
+        client : str
+            Who asks; of all that may wait it may have its share.
         seconds : float, optional
             Time that it may take [s]; that of the limits without it.
         """
-        if len(self._line) >= self.limits.waiting:
+        if sum(map(len, self._line.values())) >= self.limits.waiting:
             return refused(503, "busy", "too many questions at once; ask again in a while")
-        worker = await self._free()
-        work = asyncio.create_task(self._answered(worker, task, seconds or self.limits.seconds))
+        if len(self._line.get(client, ())) >= share_of(self.limits.waiting):
+            text = "too many questions of your address at once; ask again in a while"
+            return refused(429, "share", text)
+        worker = await self._free(client)
+        answered = self._answered(worker, task, client, seconds or self.limits.seconds)
+        work = asyncio.create_task(answered)
         self._under_way.add(work)
         work.add_done_callback(self._under_way.discard)
         return await asyncio.shield(work)
 
     async def _answered(
-        self, worker: _Worker | None, task: Mapping[str, Any], seconds: float
+        self, worker: _Worker | None, task: Mapping[str, Any], client: str, seconds: float
     ) -> Reply:
         whole = False
         try:
@@ -179,31 +195,50 @@ class Workers:
         finally:
             if not whole and worker is not None:
                 await self._drop(worker)
-            self._release(worker if whole else None)
+            self._release(worker if whole else None, client)
 
-    async def _free(self) -> _Worker | None:
+    async def _free(self, client: str) -> _Worker | None:
         """Worker that has nothing to do, as soon as it is this one's turn; None: one may begin."""
-        if self._idle:
+        if self._idle and self._working[client] < self.most:
+            self._working[client] += 1
             return self._idle.pop()
         turn: asyncio.Future[_Worker | None] = asyncio.get_running_loop().create_future()
-        self._line.append(turn)
+        self._line.setdefault(client, deque()).append(turn)
         try:
             return await turn
         except asyncio.CancelledError:
-            if turn in self._line:
-                self._line.remove(turn)
+            line = self._line.get(client, deque())
+            if turn in line:
+                line.remove(turn)
+                if not line:
+                    del self._line[client]
             elif not turn.cancelled():  # its turn came in the same moment
-                self._release(turn.result())
+                self._release(turn.result(), client)
             raise
 
-    def _release(self, worker: _Worker | None) -> None:
-        """Give a worker to who waits for one."""
-        while self._line:
-            turn = self._line.popleft()
-            if not turn.cancelled():
-                turn.set_result(worker)
-                return
+    def _release(self, worker: _Worker | None, client: str) -> None:
+        """Give the worker of a client to the one whose last turn is longest ago, and who may."""
+        self._working[client] -= 1
+        if not self._working[client]:
+            del self._working[client]
         self._idle.append(worker)
+        for each in tuple(self._line):
+            if not self._idle:
+                return
+            if self._working[each] < self.most:
+                self._next_of(each)
+
+    def _next_of(self, client: str) -> None:
+        """Give an idle worker to the next turn of a client, which then is behind the others."""
+        line = self._line.pop(client)
+        while line:
+            turn = line.popleft()
+            if not turn.cancelled():
+                self._working[client] += 1
+                turn.set_result(self._idle.pop())
+                break
+        if line:
+            self._line[client] = line
 
     async def ask_apart(
         self, task: Mapping[str, Any], *, seconds: float, follower: Follower

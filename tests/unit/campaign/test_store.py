@@ -317,6 +317,15 @@ def test_export_is_one_file_of_all(tmp_path, suffix):
     assert not list(tmp_path.rglob(".kaidan-*"))
 
 
+def test_an_export_as_csv_has_no_formulas(tmp_path):
+    with Store(tmp_path, FAKE) as opened:
+        opened.add([row(1) | {"host": "=cmd|' /C calc'!A0"}, row(2) | {"host": "-0.5"}])
+        assert export(tmp_path, tmp_path / "all.csv") == 2
+    text = (tmp_path / "all.csv").read_text()
+    assert ""","'=cmd|' /C calc'!A0",""" in text
+    assert ',"-0.5",' in text
+
+
 def test_export_does_not_write_where_a_link_points_that_somebody_laid(tmp_path, monkeypatch):
     with Store(tmp_path / "store", FAKE) as opened:
         opened.add([row(1)])

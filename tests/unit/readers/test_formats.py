@@ -5,7 +5,7 @@ import pytest
 
 import reader_files as made
 from kaidan.errors import InputError
-from kaidan.readers import contents_of
+from kaidan.readers import contents_of, found_in
 from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import Heights, Mesh, Points
 from kaidan.readers.opening import Source
@@ -232,3 +232,17 @@ def test_blank_lines_among_the_points_are_passed_over(tmp_path):
         path.write_bytes(b"\n".join([*lines[:-3], b"", b"  ", *lines[-3:]]))
         source = Source.of(path)
         assert len(contents_of(source, recognised(source), Hints()).xyz) == len(CLOUD)
+
+
+def test_a_sensor_farther_off_than_any_is_refused(tmp_path):
+    """A number of the header that was mistyped: no sensor is 10,000 sizes of its cloud away."""
+    path = tmp_path / "far.pcd"
+    path.write_bytes(made.pcd(made.cloud(), viewpoint="1 2 1e300 1 0 0 0"))
+    with pytest.raises(InputError, match=r"the sensor stands 1e\+300 away from all of its points$"):
+        found_in(path)
+
+
+def test_zeros_for_a_viewpoint_of_a_cloud_far_from_its_origin_say_nothing(tmp_path):
+    path = tmp_path / "utm.pcd"
+    path.write_bytes(made.pcd(made.cloud() + 4e6, viewpoint="0 0 0 1 0 0 0"))
+    assert contents_of(Source.of(path), recognised(Source.of(path))).viewpoint is None

@@ -11,7 +11,7 @@ from kaidan.errors import InputError
 from kaidan.readers import found_in
 from kaidan.readers.kinds import AXES, upright
 from kaidan.readers.opening import Source, split_element
-from kaidan.readers.recognition import FORMATS
+from kaidan.readers.recognition import FORMATS, recognised
 from kaidan.readers.xml_tree import parse_xml
 
 
@@ -60,6 +60,21 @@ def test_what_is_not_read_is_answered_in_one_sentence(tmp_path, content, why):
     assert refusal.why == why
     assert str(refusal).count("\n") == 0
     assert found.provenance.digest == Source.of(tmp_path / "model.ply").digest
+
+
+COMMENTS = (
+    b'<!-- old: <limit lower="${-pi/2}" upper="$(arg upper)"/> -->',
+    b"<!-- <xacro:macro name='m'/>\n\n-->",
+    b"<!-- never ends ${x}",
+)
+
+
+@pytest.mark.parametrize("comment", COMMENTS)
+def test_a_comment_is_no_xacro(tmp_path, comment):
+    source = Source.of(
+        written(tmp_path, b"<robot name='r'>" + comment + b"<link name='a'/></robot>")
+    )
+    assert recognised(source).name == "urdf"
 
 
 def test_archives_are_known_by_what_they_hold(tmp_path):

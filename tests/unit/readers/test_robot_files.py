@@ -143,29 +143,6 @@ def test_figures_that_are_stated_replace_those_of_the_file(tmp_path):
     assert sheet.sources["com_height"] == "U: stated by the user"
 
 
-def wheels_of_track(count=4, radius=0.08, pitch=0.15):
-    """Parts of a robot with wheels where its tracks should be, each on a joint of its own."""
-    parts = [urdf_link("base_link", 20.0, "0 0 0.1")]
-    for side, y in (("left", 0.2), ("right", -0.2)):
-        for number in range(count):
-            name = f"{side}_{number}"
-            shape = urdf_shape(f'<cylinder radius="{radius}" length="0.06"/>', rpy=ACROSS)
-            parts.append(urdf_link(name, 0.5, shapes=shape))
-            x = pitch * (number - (count - 1) / 2)
-            parts.append(urdf_joint(f"{name}_j", "continuous", "base_link", name, f"{x} {y} 0"))
-    return urdf(*parts)
-
-
-def test_wheels_instead_of_a_belt_are_taken_and_said(tmp_path):
-    one = robot(tmp_path, wheels_of_track())
-    assert figure(one, "track.flat_length") == pytest.approx(0.45)
-    assert figure(one, "track.front_radius") == pytest.approx(0.08)
-    assert one.notes == (
-        "Its track is 4 wheels a side: the belt over them is taken for granted. A robot on wheels "
-        "without belts is not judged.",
-    )
-
-
 def test_a_raised_idler_is_found(tmp_path):
     """By hand: a wheel 150 mm ahead of the flat, its axle 200 mm up; the flat is 20 mm lower."""
     wheel = urdf_shape('<cylinder radius="0.06" length="0.1"/>', "0.4 0 0.11", ACROSS)
@@ -188,6 +165,7 @@ def test_one_box_for_a_track_has_corners(tmp_path):
     assert one.notes == (
         "The front end of the track is a corner without a wheel: R = 0.",
         "The rear end of the track is a corner without a wheel: R = 0.",
+        "The file draws a box for each track. A belt round it is assumed, with square ends.",
     )
 
 
@@ -307,8 +285,8 @@ def test_no_mass_at_all_is_a_refusal(tmp_path):
 
 
 def test_a_robot_without_level_underside_is_a_refusal(tmp_path):
-    arm = urdf(urdf_link("base", shapes=urdf_shape('<sphere radius="0.2"/>')))
-    assert refusal(tmp_path, arm).why == "no-flat-run"
+    ball = urdf(urdf_link("track", shapes=urdf_shape('<sphere radius="0.2"/>')))
+    assert refusal(tmp_path, ball).why == "no-flat-run"
 
 
 # errors, to the letter

@@ -93,3 +93,39 @@ def test_neither_the_floor_nor_what_stands_before_it_is_the_first_riser():
     angles = nosing_angles(line, *points, (0.0, WIDE), floor=0.0)
     assert np.degrees(angles[1:]) == pytest.approx(np.zeros(3), abs=1.0)
     assert np.isnan(angles[0]) or abs(np.degrees(angles[0])) < 5.0
+
+
+def obstructed(rng, steps, hidden, turn_deg=20.0, rise=0.15, going=0.28):
+    """Straight steps; before one riser stands something that is turned and hides its face."""
+    parts = []
+    for k in range(steps):
+        x, y = going * (k + rng.random(1500)), WIDE * rng.random(1500)
+        parts.append(np.column_stack([x, y, np.full(1500, (k + 1) * rise)]))
+        y, up = WIDE * rng.random(700), rise * (k + rng.random(700))
+        ahead = np.full(700, k * going)
+        if k == hidden:
+            ahead += np.tan(np.radians(turn_deg)) * (y - WIDE / 2) - 0.02
+        parts.append(np.column_stack([ahead, y, up]))
+    return cloud(parts, rng)
+
+
+@pytest.mark.parametrize(("steps", "hidden"), [(3, 2), (3, 1), (4, 3), (7, 3)])
+def test_what_stands_before_one_riser_is_no_curve(steps, hidden):
+    """A leg, a bag: the refusal says how many steps it saw, and by what angle faces differ."""
+    refusal = the_refusal(obstructed(np.random.default_rng(0), steps, hidden))
+    assert refusal.why == "unclear"
+    assert refusal.numbers["steps"] == steps
+    assert refusal.numbers["turn_deg"] == pytest.approx(20.0, abs=2.0)
+    assert str(refusal) == (
+        f"It shows {steps} steps whose risers point up to {refusal.numbers['turn_deg']:.0f} deg "
+        "apart: something stands before them, or the flight turns. Scan again with nothing in the "
+        "way."
+    )
+
+
+@pytest.mark.parametrize("steps", [3, 4])
+def test_few_steps_that_turn_evenly_are_a_curved_flight(steps):
+    """By hand: 5 degrees from step to step, its goings 285 mm along the inner side."""
+    refusal = the_refusal(turning(np.random.default_rng(0), 5.0, 3.27, steps=steps))
+    assert refusal.why == "curved"
+    assert refusal.numbers["turn_deg"] == pytest.approx(5.0 * (steps - 1), rel=0.1)

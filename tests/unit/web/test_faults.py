@@ -4,32 +4,23 @@ import logging
 import os
 import signal
 import socket
-import subprocess
 import threading
 import time
 
 import pytest
 
+import serving
 from kaidan.web.workers import Limits
 from serving import LONG, served
 
 QUESTION = {"robot": "absolem", "stairs": "ibc", "friction": 1.0, "flippers": "stowed"}
 
 
-def answering():
-    """Processes that this one began and that answer, the oldest first."""
-    listed = subprocess.run(
-        ["ps", "--sort", "start_time,pid", "-o", "pid=,args=", "--ppid", str(os.getpid())],
-        capture_output=True, text=True, check=True,
-    ).stdout  # fmt: skip
-    return [int(line.split()[0]) for line in listed.splitlines() if "kaidan.web.worker" in line]
-
-
 @pytest.fixture
 def workers():
     """What lists those that were not there before the test, of the server that others share."""
-    others = answering()
-    return lambda: [each for each in answering() if each not in others]
+    others = serving.workers()
+    return lambda: [each for each in serving.workers() if each not in others]
 
 
 def test_a_worker_killed_in_a_request_is_one_clean_error(workers):
@@ -139,6 +130,18 @@ def test_an_upload_is_read_by_its_content_and_leaves_nothing(tmp_path):
         assert client.post("/api/read", data={"file": "text"}).status_code == 422
         left = [each for each in (tmp_path / "passing").rglob("*") if each.is_file()]
         assert left == []
+
+
+def test_a_form_that_is_held_in_memory_is_not_read(client):
+    """A form without a file may be as large as one with it."""
+    began = time.monotonic()
+    answer = client.post("/api/read", data={"file": "x" * (8 << 20)})
+    assert (answer.status_code, answer.json()["kind"]) == (422, "input")
+    assert "send multipart/form-data" in answer.json()["error"]
+    fields = {"hint": "x" * (1 << 20)}
+    answer = client.post("/api/read", files={"file": b"0,0"}, data=fields)
+    assert answer.status_code == 400
+    assert time.monotonic() - began < 30.0
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,12 @@
 """Who may ask: host, origin, token, and the headers of every response."""
 
+import time
+
 import httpx
 import pytest
 
+from kaidan.errors import InputError
+from kaidan.web.server import token_for
 from serving import served
 
 QUESTION = {"robot": "kenaf", "stairs": "ibc", "friction": 1.0}
@@ -38,6 +42,13 @@ def test_a_page_of_elsewhere_cannot_post(client, origin):
     answer = client.post("/api/assess", json=QUESTION, headers={"origin": origin})
     assert answer.status_code == 403
     assert answer.json()["kind"] == "origin"
+
+
+def test_an_origin_that_is_none_is_said_to_be_none(client):
+    for method in ("GET", "POST"):
+        answer = client.request(method, "/api/catalogue", headers={"origin": "http://["})
+        assert answer.status_code == 400
+        assert answer.json()["kind"] == "origin"
 
 
 def test_its_own_page_can_post(client):
@@ -77,3 +88,28 @@ def test_a_token_is_demanded_everywhere_and_kept_by_a_browser():
         with httpx.Client(base_url=client.base_url) as other:
             odd = {"authorization": "Bearer ü".encode()}
             assert other.get("/", headers=odd).status_code == 401
+
+
+def test_a_wrong_token_is_answered_late_and_a_right_one_at_once():
+    with served(token="secret-word") as client:
+        took = []
+        for token in ("secret-work", "secret-word"):
+            began = time.monotonic()
+            client.get("/api/catalogue", headers={"authorization": f"Bearer {token}"})
+            took.append(time.monotonic() - began)
+    assert took[0] > 1.0 > took[1]
+
+
+@pytest.mark.parametrize(
+    ("host", "stated", "length"),
+    [("127.0.0.1", None, 0), ("127.0.0.1", "short", 5), ("0.0.0.0", None, 32),
+     ("::", "", 32), ("tablet", "sixteen-letters!", 16)],
+)  # fmt: skip
+def test_a_token_for_others_is_long(host, stated, length):
+    assert len(token_for(host, stated)) == length
+    assert token_for(host, stated) != token_for(host, stated) or stated or not length
+
+
+def test_a_short_token_for_others_is_refused():
+    with pytest.raises(InputError, match="--token has 15 characters: at tablet it needs 16;"):
+        token_for("tablet", "fifteen-letters")

@@ -1,17 +1,30 @@
 """Live climbs: what is fed comes out, to who knows the climb's name, and as the monitor says it."""
 
+import http.client
 import json
+import os
+import signal
 import subprocess
 import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from http.server import BaseHTTPRequestHandler, HTTPServer
 
+import httpx
 import pytest
 
 import kaidan
 from climbs import SLOPE, climb, csv_of, recording
 from kaidan import Stairs
 from kaidan.cli import run
+from kaidan.errors import InputError
 from kaidan.text.monitor import summary
+from kaidan.verbs.monitor.sending import Channel
+from kaidan.web import channels
 from kaidan.web.asking import live_question
+from kaidan.web.workers import Limits
+from serving import served, workers
 
 BODY = {"robot": "kenaf", "stairs": {"angle": SLOPE, "nosing_spacing": 0.150}}
 ROWS = [{**row._asdict(), "acceleration": 0.0} for row in climb()]
@@ -197,7 +210,105 @@ def test_a_sensor_that_is_sent_through_a_pipe_has_to_come_in_time(client, tmp_pa
         assert process.wait(timeout=60) == 0
 
 
+class Busy(BaseHTTPRequestHandler):
+    """Server that has no room for the first two requests."""
+
+    came = 0
+
+    def do_POST(self):
+        type(self).came += 1
+        self.rfile.read(int(self.headers["Content-Length"]))
+        said = b'{"error": "full", "summary": "3 samples"}'
+        self.send_response(200 if self.came > 2 else 503)
+        self.send_header("Retry-After", "0" if self.came == 1 else "60" if self.came == 2 else "")
+        self.send_header("Content-Length", str(len(said)))
+        self.end_headers()
+        self.wfile.write(said)
+
+    def log_message(self, *said):
+        pass
+
+
+def test_the_sender_waits_for_a_server_that_is_busy_and_not_for_ever():
+    with HTTPServer(("127.0.0.1", 0), Busy) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        channel = Channel(f"http://127.0.0.1:{server.server_port}/api/live/x", "", "")
+        with pytest.raises(InputError, match="full"):  # again at once, then in a minute
+            channel.end()
+        assert Busy.came == 2
+        assert channel.end() == "3 samples"
+        server.shutdown()
+        thread.join()
+
+
 def test_a_robot_without_stated_flippers_is_watched_stowed():
     """As the monitor of the command line takes it: no plan is looked for."""
     question = live_question({"robot": "absolem", "stairs": "ibc"})
     assert (question.flippers, question.best_of) == ("stowed", ())
+
+
+def test_a_watch_throws_out_no_other_one_and_a_client_has_its_share():
+    flight = {"robot": "kenaf", "stairs": "ibc"}
+    with served() as client:
+        fed = client.post("/api/live", json=BODY).json()["id"]
+        client.post(f"/api/live/{fed}", json={"samples": ROWS[:2], "recorded": True})
+        codes = [client.post("/api/live", json=flight).status_code for _ in range(100)]
+        assert codes == [200] * 49 + [429] * 51  # half of 100 places, of which one is taken
+        answer = client.post("/api/live", json=flight)
+        assert answer.json()["kind"] == "share"
+        assert int(answer.headers["retry-after"]) > 0
+        rest = {"samples": ROWS[2:], "recorded": True}
+        states = client.post(f"/api/live/{fed}", json=rest).json()["states"]
+        assert states[-1]["alarm"]  # it knows what was fed before
+        place = (str(client.base_url.host), client.base_url.port)
+        other = http.client.HTTPConnection(*place, source_address=("127.0.0.2", 0))
+        other.request("POST", "/api/live", json.dumps(flight), {"Content-Type": "application/json"})
+        assert other.getresponse().status == 200
+        other.close()
+
+
+def test_a_climb_that_nobody_feeds_or_watches_makes_room(monkeypatch):
+    monkeypatch.setattr(channels, "MOST_CHANNELS", 2)
+    monkeypatch.setattr(channels, "LEFT", 3.0)
+    with served() as client:
+        name = client.post("/api/live", json=BODY).json()["id"]
+        with watched(client, name):
+            time.sleep(3.5)
+            assert client.post("/api/live", json=BODY).status_code == 429
+        time.sleep(0.5)  # until the server has seen that nobody watches
+        assert client.post("/api/live", json=BODY).status_code == 200
+        assert client.post(f"/api/live/{name}", json={"samples": []}).status_code == 404
+
+
+def test_a_climb_outlives_the_worker_that_judges_it():
+    others = set(workers())
+    with served() as client:
+        name = client.post("/api/live", json=BODY).json()["id"]
+        client.post(f"/api/live/{name}", json={"samples": ROWS[:3], "recorded": True})
+        for worker in set(workers()) - others:
+            os.kill(worker, signal.SIGKILL)
+        time.sleep(0.2)
+        said = client.post(f"/api/live/{name}", json={"samples": ROWS[3:], "recorded": True})
+        assert said.json()["states"][-1]["alarm"]
+        ended = client.post(f"/api/live/{name}", json={"end": True}).json()
+        assert ended["summary"].startswith(f"{len(ROWS)} samples, 0 not judged")
+
+
+def test_a_climb_of_too_many_flights_holds_up_nobody():
+    """42 climbs of 40,000 flights: each is judged within its limits, and others are answered."""
+    body = {"robot": "absolem", "stairs": ["ibc"] * 40_000, "flippers": "flat"}
+    with served(limits=Limits(seconds=1.0, waiting=8)) as client:
+        with ThreadPoolExecutor(42) as pool:
+            text = json.dumps(body)
+            head = {"content-type": "application/json"}
+            address = f"{client.base_url}/api/live"
+            flood = [pool.submit(httpx.post, address, content=text, headers=head, timeout=120)
+                     for _ in range(42)]  # fmt: skip
+            time.sleep(0.5)
+            estimate = {"robot": "absolem", "stairs": "ibc", "flippers": "flat"}
+            assert client.post("/api/estimate", json=estimate).status_code == 200
+            answers = [each.result() for each in flood]
+        assert {each.json()["kind"] for each in answers} <= {"begin", "time", "share"}
+        # one at work, four in the line: the others come back as soon as a worker has ended one
+        assert sum(each.status_code == 429 for each in answers) > 30

@@ -22,6 +22,8 @@ from serving import LONG, served
 
 QUICK = {"robot": "absolem", "stairs": "ibc", "friction": 1.0, "flippers": "stowed"}
 """A question that is answered at once."""
+ME = "127.0.0.1"
+"""A client."""
 BEST = {"robot": "absolem-flat", "stairs": "ibc", "friction": 1.0, "flippers": "best"}
 """One for which a posture is to be found."""
 
@@ -84,6 +86,13 @@ def test_the_estimate_is_the_closed_form_without_advice(client):
         ("estimate", {}, True),
         ("margin", {}, True),
         ("sweep", {"flippers": "flat"}, False),
+        ("margin", {"stairs": ["ibc"] * 40_000}, False),
+        ("assess", {"flippers": "flat", "stairs": "ibc+ibc+ibc"}, True),
+        ("assess", {"flippers": "flat", "stairs": "ibc+ibc+ibc+ibc"}, False),
+        ("assess", {"flippers": "flat", "stairs": [[k, k] for k in range(300)]}, True),
+        ("assess", {"flippers": "flat", "stairs": [[k, k] for k in range(400)]}, False),
+        ("assess", {"question": {"best_of": [], "terrain": [{}, {}, {}, {}]}}, False),
+        ("estimate", {"robot": {"title": "long" * 20_000}}, False),
     ],
 )
 def test_what_is_quick(verb, body, quick):
@@ -97,7 +106,7 @@ class Counting:
         self.asked, self.given_up = 0, 0
         self.may = asyncio.Event()
 
-    async def __call__(self, task):
+    async def __call__(self, task, client):
         self.asked += 1
         try:
             await self.may.wait()
@@ -111,7 +120,7 @@ def test_the_same_question_at_once_is_judged_once_and_given_up_by_the_last():
     async def run():
         hands = Counting()
         known = Remembered(hands)
-        first, second = (asyncio.create_task(known.ask({"q": 1})) for _ in range(2))
+        first, second = (asyncio.create_task(known.ask({"q": 1}, ME)) for _ in range(2))
         await asyncio.sleep(0.01)
         first.cancel()  # the other one still waits
         await asyncio.sleep(0.01)
@@ -119,13 +128,13 @@ def test_the_same_question_at_once_is_judged_once_and_given_up_by_the_last():
         assert (await second).status == 200
         assert (hands.asked, hands.given_up) == (1, 0)
         hands.may.clear()
-        alone = asyncio.create_task(known.ask({"q": 2}))
+        alone = asyncio.create_task(known.ask({"q": 2}, ME))
         await asyncio.sleep(0.01)
         alone.cancel()
         with contextlib.suppress(asyncio.CancelledError):
             await alone
         hands.may.set()
-        again = await known.ask({"q": 2})
+        again = await known.ask({"q": 2}, ME)
         assert again.status == 200
         assert (hands.asked, hands.given_up) == (3, 1)
 
@@ -135,15 +144,16 @@ def test_the_same_question_at_once_is_judged_once_and_given_up_by_the_last():
 def test_an_estimate_does_not_wait_for_answers(tmp_path):
     async def run():
         hands = Hands(1, Limits(), tmp_path)
-        busy = await hands.quick._free()
-        answer = asyncio.create_task(hands.ask({"verb": "assess", "body": {"flippers": "flat"}}))
+        busy = await hands.quick._free(ME)
+        asked = {"kind": "ask", "verb": "assess", "body": {"flippers": "flat"}}
+        answer = asyncio.create_task(hands.ask(asked, ME))
         await asyncio.sleep(0)
         estimate = {"kind": "ask", "verb": "estimate", "body": QUICK}
-        found = await hands.ask(estimate)
+        found = await hands.ask(estimate, ME)
         assert found.status == 200
         assert not answer.done()
         answer.cancel()
-        hands.quick._release(busy)
+        hands.quick._release(busy, ME)
         await hands.__aexit__(None, None, None)
 
     _run(run())
@@ -155,7 +165,7 @@ def test_workers_are_of_one_session_in_which_estimates_go_first(tmp_path):
     async def run():
         async with Hands(1, Limits(), tmp_path) as hands:
             for verb, body in (("estimate", QUICK), ("assess", QUICK), ("assess", BEST)):
-                found = await hands.ask({"kind": "ask", "verb": verb, "body": body})
+                found = await hands.ask({"kind": "ask", "verb": verb, "body": body}, ME)
                 assert found.status == 200
             every = (hands.estimates, hands.quick, hands.thorough)
             return [next(iter(each._all)).process.pid for each in every], [
@@ -177,8 +187,9 @@ def test_the_line_goes_in_turn_and_who_gives_up_leaves_it(tmp_path):
     async def run():
         order = []
 
-        async def ask(hands, name):
-            await hands.ask({"kind": "ask", "verb": "estimate", "body": {"name": name}})
+        async def ask(hands, name, client=ME):
+            asked = {"kind": "ask", "verb": "estimate", "body": {"name": name}}
+            await hands.ask(asked, client)
             order.append(name)
 
         async with Workers(1, Limits(), tmp_path) as hands:
@@ -190,6 +201,43 @@ def test_the_line_goes_in_turn_and_who_gives_up_leaves_it(tmp_path):
         return order
 
     assert _run(run()) == ["first", "second", "third"]
+
+
+def test_clients_take_turns_and_one_has_half_of_the_line(tmp_path):
+    async def run():
+        order = []
+
+        async def ask(hands, client):
+            task = {"kind": "ask", "verb": "estimate", "body": {}}
+            reply = await hands.ask(task, client)
+            order.append((client, reply.status))
+
+        async with Workers(1, Limits(waiting=4), tmp_path) as hands:
+            clients = ("loud", "loud", "loud", "loud", "quiet", "calm", "late")
+            await asyncio.gather(*(ask(hands, client) for client in clients))
+        return order
+
+    # one is at work, two of one client may wait, then one of each other, and four in all
+    answered = [("loud", 422), ("loud", 422), ("quiet", 422), ("calm", 422), ("loud", 422)]
+    assert _run(run()) == [("loud", 429), ("late", 503), *answered]
+
+
+def test_one_client_leaves_workers_for_another(tmp_path):
+    """However long its tasks take: of two workers it keeps one busy."""
+
+    async def run():
+        async with Workers(2, Limits(), tmp_path, most=1) as hands:
+            held = await hands._free("loud")
+            more = asyncio.create_task(hands._free("loud"))
+            await asyncio.sleep(0)
+            assert not more.done()
+            task = {"kind": "ask", "verb": "estimate", "body": QUICK}
+            assert (await hands.ask(task, "quiet")).status == 200
+            assert not more.done()
+            hands._release(held, "loud")
+            return await more
+
+    _run(run())
 
 
 class Leaving:
@@ -209,7 +257,7 @@ def test_what_a_client_asked_that_has_gone_is_given_up(seconds, status, given_up
         hands = Counting()
         if not given_up:
             hands.may.set()
-        found = await while_there(Leaving(seconds), Remembered(hands).ask({"q": 1}))
+        found = await while_there(Leaving(seconds), Remembered(hands).ask({"q": 1}, ME))
         await asyncio.sleep(0.01)
         return found.status_code, hands.given_up
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from kaidan.errors import listed
 from kaidan.readers.formats.columns import points_of_columns, provenance_of
 from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import Heights, Known, Points
@@ -116,22 +117,19 @@ def deserialised(store: Any, raw: bytes, connection: Any) -> Any:
 def _topic(source: Source, topics: dict[str, Any], everything: list[str], hints: Hints) -> str:
     if hints.element:
         if hints.element not in topics:
-            known = ", ".join(sorted(topics)) or "none"
+            known = listed(sorted(topics)) or "none"
             raise source.refuse(f"no topic {hints.element[:60]!r} can be read; known: {known}")
         return hints.element
     if not topics:
         raise source.refuse(
-            "no topic is a grid_map or a point cloud; it has "
-            + (", ".join(everything[:10]) or "none")
+            "no topic is a grid_map or a point cloud; it has " + (listed(everything) or "none")
         )
     for kind in (GRID, CLOUD):
         named = [name for name, each in topics.items() if each.msgtype == kind]
         if len(named) == 1:
             return named[0]
         if named:
-            raise source.refuse(
-                f"which topic is meant? name one as its element: {', '.join(named)}"
-            )
+            raise source.refuse(f"which topic is meant? name one as its element: {listed(named)}")
     raise AssertionError
 
 

@@ -10,6 +10,8 @@ from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import Array, Known, Points, Provenance
 from kaidan.readers.opening import Source
 
+FARTHEST = 1e4
+"""Distance of a sensor from a cloud that is believed, in sizes of the cloud [1]."""
 MOST_POINTS = 60_000_000
 """Most points that are kept in memory."""
 
@@ -55,7 +57,7 @@ def points_of_columns(
     Raises
     ------
     InputError
-        No valid point, or more than `MOST_POINTS`.
+        No valid point, more than `MOST_POINTS`, or a sensor farther off than any.
     """
     count = len(columns[0])
     if count > MOST_POINTS:
@@ -76,5 +78,12 @@ def points_of_columns(
         grid, xyz = None, xyz[~invalid]
     if hints.viewpoint is not None:
         viewpoint = np.array(hints.viewpoint)
+    if viewpoint is not None:
+        low, high = np.nanmin(xyz, axis=0), np.nanmax(xyz, axis=0)
+        beyond = np.maximum(low - viewpoint, viewpoint - high).max()
+        if not beyond <= FARTHEST * max(float((high - low).max()), 1e-6):
+            if viewpoint.any():
+                raise source.refuse(f"the sensor stands {beyond:.3g} away from all of its points")
+            viewpoint = None  # zeros that say nothing, of a cloud in coordinates of a country
     provenance = provenance_of(source, form, hints, **known)
     return Points(xyz, provenance, grid=grid, viewpoint=viewpoint, total=total)

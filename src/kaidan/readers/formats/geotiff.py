@@ -34,6 +34,8 @@ def read(source: Source, hints: Hints) -> Heights:
         tags = {code: page.tags[code].value for code in (_SCALE, _KEYS, _NO_DATA)
                 if code in page.tags}  # fmt: skip
         heights = page.asarray().astype(np.float64)
+        if heights.shape != shape or not heights.size:
+            raise source.refuse(f"its {heights.size} cells are not the {shape} that it states")
     cell = _cell(source, tags, hints)
     try:
         heights[heights == float(str(tags.get(_NO_DATA, "nan")).strip("\0 "))] = np.nan

@@ -142,6 +142,9 @@ def _loaded(
         parts = [each for each in scene.dump() if isinstance(each, trimesh.Trimesh)]
         if not parts or not sum(len(part.faces) for part in parts):
             raise source.refuse("it holds no triangles")
+        for part in parts:
+            if part.vertices.shape[1:] != (3,):
+                raise source.refuse(f"its vertices have {part.vertices.shape[-1]} coordinates")
         starts = np.cumsum([0, *(len(part.vertices) for part in parts)])
         vertices = np.vstack([part.vertices for part in parts]).astype(np.float64) * factor
         faces = np.vstack(

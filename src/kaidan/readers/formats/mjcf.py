@@ -12,7 +12,7 @@ from typing import Literal
 
 import numpy as np
 
-from kaidan.errors import InputError, shown
+from kaidan.errors import InputError, listed, shown
 from kaidan.readers.formats.mjcf_settings import Settings
 from kaidan.readers.formats.mjcf_shapes import geom, inertia_of, shape
 from kaidan.readers.hints import Hints
@@ -86,7 +86,7 @@ def _chosen(root: Element, settings: Settings, name: str) -> list[tuple[Array, E
     elif len(found) > 1:  # what stands in the world is no robot; what has joints within may be
         found = [one for one in found if _jointed(one[1])] or found
     if len(found) > 1:
-        known = ", ".join(each.attributes.get("name", "?") for _, each in found[:8])
+        known = listed(each.attributes.get("name", "?") for _, each in found)
         raise InputError(f"{root.origin}: has several bodies; write FILE#BODY with one of {known}")
     if not found:
         root.refuse("has no <body>")

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.lib import format as npy
 from numpy.typing import NDArray
 
+from kaidan.errors import listed
 from kaidan.readers.formats.columns import points_of_columns, provenance_of
 from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import Heights, Known, Points
@@ -39,7 +40,7 @@ def _member(source: Source, hints: Hints) -> tuple[NDArray[Any], str]:
     if not hints.element and len(members) == 1:
         wanted = list(members)
     if not wanted or wanted[0] not in members:
-        known = ", ".join(sorted(members)[:10])
+        known = listed(sorted(members))
         raise source.refuse(f"which array is meant? name one as its element: {known}")
     content = source.member(members[wanted[0]], LARGEST)
     return _array(source, io.BytesIO(content), len(content), wanted[0]), wanted[0]

@@ -12,7 +12,7 @@ from typing import Literal
 
 import numpy as np
 
-from kaidan.errors import InputError, shown
+from kaidan.errors import InputError, listed, shown
 from kaidan.readers.formats.sdf_frames import Frames, pose_of
 from kaidan.readers.hints import Hints
 from kaidan.readers.opening import Source
@@ -110,7 +110,7 @@ def _chosen(root: Element, name: str) -> Element:
         moved = [model for model in models if model.word("static").lower() not in ("true", "1")]
         models = [model for model in moved if model.find("joint") is not None] or moved
     if len(models) > 1:
-        known = ", ".join(model.attributes.get("name", "?") for model in models[:8])
+        known = listed(model.attributes.get("name", "?") for model in models)
         raise InputError(f"{root.origin}: has several models; write FILE#MODEL with one of {known}")
     if not models:
         root.refuse("has no <model> that moves")

@@ -10,8 +10,13 @@ from kaidan.errors import InputError
 from kaidan.readers.estimate import Found, Refusal
 from kaidan.readers.hints import Hints
 from kaidan.readers.kinds import Axis
+from kaidan.readers.robots.belts import Belt, belt_of
 from kaidan.readers.robots.estimate import Figure, RobotEstimate
-from kaidan.readers.robots.figures import figures_of_flippers, figures_of_track
+from kaidan.readers.robots.figures import (
+    figures_of_belt,
+    figures_of_flippers,
+    figures_of_track,
+)
 from kaidan.readers.robots.flippers import Flipper, flippers_of, posed, root_pieces
 from kaidan.readers.robots.gear import End, Gear, gear_of
 from kaidan.readers.robots.mechanism import Array, Fault, MassProperties, Mechanism, Placed
@@ -61,16 +66,20 @@ def found(contents: Mechanism, hints: Hints) -> Found:
     centroid = (float(whole.centroid[0]), float(whole.centroid[2]))
     side = side_view(main, centroid)
     figures = _of_masses(whole, said.posture(stated, _degrees(angles)))
+    belt = belt_of(side, gear) if side is not None and gear.main else None
     if side is not None:
         figures |= figures_of_track(side, main, gear)
         figures |= figures_of_flippers(side, flippers, faults)
+    if belt is not None:
+        figures |= figures_of_belt(belt)
     figures |= {key: Figure(value, said.STATED) for key, value in hints.figures.items()}
     if contents.max_speed is not None and "drive.max_speed" not in figures:
         figures["drive.max_speed"] = Figure(contents.max_speed, said.DECLARED)
     faults += _of_gear(gear, flippers, side, hints.forward or "+x")
+    faults += [] if belt is None or "track.belt" in figures else _of_belt(belt)
     faults += _of_centroid(whole, figures, main)
     provenance = contents.provenance
-    why, numbers = _refused(contents, whole, gear, side, hints.figures)
+    why, numbers = _refused(contents, whole, gear, side, belt, hints.figures)
     if why:
         return Found(provenance, refusals=(Refusal(why, numbers, provenance),), contents=contents)
     estimate = RobotEstimate(
@@ -144,9 +153,11 @@ def _of_masses(whole: MassProperties, at: str) -> dict[str, Figure]:
 
 def _as_in_file(placed: Placed, gear: Gear) -> dict[str, float]:
     """Lengths of tracks and flippers together, joints as in the file."""
+    if not gear.on_flippers:
+        return {}
     centroid = placed.mass_properties().centroid
     view = side_view([*gear.main, *gear.on_flippers], (float(centroid[0]), float(centroid[2])))
-    if view is None or not gear.on_flippers:
+    if view is None:
         return {}
     return {
         "flat_length": view.flat_length,
@@ -185,9 +196,7 @@ def _of_gear(
         faults.append(Fault("flippers-only"))
     elif gear.how == "everything":
         faults.append(Fault("everything"))
-    wheels = len(gear.wheels) / 2
-    if gear.main and len(gear.wheels) == len(gear.main) and wheels >= 1:
-        faults.append(Fault("wheels-for-tracks", numbers={"wheels": wheels}))
+    faults += [Fault("locked", name) for name in gear.locked]
     if side is None:
         return faults
     for end, radius in zip(("front", "rear"), side.radii, strict=True):
@@ -198,6 +207,11 @@ def _of_gear(
     if not 0.0 <= side.com_from_front <= side.flat_length:
         faults.append(Fault("outside", numbers={"forward": forward}))
     return faults
+
+
+def _of_belt(belt: Belt) -> list[Fault]:
+    """What is assumed of the belt of the tracks."""
+    return [] if belt.assumed is None else [Fault(f"{belt.assumed}-for-belt")]
 
 
 def _of_centroid(
@@ -220,12 +234,18 @@ def _refused(
     whole: MassProperties,
     gear: Gear,
     side: SideView | None,
+    belt: Belt | None,
     stated: Mapping[str, float | str],
 ) -> tuple[str, dict[str, float | str]]:
     """Why there is no sheet, and what was found; nothing where there is one."""
     numbers: dict[str, float | str] = {
         "links": len(mechanism.links), "mass_kg": whole.mass, "names": said.listed(gear.meshes),
     }  # fmt: skip
+    if "track.belt" not in stated:
+        if gear.how == "everything" and gear.how_flippers != "named":
+            return "no-track", {}
+        if belt is not None and belt.gap and not belt.called:
+            return "wheels", {"radius_mm": 1e3 * belt.radius, "gap_mm": 1e3 * belt.gap}
     if all(key in stated for key in NEEDED):
         return "", {}
     if whole.mass <= 0.0 and not {"com_from_front", "com_height"} <= stated.keys():

@@ -65,12 +65,13 @@ class RobotEstimate:
     @property
     def notes(self) -> tuple[str, ...]:
         """What is wrong or doubtful, as sentences."""
-        faults = self.faults
-        if self.doubt is not None:
-            along, up = self.doubt
-            numbers = {"along_mm": 1e3 * along, "height_mm": 1e3 * up}
-            faults += (Fault("range", numbers=numbers),)
-        return said.faults(faults)
+        return said.faults((*self.faults, *self._range()))
+
+    def _range(self) -> tuple[Fault, ...]:
+        if self.doubt is None:
+            return ()
+        along, up = self.doubt
+        return (Fault("range", numbers={"along_mm": 1e3 * along, "height_mm": 1e3 * up}),)
 
     def robot(self) -> Robot:
         """Data sheet.
@@ -95,7 +96,9 @@ class RobotEstimate:
                 for key, half in zip(("from_front", "height"), self.doubt, strict=True)
             }
         sheet["title"] = self.placed.mechanism.name[:80]
-        sheet["notes"] = said.sheet_notes(file, self.provenance.digest, self.notes)
+        left = [fault for fault in self.faults if fault.kind not in said.KEPT]
+        notes = said.faults((*left, *self._range()))
+        sheet["notes"] = said.sheet_notes(file, self.provenance.digest, notes)
         try:
             return Robot.model_validate(sheet)
         except InputError as error:

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from kaidan.readers.robots.belts import Belt
 from kaidan.readers.robots.estimate import Figure
 from kaidan.readers.robots.flippers import Flipper
 from kaidan.readers.robots.gear import End, Gear
@@ -43,6 +44,16 @@ def figures_of_track(side: SideView, main: Sequence[Piece], gear: Gear) -> dict[
     return (
         found | _across(main) | _belly(side, gear) | _grousers(side, gear) | _over_all(side, gear)
     )
+
+
+def figures_of_belt(belt: Belt) -> dict[str, Figure]:
+    """What the file draws in place of a belt, and where its tracks have a gap."""
+    found = {}
+    if belt.assumed is not None:
+        found["track.drawn_as"] = Figure(belt.assumed, said.DRAWN[belt.assumed])
+    if belt.called and belt.gap:
+        found["track.gap"] = Figure(belt.middle, said.BARE)
+    return found
 
 
 def _across(main: Sequence[Piece]) -> dict[str, Figure]:

@@ -52,7 +52,9 @@ class Gear:
     """What a robot stands on."""
 
     main: tuple[Piece, ...]
-    """Of the main tracks."""
+    """Of the main tracks, and of flippers that have no travel."""
+    called: tuple[Piece, ...]
+    """Those of them that the file calls or declares tracks: belts run over them."""
     grousers: tuple[Piece, ...]
     flippers: dict[End, tuple[FlipperJoint, ...]]
     on_flippers: tuple[Piece, ...]
@@ -63,6 +65,8 @@ class Gear:
     """How the tracks were found: "declared", "named", "turning", "shapes" or "everything"."""
     how_flippers: str
     """How the flippers were found: "named" or "shaped"; empty: there are none."""
+    locked: tuple[str, ...]
+    """Joints that are called flippers and have no travel."""
     meshes: tuple[str, ...]
     """Links of the tracks that have meshes alone, which are not opened."""
     body_meshes: tuple[str, ...]
@@ -82,8 +86,10 @@ def gear_of(placed: Placed) -> Gear:
     flippers, how_flippers = _flippers(placed)
     moved = {name for pair in flippers.values() for each in pair for name in each.links}
     others = [name for name in mechanism.links if name not in moved]
+    locked = _locked(placed, moved)
+    fixed = {name for joint in locked for name in mechanism.subtree(joint.child)}
     declared = [name for name in mechanism.tracks if name in others]
-    named = [name for name in others if _is_named_track(mechanism, name)]
+    named = [name for name in others if name in fixed or _is_named_track(mechanism, name)]
     turning = [name for name in others if _turns(placed, name)]
     links = list(dict.fromkeys([*declared, *named, *turning]))
     how = "declared" if declared else "named" if named else "turning" if turning else "everything"
@@ -98,14 +104,20 @@ def gear_of(placed: Placed) -> Gear:
         links = [] if pieces else others
     alike = Counter((piece.link, piece.shape.size) for piece in pieces)
     standing_out = [_is_grouser(piece, alike) for piece in pieces]
+    main = tuple(piece for piece, out in zip(pieces, standing_out, strict=True) if not out)
+    words = {*declared, *named}
     return Gear(
-        main=tuple(piece for piece, out in zip(pieces, standing_out, strict=True) if not out),
+        main=main,
+        called=tuple(
+            each for each in main if each.link in words or _is_called_track(each.shape.name)
+        ),
         grousers=tuple(piece for piece, out in zip(pieces, standing_out, strict=True) if out),
         flippers=flippers,
         on_flippers=pieces_of(placed, [name for name in mechanism.links if name in moved]),
         rest=rest,
         how=how,
         how_flippers=how_flippers,
+        locked=tuple(joint.name for joint in locked),
         meshes=tuple(name for name in links if _has_only_meshes(mechanism, name)),
         body_meshes=tuple(
             name for name in others if name not in links and _has_mesh(mechanism, name)
@@ -125,7 +137,12 @@ def _is_named_track(mechanism: Mechanism, name: str) -> bool:
 
 def _is_called_gear(name: str) -> bool:
     """Whether a shape is called a track, a wheel or a flipper."""
-    return any(each.search(name) for each in (_TRACK, _WHEEL, _FLIPPER))
+    return _is_called_track(name) or bool(_WHEEL.search(name))
+
+
+def _is_called_track(name: str) -> bool:
+    """Whether a shape is called something that a belt runs over."""
+    return any(each.search(name) for each in (_TRACK, _FLIPPER))
 
 
 def _turns(placed: Placed, name: str) -> bool:
@@ -144,11 +161,9 @@ def _flippers(placed: Placed) -> tuple[dict[End, tuple[FlipperJoint, ...]], str]
     swings = [
         joint
         for joint in placed.mechanism.moving.values()
-        if joint.kind == "hinge"
-        and abs(placed.lateral(joint)) > _ACROSS
-        and joint.limits[1] - joint.limits[0] > _LEAST_RANGE
+        if joint.kind == "hinge" and abs(placed.lateral(joint)) > _ACROSS and _has_travel(joint)
     ]
-    named = [each for each in swings if _FLIPPER.search(each.name) or _FLIPPER.search(each.child)]
+    named = [each for each in swings if _is_called_flipper(each)]
     inner = {name for joint in named for name in placed.mechanism.subtree(joint.child)[1:]}
     chosen = [joint for joint in named if joint.child not in inner]
     how = "named"
@@ -169,6 +184,27 @@ def _flippers(placed: Placed) -> tuple[dict[End, tuple[FlipperJoint, ...]], str]
         "rear": tuple(each for each in made if each.pivot[0] < middle),
     }
     return {end: pair for end, pair in ends.items() if pair}, how
+
+
+def _locked(placed: Placed, moved: set[str]) -> list[Joint]:
+    """Joints that are called flippers, hold a long part and have no travel, the outermost ones."""
+    mechanism = placed.mechanism
+    found: dict[str, Joint] = {}
+    for joint in mechanism.joints:
+        within = mechanism.subtree(joint.child) if _is_called_flipper(joint) else ()
+        still = joint.kind != "slide" and joint.follows is None and not _has_travel(joint)
+        if within and still and moved.isdisjoint(within) and _is_long(placed, joint):
+            found[joint.child] = joint
+    inner = {name for child in found for name in mechanism.subtree(child)[1:]}
+    return [joint for child, joint in found.items() if child not in inner]
+
+
+def _is_called_flipper(joint: Joint) -> bool:
+    return bool(_FLIPPER.search(joint.name) or _FLIPPER.search(joint.child))
+
+
+def _has_travel(joint: Joint) -> bool:
+    return joint.kind == "hinge" and joint.limits[1] - joint.limits[0] > _LEAST_RANGE
 
 
 def _flipper(placed: Placed, joint: Joint) -> FlipperJoint:

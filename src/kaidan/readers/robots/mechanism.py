@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.errors import InputError, did_you_mean, shown
+from kaidan.errors import InputError, did_you_mean, listed, shown
 from kaidan.readers.kinds import Provenance
 
 NOWHERE = Provenance(path="", digest="", form="")
@@ -334,4 +334,4 @@ def symmetric(xx: float, yy: float, zz: float, xy: float, xz: float, yz: float) 
 
 
 def _listed(names: Collection[str]) -> str:
-    return f"; it has {', '.join(sorted(names)[:12])}" if names else "; it has none that move"
+    return f"; it has {listed(sorted(names))}" if names else "; it has none that move"

@@ -85,7 +85,8 @@ def refused(
         return Refusal("rubble", {"residual_mm": 1e3 * steps.residual}, provenance)
     word, turn = turn_of(steps.angles)
     if word:
-        return Refusal(word, {"turn_deg": math.degrees(turn)}, provenance)
+        numbers = {"turn_deg": math.degrees(turn), "steps": len(steps.at)}
+        return Refusal(word, numbers, provenance)
     number = np.arange(len(steps.at))
     off = steps.at - np.column_stack(
         [np.polyval(np.polyfit(number, steps.at[:, axis], 1), number) for axis in (0, 1)]

@@ -183,7 +183,10 @@ def steps_of(
         eye=eye, range_error=range_error, level=level,
     ) + np.diag(np.r_[sigma.ravel(), floor_sigma] ** 2 + SMALLEST**2)  # fmt: skip
     angles = nosing_angles(line, s, t, z, width, floor)
-    if turn_of(angles)[0] == "curved":  # its first nosings lie elsewhere than those of a line
+    if turn_of(angles)[0] in (
+        "curved",
+        "unclear",
+    ):  # its first nosings lie elsewhere than those of a line
         angles = nosing_angles(whole, s, t, z, width, floor)
     m = len(found)
     return Steps(

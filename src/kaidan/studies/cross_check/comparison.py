@@ -2,14 +2,17 @@
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, get_args
 
+from kaidan.arguments import known_arguments
 from kaidan.contact import Status
+from kaidan.errors import InputError
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.margin import theta_s_sup
 from kaidan.models.closed_form import judge
 from kaidan.physics import Outcome, TrialResult, run
 from kaidan.question import Question
+from kaidan.spelling import word_of
 from kaidan.studies.cross_check import bands, outcomes
 from kaidan.studies.cross_check.answer import (
     Agreement,
@@ -34,13 +37,17 @@ from kaidan.studies.cross_check.common_question import (
     trial_of,
 )
 from kaidan.text import cross_check as said
+from kaidan.units import value_of
 
+FINEST, COARSEST = 0.01, 5.0
+"""Resolutions that may be stated [deg]."""
 RESOLUTION = 0.1
 """Width of the last bracket of searches by trials [deg]."""
 _PROBE = math.radians(40.0)
 """Slope of a flight on which the criterion is worked out; its margin gives the limit [rad]."""
 
 
+@known_arguments
 def agree(
     robot: Any,
     stairs: Any = None,
@@ -78,6 +85,12 @@ def agree(
     Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y, Eqs. (19)-(23), for the closed form.
     """
     question = Question.in_one_posture(robot, stairs, **manner)
+    word_of("begin", begin, get_args(Begin))
+    resolution = value_of(resolution, "number", option="resolution")
+    if not FINEST <= resolution <= COARSEST:
+        raise InputError(
+            f"resolution = {resolution:g} deg is not within {FINEST:g} to {COARSEST:g}"
+        )
     put = common(question)
     result = run(trial_of(put, begin))
     traverse = flight_traverse(put)

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from kaidan.errors import InputError, did_you_mean, shown
+from kaidan.arguments import known_arguments, several
+from kaidan.errors import InputError, did_you_mean, listed, shown
 from kaidan.mechanics.clearance import tip_hook_margin
 from kaidan.outline import Outline
 from kaidan.progress import progress, working
@@ -21,7 +22,7 @@ from kaidan.readers.interpreters.building import flight_sheet
 from kaidan.readers.opening import Source
 from kaidan.readers.recognition import recognised
 from kaidan.robot import Robot
-from kaidan.spelling import BEST
+from kaidan.spelling import BEST, robot_of, word_of
 from kaidan.terrain.stairs import Stairs
 from kaidan.text.building import disagreement, hooking
 from kaidan.verbs.building.answer import (
@@ -42,6 +43,7 @@ _POINTS = 4
 """Digits of places in the plan [m]."""
 
 
+@known_arguments
 def building(
     file: Any,
     robots: Sequence[Any],
@@ -82,11 +84,14 @@ def building(
     MissingExtraError
         Without the extra ``ifc``.
     """
-    sheets = [each if isinstance(each, Robot) else Robot.named(each) for each in robots]
+    sheets = [robot_of(each) for each in several("robots", robots)]
     if not sheets:
         raise InputError("building: name at least one robot")
     if not isinstance(file, str | Path):
         raise InputError(f"building: file = {shown(file)} is not a path")
+    if not isinstance(start, str | None):
+        raise InputError(f"building: start = {shown(start)} is not the name of a storey")
+    word_of("direction", direction, ("up", "down"))
     for each in sheets:  # refuses what no question takes before anything is read
         Question.of(each, Stairs(rise=0.18, going=0.28), direction=direction, **manner)
     source = Source.of(file)
@@ -191,7 +196,7 @@ def _start(storeys: Sequence[StoreyShown], named: str | None) -> StoreyShown | N
         if named.strip().lower() in (each.name.lower(), each.identity.lower()):
             return each
     names = [each.name for each in storeys]
-    hint = did_you_mean(named, names) or f"; known: {', '.join(names)}"
+    hint = did_you_mean(named, names) or f"; known: {listed(names)}"
     raise InputError(f"building: no storey is called {shown(named)}{hint}")
 
 

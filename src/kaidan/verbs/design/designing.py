@@ -6,8 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from kaidan.errors import InputError, shown
+from kaidan.arguments import known_arguments, table, whole
+from kaidan.errors import InputError
 from kaidan.modes import CONTACT, Verdict
+from kaidan.spelling import word_of
 from kaidan.sweeps.parameters import question_of, settled
 from kaidan.sweeps.plan import Along, Plan
 from kaidan.sweeps.running import carried_out
@@ -17,11 +19,14 @@ from kaidan.verbs.design.postures import planned
 from kaidan.verbs.design.problem import Problem, Tried, cell_of, free_of, terrain_name
 from kaidan.verbs.design.search import GOALS, Goal, best_of, optimised
 
+MOST_TRIES = 1_000_000
+"""Most designs that a search judges, and largest seed of one."""
 MOST_GRID = 1001
 _MORE = 3
 """Times that the search begins again where the map has a better place."""
 
 
+@known_arguments
 def design(
     robot: Any,
     stairs: Any = None,
@@ -89,17 +94,23 @@ def design(
     >>> found.verdict, found.free[0].best
     ('go', 0.0656)
     """
-    if goal not in GOALS:
-        raise InputError(f"goal = {shown(goal)} is not known; known: {', '.join(GOALS)}")
+    word_of("goal", goal, GOALS)
     values = {"robot": settled("robot", robot), **manner}
     if manner.get("payload") is not None:
         values["payload"] = settled("payload", manner["payload"])
     each = stairs if isinstance(stairs, list) else [stairs]
     terrains = [settled("stairs", one) for one in each]
-    chosen = free_of(values | {"stairs": terrains[0]}, free, weights or {})
-    places = (21 if len(chosen) > 1 else 0) if grid is None else grid
-    if places and not 2 <= places <= MOST_GRID:
-        raise InputError(f"grid = {places} is not within 2 to {MOST_GRID} places")
+    chosen = free_of(
+        values | {"stairs": terrains[0]},
+        table("free", free),
+        table("weights", {} if weights is None else weights),
+    )
+    places = (21 if len(chosen) > 1 else 0) if grid is None else whole("grid", grid, 0, MOST_GRID)
+    if places == 1:
+        raise InputError(f"grid = 1 is not within 2 to {MOST_GRID} places")
+    counts = (("front", front, 0), ("tries", tries, 1), ("seed", seed, 0))
+    for name, given, least in counts:
+        whole(name, given, least, MOST_TRIES)
     how = {"scheduler": scheduler, "workers": workers, "progress": progress}
 
     def sought(problem: Problem) -> tuple[Problem, Tried, Swept | None]:

@@ -11,7 +11,7 @@ from kaidan.errors import InputError, shown
 from kaidan.modes import Verdict
 from kaidan.sweeps.cells import MODES, REFUSED, judged_row
 from kaidan.sweeps.parameters import parameter, question_of, value_now
-from kaidan.units import range_of
+from kaidan.units import range_of, value_of
 
 LATTICE = 500
 """Places of a free figure at least, of round numbers: nobody builds to a tenth of a millimetre."""
@@ -180,8 +180,8 @@ def free_of(
         low, high = range_of(ends, kind, option=name)
         if not low < high:
             raise InputError(f"{name} = {low:g} {unit} has no width: give LOW..HIGH")
-        weight = weights.get(name, 1.0)
-        if not (weight >= 0 and math.isfinite(weight)):
+        weight = value_of(weights.get(name, 1.0), "number", option=f"cost of {name}")
+        if weight < 0:
             raise InputError(f"cost of {name} = {weight:g} is not a number from 0 on")
         found.append(Free(name, low, high, unit, value_now(values, name), weight))
     return tuple(found)

@@ -13,6 +13,7 @@ from collections.abc import Iterable
 from contextlib import ExitStack
 from typing import Any
 
+from kaidan.arguments import known_arguments
 from kaidan.errors import InputError, shown
 from kaidan.question import Question
 from kaidan.verbs.monitor.alarm import AlarmLimits as AlarmLimits
@@ -25,6 +26,7 @@ from kaidan.verbs.monitor.samples import Sample as Sample
 from kaidan.verbs.monitor.sources import open_samples as open_samples
 
 
+@known_arguments
 def monitor(
     robot: Any,
     stairs: Any,

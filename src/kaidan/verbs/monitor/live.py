@@ -1,7 +1,6 @@
 """The monitor of a climb that somebody watches: each state with its tilt and the phase it is in."""
 
 import math
-from typing import Self
 
 from kaidan.modes import Phase
 from kaidan.question import Question
@@ -44,9 +43,7 @@ class LiveMonitor:
     """
 
     def __init__(self, question: Question, *, limits: AlarmLimits | None = None) -> None:
-        self.question = question
-        self.limits = AlarmLimits() if limits is None else limits
-        self._watch = Monitor.of(question, limits=self.limits)
+        self._watch = Monitor.of(question, limits=limits)
         flight = question.steepest_flight
         assert flight is not None  # the monitor refuses a terrain without steps
         self.slope = flight.angle
@@ -69,10 +66,6 @@ class LiveMonitor:
     def answer(self) -> MonitorAnswer:
         """Answer to all samples so far; see `kaidan.verbs.monitor.online.Monitor.answer`."""
         return self._watch.answer()
-
-    def again(self) -> Self:
-        """The same monitor before its first sample."""
-        return type(self)(self.question, limits=self.limits)
 
     def _state(self, state: MonitorState, tilt: float) -> LiveState:
         return LiveState(

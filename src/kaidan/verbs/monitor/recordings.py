@@ -9,7 +9,7 @@ import os
 from pathlib import Path
 from typing import Any
 
-from kaidan.errors import needed
+from kaidan.errors import listed, needed
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.readers.formats import bags
 from kaidan.readers.opening import LARGEST_STREAM, Source
@@ -127,7 +127,7 @@ def _sample(message: Any, row: int, nose_up: bool) -> Sample:
 def _topic(source: Source, topic: str | None, known: list[str]) -> str:
     if topic is None and len(known) == 1:
         return known[0]
-    names = ", ".join(known) or "none"
+    names = listed(known) or "none"
     if topic is None:
         raise source.refuse(f"topics of {IMU}: {names}; give a file with one")
     if topic not in known:

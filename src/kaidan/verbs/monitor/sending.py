@@ -1,6 +1,8 @@
 """Samples sent to a server that judges and shows them."""
 
 import json
+import math
+import time
 import urllib.error
 import urllib.request
 from typing import Any, NamedTuple, Self
@@ -13,7 +15,7 @@ from kaidan.verbs.monitor.alarm import AlarmLimits
 from kaidan.verbs.monitor.samples import Sample
 
 PATIENCE = 10.0
-"""How long a server may take to answer [s]."""
+"""How long a server may take to answer, and to have room for the question [s]."""
 
 
 class Channel(NamedTuple):
@@ -80,16 +82,30 @@ def _posted(address: str, body: dict[str, Any], token: str) -> dict[str, Any]:
     headers = {"Content-Type": "application/json"}
     headers |= {"Authorization": f"Bearer {token}"} if token else {}
     asked = urllib.request.Request(address, json.dumps(body).encode(), headers)
-    try:
-        with urllib.request.urlopen(asked, timeout=PATIENCE) as answer:
-            said: dict[str, Any] = json.load(answer)
-            return said
-    except urllib.error.HTTPError as error:
+    end = time.monotonic() + PATIENCE
+    while True:
         try:
-            why = json.load(error)["error"]
-        except (ValueError, KeyError, TypeError):
-            why = error.reason
-        raise InputError(f"{short(address)}: {short(why)}") from None
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "reason", error)
-        raise InputError(f"{short(address)}: no answer: {short(reason)}") from None
+            with urllib.request.urlopen(asked, timeout=PATIENCE) as answer:
+                said: dict[str, Any] = json.load(answer)
+                return said
+        except urllib.error.HTTPError as error:
+            wait = _seconds(error)
+            if time.monotonic() + wait > end:
+                raise InputError(f"{short(address)}: {short(_why(error))}") from None
+            time.sleep(wait)
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "reason", error)
+            raise InputError(f"{short(address)}: no answer: {short(reason)}") from None
+
+
+def _seconds(error: urllib.error.HTTPError) -> float:
+    """After how long a server that is busy has room again [s]; infinite for another error."""
+    stated = error.headers.get("Retry-After", "") if error.code in (429, 503) else ""
+    return float(stated) if stated.isdecimal() else math.inf
+
+
+def _why(error: urllib.error.HTTPError) -> str:
+    try:
+        return str(json.load(error)["error"])
+    except (ValueError, KeyError, TypeError):
+        return error.reason

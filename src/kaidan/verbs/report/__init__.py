@@ -7,6 +7,7 @@ what the commands say. `kaidan.documents` makes a file of it.
 from typing import Any
 
 from kaidan import contact
+from kaidan.arguments import known_arguments
 from kaidan.assessment import answer_to, found_plan
 from kaidan.assessment.answer import Assessment
 from kaidan.errors import InputError
@@ -25,6 +26,7 @@ MOST_MISSIONS = 100
 """Most missions of one document."""
 
 
+@known_arguments
 def report(robots: Any, stairs: Any = None, **manner: Any) -> Report:
     """Report on one robot on one terrain, or on each of several robots on each of several.
 

@@ -247,7 +247,7 @@ async function attempt(what) {
 
 at("watch").onclick = () =>
   attempt(async () => {
-    stopReplay();
+    forget();
     const made = await begin();
     const values = { robot: made.robot, stairs: made.stairs, url: location.href };
     at("link").textContent = t("feed", values);
@@ -257,7 +257,7 @@ at("begin").onsubmit = (event) => {
   event.preventDefault();
   setLoud(true); // a click is what lets a page make a sound
   attempt(async () => {
-    stopReplay();
+    forget();
     const file = at("file").files[0];
     if (!file) throw new Error(t("no_file"));
     const form = new FormData();
@@ -269,6 +269,13 @@ at("begin").onsubmit = (event) => {
     play(made.id, samples);
   });
 };
+
+// What a climb before came to does not stand while another one is asked for.
+function forget() {
+  stopReplay();
+  states = [];
+  show();
+}
 
 function stopReplay() {
   if (replay) replay.over = true;

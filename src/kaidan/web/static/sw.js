@@ -6,7 +6,7 @@ const FILES = [
   "./", "style.css", "manifest.webmanifest", "icon.svg", "icon-192.png", "icon-512.png",
   "live.html", "live.css", "live.js",
   ...[
-    "api", "building", "chart", "check", "controls", "dom", "ground", "i18n", "landings", "light", "main", "margin", "measure", "plane",
+    "api", "building", "chart", "check", "controls", "dom", "ground", "i18n", "kept", "landings", "light", "main", "margin", "measure", "plane",
     "posemap", "question", "robot", "saved", "sentences", "sheet", "side", "stairs", "state", "storage",
     "units", "upload", "verdict", "work",
   ].map((name) => `js/${name}.js`),

@@ -1,9 +1,10 @@
 // A building model: its flights with a verdict for each robot, ways to the storeys, the plan.
 
 import { Refused, upload } from "./api.js";
-import { button, picker } from "./controls.js";
+import { button, fileField, picker } from "./controls.js";
 import { h, line, replace, s } from "./dom.js";
 import { said, t, titled } from "./i18n.js";
+import { kept } from "./kept.js";
 import { symbol } from "./light.js";
 import { catalogue } from "./question.js";
 import { robotBoxes } from "./robot.js";
@@ -11,30 +12,50 @@ import { change, clear, packed, state } from "./state.js";
 import { figure, shown } from "./units.js";
 
 export function buildingView() {
-  let answer = null, file = null, surface = "";
-  const chosen = new Set(state.robot && !state.robot.startsWith("~") ? [state.robot] : []);
+  const mine = kept("building", () => ({
+    turn: 0, reading: false, answer: null, error: null, file: null, surface: "",
+    chosen: new Set(state.robot && !state.robot.startsWith("~") ? [state.robot] : []),
+  }));
+  const { chosen } = mine;
   const boxes = h("fieldset", { class: "robots" });
   const outcome = h("div", { "aria-live": "polite" });
-  const input = h("input", { type: "file", id: "model", accept: ".ifc,.ifczip", onchange: () => { file = input.files[0] ?? null; } });
+  const model = fileField({ label: t("building.file"), id: "model", accept: ".ifc,.ifczip", file: mine.file, take: (file) => forget({ file }) });
   const ground = picker({
-    label: t("ground.surface"), empty: t("ground.none"), get: () => surface, set: (value) => { surface = value; },
+    label: t("ground.surface"), empty: t("ground.none"), get: () => mine.surface, set: (surface) => forget({ surface }),
     groups: () => [["", catalogue.surfaces.map((each) => [each.name, titled(each.title)])]],
   });
   const node = h("section", { class: "panel building" }, h("h2", {}, t("building.heading")), h("p", {}, t("building.lead")),
-    h("div", { class: "picker" }, h("label", { for: "model" }, t("building.file")), input), boxes, ground.node,
+    model, boxes, ground.node,
     button(t("building.ask"), judge, { class: "main" }), outcome);
 
+  mine.draw = draw;
+  draw();
+
+  // What was judged is of another file, or on another ground: it does not stand beside this one.
+  function forget(chosen) {
+    mine.turn += 1;
+    Object.assign(mine, { reading: false, answer: null, error: null }, chosen);
+    draw();
+  }
+
   async function judge() {
+    const { file, surface } = mine;
     if (!file || chosen.size === 0) return replace(outcome, h("p", { role: "alert", class: "refused" }, t("building.pick")));
-    replace(outcome, h("p", {}, t("building.reading")));
+    forget({ reading: true });
+    const { turn } = mine;
     const fields = [...chosen].map((name) => ["robots", name]);
     if (surface) fields.push(["surface", surface]);
-    try {
-      answer = await upload("building", file, fields);
-      replace(outcome, page(answer));
-    } catch (error) {
-      replace(outcome, h("p", { role: "alert", class: "refused" }, error instanceof Refused ? said(error.message) : t("state.offline")));
-    }
+    const judged = await upload("building", file, fields).then((answer) => ({ answer }), (error) => ({ error }));
+    if (turn !== mine.turn) return;
+    Object.assign(mine, { reading: false }, judged);
+    mine.draw();
+  }
+
+  function draw() {
+    const { reading, answer, error } = mine;
+    if (reading) replace(outcome, h("p", {}, t("building.reading")));
+    else if (error) replace(outcome, h("p", { role: "alert", class: "refused" }, error instanceof Refused ? said(error.message) : t("state.offline")));
+    else replace(outcome, answer ? page(answer) : []);
   }
 
   // The flight as a question of its own, with the robot of the cell and its manner.
@@ -42,7 +63,7 @@ export function buildingView() {
     clear("stairsFigures");
     clear("robotFigures");
     change({
-      view: "check", robot: cell.robot, stairs: packed(flight.sheet), direction: cell.direction, facing: cell.facing, surface,
+      view: "check", robot: cell.robot, stairs: packed(flight.sheet), direction: cell.direction, facing: cell.facing, surface: mine.surface,
       flippers: cell.flippers || "best",
     });
   }

@@ -77,6 +77,17 @@ export function button(text, onclick, attributes = {}) {
   return h("button", { type: "button", onclick, ...attributes }, text);
 }
 
+// A file input under its label, with the file that was chosen before the page was built anew.
+export function fileField({ label, id, accept = null, file, take }) {
+  const input = h("input", { type: "file", id, accept, onchange: () => take(input.files[0] ?? null) });
+  if (file) {
+    const chosen = new DataTransfer();
+    chosen.items.add(file);
+    input.files = chosen.files;
+  }
+  return h("div", { class: "picker" }, h("label", { for: id }, label), input);
+}
+
 // A file input that looks like a button; the input itself takes focus and keys.
 export function fileButton(text, accept, take) {
   const input = h("input", { type: "file", accept, onchange: () => { if (input.files[0]) take(input.files[0]); input.value = ""; } });

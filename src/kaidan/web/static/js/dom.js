@@ -1,5 +1,7 @@
 // Elements of HTML and SVG. Attributes starting with "on" are listeners: no handler is ever inline.
 
+import { kept } from "./kept.js";
+
 const SVG = "http://www.w3.org/2000/svg";
 
 function fill(element, attributes, children) {
@@ -40,6 +42,13 @@ export async function copied(text) {
   const done = document.execCommand("copy");
   field.remove();
   return done;
+}
+
+// Something to fold out, under a summary; it stays as it is when the page is built anew.
+export function fold(name, summary, ...children) {
+  const open = kept("open", () => new Set());
+  const node = h("details", { open: open.has(name), ontoggle: () => (node.open ? open.add(name) : open.delete(name)) }, h("summary", {}, summary), children);
+  return node;
 }
 
 let count = 0;

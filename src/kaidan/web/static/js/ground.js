@@ -1,7 +1,7 @@
 // Panel of the ground and the manner of going: friction, flippers, leading end, speed, load, doubts.
 
 import { choice, picker, slider } from "./controls.js";
-import { h } from "./dom.js";
+import { fold, h } from "./dom.js";
 import { t, titled } from "./i18n.js";
 import { catalogue } from "./question.js";
 import { change, state } from "./state.js";
@@ -54,7 +54,7 @@ export function groundPanel(current) {
   return {
     node: h("section", { class: "panel", "aria-label": t("ground.heading") },
       surface.node, own, flippers.node, other, angles,
-      h("details", {}, h("summary", {}, t("ground.more")),
+      fold("more", t("ground.more"),
         facing.node, h("div", { class: "figures" }, more.map((each) => each.node)),
         h("label", { class: "check" }, accept, h("span", {}, t("ground.accept"))))),
     update() {

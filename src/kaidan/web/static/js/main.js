@@ -15,7 +15,7 @@ import { lengths, setLengths } from "./units.js";
 import { workView } from "./work.js";
 
 const VIEWS = { check: checkView, building: buildingView, work: workView, saved: savedView };
-let views = {}, chip = null, status = null, banner = null, sliding = false;
+let views = {}, chip = null, status = null, banner = null, sliding = false, reached = true;
 
 const shell = {
   say: (text) => { status.textContent = text; },
@@ -33,9 +33,7 @@ function select(label, name, options, value) {
     h("select", { id: `setting-${name}`, onchange: (event) => {
       prefer(name, event.target.value);
       apply();
-      build();
-      document.querySelector(".settings").open = true;
-      document.getElementById(`setting-${name}`).focus();
+      if (name !== "theme") buildAnew(`setting-${name}`);
     } },
       options.map(([key, text]) => h("option", { value: key, selected: key === value }, text))));
 }
@@ -51,13 +49,24 @@ function apply() {
   document.documentElement.dataset.theme = preference("theme", "auto");
 }
 
+// The page in another language or unit, at the same place; views keep what they know, see kept.js.
+async function buildAnew(focused) {
+  const place = scrollY;
+  const drawn = build();
+  document.querySelector(".settings").open = true;
+  document.getElementById(focused).focus({ preventScroll: true });
+  await drawn;
+  scrollTo(0, place);
+}
+
 // All of the page in one language and one unit.
 function build() {
-  views.check?.stop();
+  for (const view of Object.values(views)) view.stop?.();
   document.title = t("app.title");
   chip = h("a", { class: "chip", href: "#answer", onclick: (event) => { event.preventDefault(); const answer = document.getElementById("answer"); answer?.scrollIntoView(); answer?.focus(); } });
   status = h("p", { role: "status", class: "toast" });
-  banner = h("p", { role: "status", class: "banner", hidden: true });
+  banner = h("p", { role: "status", class: "banner" });
+  sayReach();
   views = Object.fromEntries(Object.entries(VIEWS).map(([name, make]) => [name, make(shell)]));
   const links = Object.keys(VIEWS).map((name) => h("a", { href: `#/${name}`, "data-view": name, onclick: (event) => {
     event.preventDefault();
@@ -76,7 +85,12 @@ function build() {
     h("main", { id: "main" }, h("h1", { class: "visually-hidden" }, t("app.title")), Object.values(views).map((view) => view.node)),
     h("div", { id: "sheet" }), status);
   document.body.classList.add("ready");
-  update();
+  return update();
+}
+
+function sayReach() {
+  banner.hidden = reached;
+  banner.textContent = reached ? "" : t("state.offline");
 }
 
 // What the live page begins with, behind the "#": of the question what a monitor takes, in one posture.
@@ -101,7 +115,7 @@ function update() {
     else link.removeAttribute("aria-current");
   }
   chip.hidden = open !== "check";
-  views[open].update();
+  return views[open].update();
 }
 
 async function share() {
@@ -118,9 +132,8 @@ async function begin() {
   readAddress();
   for (const name of ["pointerdown", "keydown"]) addEventListener(name, (event) => { sliding = event.target?.type === "range"; }, true);
   onReach((there) => {
-    if (!banner) return;
-    banner.hidden = there;
-    banner.textContent = there ? "" : t("state.offline");
+    reached = there;
+    if (banner) sayReach();
   });
   await loadTexts();
   await loadCatalogue().catch(() => {});

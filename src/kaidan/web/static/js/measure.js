@@ -2,8 +2,9 @@
 
 import { Refused, ask } from "./api.js";
 import { button } from "./controls.js";
-import { fresh, h, replace } from "./dom.js";
+import { fold, fresh, h, replace } from "./dom.js";
 import { has, said, t } from "./i18n.js";
+import { kept } from "./kept.js";
 import { scaleOf } from "./units.js";
 
 const RADIANS = Math.PI / 180;
@@ -37,31 +38,45 @@ function stairsOf(found) {
 // Guide with fields for one kind of thing; `use(sheet)` takes what follows from them.
 export function guide(kind, use) {
   const [fields, verb, sheetOf] = kind === "robot" ? [ROBOT, "measure-robot", robotOf] : [STAIRS, "measure-stairs", stairsOf];
-  const name = h("input", { type: "text", value: t(`${kind}.mine`), id: fresh("name") });
+  const mine = kept(`measured ${kind}`, () => ({ name: null, values: {}, found: null, error: null }));
+  const name = h("input", { type: "text", value: mine.name ?? t(`${kind}.mine`), id: fresh("name"), oninput: () => { mine.name = name.value; } });
   const inputs = fields.map(([key, of]) => {
-    const { unit } = scaleOf(of);
-    const input = h("input", { type: "number", step: "any", inputmode: "decimal", id: fresh("measure") });
-    return { key, of, input, node: h("div", { class: "measured" }, h("label", { for: input.id }, t(`measure.${key}`)), h("span", { class: "number" }, input, h("span", { class: "unit" }, unit))) };
+    const { factor, unit } = scaleOf(of);
+    const held = mine.values[key];
+    const input = h("input", {
+      type: "number", step: "any", inputmode: "decimal", id: fresh("measure"), value: held === undefined ? null : Number((held * factor).toPrecision(6)),
+      oninput() {
+        if (input.value === "") delete mine.values[key];
+        else mine.values[key] = Number(input.value) / factor;
+      },
+    });
+    return h("div", { class: "measured" }, h("label", { for: input.id }, t(`measure.${key}`)), h("span", { class: "number" }, input, h("span", { class: "unit" }, unit)));
   });
   const outcome = h("div", { "aria-live": "polite" });
 
   async function workOut() {
-    const body = { name: name.value };
-    for (const { key, of, input } of inputs) {
-      if (input.value !== "") body[key] = Number(input.value) / scaleOf(of).factor;
-    }
+    Object.assign(mine, { found: null, error: null });
+    mine.draw();
     try {
-      const found = await ask(verb, body);
+      const found = await ask(verb, { name: name.value, ...mine.values });
       if (kind === "robot" && !found.com_height) throw new Refused(t("measure.no_height"));
+      mine.found = found;
       use(sheetOf(found));
-      replace(outcome, h("p", {}, t("measure.done")), h("ul", {}, found.notes.map((note) => said(note, "li"))));
     } catch (error) {
-      replace(outcome, h("p", { role: "alert", class: "refused" }, error instanceof Refused ? error.message : t("state.offline")));
+      mine.error = error;
     }
+    mine.draw();
   }
 
-  return h("details", {}, h("summary", {}, t(`${kind}.guide`)),
+  mine.draw = () => {
+    const { found, error } = mine;
+    if (error) replace(outcome, h("p", { role: "alert", class: "refused" }, error instanceof Refused ? error.message : t("state.offline")));
+    else replace(outcome, found ? [h("p", {}, t("measure.done")), h("ul", {}, found.notes.map((note) => said(note, "li")))] : []);
+  };
+  mine.draw();
+
+  return fold(`guide ${kind}`, t(`${kind}.guide`),
     h("ol", {}, [1, 2, 3, 4].map((each) => `guide.${kind}_${each}`).filter(has).map((each) => h("li", {}, t(each)))),
     h("div", { class: "measured" }, h("label", { for: name.id }, t("saved.name")), name),
-    inputs.map((each) => each.node), button(t("measure.work_out"), workOut, { class: "main" }), outcome);
+    inputs, button(t("measure.work_out"), workOut, { class: "main" }), outcome);
 }

@@ -1,14 +1,14 @@
 // Panel of the robot: the catalogue, its figures on a labelled drawing, a file, the guide.
 
-import { button, fileButton, picker, slider } from "./controls.js";
-import { h, replace, s } from "./dom.js";
+import { button, picker, slider } from "./controls.js";
+import { fold, h, replace, s } from "./dom.js";
 import { t, titled } from "./i18n.js";
 import { guide } from "./measure.js";
 import { catalogue, valueOf, withFigures } from "./question.js";
 import { change, clear, packed, state, unpacked } from "./state.js";
 import { nameOf, save, sheetsOf } from "./storage.js";
 import { shown } from "./units.js";
-import { readFile } from "./upload.js";
+import { fileReader } from "./upload.js";
 
 // Where somebody who describes a robot of their own begins.
 const OWN = {
@@ -41,9 +41,11 @@ export function robotBoxes(chosen) {
 export function robotPanel(current) {
   const figures = h("div", { class: "figures" });
   const drawing = h("div", { class: "drawing" });
-  const found = h("div", {});
   const changed = h("p", { class: "quiet" });
-  const details = h("details", {}, h("summary", {}, t("robot.figures")), drawing, figures, changed);
+  const details = fold("robot", t("robot.figures"), drawing, figures, changed);
+  const file = fileReader({
+    kind: "robots", label: t("robot.upload"), accept: ".toml,.urdf,.sdf,.xml,.xacro", begins: () => change({ robot: "" }), use,
+  });
   const pick = picker({
     label: t("robot.heading"), empty: t("robot.choose"), get: () => state.robot,
     groups: () => {
@@ -57,7 +59,7 @@ export function robotPanel(current) {
         ["", [[own, t("robot.own")]]],
       ];
     },
-    set: (robot) => { clear("robotFigures"); change({ robot }); if (robot === packed(OWN)) details.open = true; },
+    set: (robot) => { file.forget(); clear("robotFigures"); change({ robot }); if (robot === packed(OWN)) details.open = true; },
   });
   let sliders = [], of = null;
 
@@ -69,6 +71,12 @@ export function robotPanel(current) {
     change({ robot: packed(sheet) });
     current.say(t("saved.done", { name }));
   });
+
+  function use(sheet) {
+    clear("robotFigures");
+    change({ robot: packed(sheet) });
+    details.open = true;
+  }
 
   function build(sheet) {
     sliders = FIGURES.filter(([place]) => Number.isFinite(valueOf(sheet, place))).map(([place, name, kind, low, high]) => {
@@ -87,16 +95,7 @@ export function robotPanel(current) {
   return {
     node: h("section", { class: "panel", "aria-label": t("robot.heading") },
       pick.node, details,
-      guide("robot", (sheet) => {
-        clear("robotFigures");
-        change({ robot: packed(sheet) });
-        details.open = true;
-      }),
-      fileButton(t("robot.upload"), ".toml,.urdf,.sdf,.xml,.xacro", (file) => readFile(file, "robots", found, (sheet) => {
-        clear("robotFigures");
-        change({ robot: packed(sheet) });
-        details.open = true;
-      })), found),
+      guide("robot", use), file.nodes),
     update() {
       pick.update();
       const sheet = current.robot;

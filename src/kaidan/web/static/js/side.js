@@ -1,8 +1,9 @@
 // The traverse from the side, to scrub and to play: the answer's poses drawn, nothing computed anew.
 
 import { button } from "./controls.js";
-import { fresh, h, line, replace, s } from "./dom.js";
+import { fold, fresh, h, line, replace, s } from "./dom.js";
 import { said, t } from "./i18n.js";
+import { kept } from "./kept.js";
 import { placeName } from "./sentences.js";
 import { figure, shown } from "./units.js";
 
@@ -51,8 +52,9 @@ export function sideView() {
   const strip = h("div", { class: "strip" });
   const range = h("input", { type: "range", id, min: 0, step: 1, oninput: () => { stop(); show(Number(range.value)); } });
   const play = button(t("side.play"), () => (timer ? stop() : start()), { class: "main" });
-  const follow = h("input", { type: "checkbox", onchange: () => show(at) });
-  follow.checked = true;
+  const mine = kept("side", () => ({ report: null, at: 0, follow: true }));
+  const follow = h("input", { type: "checkbox", onchange: () => { mine.follow = follow.checked; show(at); } });
+  follow.checked = mine.follow;
   const controls = h("div", { class: "player" },
     h("label", { for: id, class: "visually-hidden" }, t("side.position")), range,
     h("div", { class: "buttons" }, play,
@@ -61,7 +63,7 @@ export function sideView() {
       button(t("side.deciding"), () => { stop(); show(deciding); }),
       h("label", { class: "check" }, follow, h("span", {}, t("side.follow")))));
   const whole = h("div", {}, picture, h("p", { class: "quiet" }, t("side.legend")), controls, strip, facts,
-    h("details", {}, h("summary", {}, t("side.log")), log));
+    fold("log", t("side.log"), log));
   const node = h("div", {}, whole);
   let found = null, frames = [], at = 0, deciding = 0, timer = null, drawn = null;
 
@@ -119,6 +121,7 @@ export function sideView() {
 
   function show(index) {
     at = index;
+    mine.at = index;
     const pose = frames[index];
     range.value = index;
     range.setAttribute("aria-valuetext", `${placeName(found.poses.phase[pose.row])}, ${shown(pose.phi, "degrees")}`);
@@ -203,7 +206,9 @@ export function sideView() {
       replace(log, h("ol", {}, found.event_log.map((entry) => h("li", {},
         h("button", { type: "button", class: "link", onclick: () => { stop(); show(frames.findIndex((each) => each.row === entry.row)); } },
           placeName(entry.phase, entry.step)), " ", said(entry.text)))));
-      show(deciding);
+      const before = mine.report === report ? mine.at : deciding;
+      mine.report = report;
+      show(before);
     },
     none(text) {
       stop();

@@ -1,7 +1,7 @@
 // Panel of the stairs: codes, sliders on a drawing, tape measure, a file.
 
-import { button, choice, fileButton, picker, slider } from "./controls.js";
-import { h, replace, s } from "./dom.js";
+import { button, choice, picker, slider } from "./controls.js";
+import { fold, h, replace, s } from "./dom.js";
 import { t, titled } from "./i18n.js";
 import { landingsOf } from "./landings.js";
 import { guide } from "./measure.js";
@@ -9,7 +9,7 @@ import { catalogue, stairsWithFigures, terrainOf, valueOf } from "./question.js"
 import { change, clear, packed, state, unpacked } from "./state.js";
 import { nameOf, save, sheetsOf } from "./storage.js";
 import { figure, shown } from "./units.js";
-import { readFile } from "./upload.js";
+import { fileReader } from "./upload.js";
 
 const OWN = { name: "measured", rise: 0.18, going: 0.28, steps: 12 };
 const FIGURES = [
@@ -23,12 +23,19 @@ const FIGURES = [
 export function stairsPanel(current) {
   const figures = h("div", { class: "figures" });
   const drawing = h("div", { class: "drawing" });
-  const found = h("div", {});
   const slope = h("p", { class: "quiet" });
   const ends = h("div", {});
-  const landings = h("details", {}, h("summary", {}, t("landing.heading")), h("p", { class: "quiet" }, t("landing.about")), ends);
+  const landings = fold("landings", t("landing.heading"), h("p", { class: "quiet" }, t("landing.about")), ends);
   const buttons = h("div", { class: "buttons" });
-  const details = h("details", {}, h("summary", {}, t("stairs.figures")), drawing, slope, figures, landings, buttons);
+  const details = fold("stairs", t("stairs.figures"), drawing, slope, figures, landings, buttons);
+  const file = fileReader({
+    kind: "stairs", label: t("stairs.upload"), accept: "", begins: () => change({ stairs: "" }),
+    use(sheet) {
+      clear("stairsFigures");
+      change({ stairs: packed(sheet) });
+      details.open = true;
+    },
+  });
   const pick = picker({
     label: t("stairs.heading"), empty: t("stairs.choose"), get: () => state.stairs,
     groups: () => {
@@ -41,7 +48,7 @@ export function stairsPanel(current) {
         [t("stairs.catalogue"), catalogue.stairs.map((each) => [each.name, titled(each.title)])],
       ];
     },
-    set: (stairs) => { clear("stairsFigures"); change({ stairs }); if (stairs === packed(OWN)) details.open = true; },
+    set: (stairs) => { file.forget(); clear("stairsFigures"); change({ stairs }); if (stairs === packed(OWN)) details.open = true; },
   });
   const direction = choice({
     label: t("stairs.direction"), options: [["up", t("stairs.up")], ["down", t("stairs.down")]],
@@ -82,11 +89,7 @@ export function stairsPanel(current) {
         change({ stairs: packed(sheet), stairsFigures: Object.fromEntries(Object.keys(sheet).map((name) => [name, null])) });
         details.open = true;
       }),
-      fileButton(t("stairs.upload"), "", (file) => readFile(file, "stairs", found, (sheet) => {
-        clear("stairsFigures");
-        change({ stairs: packed(sheet) });
-        details.open = true;
-      })), found),
+      file.nodes),
     update() {
       pick.update();
       direction.update();
@@ -128,7 +131,7 @@ function unevenStairs({ rises, goings }) {
   const rows = rises.map((rise, step) => h("tr", {}, h("th", { scope: "row" }, step + 1), h("td", {}, figure(rise, "length")), h("td", {}, figure(goings[step] ?? null, "length"))));
   return [s("svg", { viewBox: "0 0 360 180", role: "img", "aria-label": text, class: "sketch" }, s("path", { class: "ground", d: `${path} H360 V180 H0 Z` })),
     h("p", {}, text),
-    h("details", {}, h("summary", {}, t("stairs.each")), h("table", {},
+    fold("each step", t("stairs.each"), h("table", {},
       h("thead", {}, h("tr", {}, [t("stairs.step"), t("figure.rise"), t("figure.going")].map((each) => h("th", { scope: "col" }, each)))), h("tbody", {}, rows)))];
 }
 

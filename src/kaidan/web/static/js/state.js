@@ -35,6 +35,11 @@ export function addressOf(from = state) {
   return `#/${from.view}${text ? `?${text}` : ""}`;
 }
 
+// The question alone, wherever it is looked at.
+export function questionOf() {
+  return addressOf({ ...state, view: TEXTS.view, tab: TEXTS.tab });
+}
+
 export function readAddress() {
   const [path, text] = location.hash.replace(/^#\/?/, "").split("?");
   const found = empty();

@@ -1,7 +1,7 @@
 // The answer, the verdict first: symbol, word, reason, what to do, the figures that decide.
 
 import { button } from "./controls.js";
-import { h, replace } from "./dom.js";
+import { fold, h, replace } from "./dom.js";
 import { japanese, language, said, t, titled } from "./i18n.js";
 import { symbol } from "./light.js";
 import { modeName, placeName, reason, stated } from "./sentences.js";
@@ -33,17 +33,18 @@ export function verdictPanel(current) {
       lit("empty", t("state.empty"), h("p", {}, t("state.empty_todo")));
       replace(body);
     },
-    // Between a change and its answer no verdict stands: that of the question before would be read
-    // as that of this one.
-    working() {
+    // Between a change and its answer no verdict stands. Of a slider the estimate before stands until the next.
+    working(sliding) {
       lit("working", t("state.working"));
       body.setAttribute("aria-busy", "true");
+      if (!sliding) estimate.setAttribute("aria-busy", "true");
     },
     estimated(answer, flat) {
       const text = answer && answer.margin_deg !== null
         ? [t("state.quick_margin", { margin: shown(answer.margin_deg, "degrees", { plus: true }) }), modeName(answer.governs, answer)].join(", ")
         : t("state.quick_none");
       estimate.hidden = false;
+      estimate.removeAttribute("aria-busy");
       estimate.textContent = `${t(flat ? "state.quick_flat" : "state.quick")} ${text}`;
     },
     failed(error) {
@@ -136,8 +137,8 @@ function first(answer) {
 
 function notes(answer) {
   if (answer.notes.length === 0) return null;
-  return h("details", { class: "notes" }, h("summary", {}, `${t("answer.notes")} (${answer.notes.length})`),
-    h("ul", {}, answer.notes.map((note) => said(note, "li"))));
+  return h("div", { class: "notes" }, fold("notes", `${t("answer.notes")} (${answer.notes.length})`,
+    h("ul", {}, answer.notes.map((note) => said(note, "li")))));
 }
 
 // Every failure mode with its margin, as a table.

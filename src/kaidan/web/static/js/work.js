@@ -2,9 +2,10 @@
 // server keeps it, so that a reload or a new start of the server loses nothing.
 
 import { Refused, ask, fetchedText, get, remove, upload } from "./api.js";
-import { button, picker, slider } from "./controls.js";
+import { button, fileField, picker, slider } from "./controls.js";
 import { h, replace } from "./dom.js";
 import { has, language, said, t } from "./i18n.js";
+import { kept } from "./kept.js";
 import { symbol } from "./light.js";
 import { bodyOf, catalogue, sheetOf } from "./question.js";
 import { robotBoxes } from "./robot.js";
@@ -20,10 +21,13 @@ const VARIED = {
 const OWN = ["com_height", "com_from_front"]; // figures that a sheet's override would hide
 
 export function workView(shell) {
-  let kind = "compare", varied = "com_height", format = "pdf", timer = 0, file = null, listed = "";
-  const chosen = new Set(), range = { low: 0.1, high: 0.3, count: 21, trials: 5 };
+  const mine = kept("work", () => ({
+    kind: "compare", varied: "com_height", format: "pdf", file: null, chosen: new Set(), range: { low: 0.1, high: 0.3, count: 21, trials: 5 }, turn: 0, shown: null,
+  }));
+  const { chosen, range } = mine;
+  let timer = 0, listed = "", stopped = false;
   const form = h("div", {}), word = h("p", { role: "alert" }), list = h("ul", { class: "jobs" }), outcome = h("div", { "aria-live": "polite" });
-  const kinds = picker({ label: t("work.kind"), empty: null, groups: () => [["", KINDS.map((each) => [each, t(`work.${each}`)])]], get: () => kind, set: (value) => { kind = value; fill(); } });
+  const kinds = picker({ label: t("work.kind"), empty: null, groups: () => [["", KINDS.map((each) => [each, t(`work.${each}`)])]], get: () => mine.kind, set: (kind) => { mine.kind = kind; fill(); } });
   const node = h("section", { class: "panel work" }, h("h2", {}, t("work.heading")), h("p", {}, t("work.lead")),
     kinds.node, form, button(t("work.begin"), begin, { class: "main" }), word, h("h3", {}, t("work.list")), list, outcome);
 
@@ -44,27 +48,25 @@ export function workView(shell) {
   const FORMS = {
     compare: () => robots(),
     sweep: () => {
-      const [of, low, high] = VARIED[varied];
-      return [choose(t("work.varied"), Object.keys(VARIED).map((each) => [each, t(`work.${each}`)]), () => varied, (value) => {
-        varied = value;
+      const [of, low, high] = VARIED[mine.varied];
+      return [choose(t("work.varied"), Object.keys(VARIED).map((each) => [each, t(`work.${each}`)]), () => mine.varied, (value) => {
+        mine.varied = value;
         [, range.low, range.high] = VARIED[varied];
         fill();
       }), number(t("work.from"), of, "low", low, high), number(t("work.to"), of, "high", low, high), number(t("work.count"), "count", "count", 2, 2000)];
     },
     experiment: () => number(t("work.trials"), "count", "trials", 1, 20),
-    report: () => choose(t("work.format"), [["pdf", "PDF"], ["html", "HTML"]], () => format, (value) => { format = value; }),
-    file: () => {
-      const input = h("input", { type: "file", id: "work-file", onchange: () => { file = input.files[0] ?? null; } });
-      return [h("div", { class: "picker" }, h("label", { for: "work-file" }, t("work.of_file")), input), robots()];
-    },
+    report: () => choose(t("work.format"), [["pdf", "PDF"], ["html", "HTML"]], () => mine.format, (format) => { mine.format = format; }),
+    file: () => [fileField({ label: t("work.of_file"), id: "work-file", file: mine.file, take: (file) => { mine.file = file; } }), robots()],
   };
 
   function fill() {
-    replace(form, h("p", { class: "quiet" }, t(`work.${kind}_is`)), [FORMS[kind]?.() ?? []].flat());
+    replace(form, h("p", { class: "quiet" }, t(`work.${mine.kind}_is`)), [FORMS[mine.kind]?.() ?? []].flat());
   }
 
   // The question under "Stairs", as the whole of it or with what this work changes.
   async function bodyOfWork() {
+    const { kind, varied, format } = mine;
     const [robot, stairs] = await Promise.all([sheetOf("robots", state.robot), sheetOf("stairs", state.stairs)]);
     const body = bodyOf(robot, stairs);
     if (kind === "experiment") return robot && { robot: body?.robot ?? state.robot, trials: range.trials };
@@ -86,6 +88,7 @@ export function workView(shell) {
   }
 
   async function begin() {
+    const { kind, file } = mine;
     try {
       if ((kind === "file" && !file) || (kind === "compare" && chosen.size === 0)) return replace(word, t("building.pick"));
       if (kind === "file") {
@@ -117,7 +120,7 @@ export function workView(shell) {
     } catch {
       shell.say(t("state.offline"));
     }
-    if (running && !node.hidden) timer = setTimeout(look, EVERY);
+    if (running && !node.hidden && !stopped) timer = setTimeout(look, EVERY);
   }
 
   // Draw the list anew without taking the keyboard away from the job it is at.
@@ -142,20 +145,43 @@ export function workView(shell) {
       button(t(going ? "work.cancel" : "work.forget"), async () => { await remove(`jobs/${job.id}`); look(); }, { "aria-label": `${t(going ? "work.cancel" : "work.forget")}: ${name}` }));
   }
 
+  // What a job came to; while it is asked for, that of another one does not stand.
   async function show(job) {
-    const address = `api/jobs/${job.id}/result`, file = h("a", { href: address, download: `kaidan-${job.verb}` }, t("work.file_saved"));
-    const words = async () => h("pre", { lang: "en", tabindex: "0" }, await fetchedText(`jobs/${job.id}/text`));
-    const shows = {
-      film: async () => h("img", { src: address, alt: job.about }),
-      report: async () => null,
-      compare: async () => [compared(await get(`jobs/${job.id}/result`)), await words()],
-    };
-    replace(outcome, h("h3", {}, job.about), await (shows[job.verb] ?? words)(), h("p", {}, file));
+    mine.turn += 1;
+    const { turn } = mine;
+    mine.shown = { job };
+    mine.draw();
+    try {
+      const cells = job.verb === "compare" ? await get(`jobs/${job.id}/result`) : null;
+      const words = ["film", "report"].includes(job.verb) ? "" : await fetchedText(`jobs/${job.id}/text`);
+      if (turn === mine.turn) mine.shown = { job, came: { cells, words } };
+    } catch (error) {
+      if (turn === mine.turn) mine.shown = { job, error };
+    }
+    if (turn !== mine.turn) return;
+    mine.draw();
     outcome.scrollIntoView();
   }
 
+  mine.draw = () => {
+    if (!mine.shown) return;
+    const { job, came, error } = mine.shown, address = `api/jobs/${job.id}/result`;
+    replace(outcome, h("h3", {}, job.about),
+      came || error ? null : h("p", { role: "status" }, t("work.fetching")),
+      error ? h("p", { role: "alert", class: "refused" }, error instanceof Refused ? said(error.message) : t("state.offline")) : null,
+      came?.cells ? compared(came.cells) : null,
+      came && job.verb === "film" ? h("img", { src: address, alt: job.about }) : null,
+      came?.words ? h("pre", { lang: "en", tabindex: "0" }, came.words) : null,
+      came ? h("p", {}, h("a", { href: address, download: `kaidan-${job.verb}` }, t("work.file_saved"))) : null);
+  };
+  mine.draw();
+
   return {
     node,
+    stop() {
+      stopped = true;
+      clearTimeout(timer);
+    },
     update() {
       if (chosen.size === 0 && state.robot && !state.robot.startsWith("~")) chosen.add(state.robot);
       kinds.update();
