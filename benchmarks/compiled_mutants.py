@@ -5,7 +5,7 @@ Each expression that a mutant changes becomes a choice::
     a < b      ->     (a <= b if is_chosen(17) else a < b)
 
 `is_chosen` notes which choices a test passes. What the typed language refuses (a quotient as an
-index) is left out; an index beyond its table ends the process, as it ends a plain kernel.
+index) is left out; an index beyond its table is an error, as of a plain kernel.
 """
 
 import ast

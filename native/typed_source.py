@@ -49,23 +49,36 @@ cdef struct Indices:
     long long* at
     Py_ssize_t rows
 
+# an index beyond its table, or a slice, leads back to the wrapper, which raises
+cdef extern from * nogil:
+    '''
+    #include <setjmp.h>
+    static _Thread_local jmp_buf door;
+
+    static inline Py_ssize_t checked(Py_ssize_t index, Py_ssize_t count) {{
+        if ((size_t)index >= (size_t)count)
+            longjmp(door, 1);
+        return index;
+    }}
+
+    static inline Py_ssize_t checked_slice(Py_ssize_t first, Py_ssize_t last, Py_ssize_t count) {{
+        checked(last, count + 1);
+        return checked(first, last + 1);
+    }}
+    '''
+    ctypedef int jmp_buf
+    jmp_buf door
+    int setjmp(jmp_buf) noexcept
+    Py_ssize_t checked(Py_ssize_t index, Py_ssize_t count) noexcept
+    Py_ssize_t checked_slice(Py_ssize_t first, Py_ssize_t last, Py_ssize_t count) noexcept
+
 SOURCE = "{mark}"
-
-"""
-
-CHECKED = """\
-from libc.stdlib cimport abort
-
-cdef inline Py_ssize_t checked_index(Py_ssize_t index, Py_ssize_t count) noexcept nogil:
-    if index < 0 or index >= count:
-        abort()
-    return index
 
 """
 
 
 class Change(Protocol):
-    """What a mutation run changes: indices are checked then, every function has a wrapper."""
+    """What a mutation run changes: every function has a wrapper then."""
 
     def head(self) -> str:
         """What comes before the functions, asked for last."""
@@ -83,7 +96,7 @@ def typed_source(change: Change | None = None) -> str:
     wrappers = [_wrapper(f) for f in functions.values() if change or hasattr(f, "_kaidan_entry")]
     head = HEAD.format(math=", ".join(MATH), mark=source_mark())
     if change:
-        head += CHECKED + change.head()
+        head += change.head()
     return head + "\n\n".join(compiled + wrappers) + "\n"
 
 
@@ -143,9 +156,7 @@ def _compiled(
     declared = types.declarations(tree)
     if change:
         tree = change.function(tree, types, function)
-    typing = _Typing(
-        module, functions, widths, types.known, stored | set(hints), change is not None
-    )
+    typing = _Typing(module, functions, widths, types.known, stored | set(hints))
     body = tree.body[1:] if ast.get_docstring(tree) else tree.body
     lines = [ast.unparse(ast.fix_missing_locations(typing.visit(each))) for each in body]
     lines = [*declared, *lines]
@@ -175,11 +186,14 @@ def _wrapper(function: Callable[..., Any]) -> str:
             passed.append(name)
     name = function.__name__
     call = f"c_{name}({', '.join(passed)})"
-    lines = [f"def {name}({', '.join(given)}):", *checks]
-    if answer == "void":
-        lines += ["    with nogil:", f"        {call}"]
-    else:
-        lines += [f"    cdef {answer} answer", "    with nogil:", f"        answer = {call}"]
+    lines = [f"def {name}({', '.join(given)}):", *checks, "    cdef bint within"]
+    if answer != "void":
+        lines += [f"    cdef {answer} answer"]
+        call = f"answer = {call}"
+    lines += ["    with nogil:", "        within = setjmp(door) == 0", "        if within:"]
+    lines += [f"            {call}", "    if not within:"]
+    lines += [f'        raise IndexError("{name}: a row that its table does not have")']
+    if answer != "void":
         lines += ["    return answer"]
     return "\n".join(lines)
 
@@ -304,10 +318,10 @@ class _Typing(ast.NodeTransformer):
 
     def __init__(
         self, module: ModuleType, functions: dict[str, Any], widths: dict[str, int | None],
-        kinds: dict[str, str], local: set[str], checked: bool,
+        kinds: dict[str, str], local: set[str],
     ) -> None:  # fmt: skip
         self.module, self.functions, self.widths, self.local = module, functions, widths, local
-        self.kinds, self.checked = kinds, checked
+        self.kinds = kinds
 
     def visit_Assign(self, node: ast.Assign) -> ast.AST:
         value, target = node.value, node.targets[0]
@@ -355,7 +369,8 @@ class _Typing(ast.NodeTransformer):
             assert node.slice.lower is not None
             assert node.slice.upper is not None
             first, last = (ast.unparse(self.visit(e)) for e in (node.slice.lower, node.slice.upper))
-            at = f"{node.value.id}.at + ({first}) * {width}"
+            rows = f"{node.value.id}.rows"
+            at = f"{node.value.id}.at + checked_slice({first}, {last}, {rows}) * {width}"
             kind = self.kinds[node.value.id]
             return ast.Name(f"{kind}({at}, ({last}) - ({first}))", ast.Load())
         index = node.slice
@@ -364,10 +379,9 @@ class _Typing(ast.NodeTransformer):
             index = ast.BinOp(ast.BinOp(row, ast.Mult(), ast.Constant(width)), ast.Add(), column)
         else:
             index = self.visit(index)
-        if self.checked:
-            rows = ast.Attribute(node.value, "rows", ast.Load())
-            count = ast.BinOp(rows, ast.Mult(), ast.Constant(width))
-            index = ast.Call(ast.Name("checked_index", ast.Load()), [index, count], [])
+        rows = ast.Attribute(node.value, "rows", ast.Load())
+        count = ast.BinOp(rows, ast.Mult(), ast.Constant(width))
+        index = ast.Call(ast.Name("checked", ast.Load()), [index, count], [])
         at = ast.Attribute(node.value, "at", ast.Load())
         return ast.Subscript(at, index, node.ctx)
 

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from kaidan import contact
@@ -13,6 +14,13 @@ from kaidan.contact import switch
 from kaidan.errors import InputError
 
 FLAT, ROBOT = [[0, 0], [4, 0]], [[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]]
+
+
+def _zones(end):
+    """A zone, and an end of zones that may lie beyond it."""
+    return np.zeros((1, 4)), np.array([end])
+
+
 needs_native = pytest.mark.skipif(bool(contact.without_native()), reason="built pure")
 
 
@@ -120,3 +128,18 @@ def test_tables_of_the_wrong_shape_are_refused(entry):
     }[entry]
     with pytest.raises(ValueError, match=r"a table of \d+ columns"):
         getattr(native, entry)(*arguments)
+
+
+@needs_native
+@pytest.mark.parametrize(
+    ("entry", "given"),
+    [
+        ("row_before", (np.zeros((3, 17)), 50, 1.0)),
+        ("gap", (np.zeros((3, 6)), np.ones((1, 14)), -64, 0.0, 0.0, 1.0, 0.0)),
+        ("name_phases", (np.zeros((3, 17)), *_zones(2), np.zeros((1, 4)), np.zeros(3, np.int64))),
+    ],
+)
+def test_a_row_beyond_its_table_is_an_error(entry, given):
+    """A count of rows, a feature, and the end of a slice: none reads past a table."""
+    with pytest.raises(IndexError, match=f"^{entry}: a row that its table does not have$"):
+        getattr(switch.kernel(), entry)(*given)
