@@ -51,7 +51,7 @@ export function workView(shell) {
       const [of, low, high] = VARIED[mine.varied];
       return [choose(t("work.varied"), Object.keys(VARIED).map((each) => [each, t(`work.${each}`)]), () => mine.varied, (value) => {
         mine.varied = value;
-        [, range.low, range.high] = VARIED[varied];
+        [, range.low, range.high] = VARIED[value];
         fill();
       }), number(t("work.from"), of, "low", low, high), number(t("work.to"), of, "high", low, high), number(t("work.count"), "count", "count", 2, 2000)];
     },
