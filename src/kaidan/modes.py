@@ -140,6 +140,8 @@ TURNING = failure_mode("turning", "", "too little room to turn on a landing")
 NARROW = failure_mode("narrow", "m", "a flight narrower than the robot needs")
 FOOT_UNSEEN = failure_mode("foot_unseen", "", "a first riser that nobody saw")
 """Of a scan: the flight may begin lower, or with a higher riser."""
+GAP = failure_mode("gap", "m", "an end dropping into a gap")
+"""A gap that an end of the robot fits into, or behind which nobody found a floor."""
 ACROSS = failure_mode("across", "", "one track meeting other ground than the other")
 """On a profile that is not built across the path: nobody stated that both meet the same."""
 FLOOR_FINISH = failure_mode("floor_finish", "", "an end riser that is drawn and stated otherwise")

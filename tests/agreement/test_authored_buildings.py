@@ -4,6 +4,7 @@ The other judge is `kaidan.assess` of the same flight entered by hand, from the 
 drawn with. A few in every run, 60 by name (``-m slow``).
 """
 
+import numpy as np
 import pytest
 
 pytest.importorskip("ifcopenshell", reason="skipped: ifcopenshell not installed")
@@ -46,8 +47,7 @@ def faults(drawn, path):
             yield f"{len(flights)} flights of {known}"
             continue
         (flight,) = flights
-        if not known.gap:
-            yield from misread(known, flight)
+        yield from misread(known, flight)
         verdict = cells[flight.identity].verdict
         if verdict == "go" and (known.gap or known.doubted or by_hand(known, known.width) != "go"):
             yield f"wrong GO: {known}"
@@ -83,6 +83,10 @@ def misread(known, flight):
     off.append(abs(flight.going_m - known.going))
     if flight.steps != len(known.rises) or max(off) > NEAR:
         yield f"read as {flight.steps} risers of {rises}, drawn as {known}"
+    gaps = [each.length for each in flight.sheet.gaps]
+    drawn_gaps = [known.gap] if known.gap else []
+    if len(gaps) != len(drawn_gaps) or not np.allclose(gaps, drawn_gaps, atol=NEAR):
+        yield f"gaps {gaps} of {known}"
 
 
 @pytest.mark.parametrize("trait", TRAITS)

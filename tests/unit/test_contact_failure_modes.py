@@ -325,6 +325,7 @@ def test_every_mode_of_the_model_is_among_the_cases():
     governs = {governs for _, (_, governs, _), _, _ in CASES.values()}
     elsewhere = {"stuck", "posture_change", "flipper_torque", "posture_tolerance", "unweighed"}
     elsewhere |= {"narrow", "low"}  # of every model: test_clearance_findings.py
+    elsewhere |= {"gap"}  # likewise, of sheets with gaps: test_gap_terrain.py
     elsewhere |= {"foot_unseen"}  # likewise, of scans: test_clearance_findings.py
     elsewhere |= {"gap_jam"}  # of driven trials: agreement/test_gap_in_physics.py
     elsewhere |= {"across"}  # of profiles: test_terrain.py

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from kaidan import Question, Robot, Stairs
-from kaidan.mechanics.clearance import corner_margin
+from kaidan.mechanics.clearance import OFF_LINE, corner_margin
 from kaidan.mechanics.turning import Footprint
 from kaidan.models import clearance, landings
-from kaidan.models.clearance import KEPT, OFF_LINE
+from kaidan.models.clearance import KEPT
 from kaidan.models.findings import (
     ROUNDING,
     Finding,

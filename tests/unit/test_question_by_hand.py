@@ -102,13 +102,15 @@ def test_a_profile_that_falls_is_driven_down_and_seen_from_the_other_side():
 @pytest.mark.parametrize(
     ("flights", "room"),
     [
-        ([{}], None), ([{"width": 0.9}], (0.9, None)), ([{"headroom": 2.1}], (None, 2.1)),
-        ([{"width": 1.0, "headroom": 2.0}, {"width": 0.9, "headroom": 2.1}], (0.9, 2.0)),
+        ([{}], None), ([{"width": 0.9}], (math.inf, 0.9)), ([{"headroom": 2.1}], (2.1, math.inf)),
+        ([{"width": 1.0, "headroom": 2.0}, {"width": 0.9, "headroom": 2.1}], (2.0, 0.9)),
     ],
 )  # fmt: skip
 def test_room_is_the_least_of_its_flights(flights, room):
+    """A height, and the width that is clear up to it; infinite: not stated."""
     sheets = [Stairs(rise=0.1, going=0.15, steps=8, **each) for each in flights]
-    assert of(terrain=sheets).room == room
+    found = of(terrain=sheets).room
+    assert (found and found.openings) == (room and (room,))
 
 
 def test_a_profile_has_no_doors():

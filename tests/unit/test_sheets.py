@@ -280,8 +280,8 @@ def test_what_is_no_table_is_no_sheet(data):
         (
             {**FLIGHT, "run": 0.28},
             "stairs: run is not a known field; known: name, title, rise, going, steps, "
-            "first_rise, last_rise, rises, goings, cross_slopes, skews, nosing_overhang and "
-            "21 more",
+            "first_rise, last_rise, first_rise_drawn, last_rise_drawn, rises, goings, "
+            "cross_slopes and 25 more",
         ),
         (
             {"rise": PLACEHOLDER, "going": PLACEHOLDER},

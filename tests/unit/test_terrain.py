@@ -11,6 +11,7 @@ from kaidan.models.quasi_static import traverse_of
 from kaidan.models.sentences import terrain
 from kaidan.question import Question
 from kaidan.terrain.profile import Profile
+from kaidan.terrain.room import Room
 from kaidan.terrain.stairs import Stairs
 from kaidan.terrain.stairs_uncertainty import StairsUncertainty
 from kaidan.text.assessment import stairs_line
@@ -107,7 +108,7 @@ def test_several_flights_are_watched_and_need_headroom_as_the_steepest():
     one, both = (Question.of("absolem", each, **ASKED) for each in (HIGH, [LOW, HIGH]))
     assert LiveMonitor(both).slope == pytest.approx(math.atan2(0.12, 0.25), abs=1e-12)
     assert Monitor.of(both).inside_model
-    low, same = (findings_of(each, (None, 1.0), "contact") for each in (both, one))
+    low, same = (findings_of(each, Room(((1.0, math.inf),)), "contact") for each in (both, one))
     assert low == same
 
 

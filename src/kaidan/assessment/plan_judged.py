@@ -74,7 +74,7 @@ def shortened(question: Question) -> Question:
     for the way from one nosing to the next it is on none of the landings.
     """
     stairs = question.terrain
-    if not isinstance(stairs, Stairs) or stairs.rise is None:
+    if not isinstance(stairs, Stairs) or stairs.rise is None or stairs.gaps:
         return question
     enough = max(5, math.ceil(stretched(question.robot) / stairs.nosing_spacing) + 2)
     if stairs.steps <= enough:

@@ -20,6 +20,7 @@ import numpy as np
 from kaidan.models.findings import Array, Finding, Findings, at_risk, failing_beyond, smallest
 from kaidan.modes import (
     FAILURE_MODES,
+    GAP,
     MOMENTUM,
     ROTATION,
     SUPPLIES,
@@ -146,8 +147,8 @@ def _doubts(each: list[Finding], question: Question) -> list[Finding]:
 def _order(one: Finding, question: Question, *, best: bool = False) -> tuple[int, float, int]:
     """Order of what fails: margins of slope first, the smallest first; then as they are listed."""
     listed = list(FAILURE_MODES).index(one.mode.key)
-    if one.mode is UNWEIGHED:  # before what follows from it
-        return -1, 0.0, listed
+    if one.mode in (UNWEIGHED, GAP):  # before what follows from it
+        return -1, 0.0, -listed
     if one.mode.unit != "rad":
         return 1, 0.0, listed
     return 0, one.margin(question.risk, best=best), listed

@@ -15,6 +15,10 @@ import numpy as np
 
 from kaidan.mechanics import Number
 
+YAW = float(np.radians(3.0))
+"""Yaw off the line of the flight that a driver corrects [rad]."""
+OFF_LINE = 0.03
+"""Distance off the middle of its way that a driver corrects [m]."""
 _HEADINGS = 721
 """Headings of a robot in a corner that are looked at: 1/8 degree apart."""
 

@@ -59,6 +59,10 @@ def beside(question: "Question", found: "Findings") -> "Findings":
         from kaidan.models.clearance import findings_of
 
         found = replace(found, each=(*found.each, *findings_of(question, room, found.model)))
+    if (met := question.widest_gap) is not None:
+        from kaidan.models.clearance import with_gap
+
+        found = with_gap(question, found, *met)
     if question.landings:
         from kaidan.models import landings
 

@@ -1,41 +1,41 @@
-"""Room on a flight whose sheet states width or headroom: findings beside any model's own.
+"""Room on a flight whose sheet states width, headroom or gaps: findings beside any model's own.
 
-Best case: the robot goes straight up the middle, flat on the nosings. Worst case: it is off line by
-what a driver needs for corrections, and rears as it does when it meets a riser.
+Best case: the robot goes straight up the strip where it fits best, flat on the nosings. Worst case:
+it is off line by what a driver needs for corrections, and rears as it does when it meets a riser.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
-from kaidan.mechanics.clearance import headroom_needed, lane_width
-from kaidan.models.findings import Finding
-from kaidan.modes import LOW, NARROW, FailureMode, Phase
-from kaidan.outline import Outline, footprint_of, height_of
+from kaidan.models.findings import Finding, Findings, Later
+from kaidan.modes import GAP, LOW, NARROW, FailureMode, Phase, Verdict
+from kaidan.outline import Outline
 from kaidan.question import Question
 from kaidan.robot import Posture
+from kaidan.terrain import sentences as text
+from kaidan.terrain.gap import Gap
+from kaidan.terrain.room import Room
+from kaidan.terrain.stairs import Stairs
 
-YAW = math.radians(3.0)
-"""Yaw off the line of the flight that a driver corrects [rad]."""
-OFF_LINE = 0.03
-"""Distance off the middle of the flight that a driver corrects [m]."""
 KEPT = 0.1
 """Distance that centroid and turning centre keep from the flight below while the robot stands on a
 landing and turns, or moves its flippers [m]: beyond the nosing it would tip back down."""
-REARING = math.radians(15.0)
-"""Inclination beyond that of the flight, of a robot that meets a riser [rad]."""
 
 
-def findings_of(
-    question: Question, room: tuple[float | None, float | None], model: str
-) -> tuple[Finding, ...]:
+def findings_of(question: Question, room: Room, model: str) -> tuple[Finding, ...]:
     """Width and headroom, where they are stated; of a robot of unknown size not known.
+
+    The width is that of the widest strip which is free up to the height that the robot needs, the
+    headroom that over the strip which the robot needs. So what is too narrow at every height, or
+    too low at every place, is stated as that.
 
     Parameters
     ----------
     question : Question
-    room : (float or None, float or None)
-        Clear width and headroom [m].
+    room : Room
+        What is free along its flights.
     model : str
         Model beside whose findings these stand.
 
@@ -43,27 +43,45 @@ def findings_of(
     -------
     tuple of Finding
     """
+    needs = question.needs
     each = []
-    width, headroom = room
-    outlines = [
-        Outline.of(question.robot, posture, question.payload)
-        for posture in dict.fromkeys(question.postures.values())
-    ]
-    length = max(sum(outline.reach) for outline in outlines)
-    if width is not None:
-        w = max(footprint_of(question.robot, outline).width for outline in outlines)
-        needed = lane_width(w=w, length=length, psi=YAW, error=OFF_LINE)
-        each.append(_between(NARROW, width - needed, width - w, model))
-    if headroom is not None:
-        H = max(height_of(question.robot, outline) for outline in outlines)
-        flight = question.steepest_flight
-        slope = 0.0 if flight is None else flight.angle
-        flat, rearing = (
-            float(headroom_needed(height=H, length=length, theta_s=slope, phi=slope + more))
-            for more in (0.0, REARING)
+    if math.isfinite(room.widest):
+        wide, narrow = (room.width_up_to(height) for height in (needs.flat, needs.rearing))
+        each.append(_between(NARROW, narrow - needs.off_line, wide - needs.straight, model))
+    if math.isfinite(room.headroom):
+        high, low = (
+            room.height_over(width if width < room.widest else room.widest)
+            for width in (needs.straight, needs.off_line)
         )
-        each.append(_between(LOW, headroom - rearing, headroom - flat, model))
+        each.append(_between(LOW, low - needs.rearing, high - needs.flat, model))
     return tuple(each)
+
+
+def with_gap(question: Question, found: Findings, flight: Stairs, gap: Gap) -> Findings:
+    """Findings with whether an end of the robot fits into a gap: at most CAUTION then.
+
+    A round end rolls over a gap that is shorter than it is wide; into a longer one it may drop,
+    and no trial has been driven over one. Where no floor was found nobody knows what is there.
+
+    Parameters
+    ----------
+    question : Question
+    found : Findings
+        Of any model.
+    flight : Stairs
+        With the gap.
+    gap : Gap
+        The longest that the robot must cross.
+
+    Returns
+    -------
+    Findings
+    """
+    margin = question.narrowest_end - (gap.length or math.inf)
+    finding = Finding.certain(GAP, margin, failing=Verdict.CAUTION, model=found.model)
+    before = found.notes
+    notes = Later(lambda: (*before, text.stated(gap, flight.nosing_places)))
+    return replace(found, each=(*found.each, finding), notes=notes)
 
 
 def room_when_stowed(question: Question) -> float:

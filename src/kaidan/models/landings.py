@@ -14,10 +14,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kaidan.mechanics.clearance import corner_margin, spin_circle
+from kaidan.mechanics.clearance import OFF_LINE, corner_margin, spin_circle
 from kaidan.mechanics.footprint import Footprint, inscribed_circle, walls_of
 from kaidan.mechanics.turning import Goal, Manoeuvre, manoeuvre, on_the_spot
-from kaidan.models.clearance import KEPT, OFF_LINE
+from kaidan.models.clearance import KEPT
 from kaidan.models.findings import Finding, Findings, Later
 from kaidan.models.landing_figures import LandingTurn, LandingTurns, TurnWay
 from kaidan.modes import TURNING, Phase

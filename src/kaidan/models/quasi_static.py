@@ -96,6 +96,8 @@ def repeats(question: Question) -> bool:
     stairs = question.terrain
     if not isinstance(stairs, Stairs) or stairs.rise is None or stairs.steps <= LONG_FLIGHT:
         return False
+    if stairs.gaps:  # counted from the first nosing, so that each lies where it lies
+        return False
     return sum(question.outline.reach) < LONG_FLIGHT / 2 * stairs.nosing_spacing
 
 

@@ -1,5 +1,6 @@
 """What a question states: its fields, each with its bounds, unit and meaning; its terrain."""
 
+import math
 from collections.abc import Mapping
 from functools import cached_property
 from typing import Annotated, Any, ClassVar, Literal
@@ -10,12 +11,15 @@ from pydantic import Discriminator, Field, Tag, field_validator
 from kaidan.allowance import Allowance
 from kaidan.errors import InputError
 from kaidan.modes import CONTACT, Acceptance, Direction, Facing, Phase
+from kaidan.question.room import lane_of
 from kaidan.robot import Payload, Posture, PostureChange, Robot, Stance
 from kaidan.sheet import Sheet, quantity
 from kaidan.spelling import JOINT, Terrain
 from kaidan.surface import Surface
+from kaidan.terrain.gap import Gap
 from kaidan.terrain.landings import Landing, landings_of
 from kaidan.terrain.profile import Profile
+from kaidan.terrain.room import Room
 from kaidan.terrain.stairs import Stairs
 
 FASTEST = 30.0
@@ -136,8 +140,7 @@ class QuestionFields(Sheet):
         """
         if isinstance(self.terrain, Profile):
             return self.terrain.upward(descending=self.direction == "down")
-        flights = [self.terrain] if isinstance(self.terrain, Stairs) else self.terrain
-        return Profile.of_flights(flights)
+        return Profile.of_flights(self._driven)
 
     @cached_property
     def flight(self) -> Stairs | None:
@@ -158,13 +161,26 @@ class QuestionFields(Sheet):
         return max(self.flights, key=lambda each: each.angle, default=self.flight)
 
     @property
-    def room(self) -> tuple[float | None, float | None] | None:
-        """Least clear width and headroom of its flights [m]; None: neither is stated."""
-        widths = [each.width for each in self.flights if each.width is not None]
-        heights = [each.headroom for each in self.flights if each.headroom is not None]
-        if not widths and not heights:
-            return None
-        return min(widths, default=None), min(heights, default=None)
+    def room(self) -> Room | None:
+        """What is free along its flights; None: nothing is stated."""
+        each = (Room.of(one.width, one.headroom, one.clear) for one in self.flights)
+        stated = [room for room in each if room is not None]
+        return Room.of_all(stated) if stated else None
+
+    @property
+    def widest_gap(self) -> tuple[Stairs, Gap] | None:
+        """Longest gap that the robot must cross, and its flight; one without an end is endless."""
+        met = [(flight, gap) for flight in self._driven for gap in flight.gaps]
+        return max(met, key=lambda each: each[1].length or math.inf, default=None)
+
+    @cached_property
+    def _driven(self) -> tuple[Stairs, ...]:
+        """Flights with the gaps that the robot cannot pass beside; a landing ends at one on it."""
+        width = lane_of(self.robot) if any(each.gaps for each in self.flights) else math.nan
+        return tuple(
+            each.up_to_gaps([gap for gap in each.gaps if not gap.beside >= width])
+            for each in self.flights
+        )
 
     @property
     def leaves(self) -> tuple[float, float]:

@@ -13,6 +13,7 @@ from kaidan.mechanics.yielding import drop_of_sag
 from kaidan.modes import MODELS, PHYSICS, Acceptance
 from kaidan.question.fields import FACINGS, TRACKS, QuestionFields
 from kaidan.question.refusals import refuse_impossible
+from kaidan.question.room import Needs, needs_of
 from kaidan.question.yielding import ROCKING_SPEED, allowance_d, theta_d_at
 from kaidan.robot import Posture
 from kaidan.sheet import model_validator
@@ -320,6 +321,18 @@ class Question(QuestionFields):
     def reserve(self) -> float:
         """Tilt to the fall that a robot that rocks must keep, as stated or by default [rad]."""
         return self.robot.kept_reserve if self.fall_reserve is None else self.fall_reserve
+
+    @cached_property
+    def needs(self) -> Needs:
+        """Room that the robot needs beside, above and around it."""
+        flight = self.steepest_flight
+        slope = 0.0 if flight is None else flight.angle
+        return needs_of(self.robot, self.postures.values(), self.payload, slope)
+
+    @property
+    def narrowest_end(self) -> float:
+        """Smallest diameter of a disc of the robot [m]: what the end that it belongs to spans."""
+        return 2.0 * min(radius for _, _, radius in self.outline.discs if radius > 0.0)
 
     @property
     def spread(self) -> tuple[float, ...]:

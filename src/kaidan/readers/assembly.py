@@ -16,21 +16,19 @@ from kaidan.readers.estimate import Refusal
 from kaidan.readers.flight import LAST_SPREAD, FlightEstimate
 from kaidan.readers.kinds import Array, Bodies, Body, Provenance
 from kaidan.readers.naming import named_apart
+from kaidan.readers.solids.ground import FLUSH, floor_before, floor_behind
 from kaidan.readers.solids.levels import Plate, plates_of
+from kaidan.readers.solids.path import Path
 from kaidan.readers.solids.rays import Triangles
-from kaidan.readers.solids.room import (
-    FARTHEST,
-    clear_lane,
-    free_outline,
-    headroom_of,
-    walls_around,
-)
-from kaidan.readers.solids.runs import DEEPEST_TREAD, RISES, Run, runs_of
+from kaidan.readers.solids.room import FARTHEST, free_outline, walls_around
+from kaidan.readers.solids.runs import RISES, Run, runs_of
 from kaidan.readers.solids.section import Section, section_of
 from kaidan.readers.solids.stated import stated_rise
+from kaidan.readers.solids.surroundings import surroundings_of
+from kaidan.terrain.gap import DEEPEST_TREAD
 
-FLUSH = 0.04
-"""Difference up to which a surface lies on the level of a storey [m]: floor finishes."""
+LANDS = 0.05
+"""Distance behind the edge of a floor at which one stands on it [m]."""
 OF_STOREY = 0.3
 """Difference up to which a floor is that of a storey [m]."""
 STAIRS = ("stair", "flight")
@@ -84,6 +82,11 @@ class _Assembly:
         doors = {k for k, each in enumerate(self.bodies) if each.category == "IfcDoor"}
         self.solids = self.all.of_owners(standing)
         self.obstacles = self.all.of_owners(set(range(len(self.bodies))) - doors)
+        rails = {k for k, each in enumerate(self.bodies) if each.category == "IfcRailing"}
+        self.ground = self.all.of_owners(set(range(len(self.bodies))) - doors - rails)
+        self.finishes = frozenset(
+            k for k, each in enumerate(self.bodies) if each.category == "IfcCovering"
+        )
         self.plates = plates_of(self.solids)
         self.runs = runs_of(self.plates)
         self.floors: dict[str, Floor] = {}
@@ -176,75 +179,91 @@ class _Assembly:
         section = section_of(plates, run.heading, self.solids.of_owners(owners), complete=complete)
         if section is None or np.isnan(section.left).any() or np.isnan(section.right).any():
             return None
-        lane = clear_lane(section, self.obstacles)
         notes: list[str] = []
-        levels, left, right = section.levels, section.left, section.right
-        top: Plate | None = plates[-1] if complete else None
-        if not complete:
-            level = self._next_floor(section, plates, notes)
-            if level is not None:
-                levels = np.append(levels, level)
-                going = float(np.diff((left + right) / 2).mean())
-                left, right = np.append(left, left[-1] + going), np.append(right, right[-1] + going)
-        base = self._base(below, float(levels[0]), notes)
-        body, reached = self.bodies[owner], float(levels[-1])
+        path = self._path(section, plates, below, complete, notes)
+        around = surroundings_of(path, self.ground, self.obstacles, self.finishes)
+        body = self.bodies[owner]
         family = self._family(body)
-        floor, levels, drawn = self._ends(base, levels, family)
-        t_left, t_right = section.lane[1], section.lane[0]
-        frame = section.frame
+        stated, drawn = self._as_stated(path, family)
         estimate = FlightEstimate(
-            left=self._placed(frame, left, t_left, levels),
-            right=self._placed(frame, right, t_right, levels),
+            left=self._placed(stated, path.left, path.lane[1]),
+            right=self._placed(stated, path.right, path.lane[0]),
             heading=run.heading,
-            covariance=np.zeros((len(levels), 2) * 2),
+            covariance=np.zeros((len(path.levels), 2) * 2),
             gravity=0.0,
             scale=0.0,
-            floor=floor,
+            floor=stated.base,
             drawn_first=drawn[0],
             drawn_last=drawn[1],
-            width=max(lane[1] - lane[0], 0.0),
-            headroom=headroom_of(section, self.obstacles),
+            width=around.strip.width,
+            headroom=around.headroom,
+            clear=around.clear,
+            gaps=around.gaps,
             overhang=min(section.overhang, 0.1),
             open_risers=section.open_risers,
-            notes=tuple(notes),
+            notes=(*notes, *around.notes),
         )
-        s0, s1 = float(np.minimum(left, right)[0]), float(np.maximum(left, right)[-1])
-        corners = [(s0, lane[0]), (s1, lane[0]), (s1, lane[1]), (s0, lane[1])]
-        foot, head = frame.back(s0, sum(lane) / 2), frame.back(s1, sum(lane) / 2)
+        s0 = float(min(path.left[0], path.right[0]))
+        s1 = float(max(path.left[-1], path.right[-1]))
+        _, low, high = around.strip
+        lane = [(s0, low), (s1, low), (s1, high), (s0, high)]
+        foot, head = (path.frame.back(each, (low + high) / 2) for each in (s0, s1))
         return Flight(
             identity=body.identity,
             name=body.name or body.category,
             category=body.category,
             parents=tuple(name for each in family[1:] for name in (each.identity, each.name)),
             elements=self._elements(run, owner),
-            storey=self._storey_of(family, float(levels[0])),
+            storey=self._storey_of(family, float(path.levels[0])),
             estimate=estimate,
-            lane=np.array([frame.back(*each) for each in corners]) + self.origin[:2],
-            lower=self._floor(below, base, foot, float(levels[0])),
-            upper=self._floor(None if top is None else run.steps[-1], reached, head, reached),
+            lane=np.array([path.frame.back(*each) for each in lane]) + self.origin[:2],
+            lower=self._floor(
+                self._plate_at(path, head=False) if below is None else below, path.base, foot
+            ),
+            upper=self._floor(
+                run.steps[-1] if complete else self._plate_at(path, head=True),
+                float(path.levels[-1]),
+                head,
+            ),
         )
 
-    def _ends(
-        self, base: float, levels: Array, family: Sequence[Body]
-    ) -> tuple[float, Array, tuple[float, float]]:
-        """Level of the floor and of the nosings as stated, and end risers that are drawn otherwise.
+    def _path(
+        self,
+        section: Section,
+        plates: Sequence[Plate],
+        below: int | None,
+        complete: bool,
+        notes: list[str],
+    ) -> Path:
+        """Way from the floor before a flight to that behind it, and what was taken for granted."""
+        level = math.nan if below is None else self.plates[below].level
+        path = Path(section.frame, section.lane, section.left, section.right, section.levels, level)
+        foot_notes: list[str] = []
+        path = path.over(self._base(path, foot_notes))
+        if not complete:
+            path = self._to_the_floor(path, plates, notes)
+        notes += foot_notes
+        return path
+
+    def _as_stated(self, path: Path, family: Sequence[Body]) -> tuple[Path, tuple[float, float]]:
+        """Path whose end risers are as stated, and those that are drawn otherwise [m].
 
         Where an element states the rise of its steps, and an end riser alone is another, a floor is
         drawn without its finish, or steps without theirs: no drawing says which.
         """
-        drawn = (math.nan, math.nan)
-        rises = np.diff(levels)
+        rises = np.diff(path.levels)
+        first, last = math.nan, math.nan
         if len(rises) < 2:
-            return base, levels, drawn
+            return path, (first, last)
         real = (float(np.median(rises[:-1])),)
-        stated = (stated_rise(each.facts.get("stated", {}), real, self.unit) for each in family)
-        rise = next((each for each in stated if math.isfinite(each)), math.nan)
-        first, last = float(levels[0] - base), float(rises[-1])
-        if abs(first - rise) > LAST_SPREAD:
-            base, drawn = float(levels[0]) - rise, (first, math.nan)
-        if abs(last - rise) > LAST_SPREAD:
-            levels, drawn = np.append(levels[:-1], levels[-2] + rise), (drawn[0], last)
-        return base, levels, drawn
+        found = (stated_rise(each.facts.get("stated", {}), real, self.unit) for each in family)
+        rise = next((each for each in found if math.isfinite(each)), math.nan)
+        base, levels = path.base, path.levels
+        if abs(levels[0] - base - rise) > LAST_SPREAD:
+            first, base = float(levels[0] - base), float(levels[0]) - rise
+        if abs(rises[-1] - rise) > LAST_SPREAD:
+            last, levels = float(rises[-1]), np.append(levels[:-1], levels[-2] + rise)
+        return replace(path, base=base, levels=levels), (first, last)
 
     def _elements(self, run: Run, owner: int) -> tuple[str, ...]:
         """GlobalIds of what the treads of a run are drawn as, and of what these are part of."""
@@ -256,9 +275,9 @@ class _Assembly:
         """Surfaces of a run without what it leads to."""
         return run.steps[:-1] if run.complete and len(run.steps) > 1 else run.steps
 
-    def _placed(self, frame: Any, s: Array, t: float, levels: Array) -> Array:
-        plan = np.array([frame.back(float(each), t) for each in s])
-        return np.column_stack([plan + self.origin[:2], levels])
+    def _placed(self, path: Path, s: Array, t: float) -> Array:
+        plan = np.array([path.frame.back(float(each), t) for each in s])
+        return np.column_stack([plan + self.origin[:2], path.levels])
 
     def _family(self, body: Body) -> list[Body]:
         """An element, what it is part of, and so on up."""
@@ -279,43 +298,71 @@ class _Assembly:
         near = [each for each in self.storeys if abs(each.level - level) <= within]
         return min(near, key=lambda one: abs(one.level - level), default=None)
 
-    def _next_floor(
-        self, section: Section, plates: Sequence[Plate], notes: list[str]
-    ) -> float | None:
-        """Level to which the last riser leads, where nothing is drawn; None: there is no more."""
-        last = float(section.levels[-1])
+    def _to_the_floor(self, path: Path, plates: Sequence[Plate], notes: list[str]) -> Path:
+        """Path up to the floor at its head, which nothing joins to its last tread."""
+        last = float(path.levels[-1])
+        drawn = floor_behind(path, self.ground)
+        if drawn is not None:
+            level, (left, right) = drawn
+            return path if level == last else path.longer(level, left, right)
+        level = self._next_floor(last, [each.depth for each in plates], notes)
+        if math.isnan(level):
+            return path
+        if level == math.inf:
+            level = last + float(np.diff(path.levels).mean())
+        going = float(np.diff(path.nosings).mean())
+        return path.longer(level, path.left[-1] + going, path.right[-1] + going)
+
+    def _next_floor(self, last: float, depths: Sequence[float], notes: list[str]) -> float:
+        """Level to which the last riser leads, where no floor is drawn [m].
+
+        NaN: there is no more riser; infinite: it is taken as the others.
+        """
         if self._storey_at(last, FLUSH) is not None:
-            return None
+            return math.nan
         low, high = RISES
         above = [each for each in self.storeys if low <= each.level - last <= high]
         if above:
             notes.append(f"its last riser leads to the level of the storey {above[0].name!r}")
             return above[0].level
-        depths = [each.depth for each in plates]
         if abs(depths[-1] - float(np.median(depths[:-1]))) > UNLIKE:
             notes.append(
                 "no floor is drawn at its head: its last tread, of another depth than the "
                 "others, is taken for the edge of it"
             )
-            return None
+            return math.nan
         notes.append("no floor is drawn at its head: the last riser is taken as the others")
-        return last + float(np.diff(section.levels).mean())
+        return math.inf
 
-    def _base(self, below: int | None, first: float, notes: list[str]) -> float:
-        """Level of the floor before the first riser; NaN: nothing says."""
-        if below is not None:
-            return self.plates[below].level
+    def _base(self, path: Path, notes: list[str]) -> float:
+        """Level of the floor before the first riser: as drawn, else of a storey, else a guess."""
+        if not math.isnan(path.base):
+            return path.base
+        first = float(path.levels[0])
+        drawn = floor_before(path, self.ground)
+        if not math.isnan(drawn):
+            return drawn
         low, high = RISES
         floors = [each for each in self.storeys if low <= first - each.level <= high]
         if floors:
             notes.append(f"its first riser begins at the level of the storey {floors[-1].name!r}")
             return floors[-1].level
         notes.append("no floor is drawn at its foot: the first riser is taken as the others")
-        return math.nan
+        return first - float(np.diff(path.levels).mean())
 
-    def _floor(self, number: int | None, level: float, at: Array, first: float) -> str:
+    def _plate_at(self, path: Path, *, head: bool) -> int | None:
+        """Number of the surface on which an end of a flight begins; None: none is drawn there."""
+        import shapely
+
+        level = float(path.levels[-1]) if head else path.base
+        s = path.nosings[-1] + LANDS if head else path.nosings[0] - LANDS
+        at = shapely.points(path.frame.back(float(s), path.middle))
+        near = [k for k, each in enumerate(self.plates) if abs(each.level - level) <= FLUSH]
+        on = [k for k in near if shapely.distance(self.plates[k].shape, at) < LANDS]
+        return min(on, key=lambda k: abs(self.plates[k].level - level), default=None)
+
+    def _floor(self, number: int | None, level: float, at: Array) -> str:
         """Key of the floor at an end of a flight; the floor is noted, and what is clear of it."""
-        level = first if math.isnan(level) else level
         plate = None if number is None else self.plates[number]
         if plate is not None and plate.depth < DEEPEST_TREAD:
             plate = None

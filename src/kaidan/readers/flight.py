@@ -21,8 +21,10 @@ import numpy as np
 from kaidan.readers.kinds import Array
 from kaidan.readers.regular_flight import ALIKE, RegularFlight, uniform_columns, uniform_flight
 from kaidan.terrain.doubt import factor
+from kaidan.terrain.gap import Gap
 from kaidan.terrain.polyline import frozen
 from kaidan.terrain.profile import Profile
+from kaidan.terrain.room import Opening
 from kaidan.terrain.stairs import MOST_TWISTED, UNSTATED_LANDING, Stairs
 from kaidan.terrain.stairs_uncertainty import LARGEST_DOUBT, StairsUncertainty
 
@@ -36,6 +38,10 @@ EXACT = 1e-4
 LAST_SPREAD = 0.02
 """Standard deviation of the last rise about the others [m], where nobody drew it: floors are laid
 after the steps. A judgement; ISO 14122-3 lets an end riser differ by 15 %, 27 mm of 180."""
+LOWEST_CEILING = 1.2
+"""Height above the nosings from which something is a ceiling and no handrail [m]."""
+LEAST_HEADROOM = 0.2
+"""Headroom below which no sheet states one [m]: no robot is lower."""
 CERTAIN = 3.0
 """Standard uncertainties from which something stands out of its doubt."""
 _LEVEL = math.tan(math.radians(0.2))
@@ -76,6 +82,10 @@ class FlightEstimate:
     """Clear width [m]; NaN: not seen."""
     headroom: float = math.nan
     """Least height above the line of the nosings [m]; NaN: not seen."""
+    clear: tuple[Opening, ...] = ()
+    """Clear widths up to heights above the line of the nosings, where they differ."""
+    gaps: tuple[Gap, ...] = ()
+    """Gaps in it or before or behind it, from its first nosing on."""
     run_up: float = math.nan
     """Length of the floor before the first nosing as far as it was seen [m]; NaN: not seen."""
     run_out: float = math.nan
@@ -131,13 +141,27 @@ class FlightEstimate:
 
     @cached_property
     def regular(self) -> RegularFlight:
-        """Uniform flight through all nosings; NaN: fewer than two.
+        """Uniform flight through all nosings but a last one behind a gap; NaN: fewer than two.
 
         Where chi squared says that steps are not alike, the last one is one of them.
         """
         if len(self) < 2:
             return RegularFlight(*(math.nan,) * 6, 0)
+        if self._behind_a_gap:
+            measured = self._measured[:-2, :-2]
+            return uniform_flight(self.line()[:-1], np.asarray(np.linalg.inv(measured)), measured)
         return uniform_flight(self.line(), self.weights, self._measured)
+
+    @property
+    def _behind_a_gap(self) -> bool:
+        """Whether a gap lies before the last nosing, so that its going is that gap's too."""
+        if len(self) < 3:
+            return False
+        before, last = (float(each) for each in self.line()[-2:, 0])
+        return any(
+            gap.end is not None and gap.start is not None and before < gap.start < last
+            and gap.end > last - UNCHECKED for gap in self.gaps
+        )  # fmt: skip
 
     @property
     def drawn_rises(self) -> Array:
@@ -296,12 +320,12 @@ class FlightEstimate:
             "lower_landing": lower,
             "upper_landing": upper,
             "width": self.width,
-            "headroom": self.headroom,
+            "headroom": max(self.headroom, LEAST_HEADROOM),
         }
         sheet: dict[str, Any] = {
             key: round(v, MICROMETRE) for key, v in known.items() if math.isfinite(v)
         }
-        if not regular.alike < ALIKE:
+        if not regular.alike < ALIKE and not self._behind_a_gap:
             angle, spacing = self.angle_sigma, self.spacing_sigma
             sheet |= {"rise": regular.rise, "going": regular.going, "steps": len(self)}
             sheet |= {"first_rise": float(line[0, 1])} if self.begins else {}
@@ -329,6 +353,7 @@ class FlightEstimate:
         sheet |= {key: round(v, MICROMETRE) for key, v in drawn.items() if math.isfinite(v)}
         seen = {"foot_seen": self.begins, "head_seen": self.ends}
         sheet |= {key: False for key, was in seen.items() if not was}
+        sheet |= {"clear": self.clear, "gaps": self.gaps}
         sheet |= self._across()
         return Stairs(
             name=name, nosing_overhang=self.overhang, open_risers=self.open_risers, **sheet

@@ -93,11 +93,11 @@ class Profile:
     def _of_flights(cls, *themselves: Itself[Stairs]) -> Self:
         """The same, remembered: changed questions have one terrain."""
         flights = [each.sheet for each in themselves]
-        points, nosings, covariance = line_of_flights(flights)
+        points, nosings, edges, covariance = line_of_flights(flights)
         return cls(
             points=points,
             nosings=nosings,
-            edges=nosings,
+            edges=edges,
             overhangs=any(flight.nosing_overhang > 0 for flight in flights),
             open_risers=any(flight.open_risers for flight in flights),
             covariance=covariance,

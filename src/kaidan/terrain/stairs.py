@@ -16,7 +16,8 @@ goings between them.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from itertools import accumulate, pairwise
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field
@@ -25,6 +26,8 @@ from kaidan import catalog
 from kaidan.arguments import known_arguments
 from kaidan.errors import InputError
 from kaidan.sheet import Sheet, model_validator, quantity
+from kaidan.terrain.gap import DEEPEST_TREAD, Gap
+from kaidan.terrain.room import Opening
 from kaidan.terrain.stairs_uncertainty import StairsUncertainty
 from kaidan.units import value_of
 
@@ -38,6 +41,8 @@ _RISE = (0.02, 0.6)
 _ODD_RISE = (0.005, 0.6)
 _GOING = (0.02, 2.5)
 _MOST_RISERS = 10_000
+_MOST_OPENINGS = 1_000
+_MOST_GAPS = 2 * _MOST_RISERS
 _STEEPEST = 1.5533
 """Past 89 degrees no goings are left [rad]."""
 
@@ -142,6 +147,17 @@ class Stairs(Sheet):
     headroom: float | None = quantity(
         "m", 0.2, 100.0, "least plumb height above the line of the nosings", default=None
     )
+    clear: tuple[Opening, ...] = Field(
+        default=(),
+        max_length=_MOST_OPENINGS,
+        description="clear widths up to heights above the line of the nosings, where handrails or "
+        "a sloping ceiling make them differ: judged instead of width and headroom",
+    )
+    gaps: tuple[Gap, ...] = Field(
+        default=(),
+        max_length=_MOST_GAPS,
+        description="gaps in the flight or its landings, where nothing carries",
+    )
     lower_landing: float | None = quantity(
         "m", 0.0, 100.0, "length of the lower landing, along the flight; none: 2 m", default=None
     )
@@ -238,6 +254,9 @@ class Stairs(Sheet):
             raise self.refuse(
                 f"nosing_radius_low = {low:g} is more than nosing_radius_high = {high:g}"
             )
+        for one, other in pairwise(self.clear):
+            if not (other.height > one.height and other.width < one.width):
+                raise self.refuse("clear has heights that ascend and widths that descend")
         for end in ("lower", "upper"):
             self._refuse_landing(end)
         if self.nosing_overhang >= min(self.step_goings):
@@ -340,6 +359,11 @@ class Stairs(Sheet):
         return (self.going,) * (self.steps - 1)
 
     @property
+    def nosing_places(self) -> Length:
+        """Nosings along the flight, from the first one [m]."""
+        return tuple(accumulate(self.step_goings, initial=0.0))
+
+    @property
     def landings(self) -> tuple[float, float]:
         """Lengths of the lower and the upper landing, as stated or by default [m]."""
         lower, upper = self.lower_landing, self.upper_landing
@@ -347,6 +371,30 @@ class Stairs(Sheet):
             UNSTATED_LANDING if lower is None else lower,
             UNSTATED_LANDING if upper is None else upper,
         )
+
+    def up_to_gaps(self, gaps: Sequence[Gap]) -> Self:
+        """Flight with some gaps alone, whose landings end at those that lie on them.
+
+        What begins less than a tread is deep from the flight must be crossed; before another one
+        the robot may come to stand.
+        """
+        last = self.nosing_places[-1] if gaps else 0.0
+        before = [-gap.end for gap in gaps if gap.end is not None]
+        behind = [gap.start - last for gap in gaps if gap.start is not None]
+        lower, upper = (
+            min((each for each in lengths if each >= DEEPEST_TREAD), default=math.inf)
+            for lengths in (before, behind)
+        )
+        crossed = tuple(
+            gap for gap in gaps
+            if not (gap.end is not None and gap.end <= -lower)
+            and not (gap.start is not None and gap.start >= last + upper)
+        )  # fmt: skip
+        ends = zip(("lower_landing", "upper_landing"), (lower, upper), self.landings, strict=True)
+        shorter = {name: length for name, length, now in ends if length < now}
+        if crossed == self.gaps and not shorter:
+            return self
+        return self.model_copy(update={"gaps": crossed, **shorter})
 
     @property
     def regular_steps(self) -> tuple[tuple[float, float], ...]:

@@ -118,14 +118,21 @@ def unknown_line(answer: "Assessment") -> str:
     names = [name for name, each in answer.allowances.items() if each.source == "default"]
     if answer.friction is None:
         names.append("friction")
-    drive = answer.findings.get("drive")
-    if drive is not None and drive.holds is None:
+    if _is_unknown(answer, "drive"):
         names.append("the drive's traction")
+    if any(_is_unknown(answer, mode) for mode in ("narrow", "low")):
+        names.append("the robot's size")
     each = [f"{', '.join(names)}: measure {'it' if len(names) == 1 else 'them'}"] if names else []
     flights = answer.question.flights
     if flights and not flights[-1].head_seen:
         each.append("whether more steps follow the last one: no landing was seen")
     return "; ".join(each)
+
+
+def _is_unknown(answer: "Assessment", mode: str) -> bool:
+    """Whether a failure mode was to be judged and could not."""
+    finding = answer.findings.get(mode)
+    return finding is not None and finding.holds is None
 
 
 def _to_measure(answer: "Assessment") -> bool:

@@ -1,5 +1,6 @@
 """A predicted record in the form of ASTM E2804: what a test on these stairs would write down."""
 
+import math
 from typing import TYPE_CHECKING
 
 from kaidan.modes import Verdict
@@ -29,7 +30,7 @@ def record(mission: "Mission") -> list[Block]:
     """Blocks of the record."""
     question, card = mission.assessment.question, mission.card
     room = question.room
-    width = None if room is None else room[0]
+    width = math.inf if room is None else room.width_up_to(question.needs.flat)
     there, back = mission.assessment, mission.way_back
     up_first = question.direction == "up"
     up, down = (there, back) if up_first else (back, there)
@@ -46,7 +47,10 @@ def record(mission: "Mission") -> list[Block]:
                 ("Configuration", f"flippers {question.flippers}, {_mass(there)}"),
                 ("Apparatus", question.terrain_name),
                 ("Inclination", _inclination(there)),
-                ("Lateral clearance", "not stated" if width is None else f"{1e3 * width:.0f} mm"),
+                (
+                    "Lateral clearance",
+                    f"{1e3 * width:.0f} mm" if math.isfinite(width) else "not stated",
+                ),
                 ("Surface", "not stated" if question.surface is None else question.surface.name),
                 ("Predicted time", time),
                 ("Date, place, weather", ""),

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from kaidan.models.sentences import dynamic, terrain, traction, turning, unweighed
 from kaidan.modes import FAILURE_MODES, SUPPLIES, Verdict
+from kaidan.terrain import sentences as gaps
 from kaidan.words import place
 
 if TYPE_CHECKING:
@@ -320,28 +321,42 @@ def _unweighed(
 def _narrow(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
-    assert question.room is not None
-    return _needs("The flight", "wide", question.room[0], finding, "going straight", "off line")
+    needs = question.needs.straight, question.needs.off_line
+    return _needs("The flight", "wide", finding, needs, "going straight", "off line")
 
 
 def _low(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
-    assert question.room is not None
-    return _needs("The headroom", "", question.room[1], finding, "lying flat", "rearing")
+    needs = question.needs.flat, question.needs.rearing
+    return _needs("The headroom", "", finding, needs, "lying flat", "rearing")
 
 
 def _needs(
-    what: str, way: str, given: float | None, finding: "Finding", best: str, worst: str
+    what: str,
+    way: str,
+    finding: "Finding",
+    needs: tuple[float, float],
+    best: str,
+    worst: str,
 ) -> str:
-    """What there is beside what the best and the worst case need, in mm."""
-    has = (given or 0.0) * 1e3
-    least, most = (has - float(each.min()) * 1e3 for each in (finding.best, finding.worst))
+    """What there is in the case that fails beside what the best and the worst need, in mm."""
+    case = int(float(finding.best.min()) > 0.0)
+    has = (needs[case] + float((finding.best, finding.worst)[case].min())) * 1e3
+    least, most = (each * 1e3 for each in needs)
     way = f" {way}" if way else ""
     return (
         f"{what} is {has:.0f} mm{way}; the robot needs {least:.0f} mm {best}, {most:.0f} mm "
         f"{worst}."
     )
+
+
+def _gap(
+    question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
+) -> str:
+    assert question.widest_gap is not None
+    flight, gap = question.widest_gap
+    return gaps.reason(gap, flight.nosing_places, question.narrowest_end)
 
 
 SAYINGS: dict[str, Saying] = {
@@ -372,5 +387,6 @@ SAYINGS: dict[str, Saying] = {
     "unweighed": _unweighed,
     "narrow": _narrow,
     "low": _low,
+    "gap": _gap,
 }
 """Sentences of the modes that have one of their own; others have the general one."""

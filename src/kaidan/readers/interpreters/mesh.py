@@ -10,6 +10,8 @@ from kaidan.readers.flight import FlightEstimate
 from kaidan.readers.hints import Hints
 from kaidan.readers.interpreters import points
 from kaidan.readers.kinds import METRES, UNITS, Array, Known, Mesh, Points, upright
+from kaidan.readers.solids.drawn_flight import with_surroundings
+from kaidan.readers.solids.rays import Triangles
 from kaidan.readers.stairfit.chain import staircases
 from kaidan.readers.stairfit.drawn import Surface, flights_of, surface_of
 from kaidan.readers.stairfit.gates import ANGLES
@@ -82,7 +84,10 @@ def found(mesh: Mesh, hints: Hints) -> Found:
             if _was_scanned(surface):
                 scanned = True
                 continue
-            flights = tuple(each for each in flights_of(surface) if _is_stairs(each))
+            solids = Triangles.of([(surface.vertices, surface.faces)])
+            flights = tuple(
+                with_surroundings(each, solids) for each in flights_of(surface) if _is_stairs(each)
+            )
             if flights:
                 ways.append(_Way(unit, up, flights))
     stated = provenance.unit is not None and provenance.up is not None

@@ -17,7 +17,7 @@ from kaidan.readers.stairfit.corridor import NARROWEST, SURE, lanes
 from kaidan.readers.stairfit.doubts import LOCAL
 from kaidan.readers.stairfit.gates import refused, surface_refusal
 from kaidan.readers.stairfit.gravity import Upward, frame, leant, refined
-from kaidan.readers.stairfit.one_flight import estimate, measured, tilted
+from kaidan.readers.stairfit.one_flight import estimate, measured, tilted, with_gap
 from kaidan.readers.stairfit.patches import (
     SMALL,
     Patches,
@@ -281,6 +281,8 @@ def _along(seen: _Cloud, upward: Upward, side: Array, provenance: Provenance, er
             assert steps is not None
             hides += steps.upright
             flight = estimate(steps, aligned, upward.sigma, error, placed)
+            stood = None if seen.eye is None else turn @ seen.eye
+            flight = with_gap(flight, steps, placed, stood)
             if math.isfinite(steps.lean[0]):
                 ahead = np.array([math.cos(aligned.heading), math.sin(aligned.heading), 0.0])
                 leans.append((ahead @ turn, *steps.lean))

@@ -1,9 +1,5 @@
 """What the reader of a scan must know, as sentences."""
 
-FLOOR_UNSEEN = (
-    "The floor before the first riser was not seen: the flight may begin lower, and its first "
-    "riser is assumed to be like the others."
-)
 FLOOR_SHORT = (
     "Only {seen_mm:.0f} mm of the level before the first riser were seen: it may be a tread and no "
     "floor."

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,19 +81,12 @@ class Triangles:
         keep = np.isin(self.owner, list(owners))
         return Triangles(self.corners[keep], self.owner[keep])
 
-    @cached_property
-    def _plan(self) -> Any:
-        """Index of their boxes in the plan."""
-        import shapely
-
-        return shapely.STRtree(shapely.box(*self.low[:, :2].T, *self.high[:, :2].T))
-
     def within(self, low: Array, high: Array) -> "Triangles":
         """Those that reach into a box."""
-        import shapely
-
-        some = self._plan.query(shapely.box(low[0], low[1], high[0], high[1]))
-        keep = some[(self.high[some, 2] >= low[2]) & (self.low[some, 2] <= high[2])]
+        keep = np.arange(len(self.corners))
+        for axis in range(3):
+            reaches = self.high[keep, axis] >= low[axis]
+            keep = keep[reaches & (self.low[keep, axis] <= high[axis])]
         return Triangles(self.corners[keep], self.owner[keep])
 
 

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.readers.solids.levels import Plate
+from kaidan.terrain.gap import DEEPEST_TREAD
 
 Array = NDArray[np.float64]
 
@@ -28,8 +29,6 @@ REACH = 0.04
 """Half the gap in the plan up to which two surfaces are next to each other [m]."""
 SHARED = 0.45
 """Part of the shorter of two long sides along which a riser must lie [1]."""
-DEEPEST_TREAD = 0.55
-"""Depth from which a surface is a landing [m]."""
 NARROWEST = 0.08
 """Depth below which a surface is no tread but a foot that is flush with a floor [m]."""
 PARALLEL = math.radians(2.0)

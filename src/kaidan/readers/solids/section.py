@@ -103,7 +103,7 @@ def section_of(
     for name, t in (("left", high - INSET), ("right", low + INSET), ("middle", (low + high) / 2)):
         lines[name] = _front_edges(sides_of, t)
     levels = np.array([each.level for each in plates])
-    segments = _cut(solids, frame, (low + high) / 2)
+    segments = cut(solids, frame, (low + high) / 2)
     levels = _at_nosings(segments, lines["middle"], levels)
     reach, overhang, is_open = _noses(segments, lines["middle"], levels)
     return Section(
@@ -139,7 +139,7 @@ def _crossings(sides: Array, t: float) -> Array:
     return np.asarray(s_a + (t - t_a) * (s_b - s_a) / (t_b - t_a))
 
 
-def _cut(solids: Triangles, frame: Frame, t: float) -> Array:
+def cut(solids: Triangles, frame: Frame, t: float) -> Array:
     """Section of solids along a line, shape (n, 4): s, z of one end and of the other [m]."""
     flat = frame.of(solids.corners[:, :, :2].reshape(-1, 2)).reshape(-1, 3, 2)
     off = flat[:, :, 1] - t

@@ -7,10 +7,10 @@ import numpy as np
 
 from kaidan.readers.flight import FlightEstimate, independent
 from kaidan.readers.kinds import Array, Indices
-from kaidan.readers.sentences import scans as text
 from kaidan.readers.stairfit.slices import STEP, driven_line, slice_of
 from kaidan.readers.stairfit.views import rotated
 from kaidan.terrain.polyline import convex_corners
+from kaidan.terrain.sentences import FLOOR_UNSEEN
 
 AS_DRAWN = 5e-4
 """Standard uncertainty of a nosing of a model [m]: what is built from it differs more."""
@@ -246,5 +246,5 @@ def _flight(
         floor_sigma=AS_DRAWN, ends=run_out > SHORT * going,
         run_up=run_up, run_out=run_out, room_before=run_up, room_behind=run_out,
         width=sides[1] - sides[0], overhang=overhang, open_risers=open_risers,
-        notes=(text.FLOOR_UNSEEN,) if alone or not len(before) else (),
+        notes=(FLOOR_UNSEEN,) if alone or not len(before) else (),
     )  # fmt: skip

@@ -5,17 +5,24 @@ from dataclasses import replace
 
 import numpy as np
 
-from kaidan.readers.flight import FlightEstimate
+from kaidan.readers.flight import LOWEST_CEILING, MICROMETRE, FlightEstimate
 from kaidan.readers.kinds import Array
 from kaidan.readers.sentences import scans as text
+from kaidan.readers.stairfit.behind import gap_behind
 from kaidan.readers.stairfit.corridor import Lane
 from kaidan.readers.stairfit.landing_end import landing_end
 from kaidan.readers.stairfit.quantiles import quantile
 from kaidan.readers.stairfit.steps import MOST_MEASURED, Steps, evenly, steps_of
 from kaidan.readers.stairfit.views import rotated
+from kaidan.terrain.gap import Gap
+from kaidan.terrain.sentences import FLOOR_UNSEEN, in_words
 
-LOWEST_CEILING = 1.2
-"""Height above the nosings from which something is a ceiling and no handrail [m]."""
+BESIDE = 0.1
+"""Distance from the sides of a flight from which points lie on it and not beside it [m]."""
+ABOVE = 0.5
+"""Height over a level from which a sensor sees whether it goes on [m]: lower ones graze it."""
+LEVEL = 0.02
+"""Least distance within which a point lies on a level [m]."""
 
 Placed = tuple[Array, Array, Array]
 """Points along a heading: s, t, z, shape (n,) each [m]."""
@@ -92,7 +99,7 @@ def estimate(
 def _notes(steps: Steps) -> list[str]:
     notes = []
     if not math.isfinite(steps.floor):
-        notes.append(text.FLOOR_UNSEEN)
+        notes.append(FLOOR_UNSEEN)
     elif steps.run_up < 1.2 * steps.line.going:
         notes.append(text.FLOOR_SHORT.format(seen_mm=1e3 * steps.run_up))
     if not steps.ends:
@@ -107,7 +114,7 @@ def _headroom(steps: Steps, s: Array, t: Array, z: Array) -> float:
     """Least height above the line of the nosings of what hangs over it."""
     low, high = steps.width
     first, last = steps.at[0], steps.at[-1]
-    inside = (t > low + 0.1) & (t < high - 0.1) & (s > first[0]) & (s < last[0])
+    inside = (t > low + BESIDE) & (t < high - BESIDE) & (s > first[0]) & (s < last[0])
     slope = (last[1] - first[1]) / (last[0] - first[0])
     over = z[inside] - first[1] - slope * (s[inside] - first[0])
     over = over[over > LOWEST_CEILING]
@@ -122,6 +129,43 @@ def _room(steps: Steps, s: Array, t: Array, z: Array) -> tuple[float, float]:
         landing_end(first[0] - s, t, z - base, width=steps.width),
         landing_end(s - last[0], t, z - last[1], width=steps.width),
     )
+
+
+def with_gap(
+    flight: FlightEstimate, steps: Steps, cloud: Placed, eye: Array | None
+) -> FlightEstimate:
+    """Flight with where the level behind its last nosing was seen to end.
+
+    Parameters
+    ----------
+    flight : FlightEstimate
+    steps : Steps
+        Of which it was made.
+    cloud : tuple of array
+        Points along the lane.
+    eye : array, shape (3,), optional
+        Where the sensor stood, in the levelled frame of the cloud; one that stood behind the last
+        nosing, or hardly saw its level, says nothing. None: not known [m].
+    """
+    last, line = steps.at[-1], steps.line
+    if eye is not None:
+        ahead, _, up = (float(each[0]) for each in rotated(eye[None], flight.heading))
+        if ahead > last[0] or up - last[1] < ABOVE:
+            return flight
+    low, high = steps.width
+    s, t, z = evenly(MOST_MEASURED, *cloud)
+    inside = (t > low + BESIDE) & (t < high - BESIDE)
+    start = gap_behind(
+        s[inside] - line.skew * t[inside] - last[0],
+        z[inside] - last[1],
+        going=line.going,
+        tight=min(max(3.0 * steps.roughness, LEVEL), 0.35 * line.rise),
+    )
+    if math.isnan(start):
+        return flight
+    places = steps.at[:, 0] - steps.at[0, 0]
+    gap = Gap(start=round(float(places[-1]) + start, MICROMETRE))
+    return replace(flight, gaps=(gap,), notes=(*flight.notes, in_words(gap, places.tolist())))
 
 
 def tilted(flight: FlightEstimate, turn: Array) -> FlightEstimate:

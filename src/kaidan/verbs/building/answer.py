@@ -9,7 +9,16 @@ from kaidan.readers.building import Outcome
 from kaidan.terrain.stairs import Stairs
 
 Binding = Literal[
-    "stability", "friction", "width", "headroom", "turning", "landing", "doors", "drawing", ""
+    "stability",
+    "friction",
+    "width",
+    "headroom",
+    "turning",
+    "landing",
+    "gap",
+    "doors",
+    "drawing",
+    "",
 ]
 """What decides, in a word."""
 

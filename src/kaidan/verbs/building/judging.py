@@ -19,6 +19,7 @@ _BINDS: dict[str, Binding] = {
     "low": "headroom",
     "landing_room": "landing",
     "turning": "turning",
+    "gap": "gap",
     "foot_unseen": "drawing",
     "floor_finish": "drawing",
     Undecided.FRICTION_UNKNOWN.value: "friction",

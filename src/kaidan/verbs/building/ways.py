@@ -6,8 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
-from kaidan.mechanics.clearance import door_clear_width, lane_width
-from kaidan.models.clearance import OFF_LINE, YAW
+from kaidan.mechanics.clearance import OFF_LINE, YAW, door_clear_width, lane_width
 from kaidan.models.sentences import turning
 from kaidan.modes import Verdict
 from kaidan.outline import Outline, footprint_of, height_of
