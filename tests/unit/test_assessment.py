@@ -45,7 +45,7 @@ NAMED_BY_THE_ISSUE = {
 }
 OF_A_SHEET = {"Question", "Robot", "Track", "FlipperPair", "Drive", "Uncertainty", "Stairs"}
 OF_A_SHEET |= {"StairsUncertainty", "Surface", "Payload", "Posture", "PostureChange", "State"}
-OF_A_SHEET |= {"Allowance", "Friction"}
+OF_A_SHEET |= {"Allowance", "Friction", "Gap", "Opening"}
 """Parts of the schema that are inputs: what has a default may be left out."""
 
 

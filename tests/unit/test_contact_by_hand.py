@@ -196,12 +196,14 @@ def test_a_ramp_under_an_acceleration(direction, acceleration):
 
 
 @pytest.mark.parametrize("acceleration", [-4.0, -1.0, 0.0, 1.0, 4.0])
-def test_a_floor_requires_what_accelerates(acceleration):
-    floor = Profile.of_points([(-3, 0), (3, 0)])
-    answer = assess(round_robot(C_N=0.05), floor, **SURE, acceleration=acceleration)
-    assert answer.required_friction == pytest.approx(abs(acceleration) / G, abs=1e-9)
+def test_a_gentle_ramp_and_its_landings_require_what_accelerates(acceleration):
+    """By hand: of the ramp, as above, and of its landings, |a| / g, the larger."""
+    answer = assess(round_robot(C_N=0.05), ramp(1), **SURE, acceleration=acceleration)
+    on_ramp = tan(radians(1)) + acceleration / (G * cos(radians(1)))
+    required = max(abs(on_ramp), abs(acceleration) / G)
+    assert answer.required_friction == pytest.approx(required, abs=1e-9)
     key = "slides_up" if acceleration < 0 else "slides_down"
-    expected = degrees(atan(3.0) - atan(abs(acceleration) / G))
+    expected = degrees(atan(3.0) - atan(required))
     assert answer.findings[key].margin == pytest.approx(expected, abs=DEGREE)
     assert answer.verdict == "go"
 

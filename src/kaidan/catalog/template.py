@@ -93,6 +93,9 @@ def _tables(sheet: type[Sheet]) -> Iterator[str]:
                 if (of_list := table_of_list(inner)) is not None:
                     yield from ("", *_comment(inner), f"#[[{name}.{inner_name}]]")
                     yield from _fields(of_list, {}, "#")
+        elif (of_list := table_of_list(field)) is not None:
+            yield from ("", "", *_comment(field), f"#[[{name}]]")
+            yield from _fields(of_list, {}, "#")
         elif (each := table_of_each(field)) is not None:
             yield from ("", "", *_comment(field), f"#[{name}.example]")
             yield from _fields(each, {}, "#")

@@ -263,7 +263,7 @@ def test_every_refusal_is_one_sentence():
     numbers = dict.fromkeys(
         ("angle_deg", "residual_mm", "turn_deg", "height_mm", "steps", "needed", "spread_mm",
          "range_m", "cell_mm", "ways", "links", "names", "mass_kg", "height_m", "rise_mm",
-             "reason", "count", "low_m", "high_m"), 1
+             "reason", "count", "low_m", "high_m", "radius_mm", "gap_mm"), 1
     )  # fmt: skip
     for why in REFUSALS:
         said = str(Refusal(why, numbers, HERE))

@@ -89,6 +89,8 @@ class Monitor:
         stance = robot.stance(posture, payload)
         self.strict = strict
         limits = AlarmLimits() if limits is None else limits
+        if not isinstance(limits, AlarmLimits):
+            raise InputError(f"limits = {shown(limits)} are no AlarmLimits")
         self._alarm, self._liveness = Alarm(limits), Liveness(limits)
         self._tally = Tally(robot.name, stairs.name)
         self._sign = 1.0 if nose == "up" else -1.0
