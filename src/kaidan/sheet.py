@@ -51,16 +51,8 @@ def quantity(
     low, high : float
         Plausible range, both ends allowed: wide enough for every real thing, narrow enough to
         refuse millimetres, feet and degrees.
-    meaning : str
-        What the quantity is.
     default : object, optional
         Default; required without one.
-    symbol : str, optional
-        Symbol of the paper.
-
-    Returns
-    -------
-    pydantic field
     """
     return Field(
         default,
@@ -220,12 +212,7 @@ AnySheet = TypeVar("AnySheet", bound=Sheet)
 
 
 class Itself(Generic[AnySheet]):
-    """A sheet as a key: the same if it is the same object, because it takes long to compare two.
-
-    Parameters
-    ----------
-    sheet : Sheet
-    """
+    """A sheet as a key: the same if it is the same object, because it takes long to compare two."""
 
     __slots__ = ("sheet",)
 

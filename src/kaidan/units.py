@@ -70,11 +70,6 @@ def parse(text: str, kind: str, *, option: str) -> float:
     float
         Value in m, rad, kg, m/s^2, m/s, s, N/m and so on; always finite.
 
-    Raises
-    ------
-    InputError
-        No number, no unit (with the fix), or a unit of something else.
-
     Examples
     --------
     >>> parse("7 1/2in", "length", option="--rise")
@@ -96,15 +91,6 @@ def parse_range(text: str, kind: str, *, option: str) -> tuple[float, float]:
         "0.6..1.0", "0.6-1.0" or "0.6 to 1.0"; with units "1deg..2.6deg" or "1..2.6deg".
     kind, option : str
         As `parse` has them.
-
-    Returns
-    -------
-    low, high : float
-
-    Raises
-    ------
-    InputError
-        As `parse`, or a range with one end or upside down.
 
     Examples
     --------
@@ -139,15 +125,6 @@ def value_of(value: Any, kind: str, *, option: str) -> float:
     kind, option : str
         As `parse` has them.
 
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    InputError
-        Neither, or not finite.
-
     Examples
     --------
     >>> value_of("290mm", "length", option="rise"), value_of(0.29, "length", option="rise")
@@ -167,15 +144,6 @@ def range_of(value: Any, kind: str, *, option: str) -> tuple[float, float]:
         In SI where it is no text.
     kind, option : str
         As `parse` has them.
-
-    Returns
-    -------
-    low, high : float
-
-    Raises
-    ------
-    InputError
-        None of these, not finite, or upside down.
 
     Examples
     --------

@@ -90,7 +90,6 @@ def with_plan(question: Question, *, limits: tuple[float, float] | None = None) 
 
     Parameters
     ----------
-    question : Question
     limits : (float, float), optional
         Angles allowed [rad]; those of the search without them.
     """
@@ -107,7 +106,6 @@ def found_plan(
 
     Parameters
     ----------
-    question : Question
     limits : (float, float), optional
         Angles allowed [rad]; those of the search without them.
     """
@@ -131,10 +129,6 @@ def off_plan(question: Question, found: Findings, search: "Found | None" = None)
     ----------
     question : Question
         With the plan; its `tolerance` is how far off the angles may be.
-    found : Findings
-        At its angles.
-    search : Found, optional
-        What found the plan, which knows already.
     """
     if not question.tolerance:
         return found

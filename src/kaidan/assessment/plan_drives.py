@@ -60,8 +60,6 @@ def friction_without_failure(
 
     Parameters
     ----------
-    question : Question
-        To the contact model.
     moved : callable, optional
         What changes a posture, as for `planned.drive`.
     """
@@ -146,9 +144,6 @@ class Drives:
 
         Parameters
         ----------
-        profile : Profile
-        question : Question
-            In one posture.
         sought, **how
             As for `kaidan.traversal.traverse`.
         """

@@ -46,7 +46,6 @@ class Search:
 
     Parameters
     ----------
-    question : Question
     facing : {"nose-first", "tail-first"}
         Which end leads.
     limits : (float, float)
@@ -219,11 +218,6 @@ def _order(figures: Sequence[Array], cost: Array | float) -> tuple[Array, Array,
         Of each phase, see `_figures`.
     cost : float or array
         What the changes have to gain [deg].
-
-    Returns
-    -------
-    passes, failing, value
-        Larger is better, the first first.
     """
     passes, _, margin, drop, _ = reduce(np.minimum, figures)
     failing, value = (sum(each[k] for each in figures) for k in (1, 4))

@@ -55,8 +55,6 @@ def holds_off_its_angles(question: Question, drives: Drives | None = None) -> bo
     ----------
     question : Question
         Its `tolerance` is how far off they are.
-    drives : Drives, optional
-        Of a similar question.
     """
     drives = Drives() if drives is None else drives
     middle = question.changed(robot=question.robot.middle)
@@ -74,8 +72,6 @@ def friction_off_its_angles(question: Question, drives: Drives | None = None) ->
     ----------
     question : Question
         Its `tolerance` is how far off they are; 0: nothing is required there.
-    drives : Drives, optional
-        Of a similar question.
     """
     drives = Drives() if drives is None else drives
     middle = shortened(question.changed(robot=question.robot.middle))

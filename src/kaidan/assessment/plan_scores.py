@@ -95,11 +95,8 @@ class Scores:
 
     Parameters
     ----------
-    question : Question
     facing : {"nose-first", "tail-first"}
         Which end leads.
-    belts : Gripping, optional
-        Belts with grousers that hold in place of one friction of smooth belts.
     """
 
     def __init__(self, question: Question, facing: Facing, belts: Gripping | None = None) -> None:

@@ -85,15 +85,8 @@ def better_than(
         With `best_of`.
     limits : (float, float)
         Angles allowed [rad]; the stowed angle and lying flat always are.
-    drives : Drives, optional
-        Of the search for a similar question.
     other_frictions : bool
         Whether the best plans at `OTHER_FRICTIONS` are tried too.
-
-    Returns
-    -------
-    Found
-        Of plans that are alike the one with fewer changes, nose first, flippers stowed.
     """
     kept = question.tolerance or None
     stated = question.changed(best_of=(), changes=(), flipper_tolerance=kept)

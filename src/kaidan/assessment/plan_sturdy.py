@@ -80,8 +80,6 @@ class Sturdier:
         Of the search that found the plan: where each of its phases begins and ends.
     limits : (float, float)
         Angles allowed [rad].
-    drives : Drives
-        What was driven already.
     """
 
     def __init__(self, scores: Scores, limits: tuple[float, float], drives: Drives) -> None:
@@ -102,12 +100,7 @@ class Sturdier:
 
     def plan(self, plan: Plan) -> Plan | None:
         """The plan with another posture in each phase that is no GO off its angles; None: none is.
-
-        Parameters
-        ----------
-        plan : Plan
-            What the search came upon.
-        """
+    """
         found = []
         for phase, posture in plan.postures:
             better = self._better(phase, posture)

@@ -51,17 +51,7 @@ class Doubt(NamedTuple):
 
 
 def doubts_of(question: Question) -> tuple[Doubt, ...]:
-    """Inputs of a question that are not known exactly.
-
-    Parameters
-    ----------
-    question : Question
-        Of a robot that was weighed, or whose centroid has a standard uncertainty.
-
-    Returns
-    -------
-    tuple of Doubt
-    """
+    """Inputs of a question that are not known exactly."""
     found = [
         Doubt(name, sigma, None)
         for name, sigma in zip(SAMPLED, question.spread, strict=True)
@@ -88,7 +78,6 @@ def without(question: Question, group: str) -> Question | None:
 
     Parameters
     ----------
-    question : Question
     group : str
         One of the values of `GROUPS`.
     """

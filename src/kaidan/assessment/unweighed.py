@@ -52,10 +52,6 @@ def stretches(question: Question, found: Findings) -> CentroidShown:
         Of a robot with `com_range`.
     found : Findings
         Of the question, by `kaidan.models.judge`.
-
-    Returns
-    -------
-    CentroidShown
     """
     span = question.robot.com_range
     assert span is not None

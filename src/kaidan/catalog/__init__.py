@@ -79,14 +79,6 @@ def load(kind: Kind, name: str, read: Callable[..., T]) -> T:
     -------
     object
         What `read` makes of the text.
-
-    Raises
-    ------
-    UnknownNameError
-        No such name.
-    InputError
-        No such file, one that cannot be read, a sheet of another kind, or a robot of which no
-        centroid is published.
     """
     stem = name.strip().lower()
     folders: tuple[Folder, ...] = ("robots", "unweighed") if kind == "robots" else (kind,)
@@ -130,13 +122,7 @@ def _is_sheet_of(kind: Kind, text: str) -> bool:
 
 
 def text_of(path: Path) -> str:
-    """Text of a user's file, with or without a byte order mark.
-
-    Raises
-    ------
-    InputError
-        No such file, or one that cannot be a sheet.
-    """
+    """Text of a user's file, with or without a byte order mark."""
     origin = short(path)
     try:
         if path.is_dir():

@@ -21,17 +21,6 @@ def completed(text: str, figures: Mapping[str, Any], *, origin: str) -> str:
         left out by a "#" is taken into use.
     figures : mapping of str to object
         Values by dotted name: "mass", "track.flat_length", "sources.track.flat_length".
-    origin : str
-        What errors call the text.
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    InputError
-        A text that is no TOML, or one in which a figure has no line of its own.
     """
     _refuse_no_toml(text, origin)
     lines = text.splitlines()

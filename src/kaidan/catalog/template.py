@@ -33,15 +33,6 @@ _LETTERS = "# V: read in the named source, C: computed from a model, D: derived,
 def blank_toml(sheet: type[Sheet], *, name: str, title: str) -> str:
     """TOML text of a sheet to fill in.
 
-    Parameters
-    ----------
-    sheet : type of Sheet
-        What to fill in.
-    name : str
-        Name it gets.
-    title : str
-        First line of the text.
-
     Returns
     -------
     str

@@ -52,13 +52,6 @@ def question(*, without: Collection[str] = (), **defaults: str) -> Callable[[Com
     ----------
     without : collection of str
         Options that the command does not have.
-    **defaults : str
-        Defaults of options that are others here.
-
-    Returns
-    -------
-    callable
-        Decorator.
     """
     return shared((question_options,), question_of, without=without, **defaults)
 
@@ -74,17 +67,8 @@ def shared(
 
     Parameters
     ----------
-    declared : sequence of callable
-        Functions whose signatures declare the options.
-    made : callable
-        What makes one object of their values, given by name.
     without, **defaults
         As `question` has them.
-
-    Returns
-    -------
-    callable
-        Decorator.
     """
     given = {
         name: each.replace(default=defaults.get(name, each.default))

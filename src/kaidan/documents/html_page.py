@@ -49,13 +49,8 @@ def page(document: of.Document, pictures: Mapping[str, bytes]) -> str:
 
     Parameters
     ----------
-    document : Document
     pictures : mapping of str to bytes
         SVG by key; a picture without one is left out.
-
-    Returns
-    -------
-    str
     """
     body = chain.from_iterable(_part(each, pictures) for each in document.parts)
     title = _text(document.title)

@@ -42,11 +42,6 @@ def typeface_files() -> list[str]:
 
 def put_in_japanese(figure: "Figure") -> None:
     """Put the words of a figure in Japanese; words without any, and all without a typeface, stay.
-
-    Parameters
-    ----------
-    figure : Figure
-        Changed in place.
     """
     from matplotlib.text import Text
     from matplotlib.ticker import FixedLocator

@@ -41,18 +41,8 @@ def pages(document: of.Document, pictures: Mapping[str, bytes]) -> bytes:
 
     Parameters
     ----------
-    document : Document
     pictures : mapping of str to bytes
         PNG by key; a picture without one is left out.
-
-    Returns
-    -------
-    bytes
-
-    Raises
-    ------
-    MissingExtraError
-        ReportLab is not installed.
     """
     platypus: Any = needed("reportlab.platypus", "a report as PDF", "report")
     from reportlab.lib.pagesizes import A4

@@ -10,7 +10,6 @@ def scan_code(text: str, form: str) -> bytes | None:
 
     Parameters
     ----------
-    text : str
     form : {"svg", "png"}
 
     Returns

@@ -34,11 +34,6 @@ _FILLS = {
 def building_figure(found: "BuildingAnswer") -> Figure:
     """Plan of each storey that has flights.
 
-    Parameters
-    ----------
-    found : BuildingAnswer
-        Flights, floors, verdicts and turns.
-
     Returns
     -------
     Figure

@@ -24,10 +24,6 @@ _LARGEST = {"deg": 30.0, "mm": 100.0, "m/s": 2.0}
 def findings_figure(answer: "Assessment") -> Figure:
     """Bars of the margins of all failure modes that the answer has, those that fail marked.
 
-    Parameters
-    ----------
-    answer : Assessment
-
     Returns
     -------
     Figure

@@ -35,10 +35,6 @@ def mission_sketch(mission: "Mission") -> Figure:
     ----------
     mission : Mission
         One of a `Report`.
-
-    Returns
-    -------
-    Figure
     """
     if mission.traverse is None:
         return _robot_alone(mission.assessment)

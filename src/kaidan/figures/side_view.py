@@ -154,12 +154,6 @@ def draw_forces(
 
     Parameters
     ----------
-    axes : Axes
-        Of final limits.
-    stand : Stand
-        Pose.
-    forces : sequence of ForceShown
-        Contacts.
     kappa : float
         Tilt of effective gravity [1].
     scale : float

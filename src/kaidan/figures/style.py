@@ -168,14 +168,10 @@ def label_right(
     ----------
     axes : Axes
         Where the points are; its limits must be set.
-    items : sequence of (x, y, text)
-        Points in data coordinates.
     start : float
         Left end of the labels, as a share of the width of the axes.
     gap : float
         Least distance of neighbouring labels [in].
-    color : str
-        Of the leaders.
     """
     width, height = size_of(axes)
     to_axes = axes.transData + axes.transAxes.inverted()
@@ -203,8 +199,6 @@ def roomiest(inside: NDArray[np.bool_], width: float, height: float) -> tuple[fl
     ----------
     inside : array of bool, shape (rows, columns)
         Area, cell by cell.
-    width, height : float
-        Size of the rectangle as shares of the grid's width and height.
 
     Returns
     -------
@@ -254,12 +248,8 @@ def name_area(axes: Axes, inside: NDArray[np.bool_], text: str, *, size: float =
 
     Parameters
     ----------
-    axes : Axes
-        Of final size.
     inside : array of bool, shape (rows, columns)
         The area over the whole of the axes, first row at the bottom.
-    text : str
-        Name.
     size : float
         Type [pt].
     """

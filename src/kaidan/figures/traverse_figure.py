@@ -27,10 +27,6 @@ def traverse_figure(found: "TraverseReport", poses: int | None = None) -> Figure
         What `kaidan.traverse` answers.
     poses : int, optional
         Number of poses to draw; as many as fit without it.
-
-    Returns
-    -------
-    Figure
     """
     with look.settings():
         heads = _heads(found)
@@ -74,10 +70,6 @@ def side_figure(found: "TraverseReport", advice: str = "") -> Figure:
         What `kaidan.traverse` answers.
     advice : str
         What to do, in one line; empty where there is nothing to do.
-
-    Returns
-    -------
-    Figure
     """
     with look.settings():
         heads = [*_heads(found), *([advice] if advice else [])]

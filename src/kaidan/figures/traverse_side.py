@@ -40,8 +40,6 @@ def view_of(found: "TraverseReport", width: float) -> tuple[float, float, float,
 
     Parameters
     ----------
-    found : TraverseReport
-        Traverse.
     width : float
         Of the view [in].
 

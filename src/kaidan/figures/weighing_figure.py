@@ -26,10 +26,6 @@ def weighing_figure(found: "RobotMeasurement | None" = None) -> Figure:
     ----------
     found : RobotMeasurement, optional
         Whose figures are drawn; without one the procedure of any robot.
-
-    Returns
-    -------
-    Figure
     """
     sketch = EXAMPLE if found is None else _sketch(found)
     at = {} if found is None else found.inputs

@@ -103,12 +103,8 @@ def plan_acceleration(question: Question, at: Draws, step: int, v_min: float = 0
 
     Parameters
     ----------
-    question : Question
-        Its acceleration plays no part.
     at : Draws
         Nominal inputs (the first row counts).
-    step : int
-        Which of the flight's different steps.
     v_min : float
         Slowest speed of the plan [m/s].
 

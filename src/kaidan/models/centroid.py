@@ -13,13 +13,6 @@ from kaidan.question import Question
 def shift_of_centroid(question: Question, *, downhill: bool) -> float | None:
     """Shift along the track, away from the end that it tips over, that gives a margin of zero.
 
-    Parameters
-    ----------
-    question : Question
-        Its terrain needs regular steps; of several flights the steepest counts.
-    downhill : bool
-        Whether it tips over its downhill end.
-
     Returns
     -------
     float or None

@@ -33,15 +33,8 @@ def findings_of(
 
     Parameters
     ----------
-    question : Question
     room : (float or None, float or None)
         Clear width and headroom [m].
-    model : str
-        Model beside whose findings these stand.
-
-    Returns
-    -------
-    tuple of Finding
     """
     each = []
     width, headroom = room

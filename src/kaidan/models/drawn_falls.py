@@ -77,17 +77,9 @@ def drawn_falls(
 
     Parameters
     ----------
-    question : Question
-        Driven along its heading.
-    found : Traverse
-        Of the question.
     first_rock : ndarray
         By how much the tilt to the first rock differs in each sample [rad]; one alone where nothing
         is in doubt.
-    which : ndarray of bool
-        Samples that rock, whose tilt to the fall counts; of the others nothing is driven.
-    downhill : bool
-        Over which end it falls.
     """
     nominal = (found.falls_downhill if downhill else found.falls_uphill).tilt
     spare = np.asarray(nominal - question.reserve + first_rock)

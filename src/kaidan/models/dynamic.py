@@ -73,7 +73,6 @@ def findings_of(draws: Sequence[Draw], *, risk: float = 0.01) -> Findings:
 
     Parameters
     ----------
-    draws : sequence of tuple of TrialResult
     risk : float
         Probability of failure that is accepted [1].
     """

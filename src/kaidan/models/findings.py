@@ -124,8 +124,6 @@ def sliding_where(most: Sequence[Finding], one: Finding) -> Finding:
     ----------
     most : sequence of Finding
         Of the part or the place that requires most.
-    one : Finding
-        Of all of them together.
     """
     slides = (SLIDES_DOWN, SLIDES_UP)
     at = next((each for each in most if each.mode in slides), None)

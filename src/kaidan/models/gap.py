@@ -57,16 +57,8 @@ def jams(
 
     Parameters
     ----------
-    question : Question
-        As driven.
-    found : Traverse
-        Of the question.
     required : float
         Friction that it requires [1].
-    place : Place
-        Where that is required.
-    phase : Phase, optional
-        Part of the traverse to judge alone.
 
     Returns
     -------

@@ -76,18 +76,12 @@ def drive(
 
     Parameters
     ----------
-    question : Question
-        Straight up or down.
     over : callable
         What drives a part, as `driven_over` does: its path, and whether it arrives, is needed.
     moved : callable
         What changes a posture; `move` without it.
     **how
         As for `kaidan.traversal.traverse`.
-
-    Returns
-    -------
-    Planned
     """
     moved, profile = moved or move, profile_of(question)
     stages = list(stages_of(question))
@@ -145,13 +139,8 @@ def findings(question: Question, planned: Planned, *, most: float = math.inf) ->
     ----------
     question : Question
         As it was put; what plays no part in the traverse may differ from what was driven.
-    planned : Planned
     most : float
         As for `kaidan.models.quasi_static.findings_of`.
-
-    Returns
-    -------
-    Findings
     """
     of_parts = []
     for part in planned.parts:

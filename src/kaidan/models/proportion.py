@@ -10,11 +10,6 @@ _ROUNDS = 60
 def interval(failed: int, trials: int) -> tuple[float, float]:
     """Clopper-Pearson interval of a probability, 95 %.
 
-    Parameters
-    ----------
-    failed, trials : int
-        Trials that failed, of so many.
-
     Returns
     -------
     (float, float)

@@ -122,19 +122,9 @@ def findings_of(
 
     Parameters
     ----------
-    question : Question
-        As it was put.
-    basis : Basis
-        Its traverse.
-    phase : Phase, optional
-        Part of the traverse to judge alone.
     most : float
         Margin of slope beyond which a larger one is no better [rad]. That of a fall is then found
         no farther than it may be the smallest.
-
-    Returns
-    -------
-    Findings
     """
     driven, found = basis
     if not _answered(driven, found):
@@ -250,8 +240,6 @@ def sliding_margin(question: Question, basis: Basis) -> Array:
     ----------
     question : Question
         To be judged by `findings_of`.
-    basis : Basis
-        Its traverse.
 
     Returns
     -------

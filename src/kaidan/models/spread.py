@@ -73,19 +73,7 @@ class Spread(NamedTuple):
 
 
 def spread(question: Question, traverse: Traverse) -> Spread:
-    """Spread of the margins of a question; one sample, all zero, where every input is exact.
-
-    Parameters
-    ----------
-    question : Question
-        Driven along its heading.
-    traverse : Traverse
-        Of the question.
-
-    Returns
-    -------
-    Spread
-    """
+    """Spread of the margins of a question; one sample, all zero, where every input is exact."""
     if not question.uncertain:
         return Spread(*np.zeros((10, 1)))
     count, flight = sample_count(question), question.steepest_flight
@@ -139,7 +127,6 @@ def nosings_of(profile: Profile, drawn: Array) -> Array:
 
     Parameters
     ----------
-    profile : Profile
     drawn : array, shape (6, samples)
         Of `drawn_of_all`.
     """
@@ -219,7 +206,6 @@ def moved_profile(profile: Profile, nosings: Array) -> Profile:
 
     Parameters
     ----------
-    profile : Profile
     nosings : array, shape (m, 2)
         New places, in their order [m].
     """

@@ -183,8 +183,6 @@ def margins_of(question: Question, flight: Stairs, psi: Array, *, certain: bool 
     ----------
     question : Question
         Its robot must have a gauge; its own yaw plays no part.
-    flight : Stairs
-        Of the question.
     psi : array, shape (k,)
         Yaws [rad].
     certain : bool
@@ -226,8 +224,6 @@ def energy_of(question: Question, flight: Stairs, psi: Array) -> Array:
     ----------
     question : Question
         Its robot must have a gauge; its own yaw plays no part.
-    flight : Stairs
-        Of the question.
     psi : array, shape (k,)
         Yaws [rad].
 
@@ -283,13 +279,6 @@ def _edges(at: Draws, gauge: float, psi: Array) -> _Edges:
 
 def yaw_limit(question: Question, flight: Stairs) -> float | None:
     """Yaw from which the robot tips on the flight, less the allowances, at the chosen risk.
-
-    Parameters
-    ----------
-    question : Question
-        Its own yaw plays no part.
-    flight : Stairs
-        Of the question.
 
     Returns
     -------

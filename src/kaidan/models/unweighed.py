@@ -44,8 +44,6 @@ def judge_range(question: Question, judge: Judge) -> Findings:
     ----------
     question : Question
         Of a robot with `com_range`.
-    judge : callable
-        Findings of a question about a robot of known centroid.
 
     Returns
     -------
@@ -88,13 +86,7 @@ def judge_range(question: Question, judge: Judge) -> Findings:
 
 
 def at(question: Question, com_from_front: float, com_height: float, judge: Judge) -> Placed:
-    """One centroid, judged.
-
-    Raises
-    ------
-    InputError
-        A place that the robot cannot have in this posture.
-    """
+    """One centroid, judged."""
     robot = question.robot.with_centroid(com_from_front, com_height)
     weighed = question.changed(robot=robot)
     return Placed(com_from_front, com_height, weighed, judge(weighed))

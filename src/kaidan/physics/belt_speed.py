@@ -14,8 +14,6 @@ class Belt:
 
     Parameters
     ----------
-    spec : TrialSpec
-    course : Course
     at_once : bool
         Whether the robot moves when the drive begins; else it comes to speed in `RAMP`.
     """

@@ -127,8 +127,6 @@ def slope_of(profile: Profile, room: float) -> float:
 
     Parameters
     ----------
-    profile : Profile
-        As driven.
     room : float
         Distance of two nosings from which on a landing lies between them [m].
     """
@@ -150,10 +148,6 @@ def _on_the_landing(outline: Outline, profile: Profile, before: float) -> tuple[
 
     Parameters
     ----------
-    outline : Outline
-        Robot as driven.
-    profile : Profile
-        Terrain as driven.
     before : float
         Distance of the foremost point from the first nosing [m].
     """

@@ -46,13 +46,7 @@ SIGNATURES = {
 
 @cache
 def kernel() -> ModuleType:
-    """The inner loop, compiled by numba; kept on disk where numba finds a folder for it.
-
-    Raises
-    ------
-    MissingExtraError
-        numba is not installed.
-    """
+    """The inner loop, compiled by numba; kept on disk where numba finds a folder for it."""
     if importlib.util.find_spec("numba") is None:
         raise MissingExtraError("a yielding track", "physics")
     alias = f"{rubber.__name__}_compiled"

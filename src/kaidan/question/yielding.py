@@ -50,7 +50,6 @@ def theta_d_at(question: QuestionFields, *, L: Any, p: Any, C_L: Any, C_N: Any) 
 
     Parameters
     ----------
-    question : Question
     L, p, C_L, C_N : float or array
         Flat length, nosing spacing, centroid behind the uphill tip and above the underside [m].
     """

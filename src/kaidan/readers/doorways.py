@@ -15,14 +15,8 @@ def doorways_of(bodies: Sequence[Body], unit: float) -> Iterator[Doorway]:
 
     Parameters
     ----------
-    bodies : sequence of Body
-        Elements of a building model, in metres.
     unit : float
         Length of the unit of their attributes [m].
-
-    Yields
-    ------
-    Doorway
     """
     for body in bodies:
         if body.category != "IfcDoor" or len(body.vertices) == 0:

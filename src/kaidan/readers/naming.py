@@ -32,11 +32,6 @@ def named_apart(drawn: Sequence[Flight]) -> tuple[Flight, ...]:
     ----------
     drawn : sequence of Flight
         With the identity and the name of what each is drawn as.
-
-    Returns
-    -------
-    tuple of Flight
-        From the lowest up.
     """
     flights = list(_told_apart(drawn))
     total = Counter(each.name for each in flights)

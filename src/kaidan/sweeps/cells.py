@@ -45,8 +45,6 @@ def judged_row(question: Question, known: Findings | None = None) -> tuple[Row, 
     ----------
     question : Question
         Its posture is found where it is to be.
-    known : Findings, optional
-        Of a similar question.
     """
     planned, search = found_plan(question)
     if search is None or search.question is not planned:

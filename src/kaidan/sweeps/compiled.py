@@ -41,11 +41,6 @@ def compiled(formula: Callable[..., Any]) -> Any:
     -------
     callable
         Its compiled twin; keyword-only arguments have become positional in the same order.
-
-    Raises
-    ------
-    MissingExtraError
-        numba is not installed.
     """
     assert isinstance(formula, FunctionType)
     code = formula.__code__

@@ -94,11 +94,6 @@ class Parameter(NamedTuple):
 def parameter(name: str) -> Parameter:
     """Parameter of a name.
 
-    Raises
-    ------
-    InputError
-        An unknown name; the text lists the known ones.
-
     Examples
     --------
     >>> parameter("front_flippers.length")
@@ -182,13 +177,7 @@ def _moved(payload: Any, name: str, value: float) -> tuple[Payload, ...]:
 
 
 def shaped(stairs: Any, shape: Mapping[str, Any]) -> Any:
-    """Stairs with another shape, or of a shape alone.
-
-    Raises
-    ------
-    InputError
-        A shape that is not whole, twofold, or of stairs that are not uniform.
-    """
+    """Stairs with another shape, or of a shape alone."""
     if not shape:
         return stairs
     sides, slope = shape.keys() & {"rise", "going"}, shape.keys() & {"angle", "nosing_spacing"}
@@ -223,8 +212,6 @@ def value_now(values: Mapping[str, Any], name: str) -> float | None:
     ----------
     values : mapping of str to object
         As `question_of` takes them.
-    name : str
-        Parameter that is a number.
 
     Examples
     --------

@@ -31,13 +31,8 @@ def page(found: "BuildingAnswer", plan: str) -> str:
 
     Parameters
     ----------
-    found : BuildingAnswer
     plan : str
         Picture of the plan as SVG, empty for none.
-
-    Returns
-    -------
-    str
     """
     parts = [
         "<!DOCTYPE html>",

@@ -83,8 +83,6 @@ def japanese(text: str, table: str = "sentence") -> str | None:
     ----------
     text : str
         What a function of `kaidan.text` said.
-    table : str
-        Of what it is one.
 
     Examples
     --------

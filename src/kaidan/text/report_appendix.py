@@ -44,9 +44,6 @@ def appendix(found: "Report", mission: "Mission", number: int) -> list[Block]:
 
     Parameters
     ----------
-    found : Report
-    mission : Mission
-        One of its missions.
     number : int
         Of the mission, from 0.
     """

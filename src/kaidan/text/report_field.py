@@ -32,7 +32,6 @@ def field_page(mission: "Mission", number: int) -> tuple[Block, ...]:
 
     Parameters
     ----------
-    mission : Mission
     number : int
         Of the mission in its document, from 0.
     """

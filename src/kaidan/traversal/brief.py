@@ -28,8 +28,6 @@ def by_how_long(path: contact.Path, traction: Array, row: NDArray[np.int64]) -> 
 
     Parameters
     ----------
-    path : contact.Path
-        With margins.
     traction : ndarray
         Force without its sign, of the poses of the path and of some between them [N/kg].
     row : ndarray of int

@@ -38,16 +38,8 @@ def contact_forces(traverse: Traverse, row: int, acceleration: float) -> tuple[F
 
     Parameters
     ----------
-    traverse : Traverse
-        With margins.
-    row : int
-        Pose of its path.
     acceleration : float
         Up the stairs [m/s^2].
-
-    Returns
-    -------
-    tuple of Force
     """
     path = traverse.path
     assert path.margins is not None

@@ -76,18 +76,12 @@ def drawn_criterion(
         As they are taken to be: they say where landings are.
     drawn : array, shape (draws, n, 2)
         Of each draw, from bottom to top: x uphill, z up [m].
-    tread : Tread
-        For the radii of the ends, which are exact.
     on : DrawnTread
         Underside of each draw.
     acceleration : float
         Up the stairs [m/s^2].
     within : (float, float)
         Part of the flight that counts, by the place of the centroid [m].
-
-    Returns
-    -------
-    Drawn
     """
     count = len(drawn)
     rows = max(1, BLOCK // max(1, len(nosings)))

@@ -79,10 +79,6 @@ def criterion_of(driven: Profile, body: Outline, along: float) -> tuple[Tread, C
 
     Parameters
     ----------
-    driven : Profile
-        Terrain as driven, towards +x.
-    body : Outline
-        Robot, x towards the end that leads.
     along : float
         Acceleration along the path [m/s^2].
     """

@@ -51,13 +51,6 @@ class Stage:
 def fall_stages(traverse: Traverse, leading: End) -> tuple[Stage, ...]:
     """Stages of the largest rotation over the downhill end while traversing.
 
-    Parameters
-    ----------
-    traverse : Traverse
-        Whose.
-    leading : str
-        nose or tail.
-
     Returns
     -------
     tuple of Stage

@@ -34,10 +34,6 @@ class Grip:
 
     Parameters
     ----------
-    path : contact.Path
-        With margins.
-    descending : bool
-        Whether it leads down the stairs.
     acceleration : float
         Along the path [m/s^2].
     """
@@ -90,8 +86,6 @@ class Grip:
         ----------
         phi : tuple of float
             Angles of friction of nosings, treads and riser faces [rad].
-        grousers : Grousers
-            On the belts.
         by_friction : ndarray
             What `by_friction` found.
         passing : bool

@@ -187,15 +187,8 @@ def move(
 
     Parameters
     ----------
-    robot : Robot
-    one, two : Posture
-    before : Phase
-        Phase that it prepares.
-    start : Placement
-        Where the robot stands in the first posture, the leading end ahead.
     ground : array, shape (n, 2)
         Terrain as driven [m].
-    payload : tuple of Payload
     facing : {"nose-first", "tail-first"}
         Which end leads.
 

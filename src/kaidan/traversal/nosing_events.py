@@ -31,11 +31,6 @@ class _Passing(NamedTuple):
 def nosing_events(path: contact.Path) -> Events:
     """Events REACHED and LEFT of a traverse, in its order.
 
-    Parameters
-    ----------
-    path : contact.Path
-        With its poses.
-
     Returns
     -------
     contact.Events

@@ -92,12 +92,6 @@ def rate(
 
     Parameters
     ----------
-    profile : Profile
-        Terrain from the lower to the upper landing.
-    parts : sequence of Part
-        Of robots with as many parts of their underside, of the same kinds.
-    descending : bool
-        From the upper landing to the lower one.
     acceleration : float
         Acceleration UP the stairs [m/s^2].
     tilts : tuple of float
@@ -111,11 +105,6 @@ def rate(
     -------
     list of Rated or None
         None for one that does not arrive.
-
-    Raises
-    ------
-    InputError
-        A profile too long for the kernel at hand.
     """
     driven = profile.reflected() if descending else profile
     lengths = [each.outline.stance.flat_length for each in parts]

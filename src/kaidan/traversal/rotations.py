@@ -242,22 +242,12 @@ def rotations_of(
 
     Parameters
     ----------
-    path : contact.Path
-        As driven.
-    profile : Profile
-        As driven.
     phase : ndarray of str
         Phase of each pose.
-    descending : bool
-        Whether the path leads down the stairs.
     flat_length : float
         Length of the flat [m].
     acceleration : float
         Along the path [m/s^2].
-
-    Returns
-    -------
-    tuple of Rotation
     """
     found = []
     on_flights = slopes_of_flights(profile, flat_length)

@@ -32,8 +32,6 @@ def samples_of(path: contact.Path, phase: NDArray[np.str_], acceleration: float)
 
     Parameters
     ----------
-    path : contact.Path
-        With margins.
     phase : ndarray of str
         Phase of each pose.
     acceleration : float

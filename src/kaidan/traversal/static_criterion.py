@@ -38,16 +38,8 @@ def static_criterion(nosings: Array, tread: Tread, *, acceleration: float = 0.0)
     ----------
     nosings : array, shape (n, 2)
         From bottom to top: x uphill, z up [m].
-    tread : Tread
-        Underside on the flight.
     acceleration : float
         Up the stairs [m/s^2].
-
-    Returns
-    -------
-    Criterion
-        Poses over a landing, a distance of nosings of the flat's length or more, are left out: they
-        enter or land.
     """
     return _of_nosings(np.ascontiguousarray(nosings).tobytes(), tread, acceleration)
 

@@ -45,8 +45,6 @@ def largest_survived(
 
     Parameters
     ----------
-    survives : callable
-        Whether the robot survives a tilt.
     sought : sequence of float, optional
         Tilts which it may only exceed or not [rad]: a smaller one is found where that says as much
         of each.

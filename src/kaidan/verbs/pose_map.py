@@ -91,15 +91,8 @@ def pose_map(
 
     Parameters
     ----------
-    question : Question
     passage : Traverse
         In one posture; as `kaidan.verbs.traverse.driven` gives it.
-    columns, rows : int
-        Size of the grid.
-
-    Returns
-    -------
-    PoseMap
     """
     if not isinstance(passage, Traverse):
         raise InputError("pose map: it is of one posture; state angles, flat or stowed")

@@ -72,13 +72,7 @@ class FileAnswer(Answer):
         return 0 if found else Verdict.OUTSIDE_MODEL.exit_code
 
     def sheets(self) -> dict[str, Sheet]:
-        """Data sheets of the one robot, or of the flights of the one staircase, by name.
-
-        Raises
-        ------
-        InputError
-            Nothing was found, or several things.
-        """
+        """Data sheets of the one robot, or of the flights of the one staircase, by name."""
         if self.robots:
             return {self.robots[0].name: self.robots[0].sheet}
         if len(self.staircases) != 1:

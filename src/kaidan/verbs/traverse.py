@@ -64,17 +64,8 @@ def traverse_report(
 
     Parameters
     ----------
-    question : Question
     passage : Traverse or Planned
         As `driven` gives it.
-    most : int
-        Most poses in the answer.
-    search : Found, optional
-        What found the plan of the question.
-
-    Returns
-    -------
-    TraverseReport
     """
     if isinstance(passage, Planned):
         return planned_report(question, passage, most=most, search=search)

@@ -76,8 +76,6 @@ def sweep_summary(*, go_only: bool = False, **values: Any) -> Answer:
 
     Parameters
     ----------
-    go_only : bool
-        Spare the contact model cells of which the closed form alone says that they are no GO.
     **values
         As in `kaidan.sweep`: a value, or a list of values of it.
     """
@@ -174,11 +172,6 @@ def answered(verb: str, body: Mapping[str, Any]) -> Answer:
     body : mapping
         Keywords of its function, as JSON has them; or "question", as answers have it, with what
         is changed of it.
-
-    Raises
-    ------
-    InputError
-        An unknown or a missing keyword, or an input without physical meaning.
 
     Examples
     --------

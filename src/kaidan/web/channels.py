@@ -34,10 +34,6 @@ class Channel:
     ----------
     begun : mapping
         As `kaidan.web.watching.begun` gives it.
-    hands : Hands
-        Who judge.
-    client : str
-        Who began it.
     """
 
     def __init__(self, begun: Mapping[str, Any], hands: Hands, client: str) -> None:
@@ -70,13 +66,8 @@ class Channel:
 
         Parameters
         ----------
-        samples : list of Sample
-        again : bool
-            Whether the climb begins anew.
         recorded : bool
             Whether their stamps alone tell the time: they may come when they like.
-        ends : bool
-            Whether it ends with these, so that there is a summary.
         """
         arrived = None if recorded else time.monotonic()
         async with self._turn:

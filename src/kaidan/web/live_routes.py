@@ -113,11 +113,6 @@ def samples_of(given: Any) -> list[Sample]:
     given : list of mappings
         Each with the columns of a file of samples.
 
-    Raises
-    ------
-    InputError
-        Something else.
-
     Examples
     --------
     >>> samples_of([{"t": 0, "inclination": 0.5, "inclination_rate": 0}])[0].acceleration

@@ -37,15 +37,6 @@ def result_of(verb: str, body: Mapping[str, Any], folder: Path) -> Result:
     ----------
     verb : str
         One of `JOBS`.
-    body : mapping
-        What it needs to know.
-    folder : Path
-        Its own: what is done is kept there, and there its file lies.
-
-    Raises
-    ------
-    InputError
-        An input without physical meaning.
     """
     if verb == "film":
         return _film(body)

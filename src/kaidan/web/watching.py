@@ -19,18 +19,7 @@ from kaidan.web.asking import live_question
 
 
 def begun(body: Mapping[str, Any]) -> bytes:
-    """First line of a climb and its monitor, in JSON.
-
-    Parameters
-    ----------
-    body : mapping
-        robot, stairs, direction, facing, flippers, payload, override, limits.
-
-    Raises
-    ------
-    InputError
-        Something else, or stairs that the monitor does not know.
-    """
+    """First line of a climb and its monitor, in JSON."""
     asked = dict(body)
     given = asked.pop("limits", None) or {}
     if not isinstance(given, Mapping):
@@ -62,8 +51,6 @@ def fed(monitor: str, samples: list[list[Any]], arrived: float | None, *, ends: 
         Each with the values of a `kaidan.verbs.monitor.Sample`.
     arrived : float or None
         When they came [s]; None where their stamps alone tell the time.
-    ends : bool
-        Whether there is to be a summary of all samples.
     """
     watch = _opened(monitor)
     states = [watch.feed(Sample(*each), arrived) for each in samples]

@@ -30,13 +30,7 @@ _ANY = (Exception, asyncio.CancelledError, concurrent.futures.CancelledError)
 
 
 def distributed() -> Any:
-    """The module, imported when it is needed.
-
-    Raises
-    ------
-    MissingExtraError
-        distributed is not installed.
-    """
+    """The module, imported when it is needed."""
     try:
         return import_module("distributed")
     except ImportError:

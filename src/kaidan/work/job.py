@@ -101,10 +101,6 @@ def perform(work: Work, spec: Any, version: str) -> Reply:
 
     Parameters
     ----------
-    work : Work
-        What is done.
-    spec : object
-        With what.
     version : str
         Version at the place where the campaign is planned.
 

@@ -22,10 +22,6 @@ class Progress:
     ----------
     total : int
         Trials of the plan; those done before are subtracted, so that the time left is right.
-    shown : bool
-        Whether to show it at all.
-    what : str
-        What is counted.
     """
 
     def __init__(self, total: int, *, shown: bool, what: str = "trials") -> None:

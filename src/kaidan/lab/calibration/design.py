@@ -117,13 +117,8 @@ def points_of(
 
     Parameters
     ----------
-    bench : Bench
-        What runs the trials.
     evidence : Evidence
         Of which only the conditions are used, no result.
-    robot : Robot
-        Whose ends are replaced.
-    places : sequence of (shares, ground)
     """
     settings = [setting_of(robot, shares, ground) for shares, ground in places]
     series = [series_of(evidence, setting) for setting in settings]

@@ -158,8 +158,6 @@ def trial_of(
         [m]
     friction : float
         [1]
-    seed : int
-        Of start offset and phase.
     """
     question = Question.in_one_posture(
         ROBOT,

@@ -27,10 +27,6 @@ def calibration_figure(found: "Calibration") -> Figure:
     ----------
     found : Calibration
         What `kaidan.lab.calibration.report.calibrate` found.
-
-    Returns
-    -------
-    Figure
     """
     with look.settings():
         figure = look.blank(3.5)
@@ -169,10 +165,6 @@ def effects_figure(found: "GrouserEffects") -> Figure:
     ----------
     found : GrouserEffects
         What `kaidan.lab.calibration.effects.effects` found.
-
-    Returns
-    -------
-    Figure
     """
     panels = [
         ("height", 1e3, "height [mm]"),

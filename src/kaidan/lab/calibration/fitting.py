@@ -160,13 +160,6 @@ def intervals(
 
     It has the values whose profile likelihood, the largest over all other parameters, is within
     1.92 (``WITHIN``) of the largest of all.
-
-    Parameters
-    ----------
-    candidates : sequence of Candidate
-        All of a grid.
-    judge : callable
-        Logarithm of the likelihood that counts.
     """
     best = max(candidates, key=judge)
     found = []

@@ -98,8 +98,6 @@ def margins_of(
 
     Parameters
     ----------
-    bench : Bench
-        What runs the trials.
     jobs : sequence of (setting, nosing spacing [m], direction, slopes [deg])
         Whose margins to find.
     """

@@ -43,12 +43,8 @@ def log_likelihood(evidence: Evidence, margin: Array, spread: Array, extra: Arra
 
     Parameters
     ----------
-    evidence : Evidence
-        Of which the zone and theta_d are used.
     margin, spread : array
         Slope from which it falls at the zone's spacing, and its standard deviation [deg].
-    extra, doubt : array
-        log(SMALL + theta_d), and its standard deviation.
 
     Notes
     -----
@@ -86,14 +82,8 @@ def posterior(
         By ground, "steps" and "noses".
     evidence : Evidence
         Of which only the zone and theta_d are used.
-    seed : int
     steps : int
         Of each of the sampler's walkers; a third of them is thrown away.
-
-    Raises
-    ------
-    MissingExtraError
-        emcee is not installed.
     """
     if find_spec("emcee") is None:
         raise MissingExtraError("the posterior", "calibration")

@@ -95,8 +95,6 @@ def zone(
         Nosing spacing [mm].
     counts : sequence of (angle, (falls, trials))
         At each slope [deg].
-    probability, best : float
-        Of the fall zone with this candidate, and at best.
     """
     found = ", ".join(f"{falls} of {trials} at {angle:.1f}" for angle, (falls, trials) in counts)
     return (

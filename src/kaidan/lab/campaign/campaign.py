@@ -77,20 +77,12 @@ def rows_of(
     ----------
     work : Work
         What is done with each.
-    specs : sequence
     store : str or Path
         Folder of the results; made if it does not exist, resumed if it does.
-    columns : sequence of str
-        Of the table.
     workers : int, optional
         Processes; without one each processor gets one.
     progress : bool
         Whether to show on standard error how it goes, if that is a terminal.
-
-    Returns
-    -------
-    list of dict
-        In the order of the specs.
     """
     with (
         Store(Path(store), work) as opened,

@@ -262,13 +262,7 @@ _PLAN: TypeAdapter[VerificationTest | Grid] = TypeAdapter(Plan)
 
 
 def plan_from(stored: Any) -> VerificationTest | Grid:
-    """Plan as a store keeps it.
-
-    Raises
-    ------
-    InputError
-        It is none, or of another version.
-    """
+    """Plan as a store keeps it."""
     try:
         return _PLAN.validate_python(stored)
     except InputError as error:

@@ -34,8 +34,6 @@ def steepest_climbed(question: Question, near: float, resolution: float) -> Foun
 
     Parameters
     ----------
-    question : Question
-        Robot and spacing.
     near : float
         Where to begin [deg]; NaN: in the middle.
     resolution : float
@@ -82,8 +80,6 @@ def friction_required(question: Question, formula: float, resolution: float) -> 
 
     Parameters
     ----------
-    question : Question
-        Its friction plays no part.
     formula : float
         What it should be about [1].
     resolution : float

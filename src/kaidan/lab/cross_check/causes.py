@@ -34,13 +34,8 @@ def why_not(judge_name: JudgeName, answer: Value, context: Context, *, name: Com
 
     Parameters
     ----------
-    judge_name : str
-        Whose answer it is.
     answer : float, str or None
         Its number or word, None where it has none.
-    context : Context
-    name : str
-        What is compared.
     """
     if answer not in (None, "outside"):
         return ""

@@ -44,11 +44,6 @@ def common(question: Question) -> Question:
 
     Models are compared and nobody is judged. Without a surface friction is `PLENTY`, of a range
     the low end counts.
-
-    Raises
-    ------
-    InputError
-        A profile of its own, several flights, or a heading off the line of steepest ascent.
     """
     if not isinstance(question.terrain, Stairs):
         raise InputError(
@@ -106,12 +101,6 @@ def trial_of(question: Question, begin: Begin = "flight") -> TrialSpec:
 
 def flight_traverse(question: Question, *, with_friction: bool = True) -> FlightTraverse:
     """Contact model on the course of a trial that begins on the flight, from its start to its end.
-
-    Parameters
-    ----------
-    question : Question
-    with_friction : bool
-        Whether the required friction is worked out too.
     """
     course = course_of(trial_of(question))
     path = contact.traverse(

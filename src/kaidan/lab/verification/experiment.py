@@ -157,11 +157,6 @@ def angles_of(given: Any) -> list[float]:
     --------
     >>> [round(math.degrees(angle)) for angle in angles_of("50deg,44deg..48deg/3")]
     [44, 46, 48, 50]
-
-    Raises
-    ------
-    InputError
-        No such list, or slopes that no stairs have.
     """
     found: set[float] = set()
     for part in _parts(given, "angles"):

@@ -255,8 +255,6 @@ def contact_margin(setting: Setting, p: float) -> float | None:
 
     Parameters
     ----------
-    setting : Setting
-        Robot, posture and payload.
     p : float
         Nosing spacing [m].
 
@@ -294,11 +292,6 @@ def usual_conditions(
     the higher one to 22 above it, since the downward margin lies higher. Without grousers no slope
     is steeper than the angle of friction, where it slides and a fall says nothing: where that ends
     all of it, the last `BELOW_SLIDING` below it are tried.
-
-    Raises
-    ------
-    InputError
-        Neither model has a margin at a spacing.
     """
     conditions: list[Condition] = []
     for p in spacings:

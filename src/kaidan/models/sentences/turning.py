@@ -13,7 +13,6 @@ def turning(turn: "TurnFigures", landing: str = "") -> str:
 
     Parameters
     ----------
-    turn : TurnFigures
     landing : str
         Which landing, where the reader does not know.
     """
@@ -39,14 +38,7 @@ def turning(turn: "TurnFigures", landing: str = "") -> str:
 
 
 def turned(turn: "TurnFigures", landing: str) -> str:
-    """How a robot turns on a landing.
-
-    Parameters
-    ----------
-    turn : TurnFigures
-    landing : str
-        Which landing, or the name of a floor.
-    """
+    """How a robot turns on a landing."""
     raised = f"change the flippers to {turn.flippers} and " if turn.changed else ""
     return f"On the {landing} {raised}{_by(turn)}: {_how(turn)}."
 

@@ -42,12 +42,6 @@ def mechanism(root: Element, *, body: str = "") -> Mechanism:
         Its ``<mujoco>``.
     body : str
         Name of the outermost body, where the file has several.
-
-    Raises
-    ------
-    InputError
-        A file that contradicts itself, needs another one, or has several bodies of which none is
-        named.
     """
     for element in root.descendants():
         if element.tag in _OTHER_FILES and "file" in element.attributes:

@@ -51,12 +51,6 @@ def mechanism(root: Element, *, model: str = "") -> Mechanism:
         Its ``<sdf>``.
     model : str
         Name of the model, where the file has several.
-
-    Raises
-    ------
-    InputError
-        A file that contradicts itself, needs another one, or has several models of which none is
-        named.
     """
     chosen = _chosen(root, model)
     version = _version(root)

@@ -27,18 +27,8 @@ def found(contents: Bodies, hints: Hints) -> Found:
 
     Parameters
     ----------
-    contents : Bodies
     hints : Hints
         `element`: GlobalId or name of a flight or a staircase, or several joined by colons.
-
-    Returns
-    -------
-    Found
-
-    Raises
-    ------
-    InputError
-        No element of that name.
     """
     building = building_of(contents)
     groups, refusals = building.staircases, building.refusals

@@ -55,13 +55,6 @@ class _Way:
 def found(mesh: Mesh, hints: Hints) -> Found:
     """Staircases that a mesh holds, or why it holds none.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        As a reader yields it.
-    hints : Hints
-        What the person knows.
-
     Returns
     -------
     Found

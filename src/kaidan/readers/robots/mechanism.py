@@ -264,13 +264,7 @@ class Placed:
 
 
 def checked_tree(whole: Mechanism, *, origin: str) -> Mechanism:
-    """Same mechanism, once it is sure that each link hangs on one joint at most, none on itself.
-
-    Raises
-    ------
-    InputError
-        A joint of links that there are not, a link that two joints hold, or a circle of joints.
-    """
+    """Same mechanism, once it is sure that each link hangs on one joint at most, none on itself."""
     held: dict[str, str] = {}
     for joint in whole.joints:
         for name in (joint.parent, joint.child):

@@ -75,8 +75,6 @@ def side_view(pieces: Sequence[Piece], centroid: tuple[float, float]) -> SideVie
 
     Parameters
     ----------
-    pieces : sequence of Piece
-        What stands on the ground.
     centroid : (float, float)
         x forward and z up of the whole robot [m].
     """

@@ -17,10 +17,6 @@ def not_judged(turn: float, below: str, why: str) -> str:
     ----------
     turn : float
         To the left positive [rad].
-    below : str
-        Name of the flight below.
-    why : str
-        What a sheet with it refuses.
     """
     return (
         f"On the landing above {below} the way turns by {math.degrees(abs(turn)):.0f} deg, which "

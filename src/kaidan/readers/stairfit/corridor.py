@@ -71,8 +71,6 @@ def lanes(
 
     Parameters
     ----------
-    seen : Views
-        Of the cloud.
     left : array, shape (n,)
         Which of its points belong to no flight yet.
     tolerance : float

@@ -49,8 +49,6 @@ def refined(
 
     Parameters
     ----------
-    patches : Patches
-        Of the cloud.
     up : array, shape (3,)
         Direction that is up as stated.
     sigma : float
@@ -59,10 +57,6 @@ def refined(
         The sensor [m]; None: not known.
     local : float
         Error of the range that differs from one direction to the next, as a share of it [1].
-
-    Returns
-    -------
-    Upward
     """
     stated = up
     normal, weight = patches.normal, patches.weight

@@ -53,8 +53,6 @@ def leans(
 
     Parameters
     ----------
-    patches : Patches
-        Of the cloud.
     up : array, shape (3,)
         Unit vector, true within a few degrees.
     near : float
@@ -63,11 +61,6 @@ def leans(
         The sensor [m]; None: not known.
     local : float
         Error of the range that differs from one direction to the next, as a share of it [1].
-
-    Returns
-    -------
-    list of Lean
-        Of a floor in two directions, of a wall in that of its normal; none of what is small.
     """
     centre = patches.middle.mean(axis=0)
     middle = patches.middle - centre

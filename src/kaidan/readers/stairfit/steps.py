@@ -120,8 +120,6 @@ def steps_of(
 
     Parameters
     ----------
-    line : StairLine
-        Fitted to the thinned cloud.
     s, t, z : array, shape (n,)
         Points of the lane in the frame of the heading [m].
     noise : float

@@ -31,8 +31,6 @@ def tread_lean(
 
     Parameters
     ----------
-    line : StairLine
-        Of the flight.
     levels : array, shape (m,)
         Heights of its nosings [m]; the last one is not a tread.
     s, t, z : array, shape (n,)

@@ -45,8 +45,6 @@ def nosing_angles(
 
     Parameters
     ----------
-    line : StairLine
-        Of the flight.
     s, t, z : array, shape (n,)
         Points in the frame of its heading [m].
     sides : tuple of float

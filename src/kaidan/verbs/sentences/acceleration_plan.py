@@ -35,10 +35,6 @@ def follows(
         Smallest and largest acceleration and speed of the plan [m/s^2, m/s].
     reserve : float
         Distance from its limits everywhere [m/s^2].
-    needless : bool
-        Whether a constant speed would do.
-    repeats : bool
-        Whether it can repeat from nosing to nosing.
     ends : (float, float)
         Speed at its start and end [m/s].
     """

@@ -22,10 +22,6 @@ def sentence(
     ----------
     name : str
         As `kaidan.traversal.fall_stages.Stage` has it.
-    place : Place
-        What carries, or what the robot rotates about.
-    downhill_end : str
-        nose or tail.
     rotation_deg : float, optional
         How far the body rotates [deg].
     share : float, optional
