@@ -99,8 +99,7 @@ class Sturdier:
         """Which way off its angles the last posture that was looked at is the worst."""
 
     def plan(self, plan: Plan) -> Plan | None:
-        """The plan with another posture in each phase that is no GO off its angles; None: none is.
-    """
+        """Plan with another posture in each phase that is no GO off its angles; None: none is."""
         found = []
         for phase, posture in plan.postures:
             better = self._better(phase, posture)

@@ -100,8 +100,7 @@ def trial_of(question: Question, begin: Begin = "flight") -> TrialSpec:
 
 
 def flight_traverse(question: Question, *, with_friction: bool = True) -> FlightTraverse:
-    """Contact model on the course of a trial that begins on the flight, from its start to its end.
-    """
+    """Contact model on the course of a trial that begins on the flight, all along it."""
     course = course_of(trial_of(question))
     path = contact.traverse(
         course.profile.points,
