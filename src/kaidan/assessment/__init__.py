@@ -64,13 +64,8 @@ def answer_to(question: Question, *, advice: bool = True) -> Assessment:
 
     Parameters
     ----------
-    question : Question
     advice : bool
         Whether to look for what would help, which asks the model again for each change.
-
-    Returns
-    -------
-    Assessment
     """
     planned = with_plan(question)
     return judged(planned.question, planned.findings, advice=advice, search=planned.search)

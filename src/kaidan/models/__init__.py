@@ -22,13 +22,8 @@ def judge(question: "Question", *, known: "Findings | None" = None) -> "Findings
 
     Parameters
     ----------
-    question : Question
     known : Findings, optional
         Of a similar question to the same model, which saves work that both share.
-
-    Returns
-    -------
-    Findings
     """
     if question.robot.com_range is not None:
         from kaidan.models.unweighed import judge_range

@@ -49,10 +49,6 @@ def judge(question: Question, *, known: Findings | None = None) -> Findings:
     known : Findings, optional
         Of a similar question; not used.
 
-    Returns
-    -------
-    Findings
-
     Raises
     ------
     MissingExtraError

@@ -32,10 +32,6 @@ def found_in(path: str | Path, hints: Hints = NO_HINTS) -> Found:
     hints : Hints
         What the person knows of it.
 
-    Returns
-    -------
-    Found
-
     Raises
     ------
     InputError

@@ -138,10 +138,6 @@ def question_of(values: Mapping[str, Any]) -> Question:
     values : mapping of str to object
         `robot`, and `stairs` unless the shape is given whole; anything else is optional.
 
-    Returns
-    -------
-    Question
-
     Raises
     ------
     InputError

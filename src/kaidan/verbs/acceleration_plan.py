@@ -64,10 +64,6 @@ def acceleration_plan(question: Question, basis: Basis, outside: str) -> Acceler
         On what the closed form's figures of the question stand.
     outside : str
         Why the closed form does not apply; empty if it does.
-
-    Returns
-    -------
-    AccelerationPlan
     """
     step = basis.step
     steepest = semi_stable_angle(basis.at, step)

@@ -130,10 +130,6 @@ def read(
     override : mapping or str
         The user's own figures for a robot: "com_height=200mm,track.front_radius=90mm".
 
-    Returns
-    -------
-    FileAnswer
-
     Raises
     ------
     InputError

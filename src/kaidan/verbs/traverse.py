@@ -26,10 +26,6 @@ def traverse(robot: Any, stairs: Any = None, **manner: Any) -> TraverseReport:
     robot, stairs, **manner
         A question, or what one is made of, see `kaidan.Question.of`.
 
-    Returns
-    -------
-    TraverseReport
-
     Raises
     ------
     InputError

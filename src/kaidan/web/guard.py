@@ -39,7 +39,6 @@ class Guard:
 
     Parameters
     ----------
-    app : ASGI application
     token : str
         What a client must know; empty where the server listens to this machine alone.
     hosts : collection of str

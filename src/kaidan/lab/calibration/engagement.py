@@ -190,15 +190,10 @@ def engagement(
         What runs the trials.
     trials : int
         A cell, each from its own start offset and phase of the grousers.
-    seed : int
     slopes : sequence of float
         [deg]
     frictions : sequence of float
         [1]
-
-    Returns
-    -------
-    Engagement
     """
     keys = [(design, slope, mu) for design in designs() for slope in slopes for mu in frictions]
     specs = [

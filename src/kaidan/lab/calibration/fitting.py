@@ -136,10 +136,6 @@ def fit(
         What is fitted, for the report.
     grid : sequence of (values, setting)
         Candidates.
-
-    Returns
-    -------
-    Fit
     """
     conditions = conditions_fitted(evidence)
     counts = bench.counts((setting, each) for _, setting in grid for each in conditions)

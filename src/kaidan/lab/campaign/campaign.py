@@ -41,10 +41,6 @@ def carry_out(
     progress : bool
         Whether to show on standard error how it goes, if that is a terminal.
 
-    Returns
-    -------
-    Tally
-
     Raises
     ------
     InputError

@@ -111,7 +111,6 @@ class Setting(Sheet):
 
         Parameters
         ----------
-        condition : Condition
         seed : int
             Of what is random.
         **others

@@ -45,10 +45,6 @@ def experiment(robot: Any, *, store: str | Path | None = None, **options: Any) -
         payload, override, friction, speed, track, ground), and those of
         `kaidan.lab.campaign.carry_out` (workers, scheduler, progress).
 
-    Returns
-    -------
-    Verification
-
     Raises
     ------
     InputError
@@ -74,7 +70,6 @@ def carried_out(plan: VerificationTest, store: str | Path | None = None, **how: 
 
     Parameters
     ----------
-    plan : VerificationTest
     store : path, optional
         Folder that keeps the trials.
     **how

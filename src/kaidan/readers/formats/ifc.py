@@ -54,11 +54,6 @@ _LONGEST = 4096
 def read(source: Source, hints: Hints) -> Bodies:
     """Stairs and slabs of a building model, tessellated, and what limits the way over them.
 
-    Parameters
-    ----------
-    source : Source
-    hints : Hints
-
     Returns
     -------
     Bodies
