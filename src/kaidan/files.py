@@ -121,10 +121,7 @@ def size_of(content: bytes) -> str:
 def write_all(contents: Mapping[Path, bytes | str]) -> None:
     """Write files one by one, each under a passing name in its folder until it is whole.
 
-    Parameters
-    ----------
-    contents : mapping of Path to bytes or str
-        What each file shall hold; text is written as UTF-8.
+    contents: what each file shall hold; text is written as UTF-8.
     """
     for path, content in contents.items():
         with whole_file(path) as file:
@@ -138,10 +135,7 @@ def whole_file(path: Path, *, durable: bool = False) -> Iterator[IO[bytes]]:
     Until then it has a passing name in the same folder, which nobody can foresee and under which
     nothing was there before.
 
-    Parameters
-    ----------
-    durable : bool
-        Whether it is on disk, and not only in the system's memory, when this ends.
+    durable: whether it is on disk, and not only in the system's memory, when this ends.
     """
     try:
         target = Path(os.path.realpath(path))

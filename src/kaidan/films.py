@@ -33,12 +33,8 @@ def film_format(path: Path, what: str) -> str:
 def film_bytes(pictures: Iterable[NDArray[np.uint8]], suffix: str, *, what: str) -> bytes:
     """Film of pictures, shape (height, width, 3) each, `FRAMES_PER_SECOND`.
 
-    Parameters
-    ----------
-    pictures : iterable of arrays
-        Sizes that are multiples of 16.
-    suffix : {".mp4", ".gif"}
-        As `film_format` gives it.
+    pictures: sizes that are multiples of 16.
+    suffix, {".mp4", ".gif"}: as `film_format` gives it.
     """
     return _mp4(pictures) if suffix == ".mp4" else _gif(pictures, what)
 

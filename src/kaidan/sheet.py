@@ -44,15 +44,10 @@ def quantity(
 ) -> Any:
     """Field of a physical quantity with its plausible range.
 
-    Parameters
-    ----------
-    unit : str
-        SI unit, "1" for a pure number.
-    low, high : float
-        Plausible range, both ends allowed: wide enough for every real thing, narrow enough to
-        refuse millimetres, feet and degrees.
-    default : object, optional
-        Default; required without one.
+    unit: SI unit, "1" for a pure number.
+    low, high: plausible range, both ends allowed: wide enough for every real thing, narrow enough
+        to refuse millimetres, feet and degrees.
+    default: default; required without one.
     """
     return Field(
         default,

@@ -83,10 +83,7 @@ class WithPlan(NamedTuple):
 def with_plan(question: Question, *, limits: tuple[float, float] | None = None) -> WithPlan:
     """Question with the best plan in it, where that is to be found, and its findings.
 
-    Parameters
-    ----------
-    limits : (float, float), optional
-        Angles allowed [rad]; those of the search without them.
+    limits: angles allowed [rad]; those of the search without them.
     """
     planned, search = found_plan(question, limits=limits)
     known = search is not None and search.question is planned
@@ -99,10 +96,7 @@ def found_plan(
 ) -> "tuple[Question, Found | None]":
     """Question with the best plan in it, where that is to be found, and what found it.
 
-    Parameters
-    ----------
-    limits : (float, float), optional
-        Angles allowed [rad]; those of the search without them.
+    limits: angles allowed [rad]; those of the search without them.
     """
     if not question.best_of:
         return question, None
@@ -120,10 +114,7 @@ def found_plan(
 def off_plan(question: Question, found: Findings, search: "Found | None" = None) -> Findings:
     """Findings of a plan, with one more where its verdict does not hold off its angles.
 
-    Parameters
-    ----------
-    question : Question
-        With the plan; its `tolerance` is how far off the angles may be.
+    question: with the plan; its `tolerance` is how far off the angles may be.
     """
     if not question.tolerance:
         return found

@@ -121,12 +121,8 @@ def _planned(
 ) -> tuple[Conclusion, bool]:
     """Conclusion of a plan with the verdict that it has off its angles, or that of another plan.
 
-    Parameters
-    ----------
-    search : Found, optional
-        What found the plan; without it no other one is sought.
-    anew : bool
-        Whether another plan is sought where this one is no GO at its angles, not only where it is
+    search: what found the plan; without it no other one is sought.
+    anew: whether another plan is sought where this one is no GO at its angles, not only where it is
         none off them.
     """
     is_go = then.verdict is Verdict.GO

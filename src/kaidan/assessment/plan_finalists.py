@@ -167,10 +167,7 @@ def _may_be_better(
 ) -> bool:
     """Whether a plan may be better than what is beaten.
 
-    Parameters
-    ----------
-    of_best : Candidate, optional
-        The plan that has it, where it came to what it promised.
+    of_best: the plan that has it, where it came to what it promised.
     """
     rank = _rank(search, each.hope)
     if rank != -bar[0]:

@@ -74,12 +74,8 @@ _Place = tuple[tuple[int, bool, float], int, int, Worth]
 class Sturdier:
     """Search about a plan for postures that hold off their angles.
 
-    Parameters
-    ----------
-    scores : Scores
-        Of the search that found the plan: where each of its phases begins and ends.
-    limits : (float, float)
-        Angles allowed [rad].
+    scores: of the search that found the plan: where each of its phases begins and ends.
+    limits: angles allowed [rad].
     """
 
     def __init__(self, scores: Scores, limits: tuple[float, float], drives: Drives) -> None:

@@ -76,10 +76,7 @@ def doubts_of(question: Question) -> tuple[Doubt, ...]:
 def without(question: Question, group: str) -> Question | None:
     """Question with a group measured: as stated, a range at its best end; None: not of a sheet.
 
-    Parameters
-    ----------
-    group : str
-        One of the values of `GROUPS`.
+    group: one of the values of `GROUPS`.
     """
     if group in ("centroid", "length"):
         names = [name for name, of in GROUPS.items() if of == group]

@@ -66,19 +66,11 @@ def _is_there(path: Path) -> bool:
 def load(kind: Kind, name: str, read: Callable[..., T]) -> T:
     """Sheet of a catalogue entry, or of a user's TOML file.
 
-    Parameters
-    ----------
-    kind : {"robots", "stairs", "surfaces"}
-        Catalogue.
-    name : str
-        Name in it (case does not matter), or path of a TOML file.
-    read : callable
-        Called as ``read(text, origin=...)``.
+    kind, {"robots", "stairs", "surfaces"}: catalogue.
+    name: name in it (case does not matter), or path of a TOML file.
+    read: called as ``read(text, origin=...)``.
 
-    Returns
-    -------
-    object
-        What `read` makes of the text.
+    What `read` makes of the text.
     """
     stem = name.strip().lower()
     folders: tuple[Folder, ...] = ("robots", "unweighed") if kind == "robots" else (kind,)

@@ -68,10 +68,7 @@ def put_out(answer: "Answer", contents: Contents, *, as_json: bool) -> None:
 def put_text(text: str, contents: Contents, *, verdict: str = "", aside: bool = False) -> None:
     """Write the files, print a text, and say which files there are.
 
-    Parameters
-    ----------
-    text : str
-        What to print; begins with the label of the verdict, if one is given.
+    text: what to print; begins with the label of the verdict, if one is given.
     """
     from kaidan.files import write_all
 

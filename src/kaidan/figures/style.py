@@ -164,14 +164,9 @@ def label_right(
 ) -> None:
     """Labels in a column right of the axes, with a thin leader from each point to its label.
 
-    Parameters
-    ----------
-    axes : Axes
-        Where the points are; its limits must be set.
-    start : float
-        Left end of the labels, as a share of the width of the axes.
-    gap : float
-        Least distance of neighbouring labels [in].
+    axes: where the points are; its limits must be set.
+    start: left end of the labels, as a share of the width of the axes.
+    gap: least distance of neighbouring labels [in].
     """
     width, height = size_of(axes)
     to_axes = axes.transData + axes.transAxes.inverted()
@@ -195,15 +190,9 @@ def label_right(
 def roomiest(inside: NDArray[np.bool_], width: float, height: float) -> tuple[float, float] | None:
     """Centre of the place where a rectangle fits best into an area of a grid.
 
-    Parameters
-    ----------
-    inside : array of bool, shape (rows, columns)
-        Area, cell by cell.
+    inside, shape (rows, columns): area, cell by cell.
 
-    Returns
-    -------
-    (x, y) or None
-        Shares of the grid's width and height; None where it does not fit at all.
+    (x, y) or None: shares of the grid's width and height; None where it does not fit at all.
 
     Examples
     --------
@@ -246,12 +235,8 @@ def figure_of(axes: Axes) -> Figure:
 def name_area(axes: Axes, inside: NDArray[np.bool_], text: str, *, size: float = SMALL) -> bool:
     """Write a name into an area where there is most room; say whether there was room.
 
-    Parameters
-    ----------
-    inside : array of bool, shape (rows, columns)
-        The area over the whole of the axes, first row at the bottom.
-    size : float
-        Type [pt].
+    inside, shape (rows, columns): the area over the whole of the axes, first row at the bottom.
+    size: type [pt].
     """
     wide, tall = size_of(axes)
     width, height = extent(figure_of(axes), text, size)

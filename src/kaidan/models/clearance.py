@@ -31,10 +31,7 @@ def findings_of(
 ) -> tuple[Finding, ...]:
     """Width and headroom, where they are stated; of a robot of unknown size not known.
 
-    Parameters
-    ----------
-    room : (float or None, float or None)
-        Clear width and headroom [m].
+    room: clear width and headroom [m].
     """
     each = []
     width, headroom = room

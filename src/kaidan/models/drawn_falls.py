@@ -75,11 +75,8 @@ def drawn_falls(
 ) -> Array:
     """Tilt to the fall of each sample less the reserve [rad].
 
-    Parameters
-    ----------
-    first_rock : ndarray
-        By how much the tilt to the first rock differs in each sample [rad]; one alone where nothing
-        is in doubt.
+    first_rock: by how much the tilt to the first rock differs in each sample [rad]; one alone where
+        nothing is in doubt.
     """
     nominal = (found.falls_downhill if downhill else found.falls_uphill).tilt
     spare = np.asarray(nominal - question.reserve + first_rock)

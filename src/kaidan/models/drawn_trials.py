@@ -31,11 +31,8 @@ _LEAST_FRICTION = 0.05
 def track_of(question: Question) -> TrackModel:
     """Model of the track that a question asks for.
 
-    Returns
-    -------
-    TrackModel
-        As the question names it; else the yielding belt where the sheet says how it yields and the
-        robot is driven straight on, else the smooth belt.
+    As the question names it; else the yielding belt where the sheet says how it yields and the
+    robot is driven straight on, else the smooth belt.
     """
     track = question.robot.track
     yields = track.stiffness is not None or track.indentation is not None

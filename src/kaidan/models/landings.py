@@ -69,10 +69,7 @@ class Turned(NamedTuple):
 def turned(tried: Sequence[tuple[str, Footprint]], room: Room | None) -> Turned:
     """First posture and way in which a robot turns.
 
-    Parameters
-    ----------
-    room : Room, optional
-        None: not known.
+    room: none: not known.
     """
     name, footprint = tried[0]
     if room is None or not math.isfinite(footprint.width):
@@ -133,10 +130,7 @@ def _rounds(footprint: Footprint, level: bool, a: float, b: float, deep: float) 
 def shown(found: Turned, climbing: str, turn: float | None, robot: Robot) -> dict[str, Any]:
     """Fields of `TurnFigures`, in its order.
 
-    Parameters
-    ----------
-    turn : float, optional
-        Angle between both ways [rad]; None: not known.
+    turn: angle between both ways [rad]; None: not known.
     """
     return {
         "turn_deg": None if turn is None else math.degrees(turn),

@@ -125,10 +125,7 @@ def drawn_of_all(question: Question) -> Array:
 def nosings_of(profile: Profile, drawn: Array) -> Array:
     """Nosings of each sample, shape (samples, m, 2) [m].
 
-    Parameters
-    ----------
-    drawn : array, shape (6, samples)
-        Of `drawn_of_all`.
+    drawn, shape (6, samples): of `drawn_of_all`.
     """
     unit = unit_draws(drawn.shape[1], _OF_ALL + 2 * len(profile.nosings))[_OF_ALL:]
     single = profile.drawn_nosings(unit) - profile.nosings
@@ -204,10 +201,7 @@ def changed_nosings(nosings: Array, *, angle: Array, spacing: Array) -> Array:
 def moved_profile(profile: Profile, nosings: Array) -> Profile:
     """Profile with its nosings elsewhere: risers go with them, treads lie as high as theirs.
 
-    Parameters
-    ----------
-    nosings : array, shape (m, 2)
-        New places, in their order [m].
+    nosings, shape (m, 2): new places, in their order [m].
     """
     if len(nosings) == 0:
         return replace(profile, covariance=None)

@@ -76,10 +76,7 @@ class Standing(NamedTuple):
 def standing(question: Question, move: "Move") -> Standing:
     """How friction and grousers hold the robot while its posture changes.
 
-    Parameters
-    ----------
-    move : Move
-        In which it stands at least once.
+    move: in which it stands at least once.
     """
     surface = question.surface
     if not (question.robot.track.has_grousers or (surface is not None and surface.differs)):
@@ -200,10 +197,7 @@ def supply(
 def gripping(question: Question) -> "Gripping | None":
     """Belts of a question by cases; None where they have no grousers, or none that bear.
 
-    Parameters
-    ----------
-    question : Question
-        With a surface, without a yaw.
+    question: with a surface, without a yaw.
     """
     track, surface = question.robot.track, question.surface
     if surface is None or not (holds_otherwise(question) and bears(question, track)):
@@ -255,12 +249,8 @@ def _enough(
     The first angle is what cones lack that all grow alike. At a riser's face the cone of rigid
     grousers grows less, so what is still lacking is added until nothing is.
 
-    Parameters
-    ----------
-    spare : callable
-        What there is to spare with an angle of friction, the same everywhere [rad], and where.
-    angle : float
-        The first angle [rad].
+    spare: what there is to spare with an angle of friction, the same everywhere [rad], and where.
+    angle: the first angle [rad].
     """
     for _ in range(MOST_LOOKS):
         if not 0.0 < angle < math.pi / 2:
@@ -296,12 +286,8 @@ def figures_of(
 ) -> TractionFigures:
     """Figures of a traverse.
 
-    Parameters
-    ----------
-    smooth : float
-        Friction that smooth belts require [1].
-    held : Supplies, optional
-        Where not one friction of smooth belts is all.
+    smooth: friction that smooth belts require [1].
+    held: where not one friction of smooth belts is all.
     """
     track, worst = question.robot.track, None if held is None else held.worst
     usual = math.inf

@@ -40,10 +40,7 @@ def beside(question: Question, found: Findings) -> Findings:
 def margins_on(question: Question, flight: Stairs) -> TwoTrackMargins:
     """Margins of a question's robot on the nosings of a flight, without allowances.
 
-    Parameters
-    ----------
-    question : Question
-        Its robot must have a gauge.
+    question: its robot must have a gauge.
     """
     gauge, stance = question.robot.track.gauge, question.stance
     assert gauge is not None

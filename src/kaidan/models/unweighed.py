@@ -40,15 +40,9 @@ class Placed(NamedTuple):
 def judge_range(question: Question, judge: Judge) -> Findings:
     """Findings of a robot whose centroid is anywhere in its range.
 
-    Parameters
-    ----------
-    question : Question
-        Of a robot with `com_range`.
+    question: of a robot with `com_range`.
 
-    Returns
-    -------
-    Findings
-        Their `basis` is the list of `Placed`, by height and then along the track.
+    Their `basis` is the list of `Placed`, by height and then along the track.
     """
     placed = list(_judged(question, judge))
     answered = [each for each in placed if not each.found.outside]

@@ -74,10 +74,7 @@ def compiled(function: Callable[..., Any], signature: str) -> Callable[..., Any]
 class RubberBody(MovingBody):
     """One run of a yielding track.
 
-    Parameters
-    ----------
-    spec : TrialSpec
-        With a `YieldingBelt`.
+    spec: with a `YieldingBelt`.
     """
 
     def __init__(self, spec: TrialSpec) -> None:

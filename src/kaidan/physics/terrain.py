@@ -47,10 +47,7 @@ class Block(NamedTuple):
 def blocks_of(profile: Profile, *, down: bool, noses_only: bool) -> list[Block]:
     """Boxes whose faces are the profile; the nosing is a box's corner.
 
-    Parameters
-    ----------
-    noses_only : bool
-        Blades of `NOSE` at the nosings, and nothing else.
+    noses_only: blades of `NOSE` at the nosings, and nothing else.
     """
     nosings = profile.nosings
     if noses_only:

@@ -13,10 +13,7 @@ WITHOUT_LEAF = ("SLIDING", "FOLDING", "LIFTING", "ROLLINGUP", "REVOLVING")
 def doorways_of(bodies: Sequence[Body], unit: float) -> Iterator[Doorway]:
     """Doors that are drawn.
 
-    Parameters
-    ----------
-    unit : float
-        Length of the unit of their attributes [m].
+    unit: length of the unit of their attributes [m].
     """
     for body in bodies:
         if body.category != "IfcDoor" or len(body.vertices) == 0:

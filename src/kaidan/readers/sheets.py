@@ -19,10 +19,7 @@ MOST_NAMES = 8
 def robot_sheet(name: str, hints: Hints = NO_HINTS) -> Robot | None:
     """Data sheet of the one robot in a file; None: the name is of no file of a known format.
 
-    Parameters
-    ----------
-    name : str
-        Path, or ``path#part``.
+    name: path, or ``path#part``.
     """
     found = _found(name, hints)
     return None if found is None else the_robot(found, name).robot()

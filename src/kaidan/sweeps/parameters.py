@@ -204,10 +204,7 @@ def shaped(stairs: Any, shape: Mapping[str, Any]) -> Any:
 def value_now(values: Mapping[str, Any], name: str) -> float | None:
     """Value that a parameter has as it stands; None where the sheet or the question has none.
 
-    Parameters
-    ----------
-    values : mapping of str to object
-        As `question_of` takes them.
+    values: as `question_of` takes them.
 
     Examples
     --------

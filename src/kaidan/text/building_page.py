@@ -29,10 +29,7 @@ svg { max-width: 100%; height: auto }
 def page(found: "BuildingAnswer", plan: str) -> str:
     """Page with the table of flights, the ways, the plan and what is not judged.
 
-    Parameters
-    ----------
-    plan : str
-        Picture of the plan as SVG, empty for none.
+    plan: picture of the plan as SVG, empty for none.
     """
     parts = [
         "<!DOCTYPE html>",

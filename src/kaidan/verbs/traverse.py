@@ -58,10 +58,7 @@ def traverse_report(
 ) -> TraverseReport:
     """Report on a traverse, judged by the contact model.
 
-    Parameters
-    ----------
-    passage : Traverse or Planned
-        As `driven` gives it.
+    passage: as `driven` gives it.
     """
     if isinstance(passage, Planned):
         return planned_report(question, passage, most=most, search=search)

@@ -33,10 +33,7 @@ class Result(NamedTuple):
 def result_of(verb: str, body: Mapping[str, Any], folder: Path) -> Result:
     """Do a job, or go on with it.
 
-    Parameters
-    ----------
-    verb : str
-        One of `JOBS`.
+    verb: one of `JOBS`.
     """
     if verb == "film":
         return _film(body)

@@ -48,12 +48,8 @@ def listening(host: str, port: int) -> socket.socket:
 def server_of(state: State, *, host: str, token: str, workers: int, **how: Any) -> uvicorn.Server:
     """Server that has yet to run on a socket that listens.
 
-    Parameters
-    ----------
-    token : str
-        What clients must know; empty: none, which only this machine may be allowed.
-    **how
-        As `kaidan.web.app.app_of` has it.
+    token: what clients must know; empty: none, which only this machine may be allowed.
+    **how: as `kaidan.web.app.app_of` has it.
     """
     hosts = () if is_local(host) else (host, socket.gethostname(), socket.getfqdn())
     config = uvicorn.Config(
@@ -73,10 +69,7 @@ def server_of(state: State, *, host: str, token: str, workers: int, **how: Any) 
 def token_for(host: str, stated: str | None) -> str:
     """Token that clients must send: what was stated, or a new one where one is needed.
 
-    Returns
-    -------
-    str
-        Empty: no token is needed.
+    Empty: no token is needed.
     """
     if stated and not is_local(host) and len(stated) < SHORTEST_TOKEN:
         raise InputError(

@@ -28,14 +28,9 @@ class Hands:
     Estimates take milliseconds and somebody at a slider waits for each, so that they wait for
     nothing else; nor do the samples of a climb that is watched, and its beginning.
 
-    Parameters
-    ----------
-    count : int
-        Processes of each; two answer more estimates than many people ask for.
-    limits : Limits
-        What one question may take.
-    folder : Path
-        Where each process has a folder for passing files.
+    count: processes of each; two answer more estimates than many people ask for.
+    limits: what one question may take.
+    folder: where each process has a folder for passing files.
     """
 
     def __init__(self, count: int, limits: Limits, folder: Path) -> None:
@@ -79,10 +74,7 @@ class Hands:
 def is_quick(task: Mapping[str, Any]) -> bool:
     """Whether a question is answered at once: small, no posture to be found, nothing simulated.
 
-    Parameters
-    ----------
-    task : mapping
-        See ``kaidan.web.tasks``.
+    task: see ``kaidan.web.tasks``.
 
     Examples
     --------

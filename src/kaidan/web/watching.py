@@ -43,14 +43,9 @@ def begun(body: Mapping[str, Any]) -> bytes:
 def fed(monitor: str, samples: list[list[Any]], arrived: float | None, *, ends: bool) -> bytes:
     """What samples come to: a line on the monitor, then one for each state.
 
-    Parameters
-    ----------
-    monitor : str
-        As `begun` or this gave it.
-    samples : list
-        Each with the values of a `kaidan.verbs.monitor.Sample`.
-    arrived : float or None
-        When they came [s]; None where their stamps alone tell the time.
+    monitor: as `begun` or this gave it.
+    samples: each with the values of a `kaidan.verbs.monitor.Sample`.
+    arrived: when they came [s]; None where their stamps alone tell the time.
     """
     watch = _opened(monitor)
     states = [watch.feed(Sample(*each), arrived) for each in samples]

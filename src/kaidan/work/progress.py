@@ -18,10 +18,7 @@ FIRST_LINE, NEXT_LINES = 10.0, 60.0
 class Progress:
     """Number of trials done and the time that is left: a bar, or lines where nobody sees a bar.
 
-    Parameters
-    ----------
-    total : int
-        Trials of the plan; those done before are subtracted, so that the time left is right.
+    total: trials of the plan; those done before are subtracted, so that the time left is right.
     """
 
     def __init__(self, total: int, *, shown: bool, what: str = "trials") -> None:

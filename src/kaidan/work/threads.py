@@ -12,12 +12,8 @@ from kaidan.work.local import hands
 class ThreadWorkers:
     """Threads of this process, for work that crashes no process and lets others run.
 
-    Parameters
-    ----------
-    work : Work
-        What is done; one that is `alone` in its process gains nothing here.
-    count : int, optional
-        Number of threads; without one each processor gets one.
+    work: what is done; one that is `alone` in its process gains nothing here.
+    count: number of threads; without one each processor gets one.
     """
 
     def __init__(self, work: Work, count: int | None = None) -> None:

@@ -115,10 +115,7 @@ def points_of(
 ) -> list[Point]:
     """Figures at places of the design; all trials in one go.
 
-    Parameters
-    ----------
-    evidence : Evidence
-        Of which only the conditions are used, no result.
+    evidence: of which only the conditions are used, no result.
     """
     settings = [setting_of(robot, shares, ground) for shares, ground in places]
     series = [series_of(evidence, setting) for setting in settings]

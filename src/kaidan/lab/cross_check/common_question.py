@@ -125,9 +125,7 @@ def flight_traverse(question: Question, *, with_friction: bool = True) -> Flight
 def static_criterion(question: Question) -> tuple[float, float]:
     """Criterion of no rotation as the contact model applies it to any profile.
 
-    Returns
-    -------
-    margin against tipping over the downhill end, and over the uphill end [rad]; NaN outside
+    margin against tipping over the downhill end, and over the uphill end [rad]; NaN outside.
     """
     course = course_of(trial_of(question))
     criterion = criterion_of(course.profile, course.outline, along(question))[1]

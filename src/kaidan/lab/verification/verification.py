@@ -253,16 +253,10 @@ def closed_form(setting: Setting, p: float) -> float | None:
 def contact_margin(setting: Setting, p: float) -> float | None:
     """Steepest slope that the contact model climbs on the flight (grade two) [deg].
 
-    Parameters
-    ----------
-    p : float
-        Nosing spacing [m].
+    p: nosing spacing [m].
 
-    Returns
-    -------
-    float or None
-        To 0.01 deg; it has no time, so it is the limit of a low speed. None if it does not climb
-        the gentlest stairs of that spacing.
+    To 0.01 deg; it has no time, so it is the limit of a low speed. None if it does not climb the
+    gentlest stairs of that spacing.
     """
 
     def flight(angle: float) -> tuple[Any, float, float]:

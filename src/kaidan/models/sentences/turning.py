@@ -11,10 +11,7 @@ if TYPE_CHECKING:
 def turning(turn: "TurnFigures", landing: str = "") -> str:
     """Why a robot does not get round on a landing, or only just.
 
-    Parameters
-    ----------
-    landing : str
-        Which landing, where the reader does not know.
+    landing: which landing, where the reader does not know.
     """
     by = f"{_by(turn)}{f' on the {landing}' if landing else ''}"
     if turn.way == "unknown":

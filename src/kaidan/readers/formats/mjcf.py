@@ -36,12 +36,8 @@ def read(source: Source, hints: Hints) -> Mechanism:
 def mechanism(root: Element, *, body: str = "") -> Mechanism:
     """Links and joints of one body tree of an MJCF file.
 
-    Parameters
-    ----------
-    root : Element
-        Its ``<mujoco>``.
-    body : str
-        Name of the outermost body, where the file has several.
+    root: its ``<mujoco>``.
+    body: name of the outermost body, where the file has several.
     """
     for element in root.descendants():
         if element.tag in _OTHER_FILES and "file" in element.attributes:

@@ -45,12 +45,8 @@ def read(source: Source, hints: Hints) -> Mechanism:
 def mechanism(root: Element, *, model: str = "") -> Mechanism:
     """Links and joints of one model of an SDF file.
 
-    Parameters
-    ----------
-    root : Element
-        Its ``<sdf>``.
-    model : str
-        Name of the model, where the file has several.
+    root: its ``<sdf>``.
+    model: name of the model, where the file has several.
     """
     chosen = _chosen(root, model)
     version = _version(root)
