@@ -54,7 +54,6 @@ def mechanism(root: Element, *, body: str = "") -> Mechanism:
     tracks, speed = declared_tracks(root)
     made = Mechanism(
         name=root.attributes.get("model", ""),
-        dialect="MJCF",
         links=_scaled(reader.links, settings.total_mass),
         joints=tuple(reader.joints),
         places=reader.places,

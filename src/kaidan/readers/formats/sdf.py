@@ -70,7 +70,6 @@ def mechanism(root: Element, *, model: str = "") -> Mechanism:
     tracks, speed = declared_tracks(root)
     made = Mechanism(
         name=chosen.attributes.get("name", ""),
-        dialect="SDF",
         links=links,
         joints=_tree(joints, faults),
         places={name: frames.in_model(name) for name in links},

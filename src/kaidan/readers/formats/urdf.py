@@ -55,7 +55,6 @@ def mechanism(root: Element) -> Mechanism:
     tracks, speed = declared_tracks(root)
     made = Mechanism(
         name=root.attributes.get("name", ""),
-        dialect="URDF",
         links=links,
         joints=joints,
         tracks=tracks,

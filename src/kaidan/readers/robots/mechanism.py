@@ -14,7 +14,6 @@ from kaidan.readers.kinds import Provenance
 
 NOWHERE = Provenance(path="", digest="", form="")
 Array = NDArray[np.float64]
-Dialect = Literal["URDF", "SDF", "MJCF"]
 ShapeKind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "mesh"]
 
 
@@ -109,7 +108,6 @@ class Mechanism:
     """Links and joints of one robot."""
 
     name: str
-    dialect: Dialect
     links: dict[str, Link]
     joints: tuple[Joint, ...]
     places: dict[str, Array] = field(default_factory=dict)
