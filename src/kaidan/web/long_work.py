@@ -83,13 +83,7 @@ def _report(body: Mapping[str, Any]) -> Result:
 
 
 def document_format(body: dict[str, Any], known: tuple[str, ...] = tuple(DOCUMENTS)) -> str:
-    """Format of a report that a body asks for, taken out of it.
-
-    Raises
-    ------
-    InputError
-        None of those known.
-    """
+    """Format of a report that a body asks for, taken out of it."""
     form = body.pop("format", "html")
     if form not in known:
         raise InputError(f"report: format {shown(form)} is not known; known: {', '.join(known)}")

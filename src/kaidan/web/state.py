@@ -22,15 +22,7 @@ def usual_folder() -> Path:
 class State:
     """A folder that belongs to one server at a time.
 
-    Parameters
-    ----------
-    folder : Path
-        Made if it is not there, readable by its owner alone.
-
-    Raises
-    ------
-    InputError
-        It cannot be written, or another server has it.
+    folder: made if it is not there, readable by its owner alone.
     """
 
     def __init__(self, folder: Path) -> None:
