@@ -74,7 +74,12 @@ def _loaded(place: str) -> Any:
 def sweep_summary(*, go_only: bool = False, **values: Any) -> Answer:
     """Summary of a sweep over whatever is a list.
 
-    **values: as in `kaidan.sweep`: a value, or a list of values of it.
+    Parameters
+    ----------
+    go_only : bool
+        Spare the contact model cells of which the closed form alone says that they are no GO.
+    **values
+        As in `kaidan.sweep`: a value, or a list of values of it.
     """
     from kaidan.sweeps.plan import Plan
     from kaidan.sweeps.running import carried_out
@@ -89,7 +94,10 @@ def sweep_summary(*, go_only: bool = False, **values: Any) -> Answer:
 def estimate(robot: Any, stairs: Any = None, **manner: Any) -> Answer:
     """First estimate by the closed form, without advice: what a slider shows while it moves.
 
-    robot, stairs, **manner: as in `kaidan.assess`.
+    Parameters
+    ----------
+    robot, stairs, **manner
+        As in `kaidan.assess`.
     """
     from kaidan.assessment import answer_to
 
@@ -100,7 +108,10 @@ def estimate(robot: Any, stairs: Any = None, **manner: Any) -> Answer:
 def pose_map_of(robot: Any, stairs: Any = None, **manner: Any) -> Answer:
     """Pose map along the traverse of a question, coarse enough for a page.
 
-    robot, stairs, **manner: as in `kaidan.traverse`, in one posture.
+    Parameters
+    ----------
+    robot, stairs, **manner
+        As in `kaidan.traverse`, in one posture.
     """
     from kaidan.verbs.pose_map import pose_map
     from kaidan.verbs.traverse import driven
@@ -156,9 +167,18 @@ VERBS: Mapping[str, Verb] = {
 def answered(verb: str, body: Mapping[str, Any]) -> Answer:
     """Answer of a verb to what a client wrote.
 
-    verb: name in `VERBS`.
-    body: keywords of its function, as JSON has them; or "question", as answers have it, with what
+    Parameters
+    ----------
+    verb : str
+        Name in `VERBS`.
+    body : mapping
+        Keywords of its function, as JSON has them; or "question", as answers have it, with what
         is changed of it.
+
+    Raises
+    ------
+    InputError
+        An unknown or a missing keyword, or an input without physical meaning.
 
     Examples
     --------
@@ -187,9 +207,11 @@ def answered(verb: str, body: Mapping[str, Any]) -> Answer:
 def report_of(body: Mapping[str, Any]) -> "Report":
     """Report, see `kaidan.report`.
 
-    body: robot or robots, stairs (a list is of several missions), and everything else of a
-        question; or "question", one or a list of those that answers have, with what is changed of
-        them.
+    Parameters
+    ----------
+    body : mapping
+        robot or robots, stairs (a list is of several missions), and everything else of a question;
+        or "question", one or a list of those that answers have, with what is changed of them.
     """
     from kaidan.verbs.report import report
 
