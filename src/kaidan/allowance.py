@@ -49,10 +49,6 @@ class Allowance(Sheet):
         descending : bool
             theta_M is zero when descending, where no grouser locks.
 
-        Returns
-        -------
-        Allowance
-
         Raises
         ------
         InputError

@@ -23,13 +23,7 @@ PASSING = ".kaidan-"
 
 
 def format_of(path: Path, formats: tuple[str, ...], what: str) -> str:
-    """Format that the suffix of a file asks for.
-
-    Raises
-    ------
-    InputError
-        Another suffix than the formats, or none.
-    """
+    """Format that the suffix of a file asks for."""
     suffix = path.suffix.lower().removeprefix(".")
     if suffix not in formats:
         known = ", ".join(f".{name}" for name in formats)
@@ -75,13 +69,7 @@ LARGEST_TABLE = 100_000_000
 
 
 def points_of(path: Path) -> list[tuple[float, float]]:
-    """Points x, z [m] of a CSV file, with or without a head.
-
-    Raises
-    ------
-    InputError
-        A file that cannot be read, or a row that is not two numbers.
-    """
+    """Points x, z [m] of a CSV file, with or without a head."""
     try:
         with path.open(encoding="utf-8-sig") as file:  # no file's size bounds what a device gives
             text = file.read(LARGEST_TABLE + 1)
@@ -133,15 +121,7 @@ def size_of(content: bytes) -> str:
 def write_all(contents: Mapping[Path, bytes | str]) -> None:
     """Write files one by one, each under a passing name in its folder until it is whole.
 
-    Parameters
-    ----------
-    contents : mapping of Path to bytes or str
-        What each file shall hold; text is written as UTF-8.
-
-    Raises
-    ------
-    InputError
-        A file or folder that cannot be written; the file then is as it was before.
+    contents: what each file shall hold; text is written as UTF-8.
     """
     for path, content in contents.items():
         with whole_file(path) as file:
@@ -155,17 +135,7 @@ def whole_file(path: Path, *, durable: bool = False) -> Iterator[IO[bytes]]:
     Until then it has a passing name in the same folder, which nobody can foresee and under which
     nothing was there before.
 
-    Parameters
-    ----------
-    path : Path
-        File; a link stays a link, what it points to is replaced and keeps its mode.
-    durable : bool
-        Whether it is on disk, and not only in the system's memory, when this ends.
-
-    Raises
-    ------
-    InputError
-        It cannot be written; the file then is as it was before.
+    durable: whether it is on disk, and not only in the system's memory, when this ends.
     """
     try:
         target = Path(os.path.realpath(path))

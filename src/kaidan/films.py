@@ -20,22 +20,7 @@ _GIF_WIDTH = 672
 
 
 def film_format(path: Path, what: str) -> str:
-    """Suffix of a film's file, once it is sure that such a film can be made.
-
-    Parameters
-    ----------
-    path : Path
-        File.
-    what : str
-        What errors call it.
-
-    Raises
-    ------
-    InputError
-        Another suffix than .mp4 or .gif.
-    MissingExtraError
-        imageio or imageio-ffmpeg is not installed (.mp4 only).
-    """
+    """Suffix of a film's file, once it is sure that such a film can be made."""
     suffix = path.suffix.lower()
     if suffix not in FORMATS:
         found = f"unknown suffix {shown(path.suffix)}" if path.suffix else "no suffix"
@@ -48,19 +33,8 @@ def film_format(path: Path, what: str) -> str:
 def film_bytes(pictures: Iterable[NDArray[np.uint8]], suffix: str, *, what: str) -> bytes:
     """Film of pictures, shape (height, width, 3) each, `FRAMES_PER_SECOND`.
 
-    Parameters
-    ----------
-    pictures : iterable of arrays
-        Sizes that are multiples of 16.
-    suffix : {".mp4", ".gif"}
-        As `film_format` gives it.
-    what : str
-        What errors call it.
-
-    Raises
-    ------
-    InputError
-        No picture.
+    pictures: sizes that are multiples of 16.
+    suffix, {".mp4", ".gif"}: as `film_format` gives it.
     """
     return _mp4(pictures) if suffix == ".mp4" else _gif(pictures, what)
 

@@ -7,15 +7,7 @@ if TYPE_CHECKING:
 
 
 def when_used(package: str, home: "Mapping[str, str]") -> "Callable[[str], Any]":
-    """`__getattr__` of a package.
-
-    Parameters
-    ----------
-    package : str
-        Its name.
-    home : mapping of str to str
-        Module below the package, by public name.
-    """
+    """`__getattr__` of a package."""
 
     def found(name: str) -> "Any":
         if name not in home:

@@ -93,10 +93,6 @@ def failure_mode(key: str, unit: str, label: str) -> FailureMode:
         Unit of its margin.
     label : str
         What happens, a noun phrase.
-
-    Returns
-    -------
-    FailureMode
     """
     mode = FailureMode(key, unit, label)
     FAILURE_MODES[key] = mode

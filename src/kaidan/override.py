@@ -22,25 +22,13 @@ _IN_TRACK = ("flat_length", "gauge")
 
 
 def kind_of_figure(name: str) -> str:
-    """What a figure measures, by its dotted name such as track.front_radius.
-
-    Raises
-    ------
-    InputError
-        No such figure.
-    """
+    """What a figure measures, by its dotted name such as track.front_radius."""
     unit = unit_of_figure(name)
     return "number" if unit == "1" else kind_of_unit(unit) or "number"
 
 
 def unit_of_figure(name: str, sheet: type[Sheet] = Robot) -> str:
-    """SI unit of a figure of a sheet, by its dotted name.
-
-    Raises
-    ------
-    InputError
-        No such figure; the text lists those beside it.
-    """
+    """SI unit of a figure of a sheet, by its dotted name."""
     fields = _beside(name, sheet)
     unit = bounds(fields.get(_last(name)))[0]
     if unit is None:
@@ -77,13 +65,7 @@ def paths_of(own: Mapping[str, float | str]) -> dict[str, float | str]:
 
 
 def overridden(robot: Robot, own: Mapping[str, float | str]) -> Robot:
-    """Robot with the user's own figures in place of the sheet's.
-
-    Raises
-    ------
-    InputError
-        A figure of a part that the robot does not have, or one without physical meaning.
-    """
+    """Robot with the user's own figures in place of the sheet's."""
     if not own:
         return robot
     sheet = robot.model_dump()

@@ -44,23 +44,10 @@ def quantity(
 ) -> Any:
     """Field of a physical quantity with its plausible range.
 
-    Parameters
-    ----------
-    unit : str
-        SI unit, "1" for a pure number.
-    low, high : float
-        Plausible range, both ends allowed: wide enough for every real thing, narrow enough to
-        refuse millimetres, feet and degrees.
-    meaning : str
-        What the quantity is.
-    default : object, optional
-        Default; required without one.
-    symbol : str, optional
-        Symbol of the paper.
-
-    Returns
-    -------
-    pydantic field
+    unit: SI unit, "1" for a pure number.
+    low, high: plausible range, both ends allowed: wide enough for every real thing, narrow enough
+        to refuse millimetres, feet and degrees.
+    default: default; required without one.
     """
     return Field(
         default,
@@ -220,12 +207,7 @@ AnySheet = TypeVar("AnySheet", bound=Sheet)
 
 
 class Itself(Generic[AnySheet]):
-    """A sheet as a key: the same if it is the same object, because it takes long to compare two.
-
-    Parameters
-    ----------
-    sheet : Sheet
-    """
+    """A sheet as a key: the same if it is the same object, because it takes long to compare two."""
 
     __slots__ = ("sheet",)
 

@@ -46,13 +46,7 @@ UNCERTAINTIES = {
 
 
 def sheet_of(given: Any, kind: type[_Sheet]) -> _Sheet:
-    """Sheet as given, by its name, or of a file: TOML, or one of which a sheet can be made.
-
-    Raises
-    ------
-    InputError
-        Neither.
-    """
+    """Sheet as given, by its name, or of a file: TOML, or one of which a sheet can be made."""
     if isinstance(given, kind):
         return given
     if isinstance(given, PathLike):
@@ -66,13 +60,7 @@ def sheet_of(given: Any, kind: type[_Sheet]) -> _Sheet:
 
 
 def robot_of(given: Any, override: Any = ()) -> Robot:
-    """Robot as given, by its name or of a file, with the user's own figures in place of its own.
-
-    Raises
-    ------
-    InputError
-        None of these, or a figure without meaning.
-    """
+    """Robot as given, by its name or of a file, with the user's own figures in place of its own."""
     own = own_figures(override)
     if own and isinstance(given, str | PathLike):
         read = _of_file(fspath(given), Robot, own)
@@ -82,13 +70,7 @@ def robot_of(given: Any, override: Any = ()) -> Robot:
 
 
 def flights_of(name: str) -> tuple[Stairs, ...] | None:
-    """Flights of the one staircase in a file, from bottom to top; None: it is no such file.
-
-    Raises
-    ------
-    InputError
-        A file that cannot be read, holds no staircase, or several.
-    """
+    """Flights of the one staircase in a file, from bottom to top; None: it is no such file."""
     if not _may_be_a_file(name, "stairs"):
         return None
     from kaidan.readers.sheets import staircase_sheets
@@ -130,13 +112,7 @@ def _may_be_a_file(name: str, *folders: catalog.Folder) -> bool:
 
 
 def terrain_of(given: Any) -> Terrain:
-    """One flight, several, or a profile, of what people write.
-
-    Raises
-    ------
-    InputError
-        Neither stairs nor a profile.
-    """
+    """One flight, several, or a profile, of what people write."""
     if isinstance(given, Profile):
         return given
     if isinstance(given, str) and JOINT in given and not Path(given).exists():

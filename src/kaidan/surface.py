@@ -101,10 +101,6 @@ class Surface(Sheet):
         uncertainty : float
             Standard uncertainty (one sigma) on top of it [1].
 
-        Returns
-        -------
-        Surface
-
         Raises
         ------
         InputError

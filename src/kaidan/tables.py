@@ -89,10 +89,6 @@ def table(
     below : str, optional
         Key of the text that goes on a line of its own below its row where the screen is too
         narrow for the whole table.
-
-    Returns
-    -------
-    str
     """
     from rich.console import Console
 

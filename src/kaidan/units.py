@@ -56,24 +56,12 @@ _LONGEST = 100
 def parse(text: str, kind: str, *, option: str) -> float:
     """SI value of a number with its unit.
 
-    Parameters
-    ----------
-    text : str
-        For example "180mm", "7 1/2in", '11"', "50deg".
-    kind : {"number", "length", "angle", "mass", "acceleration", "speed", "time", "stiffness", ...}
-        What it measures; a "number" has no unit.
-    option : str
-        What errors call it, for example "--rise".
+    text: for example "180mm", "7 1/2in", '11"', "50deg".
+    kind, {"number", "length", "angle", "mass", "acceleration", "speed", "time", "stiffness", ...}:
+        what it measures; a "number" has no unit.
+    option: what errors call it, for example "--rise".
 
-    Returns
-    -------
-    float
-        Value in m, rad, kg, m/s^2, m/s, s, N/m and so on; always finite.
-
-    Raises
-    ------
-    InputError
-        No number, no unit (with the fix), or a unit of something else.
+    Value in m, rad, kg, m/s^2, m/s, s, N/m and so on; always finite.
 
     Examples
     --------
@@ -90,21 +78,8 @@ def parse(text: str, kind: str, *, option: str) -> float:
 def parse_range(text: str, kind: str, *, option: str) -> tuple[float, float]:
     """Both ends of a range in SI; one quantity is both.
 
-    Parameters
-    ----------
-    text : str
-        "0.6..1.0", "0.6-1.0" or "0.6 to 1.0"; with units "1deg..2.6deg" or "1..2.6deg".
-    kind, option : str
-        As `parse` has them.
-
-    Returns
-    -------
-    low, high : float
-
-    Raises
-    ------
-    InputError
-        As `parse`, or a range with one end or upside down.
+    text: "0.6..1.0", "0.6-1.0" or "0.6 to 1.0"; with units "1deg..2.6deg" or "1..2.6deg".
+    kind, option: as `parse` has them.
 
     Examples
     --------
@@ -132,21 +107,8 @@ def parse_range(text: str, kind: str, *, option: str) -> tuple[float, float]:
 def value_of(value: Any, kind: str, *, option: str) -> float:
     """SI value of a number, or of a text with a unit.
 
-    Parameters
-    ----------
-    value : float or str
-        In SI where it is no text.
-    kind, option : str
-        As `parse` has them.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    InputError
-        Neither, or not finite.
+    value: in SI where it is no text.
+    kind, option: as `parse` has them.
 
     Examples
     --------
@@ -161,21 +123,8 @@ def value_of(value: Any, kind: str, *, option: str) -> float:
 def range_of(value: Any, kind: str, *, option: str) -> tuple[float, float]:
     """Both ends of a range that is a number, a pair of numbers (low, high) or a text.
 
-    Parameters
-    ----------
-    value : float, pair of float or str
-        In SI where it is no text.
-    kind, option : str
-        As `parse` has them.
-
-    Returns
-    -------
-    low, high : float
-
-    Raises
-    ------
-    InputError
-        None of these, not finite, or upside down.
+    value: in SI where it is no text.
+    kind, option: as `parse` has them.
 
     Examples
     --------

@@ -64,13 +64,8 @@ def answer_to(question: Question, *, advice: bool = True) -> Assessment:
 
     Parameters
     ----------
-    question : Question
     advice : bool
         Whether to look for what would help, which asks the model again for each change.
-
-    Returns
-    -------
-    Assessment
     """
     planned = with_plan(question)
     return judged(planned.question, planned.findings, advice=advice, search=planned.search)
@@ -88,11 +83,7 @@ class WithPlan(NamedTuple):
 def with_plan(question: Question, *, limits: tuple[float, float] | None = None) -> WithPlan:
     """Question with the best plan in it, where that is to be found, and its findings.
 
-    Parameters
-    ----------
-    question : Question
-    limits : (float, float), optional
-        Angles allowed [rad]; those of the search without them.
+    limits: angles allowed [rad]; those of the search without them.
     """
     planned, search = found_plan(question, limits=limits)
     known = search is not None and search.question is planned
@@ -105,11 +96,7 @@ def found_plan(
 ) -> "tuple[Question, Found | None]":
     """Question with the best plan in it, where that is to be found, and what found it.
 
-    Parameters
-    ----------
-    question : Question
-    limits : (float, float), optional
-        Angles allowed [rad]; those of the search without them.
+    limits: angles allowed [rad]; those of the search without them.
     """
     if not question.best_of:
         return question, None
@@ -127,14 +114,7 @@ def found_plan(
 def off_plan(question: Question, found: Findings, search: "Found | None" = None) -> Findings:
     """Findings of a plan, with one more where its verdict does not hold off its angles.
 
-    Parameters
-    ----------
-    question : Question
-        With the plan; its `tolerance` is how far off the angles may be.
-    found : Findings
-        At its angles.
-    search : Found, optional
-        What found the plan, which knows already.
+    question: with the plan; its `tolerance` is how far off the angles may be.
     """
     if not question.tolerance:
         return found

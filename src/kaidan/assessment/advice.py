@@ -75,24 +75,7 @@ def what_would_help(
     *,
     search: "Found | None" = None,
 ) -> tuple[Change, ...]:
-    """Changes that raise the verdict or the margin, the best first; nothing for a GO.
-
-    Parameters
-    ----------
-    question : Question
-    found : Findings
-        Of the question.
-    conclusion : Conclusion
-        Of the findings.
-    measure : sequence of Measurement
-        What to measure next, the first first.
-    search : Found, optional
-        What found the plan: postures and facing were searched, so that none of them would help.
-
-    Returns
-    -------
-    tuple of Change
-    """
+    """Changes that raise the verdict or the margin, the best first; nothing for a GO."""
     if conclusion.verdict is Verdict.GO or question.trials > 1:  # each change as many trials
         return ()
     better = []
@@ -138,22 +121,9 @@ def _planned(
 ) -> tuple[Conclusion, bool]:
     """Conclusion of a plan with the verdict that it has off its angles, or that of another plan.
 
-    Parameters
-    ----------
-    question : Question
-        With a change and the plan at hand.
-    then : Conclusion
-        At the plan's angles.
-    search : Found, optional
-        What found the plan; without it no other one is sought.
-    anew : bool
-        Whether another plan is sought where this one is no GO at its angles, not only where it is
+    search: what found the plan; without it no other one is sought.
+    anew: whether another plan is sought where this one is no GO at its angles, not only where it is
         none off them.
-
-    Returns
-    -------
-    conclusion, another
-        And whether it is another plan's.
     """
     is_go = then.verdict is Verdict.GO
     if (is_go and not question.tolerance) or not (is_go or (anew and search is not None)):

@@ -36,17 +36,7 @@ class Limit(Part):
 
 
 def limits(question: Question) -> tuple[Limit, ...]:
-    """Limits that these stairs are beyond, for a robot that goes up them.
-
-    Parameters
-    ----------
-    question : Question
-        Of a robot that was weighed.
-
-    Returns
-    -------
-    tuple of Limit
-    """
+    """Limits that these stairs are beyond, for a robot that goes up them."""
     if question.robot.com_range is not None or question.direction == "down":
         return ()
     return tuple(_limits(question))

@@ -55,7 +55,6 @@ def to_measure(question: Question, found: Findings) -> tuple[Measurement, ...]:
 
     Parameters
     ----------
-    question : Question
     found : Findings
         Of the question, by `kaidan.models.judge`.
 

@@ -87,14 +87,7 @@ def plan_of(question: Question, found: Findings, search: "Found | None") -> Plan
 
 
 def steps_of(question: Question, moves: "tuple[Move, ...]" = ()) -> list[PlanStep]:
-    """Postures of a question in their order; what each change takes, where moves tell it.
-
-    Parameters
-    ----------
-    question : Question
-    moves : tuple of Move
-        Changes of posture of its traverse.
-    """
+    """Postures of a question in their order; what each change takes, where moves tell it."""
     from kaidan.traversal.moves import angles_of
 
     by_phase = {each.before: each for each in moves}

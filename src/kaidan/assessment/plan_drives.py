@@ -58,12 +58,7 @@ def friction_without_failure(
     It arrives, in the best case with friction at every pose, and with traction to spare; so it does
     under gravity tilted by the reserve to either side. Nothing else makes a NO-GO.
 
-    Parameters
-    ----------
-    question : Question
-        To the contact model.
-    moved : callable, optional
-        What changes a posture, as for `planned.drive`.
+    moved: what changes a posture, as for `planned.drive`.
     """
     surface = question.surface
     if question.uncertain or question.robot.track.has_grousers or question.yaw:
@@ -144,13 +139,7 @@ class Drives:
     ) -> Traverse:
         """Traverse of a part, as `driven_over` has it, from poses `FINE` apart if not stated.
 
-        Parameters
-        ----------
-        profile : Profile
-        question : Question
-            In one posture.
-        sought, **how
-            As for `kaidan.traversal.traverse`.
+        sought, **how: as for `kaidan.traversal.traverse`.
         """
         how = {"step": FINE} | how
         terrain, body = terrain_key(profile), outline_key(question.outline)

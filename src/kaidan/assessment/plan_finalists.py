@@ -98,14 +98,7 @@ def _best_of(
 
 
 def _to_steady(search: Search, first: Judged | None) -> Plan | None:
-    """Plan about which others are sought that hold off their angles; None: none will.
-
-    Parameters
-    ----------
-    search : Search
-    first : Judged, optional
-        The best that was judged, at its angles.
-    """
+    """Plan about which others are sought that hold off their angles; None: none will."""
     if first is None:
         return None
     hoped, grips = first.conclusion.verdict, search.question.robot.track.has_grousers
@@ -174,15 +167,7 @@ def _may_be_better(
 ) -> bool:
     """Whether a plan may be better than what is beaten.
 
-    Parameters
-    ----------
-    search : Search
-    each : Candidate
-    bar : (int, bool, int, float)
-        Merit to beat.
-    of_best : Candidate, optional
-        The plan that has it, where it came to what it promised.
-    drives : Drives
+    of_best: the plan that has it, where it came to what it promised.
     """
     rank = _rank(search, each.hope)
     if rank != -bar[0]:

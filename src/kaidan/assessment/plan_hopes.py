@@ -44,13 +44,8 @@ class Hope(NamedTuple):
 class Search:
     """Search among the postures of each phase, one end leading.
 
-    Parameters
-    ----------
-    question : Question
-    facing : {"nose-first", "tail-first"}
-        Which end leads.
-    limits : (float, float)
-        Angles allowed [rad].
+    facing, {"nose-first", "tail-first"}: which end leads.
+    limits: angles allowed [rad].
     """
 
     def __init__(self, question: Question, facing: Facing, limits: tuple[float, float]) -> None:
@@ -213,17 +208,8 @@ def _figures(scores: Iterable[Score]) -> Array:
 def _order(figures: Sequence[Array], cost: Array | float) -> tuple[Array, Array, Array]:
     """Order of plans: the weakest phase counts, and a little the others.
 
-    Parameters
-    ----------
-    figures : sequence of arrays
-        Of each phase, see `_figures`.
-    cost : float or array
-        What the changes have to gain [deg].
-
-    Returns
-    -------
-    passes, failing, value
-        Larger is better, the first first.
+    figures: of each phase, see `_figures`.
+    cost: what the changes have to gain [deg].
     """
     passes, _, margin, drop, _ = reduce(np.minimum, figures)
     failing, value = (sum(each[k] for each in figures) for k in (1, 4))

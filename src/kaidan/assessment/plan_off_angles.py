@@ -51,12 +51,7 @@ def judged_off(
 def holds_off_its_angles(question: Question, drives: Drives | None = None) -> bool:
     """Whether a stated plan has no worse verdict off its angles, judged as the search judges.
 
-    Parameters
-    ----------
-    question : Question
-        Its `tolerance` is how far off they are.
-    drives : Drives, optional
-        Of a similar question.
+    question: its `tolerance` is how far off they are.
     """
     drives = Drives() if drives is None else drives
     middle = question.changed(robot=question.robot.middle)
@@ -70,12 +65,7 @@ def holds_off_its_angles(question: Question, drives: Drives | None = None) -> bo
 def friction_off_its_angles(question: Question, drives: Drives | None = None) -> float:
     """Friction that a stated plan requires off its angles, judged as the search judges [1].
 
-    Parameters
-    ----------
-    question : Question
-        Its `tolerance` is how far off they are; 0: nothing is required there.
-    drives : Drives, optional
-        Of a similar question.
+    question: its `tolerance` is how far off they are; 0: nothing is required there.
     """
     drives = Drives() if drives is None else drives
     middle = shortened(question.changed(robot=question.robot.middle))

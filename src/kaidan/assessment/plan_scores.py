@@ -93,13 +93,7 @@ def outline_key(outline: Outline) -> tuple[Hashable, ...]:
 class Scores:
     """Scores of postures in each phase, one end leading.
 
-    Parameters
-    ----------
-    question : Question
-    facing : {"nose-first", "tail-first"}
-        Which end leads.
-    belts : Gripping, optional
-        Belts with grousers that hold in place of one friction of smooth belts.
+    facing, {"nose-first", "tail-first"}: which end leads.
     """
 
     def __init__(self, question: Question, facing: Facing, belts: Gripping | None = None) -> None:

@@ -77,23 +77,10 @@ def better_than(
 ) -> Found | None:
     """Best plan of a question whose posture is to be found; None: none has a better verdict.
 
-    Parameters
-    ----------
-    verdict : Verdict, optional
-        That a plan has to exceed; without it any plan is looked at.
-    question : Question
-        With `best_of`.
-    limits : (float, float)
-        Angles allowed [rad]; the stowed angle and lying flat always are.
-    drives : Drives, optional
-        Of the search for a similar question.
-    other_frictions : bool
-        Whether the best plans at `OTHER_FRICTIONS` are tried too.
-
-    Returns
-    -------
-    Found
-        Of plans that are alike the one with fewer changes, nose first, flippers stowed.
+    verdict: that a plan has to exceed; without it any plan is looked at.
+    question: with `best_of`.
+    limits: angles allowed [rad]; the stowed angle and lying flat always are.
+    other_frictions: whether the best plans at `OTHER_FRICTIONS` are tried too.
     """
     kept = question.tolerance or None
     stated = question.changed(best_of=(), changes=(), flipper_tolerance=kept)

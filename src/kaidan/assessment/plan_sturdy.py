@@ -74,14 +74,8 @@ _Place = tuple[tuple[int, bool, float], int, int, Worth]
 class Sturdier:
     """Search about a plan for postures that hold off their angles.
 
-    Parameters
-    ----------
-    scores : Scores
-        Of the search that found the plan: where each of its phases begins and ends.
-    limits : (float, float)
-        Angles allowed [rad].
-    drives : Drives
-        What was driven already.
+    scores: of the search that found the plan: where each of its phases begins and ends.
+    limits: angles allowed [rad].
     """
 
     def __init__(self, scores: Scores, limits: tuple[float, float], drives: Drives) -> None:
@@ -101,13 +95,7 @@ class Sturdier:
         """Which way off its angles the last posture that was looked at is the worst."""
 
     def plan(self, plan: Plan) -> Plan | None:
-        """The plan with another posture in each phase that is no GO off its angles; None: none is.
-
-        Parameters
-        ----------
-        plan : Plan
-            What the search came upon.
-        """
+        """Plan with another posture in each phase that is no GO off its angles; None: none is."""
         found = []
         for phase, posture in plan.postures:
             better = self._better(phase, posture)

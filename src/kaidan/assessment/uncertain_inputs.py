@@ -51,17 +51,7 @@ class Doubt(NamedTuple):
 
 
 def doubts_of(question: Question) -> tuple[Doubt, ...]:
-    """Inputs of a question that are not known exactly.
-
-    Parameters
-    ----------
-    question : Question
-        Of a robot that was weighed, or whose centroid has a standard uncertainty.
-
-    Returns
-    -------
-    tuple of Doubt
-    """
+    """Inputs of a question that are not known exactly."""
     found = [
         Doubt(name, sigma, None)
         for name, sigma in zip(SAMPLED, question.spread, strict=True)
@@ -86,11 +76,7 @@ def doubts_of(question: Question) -> tuple[Doubt, ...]:
 def without(question: Question, group: str) -> Question | None:
     """Question with a group measured: as stated, a range at its best end; None: not of a sheet.
 
-    Parameters
-    ----------
-    question : Question
-    group : str
-        One of the values of `GROUPS`.
+    group: one of the values of `GROUPS`.
     """
     if group in ("centroid", "length"):
         names = [name for name, of in GROUPS.items() if of == group]

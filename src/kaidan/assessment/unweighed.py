@@ -46,16 +46,8 @@ class CentroidShown(Part):
 def stretches(question: Question, found: Findings) -> CentroidShown:
     """Verdicts over the range of a centroid.
 
-    Parameters
-    ----------
-    question : Question
-        Of a robot with `com_range`.
-    found : Findings
-        Of the question, by `kaidan.models.judge`.
-
-    Returns
-    -------
-    CentroidShown
+    question: of a robot with `com_range`.
+    found: of the question, by `kaidan.models.judge`.
     """
     span = question.robot.com_range
     assert span is not None

@@ -66,10 +66,6 @@ def conclude(question: Question, found: Findings) -> Conclusion:
         Risk, acceptance, and whether friction is known.
     found : Findings
         Of one model.
-
-    Returns
-    -------
-    Conclusion
     """
     if found.outside:
         nan = math.nan

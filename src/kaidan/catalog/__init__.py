@@ -66,27 +66,11 @@ def _is_there(path: Path) -> bool:
 def load(kind: Kind, name: str, read: Callable[..., T]) -> T:
     """Sheet of a catalogue entry, or of a user's TOML file.
 
-    Parameters
-    ----------
-    kind : {"robots", "stairs", "surfaces"}
-        Catalogue.
-    name : str
-        Name in it (case does not matter), or path of a TOML file.
-    read : callable
-        Called as ``read(text, origin=...)``.
+    kind, {"robots", "stairs", "surfaces"}: catalogue.
+    name: name in it (case does not matter), or path of a TOML file.
+    read: called as ``read(text, origin=...)``.
 
-    Returns
-    -------
-    object
-        What `read` makes of the text.
-
-    Raises
-    ------
-    UnknownNameError
-        No such name.
-    InputError
-        No such file, one that cannot be read, a sheet of another kind, or a robot of which no
-        centroid is published.
+    What `read` makes of the text.
     """
     stem = name.strip().lower()
     folders: tuple[Folder, ...] = ("robots", "unweighed") if kind == "robots" else (kind,)
@@ -130,13 +114,7 @@ def _is_sheet_of(kind: Kind, text: str) -> bool:
 
 
 def text_of(path: Path) -> str:
-    """Text of a user's file, with or without a byte order mark.
-
-    Raises
-    ------
-    InputError
-        No such file, or one that cannot be a sheet.
-    """
+    """Text of a user's file, with or without a byte order mark."""
     origin = short(path)
     try:
         if path.is_dir():

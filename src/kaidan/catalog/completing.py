@@ -14,24 +14,9 @@ _HEAD = re.compile(r"^(#?)\[([^\[\]]+)\]\s*(?:#.*)?$")
 def completed(text: str, figures: Mapping[str, Any], *, origin: str) -> str:
     """Text of a sheet with figures in place of what stood there.
 
-    Parameters
-    ----------
-    text : str
-        TOML, as a user wrote it or as `kaidan.catalog.template.blank_toml` did: a setting that is
+    text: TOML, as a user wrote it or as `kaidan.catalog.template.blank_toml` did: a setting that is
         left out by a "#" is taken into use.
-    figures : mapping of str to object
-        Values by dotted name: "mass", "track.flat_length", "sources.track.flat_length".
-    origin : str
-        What errors call the text.
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    InputError
-        A text that is no TOML, or one in which a figure has no line of its own.
+    figures: values by dotted name: "mass", "track.flat_length", "sources.track.flat_length".
     """
     _refuse_no_toml(text, origin)
     lines = text.splitlines()

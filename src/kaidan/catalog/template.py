@@ -33,19 +33,7 @@ _LETTERS = "# V: read in the named source, C: computed from a model, D: derived,
 def blank_toml(sheet: type[Sheet], *, name: str, title: str) -> str:
     """TOML text of a sheet to fill in.
 
-    Parameters
-    ----------
-    sheet : type of Sheet
-        What to fill in.
-    name : str
-        Name it gets.
-    title : str
-        First line of the text.
-
-    Returns
-    -------
-    str
-        Text that `sheet.from_text` refuses, naming the field, until every required value is in.
+    Text that `sheet.from_text` refuses, naming the field, until every required value is in.
     """
     head = _HEAD.format(title=title, placeholder=PLACEHOLDER)
     lines = [f"# {line}".rstrip() for line in head.splitlines()]

@@ -56,13 +56,7 @@ _CENTROID = ("com_from_front", "com_height")
 
 
 def ask(kind: type[Sheet]) -> dict[str, Any]:
-    """Figures of a sheet by their dotted names, as their owner answers.
-
-    Raises
-    ------
-    InputError
-        Answers that end too early, do not come, or, from a pipe, have no meaning.
-    """
+    """Figures of a sheet by their dotted names, as their owner answers."""
     answers = _Answers()
     typer.echo(guide.DRAWINGS[kind.label].strip("\n"), err=True)
     typer.echo(guide.BEGIN, err=True)

@@ -32,20 +32,7 @@ CsvFile = Annotated[
 
 
 def checked(figures: Sequence[Path] | None, *others: Path | None) -> tuple[Path, ...]:
-    """Files of a picture, refused before anything is computed if one cannot be.
-
-    Parameters
-    ----------
-    figures : sequence of Path or None
-        Files of the picture.
-    *others : Path or None
-        Other files of the same command.
-
-    Raises
-    ------
-    InputError
-        A suffix that is no format of pictures, or a file that is to be written twice.
-    """
+    """Files of a picture, refused before anything is computed if one cannot be."""
     from kaidan.errors import InputError
 
     files = tuple(dict.fromkeys(figures or ()))
@@ -81,16 +68,7 @@ def put_out(answer: "Answer", contents: Contents, *, as_json: bool) -> None:
 def put_text(text: str, contents: Contents, *, verdict: str = "", aside: bool = False) -> None:
     """Write the files, print a text, and say which files there are.
 
-    Parameters
-    ----------
-    text : str
-        What to print; begins with the label of the verdict, if one is given.
-    contents : mapping of Path to bytes or str
-        Files.
-    verdict : str
-        Verdict that gives the label its colour, on a screen that shows any (NO_COLOR is honoured).
-    aside : bool
-        Say which files there are on standard error.
+    text: what to print; begins with the label of the verdict, if one is given.
     """
     from kaidan.files import write_all
 

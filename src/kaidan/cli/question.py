@@ -48,17 +48,7 @@ def question_options(
 def question(*, without: Collection[str] = (), **defaults: str) -> Callable[[Command], Command]:
     """Give a command the options of a question; its first argument becomes their `Question`.
 
-    Parameters
-    ----------
-    without : collection of str
-        Options that the command does not have.
-    **defaults : str
-        Defaults of options that are others here.
-
-    Returns
-    -------
-    callable
-        Decorator.
+    without: options that the command does not have.
     """
     return shared((question_options,), question_of, without=without, **defaults)
 
@@ -72,19 +62,7 @@ def shared(
 ) -> Callable[[Command], Command]:
     """Give a command options that others have too; its first argument becomes what they make.
 
-    Parameters
-    ----------
-    declared : sequence of callable
-        Functions whose signatures declare the options.
-    made : callable
-        What makes one object of their values, given by name.
-    without, **defaults
-        As `question` has them.
-
-    Returns
-    -------
-    callable
-        Decorator.
+    without, **defaults: as `question` has them.
     """
     given = {
         name: each.replace(default=defaults.get(name, each.default))

@@ -57,13 +57,7 @@ def schema(kind: Kind) -> None:
 
 
 def echo_schema(kind: str, known: Mapping[str, str]) -> None:
-    """Print the JSON schema of one of those known, each "module:Class".
-
-    Raises
-    ------
-    InputError
-        None of them is called so.
-    """
+    """Print the JSON schema of one of those known, each "module:Class"."""
     from kaidan.errors import InputError, did_you_mean, shown
 
     if kind not in known:

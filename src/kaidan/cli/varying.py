@@ -25,18 +25,6 @@ _WITH_COMMAS = ("flippers", "payload")
 def varied(texts: Sequence[str] | None, *, option: str = "--vary") -> dict[str, list[Any]]:
     """Values by parameter.
 
-    Parameters
-    ----------
-    texts : sequence of str
-        As the option is written.
-    option : str
-        What errors call it.
-
-    Raises
-    ------
-    InputError
-        An unknown parameter, one given twice, or a value that is none.
-
     Examples
     --------
     >>> varied(["com_height=100mm..300mm/3", "friction=0.6,0.6..1.0"])

@@ -47,15 +47,7 @@ ul { margin: .3em 0; padding-left: 1.4em }
 def page(document: of.Document, pictures: Mapping[str, bytes]) -> str:
     """Page of a document.
 
-    Parameters
-    ----------
-    document : Document
-    pictures : mapping of str to bytes
-        SVG by key; a picture without one is left out.
-
-    Returns
-    -------
-    str
+    pictures: SVG by key; a picture without one is left out.
     """
     body = chain.from_iterable(_part(each, pictures) for each in document.parts)
     title = _text(document.title)

@@ -39,20 +39,7 @@ _CODE = 55.0
 def pages(document: of.Document, pictures: Mapping[str, bytes]) -> bytes:
     """PDF of a document.
 
-    Parameters
-    ----------
-    document : Document
-    pictures : mapping of str to bytes
-        PNG by key; a picture without one is left out.
-
-    Returns
-    -------
-    bytes
-
-    Raises
-    ------
-    MissingExtraError
-        ReportLab is not installed.
+    pictures: PNG by key; a picture without one is left out.
     """
     platypus: Any = needed("reportlab.platypus", "a report as PDF", "report")
     from reportlab.lib.pagesizes import A4

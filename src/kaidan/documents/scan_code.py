@@ -8,15 +8,9 @@ from kaidan.errors import needed
 def scan_code(text: str, form: str) -> bytes | None:
     """Picture of a QR code.
 
-    Parameters
-    ----------
-    text : str
-    form : {"svg", "png"}
+    form, {"svg", "png"}
 
-    Returns
-    -------
-    bytes or None
-        None where the text is longer than a QR code holds.
+    None where the text is longer than a QR code holds.
     """
     import io
 

@@ -34,15 +34,7 @@ _FILLS = {
 def building_figure(found: "BuildingAnswer") -> Figure:
     """Plan of each storey that has flights.
 
-    Parameters
-    ----------
-    found : BuildingAnswer
-        Flights, floors, verdicts and turns.
-
-    Returns
-    -------
-    Figure
-        One plan below the other, the lowest storey last, as in a section.
+    One plan below the other, the lowest storey last, as in a section.
     """
     storeys = list(dict.fromkeys(each.storey for each in found.flights))
     plans = [[each for each in found.flights if each.storey == name] for name in storeys]

@@ -43,10 +43,6 @@ def d_a_figure(plane: "Plane", note: str = "") -> Figure:
         With a plan in it, the plan and its speed are drawn too.
     note : str
         Line at the foot.
-
-    Returns
-    -------
-    Figure
     """
     moving = plane.plan is not None and plane.plan.found
     below = _SPEED + 0.15 if moving else 0.0

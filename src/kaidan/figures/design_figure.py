@@ -28,14 +28,6 @@ _LINES = 7
 def design_figure(found: "Design") -> Figure:
     """Map of two free figures, or the front of cost and margin, or both.
 
-    Parameters
-    ----------
-    found : Design
-
-    Returns
-    -------
-    Figure
-
     Raises
     ------
     InputError

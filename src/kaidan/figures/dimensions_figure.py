@@ -11,19 +11,7 @@ _WIDTH, _HEIGHT = 6.0, 2.6
 
 
 def dimensions_figure(name: str, sketch: Sketch) -> Figure:
-    """Robot from the side with L, C_L, C_N and both R, to scale.
-
-    Parameters
-    ----------
-    name : str
-        What stands above it.
-    sketch : Sketch
-        Lengths.
-
-    Returns
-    -------
-    Figure
-    """
+    """Robot from the side with L, C_L, C_N and both R, to scale."""
     L, C_L, C_N, front, rear = sketch
     unit = (L + front + rear) / 10  # a tenth of the robot, as a length for gaps
     placed = Placed(sketch)

@@ -24,14 +24,7 @@ _LARGEST = {"deg": 30.0, "mm": 100.0, "m/s": 2.0}
 def findings_figure(answer: "Assessment") -> Figure:
     """Bars of the margins of all failure modes that the answer has, those that fail marked.
 
-    Parameters
-    ----------
-    answer : Assessment
-
-    Returns
-    -------
-    Figure
-        Bars to the right hold; each unit has a scale of its own, written beside the bar.
+    Bars to the right hold; each unit has a scale of its own, written beside the bar.
     """
     rows = [one for one in answer.findings.values() if one.holds is not None]
     with style.settings():

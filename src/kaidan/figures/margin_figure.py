@@ -29,10 +29,6 @@ def margin_figure(curve: "MarginCurve", note: str = "") -> Figure:
         Limits on a grid of spacings, dense enough to be drawn as lines.
     note : str
         Line at the foot.
-
-    Returns
-    -------
-    Figure
     """
     with look.settings():
         figure = look.blank(_HEIGHT)

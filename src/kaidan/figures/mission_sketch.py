@@ -31,14 +31,7 @@ _STEPS = 40
 def mission_sketch(mission: "Mission") -> Figure:
     """Sketch with dimensions of a mission.
 
-    Parameters
-    ----------
-    mission : Mission
-        One of a `Report`.
-
-    Returns
-    -------
-    Figure
+    mission: one of a `Report`.
     """
     if mission.traverse is None:
         return _robot_alone(mission.assessment)

@@ -21,17 +21,7 @@ _SHADES = LinearSegmentedColormap.from_list("height", ["#ffffff", "#cfe0ec", "#7
 
 
 def pose_map_figure(found: "PoseMap") -> Figure:
-    """Height above the lowest pose over place and inclination, with the flow of a rotation.
-
-    Parameters
-    ----------
-    found : PoseMap
-        Heights on a grid.
-
-    Returns
-    -------
-    Figure
-    """
+    """Height above the lowest pose over place and inclination, with the flow of a rotation."""
     with look.settings():
         figure = look.blank(_HEIGHT)
         left, right, foot, top = 0.62, 1.0, 0.72, 0.5

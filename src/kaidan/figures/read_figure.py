@@ -20,17 +20,7 @@ MOST_FLIGHTS = 6
 
 
 def read_figure(found: "FileAnswer") -> Figure:
-    """Robot of a file with L, C_L, C_N and both R; or its flights over the data, with residuals.
-
-    Parameters
-    ----------
-    found : FileAnswer
-        With a robot of which a flat run was found, or with a staircase.
-
-    Returns
-    -------
-    Figure
-    """
+    """Robot of a file with L, C_L, C_N and both R; or its flights over the data, with residuals."""
     with look.settings():
         if found.robots and found.robots[0].view is not None:
             return _robot(found.robots[0])

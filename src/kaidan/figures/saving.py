@@ -21,13 +21,7 @@ _METADATA: dict[str, dict[str, str | None]] = {
 
 
 def figure_format(path: Path) -> str:
-    """Format that the suffix of a figure's file asks for.
-
-    Raises
-    ------
-    InputError
-        Another suffix, or none.
-    """
+    """Format that the suffix of a figure's file asks for."""
     return format_of(path, FORMATS, "figure")
 
 

@@ -13,16 +13,7 @@ if TYPE_CHECKING:
 
 
 def sensitivity_figure(found: "Sensitivity") -> Figure:
-    """Bars of the indices, the weightiest input first.
-
-    Parameters
-    ----------
-    found : Sensitivity
-
-    Returns
-    -------
-    Figure
-    """
+    """Bars of the indices, the weightiest input first."""
     both = 0 < found.go < 1
     rows = len(found.inputs)
     height = 1.25 + 0.3 * rows

@@ -152,18 +152,8 @@ def draw_forces(
 ) -> None:
     """Contact points, forces that carry, weight and gravity line of a pose.
 
-    Parameters
-    ----------
-    axes : Axes
-        Of final limits.
-    stand : Stand
-        Pose.
-    forces : sequence of ForceShown
-        Contacts.
-    kappa : float
-        Tilt of effective gravity [1].
-    scale : float
-        Length of an arrow for a force of once the weight [m].
+    kappa: tilt of effective gravity [1].
+    scale: length of an arrow for a force of once the weight [m].
     """
     bottom, top = axes.get_ylim()
     axes.plot(

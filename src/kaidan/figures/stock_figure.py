@@ -30,16 +30,7 @@ _MOST = 24
 
 
 def stock_figure(found: "StockStudy") -> Figure:
-    """Shares of verdicts and of what decides, robot by robot.
-
-    Parameters
-    ----------
-    found : StockStudy
-
-    Returns
-    -------
-    Figure
-    """
+    """Shares of verdicts and of what decides, robot by robot."""
     many = len(found.robots) > _MOST
     rows = 0 if many else len(found.robots)
     height = 4.2 if many else 1.4 + 0.27 * rows

@@ -164,18 +164,9 @@ def label_right(
 ) -> None:
     """Labels in a column right of the axes, with a thin leader from each point to its label.
 
-    Parameters
-    ----------
-    axes : Axes
-        Where the points are; its limits must be set.
-    items : sequence of (x, y, text)
-        Points in data coordinates.
-    start : float
-        Left end of the labels, as a share of the width of the axes.
-    gap : float
-        Least distance of neighbouring labels [in].
-    color : str
-        Of the leaders.
+    axes: where the points are; its limits must be set.
+    start: left end of the labels, as a share of the width of the axes.
+    gap: least distance of neighbouring labels [in].
     """
     width, height = size_of(axes)
     to_axes = axes.transData + axes.transAxes.inverted()
@@ -199,17 +190,9 @@ def label_right(
 def roomiest(inside: NDArray[np.bool_], width: float, height: float) -> tuple[float, float] | None:
     """Centre of the place where a rectangle fits best into an area of a grid.
 
-    Parameters
-    ----------
-    inside : array of bool, shape (rows, columns)
-        Area, cell by cell.
-    width, height : float
-        Size of the rectangle as shares of the grid's width and height.
+    inside, shape (rows, columns): area, cell by cell.
 
-    Returns
-    -------
-    (x, y) or None
-        Shares of the grid's width and height; None where it does not fit at all.
+    (x, y) or None: shares of the grid's width and height; None where it does not fit at all.
 
     Examples
     --------
@@ -252,16 +235,8 @@ def figure_of(axes: Axes) -> Figure:
 def name_area(axes: Axes, inside: NDArray[np.bool_], text: str, *, size: float = SMALL) -> bool:
     """Write a name into an area where there is most room; say whether there was room.
 
-    Parameters
-    ----------
-    axes : Axes
-        Of final size.
-    inside : array of bool, shape (rows, columns)
-        The area over the whole of the axes, first row at the bottom.
-    text : str
-        Name.
-    size : float
-        Type [pt].
+    inside, shape (rows, columns): the area over the whole of the axes, first row at the bottom.
+    size: type [pt].
     """
     wide, tall = size_of(axes)
     width, height = extent(figure_of(axes), text, size)

@@ -21,16 +21,8 @@ _STRIP, _GAP = 0.92, 0.12
 def traverse_figure(found: "TraverseReport", poses: int | None = None) -> Figure:
     """Side view with chosen poses, and inclination, energy margin and friction along the path.
 
-    Parameters
-    ----------
-    found : TraverseReport
-        What `kaidan.traverse` answers.
-    poses : int, optional
-        Number of poses to draw; as many as fit without it.
-
-    Returns
-    -------
-    Figure
+    found: what `kaidan.traverse` answers.
+    poses: number of poses to draw; as many as fit without it.
     """
     with look.settings():
         heads = _heads(found)
@@ -68,16 +60,8 @@ def traverse_figure(found: "TraverseReport", poses: int | None = None) -> Figure
 def side_figure(found: "TraverseReport", advice: str = "") -> Figure:
     """Side view alone, with the verdict, the reason and what to do above it.
 
-    Parameters
-    ----------
-    found : TraverseReport
-        What `kaidan.traverse` answers.
-    advice : str
-        What to do, in one line; empty where there is nothing to do.
-
-    Returns
-    -------
-    Figure
+    found: what `kaidan.traverse` answers.
+    advice: what to do, in one line; empty where there is nothing to do.
     """
     with look.settings():
         heads = [*_heads(found), *([advice] if advice else [])]

@@ -38,17 +38,9 @@ class Shown(NamedTuple):
 def view_of(found: "TraverseReport", width: float) -> tuple[float, float, float, float]:
     """Limits of the side view: the whole path, and room for the inset in its empty corner.
 
-    Parameters
-    ----------
-    found : TraverseReport
-        Traverse.
-    width : float
-        Of the view [in].
+    width: of the view [in].
 
-    Returns
-    -------
-    (left, right, bottom, top)
-        [m]
+    (left, right, bottom, top): [m]
     """
     points, poses = np.array(found.profile.points_m), found.poses
     back, ahead = side_view.reach(found.outline)

@@ -22,14 +22,7 @@ _SLOPE = math.radians(20.0)
 def weighing_figure(found: "RobotMeasurement | None" = None) -> Figure:
     """Procedure of `kaidan measure robot`: level, on a slope, and tipped; with what was stated.
 
-    Parameters
-    ----------
-    found : RobotMeasurement, optional
-        Whose figures are drawn; without one the procedure of any robot.
-
-    Returns
-    -------
-    Figure
+    found: whose figures are drawn; without one the procedure of any robot.
     """
     sketch = EXAMPLE if found is None else _sketch(found)
     at = {} if found is None else found.inputs

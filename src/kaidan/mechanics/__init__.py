@@ -9,16 +9,17 @@ equation has no solution. Read the modules in the order of the paper:
 ``plane`` (the states A-D and the five areas of the d-a plane), ``margin`` (19-24), ``loads``
 (how the contacts share the weight), ``measures`` (published stability measures),
 ``transitions`` (entering, riser start, crest), ``rearing`` (a tail in the corner of a tread),
-``rocking`` (what of a turn counts on a flight),
-``drive`` (traction, torque, power), ``oblique``
+``rocking`` (what of a turn counts on a flight), ``drive`` (traction, torque, power), ``oblique``
 (approach with a yaw), ``margins`` (every failure mode at once), ``weighing`` (the centroid from
-scales, tape and level), ``grousers`` and ``cones`` (what a belt with grousers holds),
-``clearance`` and ``turning`` (room on a flight, at a corner, through a door, on a landing).
+scales, tape and level), ``grousers`` (what a belt with grousers holds), ``clearance`` and
+``turning`` (room on a flight, at a corner, through a door, on a landing).
 
-Symbols: the glossary in the documentation has them all; ``theta_s`` stair angle [rad],
-``p`` nosing spacing [m], ``L`` flat length of the track [m], ``C_L`` centroid behind the uphill
-tip of the flat [m], ``C_N`` centroid above the underside [m], ``d`` progress [m], ``a``
-acceleration up the stairs [m/s^2], ``mu_s`` static friction, ``g`` gravity [m/s^2].
+Symbols, floats or arrays that broadcast, which a formula lists only where it means another:
+``theta_s`` slope of the line through the nosings [rad], ``p`` nosing spacing [m], ``L`` length of
+the flat underside [m], ``C_L``, ``C_N`` centroid behind the uphill tip and above the underside
+[m], ``M`` mass [kg], ``a`` acceleration up the stairs [m/s^2], ``psi`` yaw off the line of
+steepest ascent, to the left positive [rad], ``mu_s`` static friction [1], ``g`` gravity [m/s^2].
+The glossary in the documentation has all of them.
 
 A robot that faces down the stairs is the same robot with its ends swapped: write ``L - C_L``
 for ``C_L`` and every formula holds.

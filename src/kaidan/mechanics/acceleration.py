@@ -58,14 +58,8 @@ def tip_band(
 
     Parameters
     ----------
-    L, p, C_L, C_N : float
-        Flat length, nosing spacing, centroid behind the uphill tip and above the underside [m].
-    theta_s : float
-        Slope of the line through the nosings [rad].
     cells : int
         Number of cells.
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------

@@ -72,8 +72,6 @@ def headroom_needed(*, height: Number, length: Number, theta_s: Number, phi: Num
         Highest point of the robot above the underside of its tracks [m].
     length : float or array
         Length of the robot over all [m].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
     phi : float or array
         Inclination of the robot, at least that slope where it rears [rad].
 

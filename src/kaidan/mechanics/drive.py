@@ -23,16 +23,8 @@ def drive_force(
 
     Parameters
     ----------
-    M : float or array
-        Mass of the robot [kg].
-    a : float or array
-        Acceleration up the stairs [m/s^2].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
     c_rr : float or array
         Coefficient of rolling resistance [1]: positive moving up, negative moving down.
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -98,14 +90,8 @@ def drive_acceleration(
     ----------
     F : float or array
         Largest drive force up the stairs [N].
-    M : float or array
-        Mass of the robot [kg].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
     c_rr : float or array
         Coefficient of rolling resistance [1]: positive moving up, negative moving down.
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -137,14 +123,8 @@ def drive_slope(
     ----------
     F : float or array
         Largest drive force up the stairs [N].
-    M : float or array
-        Mass of the robot [kg].
-    a : float or array
-        Acceleration up the stairs [m/s^2].
     c_rr : float or array
         Coefficient of rolling resistance [1]: positive moving up, negative moving down.
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------

@@ -34,17 +34,6 @@ def zero_moment_point(
 
     Assumptions: rigid robot in translation along the stairs.
 
-    Parameters
-    ----------
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    a : float or array
-        Acceleration up the stairs [m/s^2].
-    g : float
-        Gravity [m/s^2].
-
     Returns
     -------
     float or array

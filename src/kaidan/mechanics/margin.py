@@ -13,10 +13,6 @@ def theta_s_sup_arccos(*, L: Number, p: Number, n: Number, C_L: Number, C_N: Num
 
     Parameters
     ----------
-    L : float or array
-        Length of the flat underside [m].
-    p : float or array
-        Nosing spacing [m].
     n : int or array
         floor(L / p) [1], at least 2.
     C_L, C_N : float or array
@@ -56,10 +52,6 @@ def slope_limit(*, grip: Number, a: Number, g: Number = STANDARD_GRAVITY) -> Num
     ----------
     grip : float or array
         Tangent of the equivalent slope at the limit [1].
-    a : float or array
-        Acceleration up the stairs [m/s^2].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -99,19 +91,6 @@ def theta_s_sup(
 
     Assumptions: regular nosings, p <= L / 2, rigid smooth track.
 
-    Parameters
-    ----------
-    L : float or array
-        Length of the flat underside [m].
-    p : float or array
-        Nosing spacing [m].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-    a : float or array
-        Acceleration up the stairs [m/s^2].
-    g : float
-        Gravity [m/s^2].
-
     Returns
     -------
     float or array
@@ -138,17 +117,6 @@ def theta_s_inf(
     ``theta_s_inf = atan((p - C_L) / C_N)`` at a = 0; of interest where positive (p > C_L).
 
     Assumptions: regular nosings, p <= L / 2.
-
-    Parameters
-    ----------
-    p : float or array
-        Nosing spacing [m].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-    a : float or array
-        Acceleration up the stairs [m/s^2].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -210,15 +178,6 @@ def semi_stable_limit(*, L: Number, p: Number, C_L: Number, C_N: Number) -> Numb
     tip, so the mean of a_r0 is its value at L - p/2; a speed that repeats from nosing to nosing
     needs a mean acceleration of zero. Unlimited friction and drive: a bound, not a promise.
 
-    Parameters
-    ----------
-    L : float or array
-        Length of the flat underside [m].
-    p : float or array
-        Nosing spacing [m].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-
     Returns
     -------
     float or array
@@ -251,21 +210,6 @@ def centroid_margin_downhill(
 
     ``L - p - C_L - C_N (tan(theta_s) + a / (g cos(theta_s)))``
 
-    Parameters
-    ----------
-    L : float or array
-        Length of the flat underside [m].
-    p : float or array
-        Nosing spacing [m].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    a : float or array
-        Acceleration up the stairs [m/s^2].
-    g : float
-        Gravity [m/s^2].
-
     Returns
     -------
     float or array
@@ -297,19 +241,6 @@ def centroid_margin_uphill(
 
     ``C_L - p + C_N (tan(theta_s) + a / (g cos(theta_s)))``
 
-    Parameters
-    ----------
-    p : float or array
-        Nosing spacing [m].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    a : float or array
-        Acceleration up the stairs [m/s^2].
-    g : float
-        Gravity [m/s^2].
-
     Returns
     -------
     float or array
@@ -331,15 +262,6 @@ def margin_per_centroid_length(*, L: Number, p: Number, C_L: Number, C_N: Number
     """Change of theta_s_sup per metre of centroid along the track, or of nosing spacing.
 
     ``d theta_s_sup / d C_L = d theta_s_sup / d p = -C_N / (x^2 + C_N^2)``, x = L - p - C_L
-
-    Parameters
-    ----------
-    L : float or array
-        Length of the flat underside [m].
-    p : float or array
-        Nosing spacing [m].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
 
     Returns
     -------

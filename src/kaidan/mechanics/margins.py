@@ -70,22 +70,8 @@ def margins(
 
     Parameters
     ----------
-    L : float or array
-        Length of the flat underside [m].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    p : float or array
-        Nosing spacing [m].
-    mu_s : float or array
-        Static friction [1]; NaN for unknown.
-    a : float or array
-        Acceleration up the stairs [m/s^2].
     theta_d, theta_M : float or array
         Allowances of Eq. (24) [rad].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -127,21 +113,6 @@ def acceleration_bounds(
     g: Number = STANDARD_GRAVITY,
 ) -> AccelerationBounds:
     """Bounds of the acceleration by every failure mode, over a whole regular flight.
-
-    Parameters
-    ----------
-    L : float or array
-        Length of the flat underside [m].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    p : float or array
-        Nosing spacing [m].
-    mu_s : float or array
-        Static friction [1]; NaN for unknown.
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------

@@ -32,10 +32,6 @@ def static_margin_downhill(*, x_0: Number, C_L: Number, C_N: Number, theta_s: Nu
     ----------
     x_0 : float or array
         Lowest contact behind the uphill tip [m].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
 
     Returns
     -------
@@ -65,10 +61,6 @@ def static_margin_uphill(*, x_n: Number, C_L: Number, C_N: Number, theta_s: Numb
     ----------
     x_n : float or array
         Highest contact behind the uphill tip [m].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
 
     Returns
     -------
@@ -137,8 +129,6 @@ def energy_margin_backward(*, alpha: Number, theta_alpha: Number, theta_s: Numbe
         Distance t_0 to centroid [m], see `kaidan.mechanics.triangle.alpha`.
     theta_alpha : float or array
         Angle t_n t_0 C [rad], see `kaidan.mechanics.triangle.theta_alpha`.
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
 
     Returns
     -------
@@ -173,8 +163,6 @@ def energy_margin_forward(*, beta: Number, theta_beta: Number, theta_s: Number) 
         Distance t_n to centroid [m], see `kaidan.mechanics.triangle.beta`.
     theta_beta : float or array
         Angle t_0 t_n C [rad], see `kaidan.mechanics.triangle.theta_beta`.
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
 
     Returns
     -------
@@ -250,16 +238,6 @@ def force_angle_measure(
     ----------
     x_0, x_n : float or array
         Lowest and highest contact behind the uphill tip [m].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    a : float or array
-        Acceleration up the stairs [m/s^2].
-    M : float or array
-        Mass of the robot [kg].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -301,8 +279,6 @@ def kinetic_energy_height(*, v: Number, g: Number = STANDARD_GRAVITY) -> Number:
     ----------
     v : float or array
         Speed [m/s].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -349,8 +325,6 @@ def sudden_stop_height(
         Centroid above the line of the belt at the contact [m].
     gyration : float or array
         Radius of gyration about the centroid [m].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------

@@ -18,13 +18,6 @@ def oblique_spacing(*, p: Number, psi: Number) -> Number:
 
     ``p / cos(psi)``
 
-    Parameters
-    ----------
-    p : float or array
-        Nosing spacing [m].
-    psi : float or array
-        Yaw off the line of steepest ascent [rad].
-
     Returns
     -------
     float or array
@@ -56,12 +49,8 @@ def equivalent_slope_along(
     ----------
     theta_s : float or array
         Slope of the line through the nosings [rad], within (-pi/2, pi/2).
-    psi : float or array
-        Yaw off the line of steepest ascent [rad].
     a : float or array
         Acceleration along the heading [m/s^2].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -92,8 +81,6 @@ def equivalent_slope_across(*, theta_s: Number, psi: Number) -> Number:
     ----------
     theta_s : float or array
         Slope of the line through the nosings [rad], within (-pi/2, pi/2).
-    psi : float or array
-        Yaw off the line of steepest ascent, to the left positive [rad].
 
     Returns
     -------
@@ -128,12 +115,8 @@ def oblique_friction(
     ----------
     theta_s : float or array
         Slope of the line through the nosings [rad], within (-pi/2, pi/2).
-    psi : float or array
-        Yaw off the line of steepest ascent [rad].
     a : float or array
         Acceleration along the heading [m/s^2].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -162,8 +145,6 @@ def track_lag(*, gauge: Number, psi: Number) -> Number:
     ----------
     gauge : float or array
         Distance between the middles of the two tracks [m].
-    psi : float or array
-        Yaw off the line of steepest ascent, to the left positive [rad].
 
     Returns
     -------
@@ -186,13 +167,6 @@ def body_inclination(*, theta_s: Number, psi: Number) -> Number:
     """Inclination of the body, its heading over the horizontal.
 
     ``sin(phi) = sin(theta_s) cos(psi)``
-
-    Parameters
-    ----------
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    psi : float or array
-        Yaw off the line of steepest ascent [rad].
 
     Returns
     -------

@@ -18,10 +18,6 @@ def other_offset(*, p: Number, psi: Number, gauge: Number) -> Number:
 
     Parameters
     ----------
-    p : float or array
-        Nosing spacing [m].
-    psi : float or array
-        Yaw off the line of steepest ascent, to the left positive [rad].
     gauge : float or array
         Distance between the middles of the two tracks [m].
 
@@ -72,12 +68,8 @@ def edge_slack(
         Share of the slope's load that counts [1].
     C_N : float or array
         Height of the centroid above the underside [m].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
     a : float or array
         Acceleration along the heading [m/s^2].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -112,8 +104,6 @@ def edge_limit(
         Height of the centroid above the underside [m].
     a : float or array
         Acceleration along the heading [m/s^2].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -147,8 +137,6 @@ def sideways_limit(*, gauge: Number, C_N: Number, psi: Number) -> Number:
         Distance between the middles of the two tracks [m].
     C_N : float or array
         Height of the centroid above the underside [m].
-    psi : float or array
-        Yaw off the line of steepest ascent [rad].
 
     Returns
     -------
@@ -191,14 +179,8 @@ def edge_energy(
         How much farther ahead the edge is on the left, over the gauge [1].
     C_N : float or array
         Height of the centroid above the underside [m].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    psi : float or array
-        Yaw off the line of steepest ascent, to the left positive [rad].
     a : float or array
         Acceleration along the heading [m/s^2].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------

@@ -35,13 +35,6 @@ def contact_count(*, L: Number, p: Number) -> Number:
     n + 1 nosings touch for 0 <= d < L - n p, and n from there on. A quotient within four units
     of rounding below a whole number counts as that number, so that 0.3 / 0.1 gives 3.
 
-    Parameters
-    ----------
-    L : float or array
-        Length of the flat underside [m].
-    p : float or array
-        Nosing spacing [m].
-
     Returns
     -------
     float or array
@@ -66,13 +59,6 @@ def two_contacts_remain(*, L: Number, p: Number) -> Number:
     """Whether two nosings carry the robot after one has left, so that the model holds.
 
     ``p <= L / 2``, that is n >= 2, with the rounding of `contact_count`.
-
-    Parameters
-    ----------
-    L : float or array
-        Length of the flat underside [m].
-    p : float or array
-        Nosing spacing [m].
 
     Returns
     -------
@@ -99,10 +85,6 @@ def lowest_contact(*, d: Number, L: Number, p: Number) -> Number:
     ----------
     d : float or array
         Progress [m], 0 <= d < p.
-    L : float or array
-        Length of the flat underside [m].
-    p : float or array
-        Nosing spacing [m].
 
     Returns
     -------
@@ -140,8 +122,6 @@ def area(
 
     Parameters
     ----------
-    a : float or array
-        Acceleration up the stairs [m/s^2].
     a_S, a_slides_up : float or array
         Slip limits [m/s^2].
     a_r0, a_rn : float or array

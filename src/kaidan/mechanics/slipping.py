@@ -14,14 +14,8 @@ def traction_sum(*, M: Number, a: Number, theta_s: Number, g: Number = STANDARD_
 
     Parameters
     ----------
-    M : float or array
-        Mass of the robot [kg].
     a : float or array
         Acceleration of the robot up the stairs [m/s^2].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -47,15 +41,6 @@ def normal_sum(*, M: Number, theta_s: Number, g: Number = STANDARD_GRAVITY) -> N
 
     ``sum f_kN = M g cos(theta_s)``
 
-    Parameters
-    ----------
-    M : float or array
-        Mass of the robot [kg].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    g : float
-        Gravity [m/s^2].
-
     Returns
     -------
     float or array
@@ -77,15 +62,6 @@ def slip_acceleration_up(*, mu_s: Number, theta_s: Number, g: Number = STANDARD_
     """Acceleration a_S up the stairs at which the tracks begin to slip.
 
     ``a_S = (mu_s cos(theta_s) - sin(theta_s)) g``; safe below it.
-
-    Parameters
-    ----------
-    mu_s : float or array
-        Static friction, track on nosing [1].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -111,15 +87,6 @@ def slip_acceleration_down(
 
     ``-(mu_s cos(theta_s) + sin(theta_s)) g``; safe above it. It limits accelerating downhill and
     braking while climbing.
-
-    Parameters
-    ----------
-    mu_s : float or array
-        Static friction, track on nosing [1].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -150,10 +117,6 @@ def equivalent_slope(*, theta_s: Number, a: Number, g: Number = STANDARD_GRAVITY
     ----------
     theta_s : float or array
         Slope of the line through the nosings [rad], within (-pi/2, pi/2).
-    a : float or array
-        Acceleration up the stairs [m/s^2].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -177,15 +140,6 @@ def required_friction(*, theta_s: Number, a: Number, g: Number = STANDARD_GRAVIT
     """Static friction below which the robot slips, either way along the stairs.
 
     ``mu_s > |tan(theta_s) + a / (g cos(theta_s))|``
-
-    Parameters
-    ----------
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    a : float or array
-        Acceleration up the stairs [m/s^2].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------

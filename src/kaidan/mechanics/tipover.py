@@ -46,14 +46,10 @@ def tip_angle_downhill(
     ----------
     x_0 : float or array
         Lowest contact behind the uphill tip of the flat [m].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
     phi : float or array
         Inclination of the body [rad], uphill end up positive.
     a : float or array
         Acceleration along the track [m/s^2], up the stairs positive.
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -93,14 +89,10 @@ def tip_angle_uphill(
     ----------
     x_n : float or array
         Highest contact behind the uphill tip of the flat [m].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
     phi : float or array
         Inclination of the body [rad], uphill end up positive.
     a : float or array
         Acceleration along the track [m/s^2], up the stairs positive.
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------

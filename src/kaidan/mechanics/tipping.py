@@ -22,12 +22,6 @@ def a_r0(
     s : float or array
         Lowest contact behind the uphill tip of the flat [m], see
         `kaidan.mechanics.plane.lowest_contact`.
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -57,12 +51,6 @@ def a_rn(
     ----------
     d : float or array
         Progress: highest contact behind the uphill tip of the flat [m].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------
@@ -98,19 +86,6 @@ def min_a_r0(
 
     Assumptions: regular nosings, p <= L / 2 (two contacts remain).
 
-    Parameters
-    ----------
-    L : float or array
-        Length of the flat underside [m].
-    p : float or array
-        Nosing spacing [m].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-    g : float
-        Gravity [m/s^2].
-
     Returns
     -------
     float or array
@@ -136,17 +111,6 @@ def max_a_rn(
     ``max a_rn = -g [((C_L - p) / C_N) cos(theta_s) + sin(theta_s)]``
 
     Assumptions: regular nosings, p <= L / 2.
-
-    Parameters
-    ----------
-    p : float or array
-        Nosing spacing [m].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------

@@ -30,8 +30,6 @@ def alpha(*, d: Number, k: Number, p: Number, C_L: Number, C_N: Number) -> Numbe
     k : int or array
         Nosing spacings between the lowest and the highest contact [1]: n before the lowest
         contact leaves, n - 1 after.
-    p : float or array
-        Nosing spacing [m].
     C_L, C_N : float or array
         Centroid behind the front tip and above the underside [m].
 
@@ -95,8 +93,6 @@ def theta_alpha_arccos(*, alpha: Number, beta: Number, k: Number, p: Number) -> 
         Distances of the centroid from the lowest and the highest contact [m].
     k : int or array
         Nosing spacings between these two contacts [1].
-    p : float or array
-        Nosing spacing [m].
 
     Returns
     -------
@@ -131,8 +127,6 @@ def theta_alpha(*, d: Number, k: Number, p: Number, C_L: Number, C_N: Number) ->
         Progress: distance of the highest contact behind the front tip [m].
     k : int or array
         Nosing spacings between the lowest and the highest contact [1].
-    p : float or array
-        Nosing spacing [m].
     C_L, C_N : float or array
         Centroid behind the front tip and above the underside [m].
 
@@ -189,12 +183,8 @@ def d_C(*, L: Number, n: Number, p: Number) -> Number:
 
     Parameters
     ----------
-    L : float or array
-        Length of the flat underside [m].
     n : int or array
         floor(L / p) [1].
-    p : float or array
-        Nosing spacing [m].
 
     Returns
     -------

@@ -135,8 +135,6 @@ def two_track_margins(
         Flat length; centroid behind its uphill end and above it [m].
     theta_s : float
         Slope of the plane in which the points are written [rad].
-    psi : float
-        Yaw off the line of steepest ascent, to the left positive [rad].
     a : float
         Acceleration along the heading [m/s^2].
 

@@ -61,25 +61,11 @@ def judged(
 
     Parameters
     ----------
-    L : float or array
-        Length of the flat underside [m].
-    C_L, C_N : float or array
-        Centroid behind the uphill tip and above the underside [m].
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    p : float or array
-        Nosing spacing [m].
-    mu_s : float or array
-        Static friction [1]; NaN for unknown.
-    a : float or array
-        Acceleration up the stairs [m/s^2].
     theta_d, theta_M : float or array
         Allowances of Eq. (24) in the worst case [rad].
     spare_d, spare_M : float or array
         What the best case of theta_d and theta_M gives back [rad]: all of it where nobody measured
         them and they may be zero, nothing where they are known.
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------

@@ -205,10 +205,6 @@ def local_angle_deviation(*, theta_s: Number, p: Number, s_r: Number, s_g: Numbe
 
     Parameters
     ----------
-    theta_s : float or array
-        Slope of the line through the nosings [rad].
-    p : float or array
-        Nosing spacing [m].
     s_r, s_g : float or array
         Standard deviation of single rises and goings [m].
 

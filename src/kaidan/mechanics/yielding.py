@@ -36,8 +36,6 @@ def drop_of_sag(*, theta_d: Number, p: Number, theta_s: Number) -> Number:
     ----------
     theta_d : float or array
         Extra inclination at the limit [rad].
-    p : float or array
-        Nosing spacing [m].
     theta_s : float or array
         Slope of the stairs [rad].
 
@@ -131,8 +129,6 @@ def theta_s_sup_yielding(
 
     Parameters
     ----------
-    L, p, C_L, C_N : float or array
-        Flat length, nosing spacing, centroid behind the uphill tip and above the underside [m].
     w_n : float or array
         Indentation under the whole weight on one nosing, W/k [m].
     drop : float or array
@@ -234,8 +230,6 @@ def yielding_loss(
 
     Parameters
     ----------
-    L, p, C_L, C_N : float or array
-        Flat length, nosing spacing, centroid behind the uphill tip and above the underside [m].
     w_n, w_t : float or array
         Indentation and shear under the whole weight on one nosing [m].
     R : float or array
@@ -246,8 +240,6 @@ def yielding_loss(
         Of the belt [m/s].
     gyration : float or array
         Radius of gyration about the lateral axis through the centroid [m].
-    g : float
-        Gravity [m/s^2].
 
     Returns
     -------

@@ -22,13 +22,8 @@ def judge(question: "Question", *, known: "Findings | None" = None) -> "Findings
 
     Parameters
     ----------
-    question : Question
     known : Findings, optional
         Of a similar question to the same model, which saves work that both share.
-
-    Returns
-    -------
-    Findings
     """
     if question.robot.com_range is not None:
         from kaidan.models.unweighed import judge_range
@@ -39,18 +34,7 @@ def judge(question: "Question", *, known: "Findings | None" = None) -> "Findings
 
 
 def beside(question: "Question", found: "Findings") -> "Findings":
-    """Findings of a model with those that are found beside it, whichever model it is.
-
-    Parameters
-    ----------
-    question : Question
-    found : Findings
-        Of a model, in one place of the centroid.
-
-    Returns
-    -------
-    Findings
-    """
+    """Findings of a model with those that are found beside it, whichever model it is."""
     if found.outside:
         return found
     if question.profile.is_level:
@@ -76,9 +60,9 @@ def beside(question: "Question", found: "Findings") -> "Findings":
         )
         found = replace(found, each=(*found.each, *more))
     if question.uneven_across:
-        from kaidan.models.two_tracks import beside
+        from kaidan.models import two_tracks
 
-        found = beside(question, found)
+        found = two_tracks.beside(question, found)
     return found
 
 

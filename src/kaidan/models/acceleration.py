@@ -101,22 +101,11 @@ def semi_stable(question: Question, at: Draws, step: int) -> bool:
 def plan_acceleration(question: Question, at: Draws, step: int, v_min: float = 0.0) -> Any:
     """Acceleration over one flight of the governing step, within the drive's limits.
 
-    Parameters
-    ----------
-    question : Question
-        Its acceleration plays no part.
-    at : Draws
-        Nominal inputs (the first row counts).
-    step : int
-        Which of the flight's different steps.
-    v_min : float
-        Slowest speed of the plan [m/s].
+    at: nominal inputs (the first row counts).
+    v_min: slowest speed of the plan [m/s].
 
-    Returns
-    -------
-    Plan
-        Along the path in the direction of travel, over all nosing spacings; see
-        `kaidan.mechanics.acceleration.acceleration_plan`.
+    Along the path in the direction of travel, over all nosing spacings; see
+    `kaidan.mechanics.acceleration.acceleration_plan`.
     """
     lower, upper, width = flight_band(question, at, step)
     fastest = question.robot.drive.max_speed

@@ -56,27 +56,7 @@ def balance(
     phase: Phase | None,
     held: Supplies | None,
 ) -> list[Finding]:
-    """Findings of tipping, falls, rotations and energy.
-
-    Parameters
-    ----------
-    question : Question
-        As it was put.
-    driven : Question
-        Along the heading.
-    found : Traverse
-        Its traverse.
-    over : Spread
-        Of the margins.
-    phase : Phase, optional
-        Part of the traverse to judge alone.
-    held : Supplies, optional
-        What grousers hold, and how far it slips back onto them.
-
-    Returns
-    -------
-    list of Finding
-    """
+    """Findings of tipping, falls, rotations and energy."""
     phases = tuple(each for each in found.phases if phase in (None, each.phase))
     chains = [each for each in found.chains if each.arrested and phase in (None, each.phase)]
     tips = _tips(question, driven, found, over, phase)

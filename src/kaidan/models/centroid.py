@@ -13,18 +13,8 @@ from kaidan.question import Question
 def shift_of_centroid(question: Question, *, downhill: bool) -> float | None:
     """Shift along the track, away from the end that it tips over, that gives a margin of zero.
 
-    Parameters
-    ----------
-    question : Question
-        Its terrain needs regular steps; of several flights the steepest counts.
-    downhill : bool
-        Whether it tips over its downhill end.
-
-    Returns
-    -------
-    float or None
-        Shift [m] in the worst case at the risk; None where none is needed, the track is too short
-        for any, or the terrain has no regular steps or the robot heads off.
+    Shift [m] in the worst case at the risk; None where none is needed, the track is too short for
+    any, or the terrain has no regular steps or the robot heads off.
     """
     flight = question.steepest_flight
     if flight is None or question.yaw:

@@ -30,18 +30,6 @@ def findings_of(question: Question, room: Room, model: str) -> tuple[Finding, ..
     The width is that of the widest strip which is free up to the height that the robot needs, the
     headroom that over the strip which the robot needs. So what is too narrow at every height, or
     too low at every place, is stated as that.
-
-    Parameters
-    ----------
-    question : Question
-    room : Room
-        What is free along its flights.
-    model : str
-        Model beside whose findings these stand.
-
-    Returns
-    -------
-    tuple of Finding
     """
     needs = question.needs
     each = []

@@ -33,10 +33,6 @@ def judge(question: Question, *, known: Findings | None = None) -> Findings:
         Its terrain needs steps; entering and landing are not judged.
     known : Findings, optional
         Of a similar question; not used, because nothing here takes time.
-
-    Returns
-    -------
-    Findings
     """
     _ = question.robot.weighed
     flight = question.flight

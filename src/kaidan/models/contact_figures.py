@@ -133,21 +133,7 @@ def figures_of(
     *,
     falls: "tuple[Fall, ...]",
 ) -> ContactFigures:
-    """Figures of a traverse.
-
-    Parameters
-    ----------
-    question : Question
-        As it was put.
-    driven : Question
-        Along the heading.
-    found : Traverse
-        Its traverse.
-    phases : tuple of PhaseExtremes
-        Those that count.
-    falls : tuple of Fall
-        Those that were looked for.
-    """
+    """Figures of a traverse."""
     says_something = found.holds is not None and not question.yaw
     from kaidan.traversal.tilting import LARGEST
 

@@ -17,10 +17,6 @@ def judge(question: Question, *, known: Findings | None = None) -> Findings:
         On any terrain.
     known : Findings, optional
         Of a similar question: its traverse is taken over where the change plays no part in it.
-
-    Returns
-    -------
-    Findings
     """
     if question.changes:
         return _of_a_plan(question, known)

@@ -75,19 +75,8 @@ def drawn_falls(
 ) -> Array:
     """Tilt to the fall of each sample less the reserve [rad].
 
-    Parameters
-    ----------
-    question : Question
-        Driven along its heading.
-    found : Traverse
-        Of the question.
-    first_rock : ndarray
-        By how much the tilt to the first rock differs in each sample [rad]; one alone where nothing
-        is in doubt.
-    which : ndarray of bool
-        Samples that rock, whose tilt to the fall counts; of the others nothing is driven.
-    downhill : bool
-        Over which end it falls.
+    first_rock: by how much the tilt to the first rock differs in each sample [rad]; one alone where
+        nothing is in doubt.
     """
     nominal = (found.falls_downhill if downhill else found.falls_uphill).tilt
     spare = np.asarray(nominal - question.reserve + first_rock)

@@ -31,15 +31,8 @@ _LEAST_FRICTION = 0.05
 def track_of(question: Question) -> TrackModel:
     """Model of the track that a question asks for.
 
-    Parameters
-    ----------
-    question : Question
-
-    Returns
-    -------
-    TrackModel
-        As the question names it; else the yielding belt where the sheet says how it yields and the
-        robot is driven straight on, else the smooth belt.
+    As the question names it; else the yielding belt where the sheet says how it yields and the
+    robot is driven straight on, else the smooth belt.
     """
     track = question.robot.track
     yields = track.stiffness is not None or track.indentation is not None
@@ -53,13 +46,7 @@ def track_of(question: Question) -> TrackModel:
 
 
 def drawn_specs(question: Question) -> Iterator[tuple[TrialSpec, ...]]:
-    """Trials of each draw: with the smallest friction, then with the largest if it differs.
-
-    Raises
-    ------
-    InputError
-        A question that trials cannot be made of.
-    """
+    """Trials of each draw: with the smallest friction, then with the largest if it differs."""
     track = track_of(question)
     count = question.trials
     start: list[float | None] = [None] * count
@@ -86,13 +73,7 @@ def _surfaces(question: Question) -> list[Surface | None]:
 
 
 def drawn(question: Question) -> Iterator[Question]:
-    """As many questions as there are trials, their inputs drawn of their doubt.
-
-    Parameters
-    ----------
-    question : Question
-        One trial, or exact inputs: the sheets' figures.
-    """
+    """As many questions as there are trials, their inputs drawn of their doubt."""
     count = question.trials
     if count == 1 or not question.uncertain:
         for _ in range(count):

@@ -26,17 +26,10 @@ def traction_limit(question: Question, speed: float | None = None) -> float | No
 def steepest_for_drive(question: Question, a: Any) -> Any:
     """Steepest slope on which the drive brings the traction for an acceleration.
 
-    Parameters
-    ----------
-    question : Question
-        `a` stands for its acceleration.
-    a : float or array
-        Acceleration up the stairs [m/s^2].
+    question: `a` stands for its acceleration.
+    a: acceleration up the stairs [m/s^2].
 
-    Returns
-    -------
-    float or array
-        Slope [rad], at most pi/2; NaN where traction or mass is not known.
+    Slope [rad], at most pi/2; NaN where traction or mass is not known.
     """
     force, mass = traction_limit(question), question.stance.mass
     if force is None or mass is None:

@@ -49,10 +49,6 @@ def judge(question: Question, *, known: Findings | None = None) -> Findings:
     known : Findings, optional
         Of a similar question; not used.
 
-    Returns
-    -------
-    Findings
-
     Raises
     ------
     MissingExtraError
@@ -71,11 +67,7 @@ def findings_of(draws: Sequence[Draw], *, risk: float = 0.01) -> Findings:
     A draw fails in the worst case where one of its trials does, and in the best case where all do.
     Many draws fail for certain where the interval of their share lies above the risk.
 
-    Parameters
-    ----------
-    draws : sequence of tuple of TrialResult
-    risk : float
-        Probability of failure that is accepted [1].
+    risk: probability of failure that is accepted [1].
     """
     figures = figures_of(draws)
     for trial in (trial for draw in draws for trial in draw):

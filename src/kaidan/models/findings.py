@@ -120,12 +120,7 @@ def hardest(frictions: Iterable[float]) -> int:
 def sliding_where(most: Sequence[Finding], one: Finding) -> Finding:
     """Finding of sliding, put where most friction is required; of anything else as it is.
 
-    Parameters
-    ----------
-    most : sequence of Finding
-        Of the part or the place that requires most.
-    one : Finding
-        Of all of them together.
+    most: of the part or the place that requires most.
     """
     slides = (SLIDES_DOWN, SLIDES_UP)
     at = next((each for each in most if each.mode in slides), None)

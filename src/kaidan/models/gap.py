@@ -55,23 +55,9 @@ def jams(
 ) -> list[Finding]:
     """Finding of a robot with a gap that may jam; none without a gap, or a friction stated.
 
-    Parameters
-    ----------
-    question : Question
-        As driven.
-    found : Traverse
-        Of the question.
-    required : float
-        Friction that it requires [1].
-    place : Place
-        Where that is required.
-    phase : Phase, optional
-        Part of the traverse to judge alone.
+    required: friction that it requires [1].
 
-    Returns
-    -------
-    list of Finding
-        At most zero where its trailing part comes against a riser's face.
+    At most zero where its trailing part comes against a riser's face.
     """
     if math.isinf(most_friction(question)) or question.surface is None:
         return []

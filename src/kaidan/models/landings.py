@@ -69,17 +69,7 @@ class Turned(NamedTuple):
 def turned(tried: Sequence[tuple[str, Footprint]], room: Room | None) -> Turned:
     """First posture and way in which a robot turns.
 
-    Parameters
-    ----------
-    tried : sequence of (str, Footprint)
-        Postures, that of the climb first; another one is taken rather than to go back and forth.
-    room : Room, optional
-        None: not known.
-
-    Returns
-    -------
-    Turned
-        Of none the posture that sweeps the smallest circle.
+    room: none: not known.
     """
     name, footprint = tried[0]
     if room is None or not math.isfinite(footprint.width):
@@ -140,14 +130,7 @@ def _rounds(footprint: Footprint, level: bool, a: float, b: float, deep: float) 
 def shown(found: Turned, climbing: str, turn: float | None, robot: Robot) -> dict[str, Any]:
     """Fields of `TurnFigures`, in its order.
 
-    Parameters
-    ----------
-    found : Turned
-    climbing : str
-        Posture in which the robot climbs.
-    turn : float, optional
-        Angle between both ways [rad]; None: not known.
-    robot : Robot
+    turn: angle between both ways [rad]; None: not known.
     """
     return {
         "turn_deg": None if turn is None else math.degrees(turn),
@@ -246,18 +229,7 @@ def room_of(landing: Landing) -> Room:
 
 
 def beside(question: Question, found: Findings) -> Findings:
-    """Findings of a model with whether the robot turns on all landings where the way turns.
-
-    Parameters
-    ----------
-    question : Question
-    found : Findings
-        Of any model.
-
-    Returns
-    -------
-    Findings
-    """
+    """Findings of a model with whether the robot turns on all landings where the way turns."""
     turns = turns_of(question)
     worst = not all(each.holds for each in turns)
     best = any(each.way == "none" for each in turns)

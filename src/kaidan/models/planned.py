@@ -74,20 +74,9 @@ def drive(
 ) -> Planned:
     """Drive a plan of postures, from landing to landing.
 
-    Parameters
-    ----------
-    question : Question
-        Straight up or down.
-    over : callable
-        What drives a part, as `driven_over` does: its path, and whether it arrives, is needed.
-    moved : callable
-        What changes a posture; `move` without it.
-    **how
-        As for `kaidan.traversal.traverse`.
-
-    Returns
-    -------
-    Planned
+    over: what drives a part, as `driven_over` does: its path, and whether it arrives, is needed.
+    moved: what changes a posture; `move` without it.
+    **how: as for `kaidan.traversal.traverse`.
     """
     moved, profile = moved or move, profile_of(question)
     stages = list(stages_of(question))
@@ -141,17 +130,8 @@ def stop(question: Question, profile: Profile, phase: Phase) -> float:
 def findings(question: Question, planned: Planned, *, most: float = math.inf) -> Findings:
     """Findings of the traverse of a plan: the smallest margins of its parts and changes.
 
-    Parameters
-    ----------
-    question : Question
-        As it was put; what plays no part in the traverse may differ from what was driven.
-    planned : Planned
-    most : float
-        As for `kaidan.models.quasi_static.findings_of`.
-
-    Returns
-    -------
-    Findings
+    question: as it was put; what plays no part in the traverse may differ from what was driven.
+    most: as for `kaidan.models.quasi_static.findings_of`.
     """
     of_parts = []
     for part in planned.parts:

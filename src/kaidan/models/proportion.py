@@ -10,16 +10,8 @@ _ROUNDS = 60
 def interval(failed: int, trials: int) -> tuple[float, float]:
     """Clopper-Pearson interval of a probability, 95 %.
 
-    Parameters
-    ----------
-    failed, trials : int
-        Trials that failed, of so many.
-
-    Returns
-    -------
-    (float, float)
-        Probabilities with which so many or more, and so many or fewer, fail in 2.5 % of all cases;
-        0 and 1 where none and all did.
+    Probabilities with which so many or more, and so many or fewer, fail in 2.5 % of all cases; 0
+    and 1 where none and all did.
 
     Examples
     --------

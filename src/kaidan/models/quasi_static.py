@@ -122,21 +122,8 @@ def findings_of(
 ) -> Findings:
     """Findings of a traverse, of the whole of it or of one phase alone.
 
-    Parameters
-    ----------
-    question : Question
-        As it was put.
-    basis : Basis
-        Its traverse.
-    phase : Phase, optional
-        Part of the traverse to judge alone.
-    most : float
-        Margin of slope beyond which a larger one is no better [rad]. That of a fall is then found
+    most: margin of slope beyond which a larger one is no better [rad]. That of a fall is then found
         no farther than it may be the smallest.
-
-    Returns
-    -------
-    Findings
     """
     driven, found = basis
     if not _answered(driven, found):
@@ -248,17 +235,9 @@ class _Extremes(NamedTuple):
 def sliding_margin(question: Question, basis: Basis) -> Array:
     """Margin against sliding of each sample in the worst case, known before the other margins.
 
-    Parameters
-    ----------
-    question : Question
-        To be judged by `findings_of`.
-    basis : Basis
-        Its traverse.
+    question: to be judged by `findings_of`.
 
-    Returns
-    -------
-    ndarray (samples,)
-        [rad]; infinite where it takes the other margins to know.
+    [rad]; infinite where it takes the other margins to know.
     """
     driven, found = basis
     if not _answered(driven, found) or not belts.holds_otherwise(question):

@@ -73,19 +73,7 @@ class Spread(NamedTuple):
 
 
 def spread(question: Question, traverse: Traverse) -> Spread:
-    """Spread of the margins of a question; one sample, all zero, where every input is exact.
-
-    Parameters
-    ----------
-    question : Question
-        Driven along its heading.
-    traverse : Traverse
-        Of the question.
-
-    Returns
-    -------
-    Spread
-    """
+    """Spread of the margins of a question; one sample, all zero, where every input is exact."""
     if not question.uncertain:
         return Spread(*np.zeros((10, 1)))
     count, flight = sample_count(question), question.steepest_flight
@@ -137,11 +125,7 @@ def drawn_of_all(question: Question) -> Array:
 def nosings_of(profile: Profile, drawn: Array) -> Array:
     """Nosings of each sample, shape (samples, m, 2) [m].
 
-    Parameters
-    ----------
-    profile : Profile
-    drawn : array, shape (6, samples)
-        Of `drawn_of_all`.
+    drawn, shape (6, samples): of `drawn_of_all`.
     """
     unit = unit_draws(drawn.shape[1], _OF_ALL + 2 * len(profile.nosings))[_OF_ALL:]
     single = profile.drawn_nosings(unit) - profile.nosings
@@ -217,11 +201,7 @@ def changed_nosings(nosings: Array, *, angle: Array, spacing: Array) -> Array:
 def moved_profile(profile: Profile, nosings: Array) -> Profile:
     """Profile with its nosings elsewhere: risers go with them, treads lie as high as theirs.
 
-    Parameters
-    ----------
-    profile : Profile
-    nosings : array, shape (m, 2)
-        New places, in their order [m].
+    nosings, shape (m, 2): new places, in their order [m].
     """
     if len(nosings) == 0:
         return replace(profile, covariance=None)

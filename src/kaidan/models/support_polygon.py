@@ -79,10 +79,6 @@ def judge(question: Question, *, known: Findings | None = None) -> Findings:
     known : Findings, optional
         Of a similar question; not used.
 
-    Returns
-    -------
-    Findings
-
     Raises
     ------
     InputError
@@ -179,22 +175,12 @@ def _supply_samples(question: Question, at: Draws) -> tuple[Array, Array]:
 def margins_of(question: Question, flight: Stairs, psi: Array, *, certain: bool = False) -> Array:
     """Margins against tipping over the polygon's edges, worst over the flight's steps.
 
-    Parameters
-    ----------
-    question : Question
-        Its robot must have a gauge; its own yaw plays no part.
-    flight : Stairs
-        Of the question.
-    psi : array, shape (k,)
-        Yaws [rad].
-    certain : bool
-        The sheets' figures only.
+    question: its robot must have a gauge; its own yaw plays no part.
+    psi, shape (k,): yaws [rad].
+    certain: the sheets' figures only.
 
-    Returns
-    -------
-    array, shape (3, k, samples)
-        Downhill, uphill, sideways [rad], without allowances; minus a right angle where a track is
-        without any contact at times.
+    Shape (3, k, samples): downhill, uphill, sideways [rad], without allowances; minus a right angle
+    where a track is without any contact at times.
     """
     at = nominal(question, flight)
     if not certain:
@@ -222,19 +208,10 @@ def _margins(at: Draws, gauge: float, edges: "_Edges", a: float) -> Array:
 def energy_of(question: Question, flight: Stairs, psi: Array) -> Array:
     """Smallest rise of the centroid on its way over any edge, the sheets' figures.
 
-    Parameters
-    ----------
-    question : Question
-        Its robot must have a gauge; its own yaw plays no part.
-    flight : Stairs
-        Of the question.
-    psi : array, shape (k,)
-        Yaws [rad].
+    question: its robot must have a gauge; its own yaw plays no part.
+    psi, shape (k,): yaws [rad].
 
-    Returns
-    -------
-    array, shape (k,)
-        Rise [m].
+    Shape (k,): rise [m].
     """
     at, gauge = nominal(question, flight), gauge_of(question)
     return _energy(at, gauge, _edges(at, gauge, psi), question.acceleration)
@@ -284,19 +261,9 @@ def _edges(at: Draws, gauge: float, psi: Array) -> _Edges:
 def yaw_limit(question: Question, flight: Stairs) -> float | None:
     """Yaw from which the robot tips on the flight, less the allowances, at the chosen risk.
 
-    Parameters
-    ----------
-    question : Question
-        Its own yaw plays no part.
-    flight : Stairs
-        Of the question.
-
-    Returns
-    -------
-    float or None
-        Yaw [rad]; None if it tips without any, if it holds up to the largest yaw judged, or if the
-        robot's gauge is not known. Only the flight is judged, not its ends; the friction that is
-        required there does not depend on the yaw.
+    Yaw [rad]; None if it tips without any, if it holds up to the largest yaw judged, or if the
+    robot's gauge is not known. Only the flight is judged, not its ends; the friction that is
+    required there does not depend on the yaw.
     """
     if question.robot.track.gauge is None:
         return None

@@ -76,15 +76,7 @@ class Standing(NamedTuple):
 def standing(question: Question, move: "Move") -> Standing:
     """How friction and grousers hold the robot while its posture changes.
 
-    Parameters
-    ----------
-    question : Question
-    move : Move
-        In which it stands at least once.
-
-    Returns
-    -------
-    Standing
+    move: in which it stands at least once.
     """
     surface = question.surface
     if not (question.robot.track.has_grousers or (surface is not None and surface.differs)):
@@ -139,15 +131,6 @@ def supplies(
     """How friction and grousers hold the robot; None where one friction of smooth belts is all.
 
     Off the line of steepest ascent nobody knows what grousers hold: friction alone counts there.
-
-    Parameters
-    ----------
-    question, driven : Question
-        As it was put, and along the heading.
-    found : Traverse
-        Of the latter.
-    phase : Phase, optional
-        Part of the traverse to judge alone.
     """
     if not holds_otherwise(question):
         return None
@@ -164,25 +147,7 @@ def supply(
     best: bool = False,
     phase: Phase | None = None,
 ) -> Supply:
-    """How friction and the grousers of a track hold the robot, in the worst or in the best case.
-
-    Parameters
-    ----------
-    question : Question
-        Friction, nosings, mass; friction that nobody stated is taken as none.
-    found : Traverse
-        Of the question.
-    track : Track
-        Whose grousers.
-    best : bool
-        With every range at its favourable end.
-    phase : Phase, optional
-        Part of the traverse to judge alone.
-
-    Returns
-    -------
-    Supply
-    """
+    """How friction and the grousers of a track hold the robot, in the worst or in the best case."""
     surface, grip = question.surface, found.grip
     phi = _cones(surface, best=best)
     sliding = SLIDING * math.tan(min(phi))
@@ -232,10 +197,7 @@ def supply(
 def gripping(question: Question) -> "Gripping | None":
     """Belts of a question by cases; None where they have no grousers, or none that bear.
 
-    Parameters
-    ----------
-    question : Question
-        With a surface, without a yaw.
+    question: with a surface, without a yaw.
     """
     track, surface = question.robot.track, question.surface
     if surface is None or not (holds_otherwise(question) and bears(question, track)):
@@ -287,14 +249,8 @@ def _enough(
     The first angle is what cones lack that all grow alike. At a riser's face the cone of rigid
     grousers grows less, so what is still lacking is added until nothing is.
 
-    Parameters
-    ----------
-    spare : callable
-        What there is to spare with an angle of friction, the same everywhere [rad], and where.
-    angle : float
-        The first angle [rad].
-    at : int
-        The first pose.
+    spare: what there is to spare with an angle of friction, the same everywhere [rad], and where.
+    angle: the first angle [rad].
     """
     for _ in range(MOST_LOOKS):
         if not 0.0 < angle < math.pi / 2:
@@ -330,18 +286,8 @@ def figures_of(
 ) -> TractionFigures:
     """Figures of a traverse.
 
-    Parameters
-    ----------
-    question : Question
-        Along the heading.
-    found : Traverse
-        Its traverse.
-    smooth : float
-        Friction that smooth belts require [1].
-    held : Supplies, optional
-        Where not one friction of smooth belts is all.
-    phase : Phase, optional
-        Part of the traverse that counts.
+    smooth: friction that smooth belts require [1].
+    held: where not one friction of smooth belts is all.
     """
     track, worst = question.robot.track, None if held is None else held.worst
     usual = math.inf

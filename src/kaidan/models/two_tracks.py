@@ -19,18 +19,7 @@ from kaidan.terrain.stairs import MOST_TWISTED, Stairs
 
 
 def beside(question: Question, found: Findings) -> Findings:
-    """Findings of a model with that of both tracks, worst over the flights of the question.
-
-    Parameters
-    ----------
-    question : Question
-    found : Findings
-        Of any model.
-
-    Returns
-    -------
-    Findings
-    """
+    """Findings of a model with that of both tracks, worst over the flights of the question."""
     flights = question.terrain if isinstance(question.terrain, tuple) else (question.terrain,)
     if question.robot.track.gauge is None:
         return replace(found, notes=(*found.notes, text.NO_GAUGE))
@@ -51,15 +40,7 @@ def beside(question: Question, found: Findings) -> Findings:
 def margins_on(question: Question, flight: Stairs) -> TwoTrackMargins:
     """Margins of a question's robot on the nosings of a flight, without allowances.
 
-    Parameters
-    ----------
-    question : Question
-        Its robot must have a gauge.
-    flight : Stairs
-
-    Returns
-    -------
-    TwoTrackMargins
+    question: its robot must have a gauge.
     """
     gauge, stance = question.robot.track.gauge, question.stance
     assert gauge is not None

@@ -40,17 +40,9 @@ class Placed(NamedTuple):
 def judge_range(question: Question, judge: Judge) -> Findings:
     """Findings of a robot whose centroid is anywhere in its range.
 
-    Parameters
-    ----------
-    question : Question
-        Of a robot with `com_range`.
-    judge : callable
-        Findings of a question about a robot of known centroid.
+    question: of a robot with `com_range`.
 
-    Returns
-    -------
-    Findings
-        Their `basis` is the list of `Placed`, by height and then along the track.
+    Their `basis` is the list of `Placed`, by height and then along the track.
     """
     placed = list(_judged(question, judge))
     answered = [each for each in placed if not each.found.outside]
@@ -88,13 +80,7 @@ def judge_range(question: Question, judge: Judge) -> Findings:
 
 
 def at(question: Question, com_from_front: float, com_height: float, judge: Judge) -> Placed:
-    """One centroid, judged.
-
-    Raises
-    ------
-    InputError
-        A place that the robot cannot have in this posture.
-    """
+    """One centroid, judged."""
     robot = question.robot.with_centroid(com_from_front, com_height)
     weighed = question.changed(robot=robot)
     return Placed(com_from_front, com_height, weighed, judge(weighed))

@@ -12,12 +12,7 @@ RAMP = 0.4
 class Belt:
     """How fast the belt runs and how far it has run.
 
-    Parameters
-    ----------
-    spec : TrialSpec
-    course : Course
-    at_once : bool
-        Whether the robot moves when the drive begins; else it comes to speed in `RAMP`.
+    at_once: whether the robot moves when the drive begins; else it comes to speed in `RAMP`.
     """
 
     def __init__(self, spec: TrialSpec, course: Course, *, at_once: bool) -> None:

@@ -64,9 +64,7 @@ def half_width(spec: TrialSpec) -> float:
 def tangent(part: Array, side: float) -> tuple[Array, Array, Array]:
     """Common tangent of a part's discs, on the lower (side -1) or upper (+1) side.
 
-    Returns
-    -------
-    start and end of the tangent [m], shape (2,) each, and its outward normal
+    Shape (2,).
     """
     c1, r1, c2, r2 = part[0:2], part[2], part[3:5], part[5]
     along = c2 - c1
@@ -95,10 +93,7 @@ def add_belts(
 ) -> dict[str, Array]:
     """Add the robot's parts to its body, relative to the centroid.
 
-    Returns
-    -------
-    dict
-        Surface velocity of each driven geom for a belt speed of 1 m/s, shape (6,).
+    Surface velocity of each driven geom for a belt speed of 1 m/s, shape (6,).
     """
     field: dict[str, Array] = {}
     of_kind = dict.fromkeys(kinds.tolist(), 0)

@@ -115,9 +115,7 @@ def _polygon(
 ) -> tuple[Array, Array, float]:
     """Hinges on a stadium at equal chords, backward along the underside, and the chord.
 
-    Returns
-    -------
-    hinges [m], shape (count, 2); directions from each to the next [rad]; chord [m]
+    Shape (count, 2).
     """
     flat, arc = front - rear, math.pi * radius
     whole = 2 * flat + 2 * arc

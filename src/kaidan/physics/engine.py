@@ -17,13 +17,7 @@ OLDEST = (3, 13)
 
 @cache
 def engine() -> Any:
-    """The module `mujoco`.
-
-    Raises
-    ------
-    MissingExtraError
-        MuJoCo is not installed, or is older than `OLDEST`.
-    """
+    """The module `mujoco`."""
     if "mujoco" not in sys.modules and "MUJOCO_GL" not in os.environ and not _has_a_display():
         # MuJoCo settles how it draws when it is imported; nothing needs a display here
         for name, library in (("egl", "EGL"), ("osmesa", "OSMesa")):

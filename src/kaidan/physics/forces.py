@@ -30,7 +30,6 @@ class Forces:
         -------
         force on the robot from each nosing along their line and normal to it [N], (nosings, 2)
         force on each grouser likewise [N], (grousers, 2)
-        number of contacts
         """
         by_nosing = np.zeros((self.count, 2))
         by_grouser = np.zeros((int(self.grousers.max()) + 1, 2))

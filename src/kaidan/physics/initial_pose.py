@@ -125,12 +125,7 @@ def course_of(spec: TrialSpec) -> Course:
 def slope_of(profile: Profile, room: float) -> float:
     """Slope of the line of the nosings, of the steepest flight if there are several [rad].
 
-    Parameters
-    ----------
-    profile : Profile
-        As driven.
-    room : float
-        Distance of two nosings from which on a landing lies between them [m].
+    room: distance of two nosings from which on a landing lies between them [m].
     """
     ends = np.flatnonzero(np.diff(profile.nosings[:, 0]) >= room) + 1
     flights = np.split(profile.nosings, ends)
@@ -148,14 +143,7 @@ def _on_the_landing(outline: Outline, profile: Profile, before: float) -> tuple[
     Flippers that reach below the flat lift an end of it, so the robot leans whatever its place, and
     its foremost point is that of the pose in which it leans, not that of the flat on the floor.
 
-    Parameters
-    ----------
-    outline : Outline
-        Robot as driven.
-    profile : Profile
-        Terrain as driven.
-    before : float
-        Distance of the foremost point from the first nosing [m].
+    before: distance of the foremost point from the first nosing [m].
     """
     floor = np.array([[-1.0, 0.0], [1.0, 0.0]]) * (2.0 * max(outline.reach) + 2.0)
     pose = contact.settle(floor, outline.parts, 0.0, 0.0, kinds=outline.kinds)

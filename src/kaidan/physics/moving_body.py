@@ -92,10 +92,7 @@ class MovingBody(ABC):
     def along_nosings(self, end: float) -> float:
         """Place of an end of the flat along the line of the nosings [m].
 
-        Parameters
-        ----------
-        end : float
-            Along the track from the centroid [m].
+        end: along the track from the centroid [m].
         """
         place = self.point(end, -self.course.outline.stance.com_height)
         return float(np.array(place) @ self.course.along)

@@ -46,13 +46,7 @@ SIGNATURES = {
 
 @cache
 def kernel() -> ModuleType:
-    """The inner loop, compiled by numba; kept on disk where numba finds a folder for it.
-
-    Raises
-    ------
-    MissingExtraError
-        numba is not installed.
-    """
+    """The inner loop, compiled by numba; kept on disk where numba finds a folder for it."""
     if importlib.util.find_spec("numba") is None:
         raise MissingExtraError("a yielding track", "physics")
     alias = f"{rubber.__name__}_compiled"
@@ -80,10 +74,7 @@ def compiled(function: Callable[..., Any], signature: str) -> Callable[..., Any]
 class RubberBody(MovingBody):
     """One run of a yielding track.
 
-    Parameters
-    ----------
-    spec : TrialSpec
-        With a `YieldingBelt`.
+    spec: with a `YieldingBelt`.
     """
 
     def __init__(self, spec: TrialSpec) -> None:

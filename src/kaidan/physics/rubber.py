@@ -27,15 +27,10 @@ THINNEST = 0.03
 def depth_below(part: Array, x: float, z: float, thickest: float) -> tuple[float, float, float]:
     """Depth of a point inside a part's outline from below [m], and the outward normal there.
 
-    Parameters
-    ----------
-    part : array, shape (12,)
-        Discs x, z, r, x, z, r [m]; start x, z, unit vector and length of the lower tangent, its
-        outward normal's x (z follows from the unit vector).
-    x, z : float
-        Point in the body's frame [m].
-    thickest : float
-        Depth from which the point is taken to lie above the part [m].
+    part, shape (12,): discs x, z, r, x, z, r [m]; start x, z, unit vector and length of the lower
+        tangent, its outward normal's x (z follows from the unit vector).
+    x, z: point in the body's frame [m].
+    thickest: depth from which the point is taken to lie above the part [m].
     """
     e_x, e_z = part[8], part[9]
     away_x, away_z = x - part[6], z - part[7]
@@ -56,16 +51,10 @@ def corner_met(
 ) -> tuple[float, float, float, float]:
     """Depth of a corner inside the robot [m], the normal there into it, and 1 of a belt that runs.
 
-    Parameters
-    ----------
-    points, i : array, shape (n, 2), int
-        Terrain, and which of its points.
-    kind : float
-        See `corners` of `advance`.
-    parts : array, shape (m, 12)
-        See `depth_below`.
-    x, z, cos, sin : float
-        Centroid [m], cosine and sine of the inclination.
+    points, i, shape (n, 2): terrain, and which of its points.
+    kind: see `corners` of `advance`.
+    parts, shape (m, 12): see `depth_below`.
+    x, z, cos, sin: centroid [m], cosine and sine of the inclination.
     """
     depth, n_x, n_z, runs = 0.0, 0.0, 0.0, 0.0
     r_x, r_z = points[i, 0] - x, points[i, 1] - z
@@ -91,14 +80,9 @@ def end_met(
 ) -> tuple[float, float, float, float]:
     """Depth of an end below the piece after a point, its foot on that piece [m], and its direction.
 
-    Parameters
-    ----------
-    points, i : array, shape (n, 2), int
-        Terrain, and where the piece begins.
-    discs, e : array, shape (e, 4), int
-        Ends, see `advance`, and which of them.
-    x, z, cos, sin : float
-        See `corner_met`.
+    points, i, shape (n, 2): terrain, and where the piece begins.
+    discs, e, shape (e, 4): ends, see `advance`, and which of them.
+    x, z, cos, sin: see `corner_met`.
     """
     along_x = points[i + 1, 0] - points[i, 0]
     along_z = points[i + 1, 1] - points[i, 1]
@@ -136,16 +120,10 @@ def rubber_force(
 ) -> tuple[float, float, float]:
     """Normal force, force along the belt [N], and the shear that is left [m].
 
-    Parameters
-    ----------
-    depth, closing : float
-        Of the contact [m], and its rate [m/s].
-    shear, sliding : float
-        Before the step [m], and its rate [m/s].
-    dt : float
-        Step [s].
-    constants : array, shape (8,)
-        See `advance`.
+    depth, closing: of the contact [m], and its rate [m/s].
+    shear, sliding: before the step [m], and its rate [m/s].
+    dt: step [s].
+    constants, shape (8,): see `advance`.
     """
     k, kt, c, ct, mu = constants[2], constants[3], constants[4], constants[5], constants[6]
     normal = k * depth + c * closing
@@ -183,37 +161,23 @@ def advance(
 ) -> int:
     """Advance the body by some steps; the number of contacts at the end.
 
-    Parameters
-    ----------
-    state : array, shape (6,)
-        Centroid x, z [m], inclination [rad] and their rates; changed in place.
-    points : array, shape (n, 2)
-        Terrain from left to right [m].
-    owners : array, shape (n, 2)
-        Row of `impulses` that a corner and the piece that follows it belong to.
-    corners : array, shape (n,)
-        1 for a corner that stands out (a nosing), 0 for any other; 2: a nosing alone, which may be
-        touched from any side and has no tread.
-    parts : array, shape (m, 12)
-        See `depth_below`; the twelfth is 1 for a belt that runs.
-    discs : array, shape (e, 4)
-        Ends: x, z, radius [m], 1 for a belt that runs.
-    shear : array, shape (1 + e, n)
-        Shear of each contact, of corners and of each end on each piece [m]; changed in place.
-    touching : array, shape (1 + e, n)
-        1 where there is one; changed in place.
-    constants : array, shape (8,)
-        Mass [kg], inertia [kg m^2], k, kt [N/m], c, ct [N s/m], mu, gravity [m/s^2].
-    first, last : int
-        Points of the terrain that can be reached, the last one excluded.
-    steps, dt : int, float
-        Number and length [s].
-    speed, change : float
-        Of the belt at the start [m/s] and its rate [m/s^2].
-    push : array, shape (2,)
-        Force at the centroid besides gravity [N].
-    impulses : array, shape (r, 2)
-        What the ground gave the robot by rows of `owners` [N s]; added to.
+    state, shape (6,): centroid x, z [m], inclination [rad] and their rates; changed in place.
+    points, shape (n, 2): terrain from left to right [m].
+    owners, shape (n, 2): row of `impulses` that a corner and the piece that follows it belong to.
+    corners, shape (n,): 1 for a corner that stands out (a nosing), 0 for any other; 2: a nosing
+        alone, which may be touched from any side and has no tread.
+    parts, shape (m, 12): see `depth_below`; the twelfth is 1 for a belt that runs.
+    discs, shape (e, 4): ends: x, z, radius [m], 1 for a belt that runs.
+    shear, shape (1 + e, n): shear of each contact, of corners and of each end on each piece [m];
+        changed in place.
+    touching, shape (1 + e, n): 1 where there is one; changed in place.
+    constants, shape (8,): mass [kg], inertia [kg m^2], k, kt [N/m], c, ct [N s/m], mu, gravity
+        [m/s^2].
+    first, last: points of the terrain that can be reached, the last one excluded.
+    steps, dt: number and length [s].
+    speed, change: of the belt at the start [m/s] and its rate [m/s^2].
+    push, shape (2,): force at the centroid besides gravity [N].
+    impulses, shape (r, 2): what the ground gave the robot by rows of `owners` [N s]; added to.
     """
     mass, inertia, gravity = constants[0], constants[1], constants[7]
     n, ends, contacts = len(points), len(discs), 0

@@ -47,14 +47,7 @@ class Block(NamedTuple):
 def blocks_of(profile: Profile, *, down: bool, noses_only: bool) -> list[Block]:
     """Boxes whose faces are the profile; the nosing is a box's corner.
 
-    Parameters
-    ----------
-    profile : Profile
-        As driven (reflected when going down).
-    down : bool
-        Whether the robot goes down, so that nosings are the far corners of their treads.
-    noses_only : bool
-        Blades of `NOSE` at the nosings, and nothing else.
+    noses_only: blades of `NOSE` at the nosings, and nothing else.
     """
     nosings = profile.nosings
     if noses_only:
@@ -146,13 +139,7 @@ def with_landings(profile: Profile, room: float) -> Profile:
 def add_terrain(
     scene: Any, spec: TrialSpec, profile: Profile, window: tuple[float, float], half_width: float
 ) -> dict[str, int]:
-    """Add the boxes within a window of x [m] to a scene; numbers of the nosings by geom name.
-
-    Raises
-    ------
-    InputError
-        More boxes than `MOST_BLOCKS`.
-    """
+    """Add the boxes within a window of x [m] to a scene; numbers of the nosings by geom name."""
     mujoco = engine()
     blocks = blocks_of(profile, down=spec.downhill, noses_only=spec.ground == "noses")
     if spec.nosing_radius:

@@ -153,10 +153,6 @@ class Question(QuestionFields):
             com_height, flat_length, angle, nosing_spacing, friction; and of each single rise and
             going: "rise=3mm,going=3mm".
 
-        Returns
-        -------
-        Question
-
         Raises
         ------
         InputError

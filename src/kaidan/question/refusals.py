@@ -8,13 +8,7 @@ from kaidan.terrain.stairs import Stairs
 
 
 def refuse_impossible(question: QuestionFields) -> None:
-    """Refuse what robot, terrain, manner and model cannot have together.
-
-    Raises
-    ------
-    InputError
-        What does not go, and why.
-    """
+    """Refuse what robot, terrain, manner and model cannot have together."""
     if question.model not in MODELS:
         raise InputError(
             f"model = {shown(question.model)} is not known; known: {', '.join(MODELS)}"

@@ -48,11 +48,8 @@ def allowance_d(question: QuestionFields) -> Allowance:
 def theta_d_at(question: QuestionFields, *, L: Any, p: Any, C_L: Any, C_N: Any) -> Any:
     """High end of `allowance_d` of the same robot with other lengths [rad].
 
-    Parameters
-    ----------
-    question : Question
-    L, p, C_L, C_N : float or array
-        Flat length, nosing spacing, centroid behind the uphill tip and above the underside [m].
+    L, p, C_L, C_N: flat length, nosing spacing, centroid behind the uphill tip and above the
+        underside [m].
     """
     high = _stated(question)
     losses = _losses(question, L=L, p=p, C_L=C_L, C_N=C_N)

@@ -32,10 +32,6 @@ def found_in(path: str | Path, hints: Hints = NO_HINTS) -> Found:
     hints : Hints
         What the person knows of it.
 
-    Returns
-    -------
-    Found
-
     Raises
     ------
     InputError
@@ -55,15 +51,7 @@ def found_in(path: str | Path, hints: Hints = NO_HINTS) -> Found:
 
 
 def contents_of(source: Source, form: Format, hints: Hints = NO_HINTS) -> Any:
-    """What a file of a known format holds, not interpreted yet: one of `kinds`.
-
-    Raises
-    ------
-    InputError
-        A file that cannot be read or contradicts itself.
-    MissingExtraError
-        Its reader needs an optional package.
-    """
+    """What a file of a known format holds, not interpreted yet: one of `kinds`."""
     module, _, function = form.reader.partition(":")
     reader = import_module(f"kaidan.readers.formats.{module}")
     try:

@@ -13,16 +13,7 @@ WITHOUT_LEAF = ("SLIDING", "FOLDING", "LIFTING", "ROLLINGUP", "REVOLVING")
 def doorways_of(bodies: Sequence[Body], unit: float) -> Iterator[Doorway]:
     """Doors that are drawn.
 
-    Parameters
-    ----------
-    bodies : sequence of Body
-        Elements of a building model, in metres.
-    unit : float
-        Length of the unit of their attributes [m].
-
-    Yields
-    ------
-    Doorway
+    unit: length of the unit of their attributes [m].
     """
     for body in bodies:
         if body.category != "IfcDoor" or len(body.vertices) == 0:

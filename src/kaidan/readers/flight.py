@@ -298,10 +298,6 @@ class FlightEstimate:
         leaves : (float, float)
             Leaves of doors opposite that open onto the lower and onto the upper one [m].
 
-        Returns
-        -------
-        Stairs
-
         Raises
         ------
         InputError

@@ -28,15 +28,7 @@ def _told_apart(flights: Sequence[Flight]) -> Iterator[Flight]:
 def named_apart(drawn: Sequence[Flight]) -> tuple[Flight, ...]:
     """Flights with identities and names of their own; the model's ones still mean all of them.
 
-    Parameters
-    ----------
-    drawn : sequence of Flight
-        With the identity and the name of what each is drawn as.
-
-    Returns
-    -------
-    tuple of Flight
-        From the lowest up.
+    drawn: with the identity and the name of what each is drawn as.
     """
     flights = list(_told_apart(drawn))
     total = Counter(each.name for each in flights)

@@ -49,13 +49,7 @@ class Source:
 
     @classmethod
     def of(cls, path: str | Path) -> "Source":
-        """Source at a path.
-
-        Raises
-        ------
-        InputError
-            Nothing there, no right to read it, neither file nor folder, or larger than is read.
-        """
+        """Source at a path."""
         path = Path(path)
         try:
             status = path.stat()
@@ -93,13 +87,7 @@ class Source:
 
     @cached_property
     def members(self) -> tuple[zipfile.ZipInfo, ...]:
-        """Files in it, where it is a zip archive; none otherwise, or where it is damaged.
-
-        Raises
-        ------
-        InputError
-            One of them has no name.
-        """
+        """Files in it, where it is a zip archive; none otherwise, or where it is damaged."""
         if not self.head.startswith(b"PK\x03\x04"):
             return ()
         try:
@@ -147,25 +135,13 @@ class Source:
             logging.disable(before)
 
     def content(self, largest: int = LARGEST) -> bytes:
-        """All of its bytes.
-
-        Raises
-        ------
-        InputError
-            More than `largest`.
-        """
+        """All of its bytes."""
         self.refuse_larger(largest)
         with self.opened() as file:
             return file.read(largest + 1)
 
     def text(self, largest: int = LARGEST_TEXT) -> str:
-        """All of it as text, UTF-8 with or without a mark.
-
-        Raises
-        ------
-        InputError
-            More than `largest`, or no text.
-        """
+        """All of it as text, UTF-8 with or without a mark."""
         try:
             return self.content(largest).decode("utf-8-sig")
         except UnicodeDecodeError as error:
@@ -180,13 +156,7 @@ class Source:
             )
 
     def array(self, dtype: Any, count: int, offset: int) -> NDArray[Any]:
-        """So many items from a byte on, after checking that they are there.
-
-        Raises
-        ------
-        InputError
-            Fewer bytes than that.
-        """
+        """So many items from a byte on, after checking that they are there."""
         kind = np.dtype(dtype)
         self.refuse_larger(LARGEST)
         self.refuse_missing(count, kind.itemsize, offset)
@@ -208,13 +178,7 @@ class Source:
             )
 
     def member(self, info: zipfile.ZipInfo, largest: int = LARGEST_TEXT) -> bytes:
-        """Bytes of a file in the archive, never more than it states and than is allowed.
-
-        Raises
-        ------
-        InputError
-            Too many members, too large, an absurd compression, or damaged.
-        """
+        """Bytes of a file in the archive, never more than it states and than is allowed."""
         named = info.filename
         if len(self.members) > MOST_MEMBERS:
             raise self.refuse(f"more than {MOST_MEMBERS} files in the archive")

@@ -178,13 +178,7 @@ def known(source: Source) -> Format | None:
 
 
 def recognised(source: Source) -> Format:
-    """Format of a file.
-
-    Raises
-    ------
-    InputError
-        None that is known; the text says which are.
-    """
+    """Format of a file."""
     form = known(source)
     if form is not None:
         return form

@@ -68,14 +68,9 @@ def uniform_flight(line: Array, weights: Array, measured: Array) -> RegularFligh
     too: weights of what was measured to a tenth of a millimetre would make one odd riser turn the
     line.
 
-    Parameters
-    ----------
-    line : array, shape (m, 2)
-        (s, z) of two nosings or more [m].
-    weights : array, shape (2m, 2m)
-        Inverse of their covariance about a uniform flight [m^-2].
-    measured : array, shape (2m, 2m)
-        Covariance of what was measured of them [m^2].
+    line, shape (m, 2): (s, z) of two nosings or more [m].
+    weights, shape (2m, 2m): inverse of their covariance about a uniform flight [m^-2].
+    measured, shape (2m, 2m): covariance of what was measured of them [m^2].
     """
     design, values, freedom = uniform_columns(len(line)), line.ravel(), line.size - 4
 

@@ -19,19 +19,7 @@ MOST_NAMES = 8
 def robot_sheet(name: str, hints: Hints = NO_HINTS) -> Robot | None:
     """Data sheet of the one robot in a file; None: the name is of no file of a known format.
 
-    Parameters
-    ----------
-    name : str
-        Path, or ``path#part``.
-    hints : Hints
-        What the person states of it.
-
-    Raises
-    ------
-    RefusedError
-        It holds no robot that can be judged.
-    InputError
-        It cannot be read, or holds several.
+    name: path, or ``path#part``.
     """
     found = _found(name, hints)
     return None if found is None else the_robot(found, name).robot()
@@ -57,13 +45,7 @@ def staircase_sheets(name: str, hints: Hints = NO_HINTS) -> tuple[Stairs, ...] |
 
 
 def the_robot(found: Found, name: str) -> RobotEstimate:
-    """The one robot that was found.
-
-    Raises
-    ------
-    RefusedError
-        There is none.
-    """
+    """The one robot that was found."""
     if not found.robots:
         raise _without(found, name, "a robot", "stairs" if found.staircases else "")
     robot: RobotEstimate = found.robots[0]
@@ -71,15 +53,7 @@ def the_robot(found: Found, name: str) -> RobotEstimate:
 
 
 def the_staircase(found: Found, name: str) -> StairsEstimate:
-    """The one staircase that was found.
-
-    Raises
-    ------
-    RefusedError
-        There is none.
-    InputError
-        There are several.
-    """
+    """The one staircase that was found."""
     if not found.staircases:
         raise _without(found, name, "stairs", "a robot" if found.robots else "")
     if len(found.staircases) > 1:

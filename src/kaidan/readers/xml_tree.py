@@ -66,13 +66,7 @@ class Element:
         return "" if found is None else found.text.strip()
 
     def numbers(self, text: str | None, count: int, what: str) -> tuple[float, ...]:
-        """Numbers of a text that has to hold so many.
-
-        Raises
-        ------
-        InputError
-            Another count, no numbers, or ones that are not finite or beyond 1e9.
-        """
+        """Numbers of a text that has to hold so many."""
         try:
             values = tuple(float(word) for word in (text or "").split())
         except ValueError:
@@ -97,25 +91,7 @@ class Element:
 
 
 def parse_xml(content: bytes, *, origin: str) -> Element:
-    """Tree of an XML text.
-
-    Parameters
-    ----------
-    content : bytes
-        The file.
-    origin : str
-        What errors call it.
-
-    Returns
-    -------
-    Element
-        Outermost element.
-
-    Raises
-    ------
-    InputError
-        A text that is no XML, has a document type, or is nested or cut up without end.
-    """
+    """Tree of an XML text."""
     parser = expat.ParserCreate()
     parser.buffer_text = True
     outer = Element("", {}, 0, origin)

@@ -105,10 +105,6 @@ class Posture(Sheet):
         option : str
             What errors call it, for example "--flippers".
 
-        Returns
-        -------
-        Posture
-
         Raises
         ------
         InputError

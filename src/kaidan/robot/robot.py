@@ -232,10 +232,6 @@ class Robot(Sheet):
         payload : iterable of Payload
             Masses fixed to the robot.
 
-        Returns
-        -------
-        Stance
-
         Raises
         ------
         InputError

@@ -41,12 +41,7 @@ Row = dict[str, Any]
 def judged_row(question: Question, known: Findings | None = None) -> tuple[Row, Findings]:
     """Row of a question, and its findings for another that shares them.
 
-    Parameters
-    ----------
-    question : Question
-        Its posture is found where it is to be.
-    known : Findings, optional
-        Of a similar question.
+    question: its posture is found where it is to be.
     """
     planned, search = found_plan(question)
     if search is None or search.question is not planned:

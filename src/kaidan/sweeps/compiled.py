@@ -32,20 +32,9 @@ def available() -> bool:
 def compiled(formula: Callable[..., Any]) -> Any:
     """Formula compiled by numba for plain numbers, called with positional arguments.
 
-    Parameters
-    ----------
-    formula : callable
-        A function of `kaidan.mechanics`.
+    formula: a function of `kaidan.mechanics`.
 
-    Returns
-    -------
-    callable
-        Its compiled twin; keyword-only arguments have become positional in the same order.
-
-    Raises
-    ------
-    MissingExtraError
-        numba is not installed.
+    Its compiled twin; keyword-only arguments have become positional in the same order.
     """
     assert isinstance(formula, FunctionType)
     code = formula.__code__

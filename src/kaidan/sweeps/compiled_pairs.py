@@ -17,13 +17,7 @@ _BLOCK = 1 << 10
 
 @cache
 def kernel() -> Callable[[list[Array], list[Array]], None]:
-    """Two loops, because one that writes all twelve outputs is too much for the vectoriser.
-
-    Raises
-    ------
-    MissingExtraError
-        numba is not installed.
-    """
+    """Two loops, because one that writes all twelve outputs is too much for the vectoriser."""
     njit = compiled.numba().njit(error_model="numpy", nogil=True)
     formula = compiled.compiled(judged)
     return _in_blocks(njit, _angles(njit, formula), _others(njit, formula))

@@ -94,11 +94,6 @@ class Parameter(NamedTuple):
 def parameter(name: str) -> Parameter:
     """Parameter of a name.
 
-    Raises
-    ------
-    InputError
-        An unknown name; the text lists the known ones.
-
     Examples
     --------
     >>> parameter("front_flippers.length")
@@ -143,10 +138,6 @@ def question_of(values: Mapping[str, Any]) -> Question:
     values : mapping of str to object
         `robot`, and `stairs` unless the shape is given whole; anything else is optional.
 
-    Returns
-    -------
-    Question
-
     Raises
     ------
     InputError
@@ -182,13 +173,7 @@ def _moved(payload: Any, name: str, value: float) -> tuple[Payload, ...]:
 
 
 def shaped(stairs: Any, shape: Mapping[str, Any]) -> Any:
-    """Stairs with another shape, or of a shape alone.
-
-    Raises
-    ------
-    InputError
-        A shape that is not whole, twofold, or of stairs that are not uniform.
-    """
+    """Stairs with another shape, or of a shape alone."""
     if not shape:
         return stairs
     sides, slope = shape.keys() & {"rise", "going"}, shape.keys() & {"angle", "nosing_spacing"}
@@ -219,12 +204,7 @@ def shaped(stairs: Any, shape: Mapping[str, Any]) -> Any:
 def value_now(values: Mapping[str, Any], name: str) -> float | None:
     """Value that a parameter has as it stands; None where the sheet or the question has none.
 
-    Parameters
-    ----------
-    values : mapping of str to object
-        As `question_of` takes them.
-    name : str
-        Parameter that is a number.
+    values: as `question_of` takes them.
 
     Examples
     --------

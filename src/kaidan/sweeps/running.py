@@ -34,7 +34,6 @@ def carried_out(
 
     Parameters
     ----------
-    plan : Plan
     scheduler : str
         "threads" of this process, "processes" of this machine, or the address of a running Dask
         scheduler, tcp://HOST:8786.
@@ -44,10 +43,6 @@ def carried_out(
         Folder in which what is done is kept: the same plan goes on with it.
     progress : bool
         Whether to show on standard error how it goes, if that is a terminal.
-
-    Returns
-    -------
-    Swept
 
     Raises
     ------

@@ -32,18 +32,7 @@ alone at every phase of the spacing."""
 
 
 def applies(question: Question) -> bool:
-    """Whether the closed form may exclude a cell.
-
-    Parameters
-    ----------
-    question : Question
-
-    Returns
-    -------
-    bool
-        True for the contact model on a uniform flight, straight on, one posture and one end that
-        leads, every input exact or a range, no rotation accepted.
-    """
+    """Whether the closed form may exclude a cell."""
     flight = question.terrain
     if not isinstance(flight, Stairs) or flight.rise is None or question.model != CONTACT.name:
         return False

@@ -50,12 +50,7 @@ class SweepSummary(Answer):
 
 
 def summary_of(swept: Swept) -> SweepSummary:
-    """Summary of a sweep.
-
-    Parameters
-    ----------
-    swept : Swept
-    """
+    """Summary of a sweep."""
     plan = swept.plan
     governs = Counter(swept.variables["governs"].ravel().tolist())
     return SweepSummary(

@@ -29,15 +29,7 @@ svg { max-width: 100%; height: auto }
 def page(found: "BuildingAnswer", plan: str) -> str:
     """Page with the table of flights, the ways, the plan and what is not judged.
 
-    Parameters
-    ----------
-    found : BuildingAnswer
-    plan : str
-        Picture of the plan as SVG, empty for none.
-
-    Returns
-    -------
-    str
+    plan: picture of the plan as SVG, empty for none.
     """
     parts = [
         "<!DOCTYPE html>",

@@ -79,12 +79,7 @@ def _literal(text: str) -> str:
 def japanese(text: str, table: str = "sentence") -> str | None:
     """A sentence in Japanese; None where it is only known in English.
 
-    Parameters
-    ----------
-    text : str
-        What a function of `kaidan.text` said.
-    table : str
-        Of what it is one.
+    text: what a function of `kaidan.text` said.
 
     Examples
     --------

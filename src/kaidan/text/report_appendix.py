@@ -42,13 +42,7 @@ LIMITS = (
 def appendix(found: "Report", mission: "Mission", number: int) -> list[Block]:
     """Blocks of the appendix.
 
-    Parameters
-    ----------
-    found : Report
-    mission : Mission
-        One of its missions.
-    number : int
-        Of the mission, from 0.
+    number: of the mission, from 0.
     """
     answer = mission.assessment
     name = subject(answer.question)

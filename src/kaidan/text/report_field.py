@@ -30,11 +30,7 @@ SEEN = 0.5
 def field_page(mission: "Mission", number: int) -> tuple[Block, ...]:
     """Blocks of the page.
 
-    Parameters
-    ----------
-    mission : Mission
-    number : int
-        Of the mission in its document, from 0.
+    number: of the mission in its document, from 0.
     """
     answer = mission.assessment
     blocks: list[Block] = [

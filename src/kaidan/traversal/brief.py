@@ -26,14 +26,8 @@ off is at most a quarter of it, times the force missing over the weight."""
 def by_how_long(path: contact.Path, traction: Array, row: NDArray[np.int64]) -> Array:
     """Tractive force over mass, that of a brief braking by how long it lasts [N/kg].
 
-    Parameters
-    ----------
-    path : contact.Path
-        With margins.
-    traction : ndarray
-        Force without its sign, of the poses of the path and of some between them [N/kg].
-    row : ndarray of int
-        Row of the path of which each is.
+    traction: force without its sign, of the poses of the path and of some between them [N/kg].
+    row: row of the path of which each is.
     """
     poses = path.poses
     falls = np.sin(poses.path_direction) < 0.0

@@ -36,18 +36,7 @@ def contact_forces(traverse: Traverse, row: int, acceleration: float) -> tuple[F
     Those that press on one plane as equal springs: along it two may pull against each other with
     any force. Otherwise the pair that needs the least friction, in closed form, and the rest idle.
 
-    Parameters
-    ----------
-    traverse : Traverse
-        With margins.
-    row : int
-        Pose of its path.
-    acceleration : float
-        Up the stairs [m/s^2].
-
-    Returns
-    -------
-    tuple of Force
+    acceleration: up the stairs [m/s^2].
     """
     path = traverse.path
     assert path.margins is not None

@@ -70,24 +70,11 @@ def drawn_criterion(
 ) -> Drawn:
     """Judge every nosing that an end of the flat leaves or meets, on each draw.
 
-    Parameters
-    ----------
-    nosings : array, shape (n, 2)
-        As they are taken to be: they say where landings are.
-    drawn : array, shape (draws, n, 2)
-        Of each draw, from bottom to top: x uphill, z up [m].
-    tread : Tread
-        For the radii of the ends, which are exact.
-    on : DrawnTread
-        Underside of each draw.
-    acceleration : float
-        Up the stairs [m/s^2].
-    within : (float, float)
-        Part of the flight that counts, by the place of the centroid [m].
-
-    Returns
-    -------
-    Drawn
+    nosings, shape (n, 2): as they are taken to be: they say where landings are.
+    drawn, shape (draws, n, 2): of each draw, from bottom to top: x uphill, z up [m].
+    on: underside of each draw.
+    acceleration: up the stairs [m/s^2].
+    within: part of the flight that counts, by the place of the centroid [m].
     """
     count = len(drawn)
     rows = max(1, BLOCK // max(1, len(nosings)))

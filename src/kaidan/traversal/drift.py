@@ -18,9 +18,6 @@ from kaidan import contact
 def drift(path: contact.Path) -> float:
     """Distance by which it may stand behind where it is drawn [m], at least zero.
 
-    Parameters
-    ----------
-    path : contact.Path
-        A pose for each posture.
+    path: a pose for each posture.
     """
     return float(max(0.0, contact.belt_slides(path).max(axis=1).sum()))

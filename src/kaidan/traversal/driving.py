@@ -77,14 +77,7 @@ def way(
 def criterion_of(driven: Profile, body: Outline, along: float) -> tuple[Tread, Criterion]:
     """Underside on the flight and what the criterion says, uphill being where nosings rise.
 
-    Parameters
-    ----------
-    driven : Profile
-        Terrain as driven, towards +x.
-    body : Outline
-        Robot, x towards the end that leads.
-    along : float
-        Acceleration along the path [m/s^2].
+    along: acceleration along the path [m/s^2].
     """
     tread, nosings = tread_of(body), driven.nosings
     if driven.falls:

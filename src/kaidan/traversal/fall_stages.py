@@ -51,17 +51,7 @@ class Stage:
 def fall_stages(traverse: Traverse, leading: End) -> tuple[Stage, ...]:
     """Stages of the largest rotation over the downhill end while traversing.
 
-    Parameters
-    ----------
-    traverse : Traverse
-        Whose.
-    leading : str
-        nose or tail.
-
-    Returns
-    -------
-    tuple of Stage
-        None where it does not turn by more than `LEAST_ROTATION`.
+    None where it does not turn by more than `LEAST_ROTATION`.
     """
     path = traverse.path
     rows = np.flatnonzero(traverse.phase_of_pose == Phase.TRAVERSE.value)

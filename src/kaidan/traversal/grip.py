@@ -32,14 +32,7 @@ TREAD_DEPTH = 0.040
 class Grip:
     """Supports of every pose of a path, and what friction and grousers make of them.
 
-    Parameters
-    ----------
-    path : contact.Path
-        With margins.
-    descending : bool
-        Whether it leads down the stairs.
-    acceleration : float
-        Along the path [m/s^2].
+    acceleration: along the path [m/s^2].
     """
 
     def __init__(self, path: contact.Path, *, descending: bool, acceleration: float) -> None:
@@ -65,12 +58,8 @@ class Grip:
     def by_friction(self, phi: tuple[float, float, float], height: float = 0.0) -> Array:
         """Angle by which the cones of belts may shrink without a grouser that stands [rad].
 
-        Parameters
-        ----------
-        phi : tuple of float
-            Angles of friction of nosings, treads and riser faces [rad].
-        height : float
-            Of rigid grousers, which on an end's arc hold less at a face than a smooth belt [m].
+        phi: angles of friction of nosings, treads and riser faces [rad].
+        height: of rigid grousers, which on an end's arc hold less at a face than a smooth belt [m].
         """
         if phi[0] == phi[1] == phi[2] and height <= 0.0:
             return np.asarray(phi[0] - self.coulomb)
@@ -86,16 +75,9 @@ class Grip:
     ) -> Array:
         """Angle by which the cones may shrink before the robot slips for good [rad].
 
-        Parameters
-        ----------
-        phi : tuple of float
-            Angles of friction of nosings, treads and riser faces [rad].
-        grousers : Grousers
-            On the belts.
-        by_friction : ndarray
-            What `by_friction` found.
-        passing : bool
-            Whether a slip down the stairs, going down, may pass over what nothing holds: it is
+        phi: angles of friction of nosings, treads and riser faces [rad].
+        by_friction: what `by_friction` found.
+        passing: whether a slip down the stairs, going down, may pass over what nothing holds: it is
             two spacings long at most then, else one.
         """
         return contact.held_while_slipping(
@@ -113,10 +95,7 @@ class Grip:
     ) -> Array:
         """Angle by which the cones may shrink with grousers that stand already [rad].
 
-        Parameters
-        ----------
-        phi, grousers, by_friction
-            As for `with_grousers`.
+        phi, grousers, by_friction: as for `with_grousers`.
         """
         standing = np.where(self._points == -1, -np.inf, self._standing(phi, grousers))
         return np.asarray(np.maximum(by_friction, standing.max(axis=1)))
@@ -124,12 +103,8 @@ class Grip:
     def slip_heights(self, slip: float, *, mu_k: float) -> Array:
         """Kinetic-energy height that the robot gains as it slips back from each pose [m].
 
-        Parameters
-        ----------
-        slip : float
-            How far at most, along the path [m].
-        mu_k : float
-            Sliding friction [1].
+        slip: how far at most, along the path [m].
+        mu_k: sliding friction [1].
         """
         path, s = self.path, self.path.s
         required = np.tan(np.maximum(self.coulomb, 1e-9))

@@ -104,15 +104,9 @@ class Move:
     def tilt(self, side: float) -> float:
         """Tilt of gravity at which it rotates about its outermost contact on the way [rad].
 
-        Parameters
-        ----------
-        side : {1.0, -1.0}
-            Back or front.
+        side, {1.0, -1.0}: back or front.
 
-        Returns
-        -------
-        float
-            Infinite where that is no less than before and after, which the traverse tells.
+        Infinite where that is no less than before and after, which the traverse tells.
         """
         poses = self.path.poses
         outermost = poses.rear_point if side > 0 else poses.front_point
@@ -185,24 +179,10 @@ def move(
 ) -> Move:
     """Move from one posture to another.
 
-    Parameters
-    ----------
-    robot : Robot
-    one, two : Posture
-    before : Phase
-        Phase that it prepares.
-    start : Placement
-        Where the robot stands in the first posture, the leading end ahead.
-    ground : array, shape (n, 2)
-        Terrain as driven [m].
-    payload : tuple of Payload
-    facing : {"nose-first", "tail-first"}
-        Which end leads.
+    ground, shape (n, 2): terrain as driven [m].
+    facing, {"nose-first", "tail-first"}: which end leads.
 
-    Returns
-    -------
-    Move
-        A robot that does not stand on the way is an answer, not an error.
+    A robot that does not stand on the way is an answer, not an error.
     """
     turns = list(_turns(robot, one, two))
     turn = max((abs(new - was) for was, new, _ in turns), default=0.0)

@@ -31,15 +31,7 @@ class _Passing(NamedTuple):
 def nosing_events(path: contact.Path) -> Events:
     """Events REACHED and LEFT of a traverse, in its order.
 
-    Parameters
-    ----------
-    path : contact.Path
-        With its poses.
-
-    Returns
-    -------
-    contact.Events
-        Each with the row of the pose before it, and no other feature.
+    Each with the row of the pose before it, and no other feature.
     """
     kept = [
         _Passing(s, bool(reached), int(point), int(part), int(row), share)

@@ -90,32 +90,12 @@ def rate(
 ) -> list[Rated | None]:
     """Rate robots, or one in many postures, on their way over parts of a profile.
 
-    Parameters
-    ----------
-    profile : Profile
-        Terrain from the lower to the upper landing.
-    parts : sequence of Part
-        Of robots with as many parts of their underside, of the same kinds.
-    descending : bool
-        From the upper landing to the lower one.
-    acceleration : float
-        Acceleration UP the stairs [m/s^2].
-    tilts : tuple of float
-        Of gravity, towards the downhill and the uphill end that comes down [rad].
-    step : float
-        Arclength between poses [m].
-    belts : Gripping, optional
-        Belts with grousers; without them it is not found how they hold.
+    acceleration: acceleration UP the stairs [m/s^2].
+    tilts: of gravity, towards the downhill and the uphill end that comes down [rad].
+    step: arclength between poses [m].
+    belts: belts with grousers; without them it is not found how they hold.
 
-    Returns
-    -------
-    list of Rated or None
-        None for one that does not arrive.
-
-    Raises
-    ------
-    InputError
-        A profile too long for the kernel at hand.
+    None for one that does not arrive.
     """
     driven = profile.reflected() if descending else profile
     lengths = [each.outline.stance.flat_length for each in parts]

@@ -209,10 +209,7 @@ class Chain:
         Positive if it would hold even though no impact took anything of the momentum. A tilt of
         gravity adds the way across it to what falls and takes it from what rises.
 
-        Parameters
-        ----------
-        tilts : tuple of float
-            Of gravity, towards the trailing and the leading end that comes down [rad].
+        tilts: of gravity, towards the trailing and the leading end that comes down [rad].
         """
         fallen = moved = 0.0  # the way towards the leading end
         each = []
@@ -240,24 +237,9 @@ def rotations_of(
 ) -> tuple[Rotation, ...]:
     """Rotations of a path in their order.
 
-    Parameters
-    ----------
-    path : contact.Path
-        As driven.
-    profile : Profile
-        As driven.
-    phase : ndarray of str
-        Phase of each pose.
-    descending : bool
-        Whether the path leads down the stairs.
-    flat_length : float
-        Length of the flat [m].
-    acceleration : float
-        Along the path [m/s^2].
-
-    Returns
-    -------
-    tuple of Rotation
+    phase: phase of each pose.
+    flat_length: length of the flat [m].
+    acceleration: along the path [m/s^2].
     """
     found = []
     on_flights = slopes_of_flights(profile, flat_length)

@@ -30,19 +30,10 @@ _ALIKE = 1e-9
 def samples_of(path: contact.Path, phase: NDArray[np.str_], acceleration: float) -> contact.Sampled:
     """Poses at which the extremes of a path may lie.
 
-    Parameters
-    ----------
-    path : contact.Path
-        With margins.
-    phase : ndarray of str
-        Phase of each pose.
-    acceleration : float
-        Along the path [m/s^2].
+    phase: phase of each pose.
+    acceleration: along the path [m/s^2].
 
-    Returns
-    -------
-    contact.Sampled
-        Friction infinite where nothing holds; traction of a brief braking by how long it lasts.
+    Friction infinite where nothing holds; traction of a brief braking by how long it lasts.
     """
     count = len(path.poses)
     numbers, corner = numbers_of(phase), corners(path)

@@ -34,20 +34,8 @@ ROUNDING = 1e-12
 def static_criterion(nosings: Array, tread: Tread, *, acceleration: float = 0.0) -> Criterion:
     """Judge every nosing that an end of the flat leaves or meets wholly on a flight.
 
-    Parameters
-    ----------
-    nosings : array, shape (n, 2)
-        From bottom to top: x uphill, z up [m].
-    tread : Tread
-        Underside on the flight.
-    acceleration : float
-        Up the stairs [m/s^2].
-
-    Returns
-    -------
-    Criterion
-        Poses over a landing, a distance of nosings of the flat's length or more, are left out: they
-        enter or land.
+    nosings, shape (n, 2): from bottom to top: x uphill, z up [m].
+    acceleration: up the stairs [m/s^2].
     """
     return _of_nosings(np.ascontiguousarray(nosings).tobytes(), tread, acceleration)
 

@@ -43,19 +43,12 @@ def largest_survived(
 ) -> float:
     """Largest tilt that is survived, see `Fall`, to `WITHIN` [rad].
 
-    Parameters
-    ----------
-    survives : callable
-        Whether the robot survives a tilt.
-    sought : sequence of float, optional
-        Tilts which it may only exceed or not [rad]: a smaller one is found where that says as much
-        of each.
-    enough : float
-        Tilt beyond which one that is survived is as good as any [rad]: a smaller one than the
+    sought: tilts which it may only exceed or not [rad]: a smaller one is found where that says as
+        much of each.
+    enough: tilt beyond which one that is survived is as good as any [rad]: a smaller one than the
         largest is found there.
-    most : float
-        Tilt that is survived only by what no tilt fells [rad]. Beyond `LARGEST` it is one at which
-        the robot rocks, so that it most likely falls just there: that is tried first.
+    most: tilt that is survived only by what no tilt fells [rad]. Beyond `LARGEST` it is one at
+        which the robot rocks, so that it most likely falls just there: that is tried first.
     """
 
     def is_open(low: float, high: float) -> bool:

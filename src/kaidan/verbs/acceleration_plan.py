@@ -64,10 +64,6 @@ def acceleration_plan(question: Question, basis: Basis, outside: str) -> Acceler
         On what the closed form's figures of the question stand.
     outside : str
         Why the closed form does not apply; empty if it does.
-
-    Returns
-    -------
-    AccelerationPlan
     """
     step = basis.step
     steepest = semi_stable_angle(basis.at, step)
@@ -126,19 +122,11 @@ def least_speed_limit(*, lower: Array, upper: Array, width: Array, v_min: float 
     rest can be driven; carried forward, ``E_(i+1) = max(that, E_i + lower w)`` is the slowest way
     of all, and its fastest place is the limit that is needed.
 
-    Parameters
-    ----------
-    lower, upper : array
-        Band of the acceleration along the path in each cell [m/s^2].
-    width : array
-        Length of each cell [m].
-    v_min : float
-        Slowest speed allowed [m/s].
+    lower, upper: band of the acceleration along the path in each cell [m/s^2].
+    width: length of each cell [m].
+    v_min: slowest speed allowed [m/s].
 
-    Returns
-    -------
-    float
-        Speed [m/s]; NaN where the band is empty in some cell.
+    Speed [m/s]; NaN where the band is empty in some cell.
 
     Examples
     --------

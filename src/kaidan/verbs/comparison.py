@@ -127,10 +127,6 @@ def compare(
     **manner
         As in `kaidan.assess`.
 
-    Returns
-    -------
-    Comparison
-
     Raises
     ------
     InputError

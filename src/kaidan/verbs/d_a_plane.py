@@ -128,10 +128,6 @@ def plane(robot: Any, stairs: Any = None, *, accelerate: bool = False, **manner:
     **manner
         As in `kaidan.assess`.
 
-    Returns
-    -------
-    Plane
-
     Raises
     ------
     InputError

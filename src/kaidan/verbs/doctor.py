@@ -42,10 +42,6 @@ class Diagnosis(Answer):
 def doctor() -> Diagnosis:
     """Say what is installed and which contact kernel answers.
 
-    Returns
-    -------
-    Diagnosis
-
     Raises
     ------
     InputError

@@ -139,10 +139,6 @@ def margin(
         acceleration, direction, facing, flippers, payload, theta_d, theta_M, override, as
         `kaidan.Question.of` has them.
 
-    Returns
-    -------
-    MarginCurve
-
     Raises
     ------
     InputError

@@ -156,10 +156,6 @@ def measure_robot(
     u_scale, u_tape, u_angle : float or str
         Standard uncertainty of what a scale [kg], a tape [m] and a level [rad] show.
 
-    Returns
-    -------
-    RobotMeasurement
-
     Raises
     ------
     InputError

@@ -135,10 +135,6 @@ upper_landing_width, upper_passage, upper_leaf : float or str, optional
     lower_turn, upper_turn : str, optional
         "none", "quarter" or "half", as in `Stairs`.
 
-    Returns
-    -------
-    StairsMeasurement
-
     Raises
     ------
     InputError

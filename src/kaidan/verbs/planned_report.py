@@ -35,23 +35,7 @@ def planned_report(
     most: int,
     search: Found | None = None,
 ) -> TraverseReport:
-    """Report on the traverse of a plan.
-
-    Parameters
-    ----------
-    question : Question
-        With the plan.
-    driven : Planned
-        Its traverse, with all margins.
-    most : int
-        Most poses in the answer.
-    search : Found, optional
-        What found the plan.
-
-    Returns
-    -------
-    TraverseReport
-    """
+    """Report on the traverse of a plan."""
     findings = off_plan(question, beside(question, planned.findings(question, driven)), search)
     answer = judged(question, findings, advice=False, search=search)
     governing = _governing(driven, answer)

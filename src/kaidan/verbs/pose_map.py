@@ -89,17 +89,7 @@ def pose_map(
 
     Acceleration tilts gravity by the direction of the path; here it is taken along the slope.
 
-    Parameters
-    ----------
-    question : Question
-    passage : Traverse
-        In one posture; as `kaidan.verbs.traverse.driven` gives it.
-    columns, rows : int
-        Size of the grid.
-
-    Returns
-    -------
-    PoseMap
+    passage: in one posture; as `kaidan.verbs.traverse.driven` gives it.
     """
     if not isinstance(passage, Traverse):
         raise InputError("pose map: it is of one posture; state angles, flat or stowed")

@@ -72,13 +72,7 @@ class FileAnswer(Answer):
         return 0 if found else Verdict.OUTSIDE_MODEL.exit_code
 
     def sheets(self) -> dict[str, Sheet]:
-        """Data sheets of the one robot, or of the flights of the one staircase, by name.
-
-        Raises
-        ------
-        InputError
-            Nothing was found, or several things.
-        """
+        """Data sheets of the one robot, or of the flights of the one staircase, by name."""
         if self.robots:
             return {self.robots[0].name: self.robots[0].sheet}
         if len(self.staircases) != 1:
@@ -135,10 +129,6 @@ def read(
         Joint angles of a robot: {"arm": 0.5} [rad, or m where it slides] or "arm=30deg".
     override : mapping or str
         The user's own figures for a robot: "com_height=200mm,track.front_radius=90mm".
-
-    Returns
-    -------
-    FileAnswer
 
     Raises
     ------

@@ -117,10 +117,6 @@ def sensitivity(
     scheduler, workers, progress
         See `kaidan.sweep`.
 
-    Returns
-    -------
-    Sensitivity
-
     Raises
     ------
     InputError

@@ -29,15 +29,6 @@ class FieldRow(NamedTuple):
 def field_rows(sheet: Sheet) -> Iterator[FieldRow]:
     """Rows of all figures of a sheet that it has, those of its tables behind their names.
 
-    Parameters
-    ----------
-    sheet : Sheet
-        Of a robot, a flight or a surface.
-
-    Yields
-    ------
-    FieldRow
-
     Examples
     --------
     >>> from kaidan import Stairs

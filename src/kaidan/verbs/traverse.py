@@ -26,10 +26,6 @@ def traverse(robot: Any, stairs: Any = None, **manner: Any) -> TraverseReport:
     robot, stairs, **manner
         A question, or what one is made of, see `kaidan.Question.of`.
 
-    Returns
-    -------
-    TraverseReport
-
     Raises
     ------
     InputError
@@ -62,19 +58,7 @@ def traverse_report(
 ) -> TraverseReport:
     """Report on a traverse, judged by the contact model.
 
-    Parameters
-    ----------
-    question : Question
-    passage : Traverse or Planned
-        As `driven` gives it.
-    most : int
-        Most poses in the answer.
-    search : Found, optional
-        What found the plan of the question.
-
-    Returns
-    -------
-    TraverseReport
+    passage: as `driven` gives it.
     """
     if isinstance(passage, Planned):
         return planned_report(question, passage, most=most, search=search)

@@ -49,7 +49,7 @@ _KINDS = {404: "not-found", 405: "method", 413: "too-large", 429: "share", 503: 
 
 
 def app_of(state: State, *, workers: int, limits: Limits | None = None) -> FastAPI:
-    """Application, to be put behind a `kaidan.web.guard.Guard`.
+    """Application, to be put behind a ``kaidan.web.guard.Guard``.
 
     Parameters
     ----------

@@ -36,15 +36,7 @@ def type_of(request: Request) -> str:
 
 
 async def json_of(request: Request) -> dict[str, Any]:
-    """Object of a request's body.
-
-    Raises
-    ------
-    HTTPException
-        Another type of content, or more than `LARGEST_BODY`.
-    InputError
-        No JSON object.
-    """
+    """Object of a request's body."""
     if type_of(request) != "application/json":  # a form of elsewhere could not be told apart
         raise HTTPException(415, "send application/json")
     body = bytearray()
@@ -56,13 +48,7 @@ async def json_of(request: Request) -> dict[str, Any]:
 
 
 def object_of(text: str | bytes) -> dict[str, Any]:
-    """Object of a text.
-
-    Raises
-    ------
-    InputError
-        No JSON object.
-    """
+    """Object of a text."""
     try:
         found = json.loads(text, parse_constant=_refuse_constant)
         json.dumps(found, ensure_ascii=False).encode()  # half a surrogate pair is no text
@@ -96,14 +82,7 @@ def sent(reply: Reply) -> Response:
 
 
 async def while_there(request: Request, reply: Coroutine[Any, Any, Reply]) -> Response:
-    """Response of a reply that is given up when the client is gone.
-
-    Parameters
-    ----------
-    request : Request
-        Its body was read.
-    reply : coroutine
-    """
+    """Response of a reply that is given up when the client is gone."""
     work, gone = asyncio.ensure_future(reply), asyncio.ensure_future(_gone(request))
     try:
         await asyncio.wait({work, gone}, return_when=asyncio.FIRST_COMPLETED)

@@ -30,14 +30,7 @@ _AGAIN = 0.05
 class Channel:
     """One climb: its monitor, what it said last, and who watches.
 
-    Parameters
-    ----------
-    begun : mapping
-        As `kaidan.web.watching.begun` gives it.
-    hands : Hands
-        Who judge.
-    client : str
-        Who began it.
+    begun: as `kaidan.web.watching.begun` gives it.
     """
 
     def __init__(self, begun: Mapping[str, Any], hands: Hands, client: str) -> None:
@@ -68,15 +61,7 @@ class Channel:
     ) -> Reply:
         """States after samples, which those who watch get too; all samples count, or none does.
 
-        Parameters
-        ----------
-        samples : list of Sample
-        again : bool
-            Whether the climb begins anew.
-        recorded : bool
-            Whether their stamps alone tell the time: they may come when they like.
-        ends : bool
-            Whether it ends with these, so that there is a summary.
+        recorded: whether their stamps alone tell the time: they may come when they like.
         """
         arrived = None if recorded else time.monotonic()
         async with self._turn:

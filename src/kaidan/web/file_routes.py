@@ -32,26 +32,14 @@ MOST_UPLOADS = 16
 
 
 class Files:
-    """What takes files of clients in, so many at once.
-
-    Parameters
-    ----------
-    folder : Path
-        Folder of passing files.
-    """
+    """What takes files of clients in, so many at once."""
 
     def __init__(self, folder: Path) -> None:
         self._folder, self._places = folder, Places(MOST_UPLOADS, "files on their way")
 
     @asynccontextmanager
     async def taken(self, request: Request) -> AsyncIterator[tuple[Path | None, dict[str, Any]]]:
-        """File of a form, in a folder of its own until this ends, and the other fields.
-
-        Raises
-        ------
-        HTTPException
-            Too many files are on their way.
-        """
+        """File of a form, in a folder of its own until this ends, and the other fields."""
         if type_of(request) != "multipart/form-data":  # another form would be held in memory
             yield None, {}
             return

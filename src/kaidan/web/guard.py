@@ -37,14 +37,9 @@ _LOCAL = ("localhost", "127.0.0.1", "[::1]")
 class Guard:
     """What stands around the application and lets nobody in who should not be.
 
-    Parameters
-    ----------
-    app : ASGI application
-    token : str
-        What a client must know; empty where the server listens to this machine alone.
-    hosts : collection of str
-        Names by which the server may be called besides localhost and, with a token, any address in
-        numbers. A page of elsewhere whose name was made to lead here is refused by its name.
+    token: what a client must know; empty where the server listens to this machine alone.
+    hosts: names by which the server may be called besides localhost and, with a token, any address
+        in numbers. A page of elsewhere whose name was made to lead here is refused by its name.
     """
 
     def __init__(self, app: ASGIApp, *, token: str = "", hosts: Collection[str] = ()) -> None:

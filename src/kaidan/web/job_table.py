@@ -99,18 +99,7 @@ def _names(given: Any) -> str:
 
 
 class JobTable:
-    """Jobs of all sessions.
-
-    Parameters
-    ----------
-    folder : Path
-        Folder of the table and of the files of jobs.
-
-    Raises
-    ------
-    InputError
-        The table cannot be read or written.
-    """
+    """Jobs of all sessions."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder

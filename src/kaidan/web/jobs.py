@@ -40,12 +40,7 @@ class Asker(NamedTuple):
 class Jobs:
     """Jobs that wait and run.
 
-    Parameters
-    ----------
-    table : JobTable
-        Where they are kept.
-    workers : Workers
-        They begin the process of each job.
+    workers: they begin the process of each job.
     """
 
     def __init__(self, table: JobTable, workers: Workers) -> None:
@@ -69,13 +64,7 @@ class Jobs:
         self.table.close()
 
     def refuse_more(self, asker: Asker) -> None:
-        """Refuse who has as many jobs as one may have.
-
-        Raises
-        ------
-        HTTPException
-            It has, or all together have.
-        """
+        """Refuse who has as many jobs as one may have."""
         lines = Counter(each.line for each in self._known.values())
         clients = Counter(each.client for each in self._known.values())
         if lines[asker.line] >= MOST_WAITING:
@@ -92,16 +81,8 @@ class Jobs:
     ) -> Job:
         """New job, which begins as soon as others have ended.
 
-        Parameters
-        ----------
-        asker : Asker
-            See `refuse_more`.
-        verb : str
-            One of `kaidan.web.long_work.JOBS`.
-        body : mapping
-            What it needs to know.
-        file : Path, optional
-            File that it reads; it is moved.
+        asker: see `refuse_more`.
+        verb: one of `kaidan.web.long_work.JOBS`.
         """
         self.refuse_more(asker)
         job = Job(token_urlsafe(12), asker.owner, verb, dict(body), created=time.time())

@@ -108,15 +108,7 @@ async def _until_gone(socket: WebSocket) -> None:
 def samples_of(given: Any) -> list[Sample]:
     """Samples of JSON; what is missing or null is a drop-out.
 
-    Parameters
-    ----------
-    given : list of mappings
-        Each with the columns of a file of samples.
-
-    Raises
-    ------
-    InputError
-        Something else.
+    given: each with the columns of a file of samples.
 
     Examples
     --------

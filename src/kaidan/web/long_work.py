@@ -33,19 +33,7 @@ class Result(NamedTuple):
 def result_of(verb: str, body: Mapping[str, Any], folder: Path) -> Result:
     """Do a job, or go on with it.
 
-    Parameters
-    ----------
-    verb : str
-        One of `JOBS`.
-    body : mapping
-        What it needs to know.
-    folder : Path
-        Its own: what is done is kept there, and there its file lies.
-
-    Raises
-    ------
-    InputError
-        An input without physical meaning.
+    verb: one of `JOBS`.
     """
     if verb == "film":
         return _film(body)
@@ -95,13 +83,7 @@ def _report(body: Mapping[str, Any]) -> Result:
 
 
 def document_format(body: dict[str, Any], known: tuple[str, ...] = tuple(DOCUMENTS)) -> str:
-    """Format of a report that a body asks for, taken out of it.
-
-    Raises
-    ------
-    InputError
-        None of those known.
-    """
+    """Format of a report that a body asks for, taken out of it."""
     form = body.pop("format", "html")
     if form not in known:
         raise InputError(f"report: format {shown(form)} is not known; known: {', '.join(known)}")

@@ -18,12 +18,7 @@ _MOST_CLIENTS = 4096
 
 
 class Paced:
-    """Application whose clients are answered at a pace, each at its own.
-
-    Parameters
-    ----------
-    app : ASGI application
-    """
+    """Application whose clients are answered at a pace, each at its own."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app

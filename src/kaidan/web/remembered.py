@@ -34,12 +34,7 @@ class Remembered:
     An answer follows from its question alone, so that it does not matter whose it was. A question
     that nobody waits for any more leaves the line.
 
-    Parameters
-    ----------
-    answer : callable
-        Who answers.
-    most : int
-        Most that is remembered [bytes]; the answer that nobody needed for longest goes first.
+    most: what is remembered at most [bytes]; the answer that nobody needed for longest goes first.
     """
 
     def __init__(self, answer: Answering, most: int = MOST) -> None:

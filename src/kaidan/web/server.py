@@ -33,13 +33,7 @@ def is_local(host: str) -> bool:
 
 
 def listening(host: str, port: int) -> socket.socket:
-    """Socket that listens; port 0 is one that is free.
-
-    Raises
-    ------
-    InputError
-        Nobody can listen there.
-    """
+    """Socket that listens; port 0 is one that is free."""
     try:
         family = socket.AF_INET6 if ":" in host else socket.AF_INET
         opened = socket.create_server((host, port), family=family, backlog=2048)
@@ -54,18 +48,8 @@ def listening(host: str, port: int) -> socket.socket:
 def server_of(state: State, *, host: str, token: str, workers: int, **how: Any) -> uvicorn.Server:
     """Server that has yet to run on a socket that listens.
 
-    Parameters
-    ----------
-    state : State
-        Folder that it keeps things in; who made it gives it back.
-    host : str
-        Address at which it listens.
-    token : str
-        What clients must know; empty: none, which only this machine may be allowed.
-    workers : int
-        Processes that answer.
-    **how
-        As `kaidan.web.app.app_of` has it.
+    token: what clients must know; empty: none, which only this machine may be allowed.
+    **how: as `kaidan.web.app.app_of` has it.
     """
     hosts = () if is_local(host) else (host, socket.gethostname(), socket.getfqdn())
     config = uvicorn.Config(
@@ -85,22 +69,7 @@ def server_of(state: State, *, host: str, token: str, workers: int, **how: Any) 
 def token_for(host: str, stated: str | None) -> str:
     """Token that clients must send: what was stated, or a new one where one is needed.
 
-    Parameters
-    ----------
-    host : str
-        Address at which the server listens.
-    stated : str or None
-        What who runs it wants it to be.
-
-    Returns
-    -------
-    str
-        Empty: no token is needed.
-
-    Raises
-    ------
-    InputError
-        One that can be guessed, where others can reach the server.
+    Empty: no token is needed.
     """
     if stated and not is_local(host) and len(stated) < SHORTEST_TOKEN:
         raise InputError(

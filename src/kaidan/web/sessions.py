@@ -19,15 +19,7 @@ _KEY = 32
 class Sessions:
     """Sessions signed with a key that outlives the server.
 
-    Parameters
-    ----------
-    key : Path
-        File of the key; made if it is not there, readable by its owner alone.
-
-    Raises
-    ------
-    InputError
-        It cannot be written, or is no key.
+    key: file of the key; made if it is not there, readable by its owner alone.
     """
 
     def __init__(self, key: Path) -> None:

@@ -39,39 +39,19 @@ def share_of(most: int) -> int:
 
 
 def send_away(text: str, *, whole: bool = False) -> NoReturn:
-    """Refuse a client that holds its share already, or anybody if the whole is taken.
-
-    Raises
-    ------
-    HTTPException
-        429, or 503 for the whole; both say when to ask again.
-    """
+    """Refuse a client that holds its share already, or anybody if the whole is taken."""
     raise HTTPException(503 if whole else 429, text, {"Retry-After": str(NOT_BEFORE)})
 
 
 class Places:
-    """So many places, of which no client holds more than its share.
-
-    Parameters
-    ----------
-    most : int
-        Places of all clients.
-    what : str
-        What takes one, in the plural.
-    """
+    """So many places, of which no client holds more than its share."""
 
     def __init__(self, most: int, what: str) -> None:
         self.most, self.what = most, what
         self._held: Counter[str] = Counter()
 
     def take(self, client: str) -> None:
-        """Take a place for a client.
-
-        Raises
-        ------
-        HTTPException
-            There is none for it.
-        """
+        """Take a place for a client."""
         share = share_of(self.most)
         if self._held[client] >= share:
             send_away(f"your address has its share, {share} {self.what}: wait until one has ended")

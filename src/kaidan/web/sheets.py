@@ -22,23 +22,9 @@ LARGEST_SHEET = 1 << 20
 def sheets_of(file: str) -> dict[str, Any]:
     """Robots and stairs in a file, each as the table that a question takes in the place of a name.
 
-    Parameters
-    ----------
-    file : str
-        Robot description, building model, mesh, point cloud, map, sheet in TOML, or table of the
-        points of a profile.
-
-    Returns
-    -------
-    dict
-        ``robots``, ``stairs`` (of several flights a list from bottom to top), ``storeys``, the one
-        on which each of the stairs begins, "" where the file has none, and ``notes``: why something
-        that was found is not among them.
-
-    Raises
-    ------
-    InputError
-        None of these, or one that cannot be read.
+    ``robots``, ``stairs`` (of several flights a list from bottom to top), ``storeys``, the one on
+    which each of the stairs begins, "" where the file has none, and ``notes``: why something that
+    was found is not among them.
     """
     made: dict[str, Any] = {"robots": [], "stairs": [], "storeys": [], "notes": []}
     source = Source.of(file)

@@ -9,13 +9,7 @@ _NO_ROOM = {errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC)}
 
 
 def is_full(error: BaseException) -> bool:
-    """Whether something could not be written for want of room.
-
-    Parameters
-    ----------
-    error : BaseException
-        Of the system, of SQLite, or one that was raised while such a one was handled.
-    """
+    """Whether something could not be written for want of room."""
     if isinstance(error, sqlite3.OperationalError):
         # a bound on the size of files comes as an error of writing
         return error.sqlite_errorcode in (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR_WRITE)

@@ -3,7 +3,6 @@
 import os
 import shutil
 from pathlib import Path
-from types import TracebackType
 from typing import Self
 
 from kaidan.errors import InputError, short
@@ -23,15 +22,7 @@ def usual_folder() -> Path:
 class State:
     """A folder that belongs to one server at a time.
 
-    Parameters
-    ----------
-    folder : Path
-        Made if it is not there, readable by its owner alone.
-
-    Raises
-    ------
-    InputError
-        It cannot be written, or another server has it.
+    folder: made if it is not there, readable by its owner alone.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -58,11 +49,6 @@ class State:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         shutil.rmtree(self.passing, ignore_errors=True)
         self._lock.release()

@@ -22,10 +22,7 @@ Done = tuple[dict[str, Any], bytes]
 def done(task: Mapping[str, Any]) -> Done:
     """What comes of a task; whatever goes wrong is an answer too.
 
-    Parameters
-    ----------
-    task : mapping
-        ``kind`` and what that kind needs.
+    task: ``kind`` and what that kind needs.
     """
     try:
         return {"status": 200}, _DO[task["kind"]](task)

@@ -3,7 +3,6 @@
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Self
 
 from kaidan.spelling import JOINT
@@ -28,14 +27,9 @@ class Hands:
     Estimates take milliseconds and somebody at a slider waits for each, so that they wait for
     nothing else; nor do the samples of a climb that is watched, and its beginning.
 
-    Parameters
-    ----------
-    count : int
-        Processes of each; two answer more estimates than many people ask for.
-    limits : Limits
-        What one question may take.
-    folder : Path
-        Where each process has a folder for passing files.
+    count: processes of each; two answer more estimates than many people ask for.
+    limits: what one question may take.
+    folder: where each process has a folder for passing files.
     """
 
     def __init__(self, count: int, limits: Limits, folder: Path) -> None:
@@ -53,12 +47,7 @@ class Hands:
             await each.__aenter__()
         return self
 
-    async def __aexit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    async def __aexit__(self, *raised: object) -> None:
         for each in self._every:
             await each.__aexit__()
 
@@ -79,10 +68,7 @@ class Hands:
 def is_quick(task: Mapping[str, Any]) -> bool:
     """Whether a question is answered at once: small, no posture to be found, nothing simulated.
 
-    Parameters
-    ----------
-    task : mapping
-        See ``kaidan.web.tasks``.
+    task: see ``kaidan.web.tasks``.
 
     Examples
     --------

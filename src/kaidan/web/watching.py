@@ -19,18 +19,7 @@ from kaidan.web.asking import live_question
 
 
 def begun(body: Mapping[str, Any]) -> bytes:
-    """First line of a climb and its monitor, in JSON.
-
-    Parameters
-    ----------
-    body : mapping
-        robot, stairs, direction, facing, flippers, payload, override, limits.
-
-    Raises
-    ------
-    InputError
-        Something else, or stairs that the monitor does not know.
-    """
+    """First line of a climb and its monitor, in JSON."""
     asked = dict(body)
     given = asked.pop("limits", None) or {}
     if not isinstance(given, Mapping):
@@ -54,16 +43,9 @@ def begun(body: Mapping[str, Any]) -> bytes:
 def fed(monitor: str, samples: list[list[Any]], arrived: float | None, *, ends: bool) -> bytes:
     """What samples come to: a line on the monitor, then one for each state.
 
-    Parameters
-    ----------
-    monitor : str
-        As `begun` or this gave it.
-    samples : list
-        Each with the values of a `kaidan.verbs.monitor.Sample`.
-    arrived : float or None
-        When they came [s]; None where their stamps alone tell the time.
-    ends : bool
-        Whether there is to be a summary of all samples.
+    monitor: as `begun` or this gave it.
+    samples: each with the values of a `kaidan.verbs.monitor.Sample`.
+    arrived: when they came [s]; None where their stamps alone tell the time.
     """
     watch = _opened(monitor)
     states = [watch.feed(Sample(*each), arrived) for each in samples]

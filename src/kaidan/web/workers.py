@@ -102,23 +102,12 @@ class _Worker:
 class Workers:
     """Some worker processes and the questions that wait for them.
 
-    Parameters
-    ----------
-    count : int
-        Processes.
-    limits : Limits
-        What one question may take.
-    folder : Path
-        Where each has a folder for passing files.
-    nice : int
-        By how much other processes go first.
-    ready : int
-        How many of them begin before they are needed.
-    first : str
-        Verb that these answer once before the first question, whose reply would wait for their
+    limits: what one question may take.
+    folder: where each has a folder for passing files.
+    ready: how many of them begin before they are needed.
+    first: verb that these answer once before the first question, whose reply would wait for their
         imports otherwise.
-    most : int, optional
-        How many of them one client may keep busy; all without it.
+    most: how many of them one client may keep busy; all without it.
     """
 
     def __init__(
@@ -161,14 +150,9 @@ class Workers:
         Clients take turns, however many tasks each has in the line. Who gives up while the task
         waits takes it out of the line; one that has begun is ended.
 
-        Parameters
-        ----------
-        task : mapping
-            See ``kaidan.web.tasks``.
-        client : str
-            Who asks; of all that may wait it may have its share.
-        seconds : float, optional
-            Time that it may take [s]; that of the limits without it.
+        task: see ``kaidan.web.tasks``.
+        client: who asks; of all that may wait it may have its share.
+        seconds: time that it may take [s]; that of the limits without it.
         """
         if sum(map(len, self._line.values())) >= self.limits.waiting:
             return refused(503, "busy", "too many questions at once; ask again in a while")

@@ -9,7 +9,6 @@ from collections import deque
 from contextlib import suppress
 from importlib import import_module
 from queue import Empty, SimpleQueue
-from types import TracebackType
 from typing import Any, Self
 
 from kaidan.errors import InputError, MissingExtraError, shown
@@ -30,13 +29,7 @@ _ANY = (Exception, asyncio.CancelledError, concurrent.futures.CancelledError)
 
 
 def distributed() -> Any:
-    """The module, imported when it is needed.
-
-    Raises
-    ------
-    MissingExtraError
-        distributed is not installed.
-    """
+    """The module, imported when it is needed."""
     try:
         return import_module("distributed")
     except ImportError:
@@ -97,12 +90,7 @@ class DaskWorkers:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         futures = [future for future, _ in self._tasks.values()]
         self._tasks.clear()
         with suppress(*_ANY):

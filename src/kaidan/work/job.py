@@ -99,20 +99,10 @@ _ONE_AT_A_TIME = threading.Lock()
 def perform(work: Work, spec: Any, version: str) -> Reply:
     """Run one trial in a worker; what goes wrong is in its reply, not raised.
 
-    Parameters
-    ----------
-    work : Work
-        What is done.
-    spec : object
-        With what.
-    version : str
-        Version at the place where the campaign is planned.
+    version: version at the place where the campaign is planned.
 
-    Returns
-    -------
-    Reply
-        An exception is the outcome `failed`; a missing package or another version stops the
-        campaign, since it would befall every trial.
+    An exception is the outcome `failed`; a missing package or another version stops the campaign,
+    since it would befall every trial.
     """
     began, host = time.monotonic(), socket.gethostname()
     here = work.version()

@@ -12,13 +12,7 @@ FILE = "lock"
 
 
 class Lock:
-    """Lock on a folder, held until `release` or until the process ends, however it ends.
-
-    Raises
-    ------
-    InputError
-        Another process holds it; the text says which.
-    """
+    """Lock on a folder, held until `release` or until the process ends, however it ends."""
 
     def __init__(self, folder: Path) -> None:
         flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0)

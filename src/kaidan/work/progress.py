@@ -2,7 +2,6 @@
 
 import sys
 import time
-from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
 from kaidan.progress import tell
@@ -18,14 +17,7 @@ FIRST_LINE, NEXT_LINES = 10.0, 60.0
 class Progress:
     """Number of trials done and the time that is left: a bar, or lines where nobody sees a bar.
 
-    Parameters
-    ----------
-    total : int
-        Trials of the plan; those done before are subtracted, so that the time left is right.
-    shown : bool
-        Whether to show it at all.
-    what : str
-        What is counted.
+    total: trials of the plan; those done before are subtracted, so that the time left is right.
     """
 
     def __init__(self, total: int, *, shown: bool, what: str = "trials") -> None:
@@ -62,12 +54,7 @@ class Progress:
             self._bar.start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         if self._bar is not None:
             self._bar.stop()
 

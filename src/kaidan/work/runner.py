@@ -72,10 +72,6 @@ def conduct(
     listener : Listener, optional
         Who follows how it goes.
 
-    Returns
-    -------
-    Tally
-
     Raises
     ------
     InputError

@@ -29,13 +29,7 @@ _JOURNAL = re.compile(r"journal-(\d{6,})\.jsonl", re.ASCII)
 
 
 def arrow(module: str = "pyarrow") -> Any:
-    """The module, imported when it is needed.
-
-    Raises
-    ------
-    MissingExtraError
-        pyarrow is not installed.
-    """
+    """The module, imported when it is needed."""
     try:
         return import_module(module)
     except ImportError:
@@ -112,13 +106,7 @@ def _content(path: Path) -> bytes:
 
 
 def batches_of(part: Path, columns: Sequence[str], schema: Any) -> Iterator[Any]:
-    """Record batches of a part.
-
-    Raises
-    ------
-    InputError
-        It is damaged, or of other columns.
-    """
+    """Record batches of a part."""
     match = _PART.fullmatch(part.name)
     try:
         data = _content(part)
@@ -147,13 +135,7 @@ def journal_line(row: Row) -> bytes:
 
 
 def journal_rows(path: Path) -> list[Row]:
-    """Rows of a journal; what a power cut left half written at its end is none.
-
-    Raises
-    ------
-    InputError
-        A line before the end is damaged.
-    """
+    """Rows of a journal; what a power cut left half written at its end is none."""
     rows: dict[str, Row] = {}
     bad = 0
     for number, line in enumerate(_content(path).split(b"\n"), start=1):
@@ -174,13 +156,7 @@ def journal_rows(path: Path) -> list[Row]:
 
 
 def about_store(folder: Path, *, missing_is_new: bool = False) -> dict[str, Any] | None:
-    """What `campaign.json` holds.
-
-    Raises
-    ------
-    InputError
-        The folder is no store, of another format, or damaged.
-    """
+    """What `campaign.json` holds."""
     try:
         about = json.loads(_content(folder / ABOUT))
     except FileNotFoundError:

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from types import TracebackType
 from typing import Self
 
 from kaidan.work.job import Ended, Reply, Task, Work, perform
@@ -12,12 +11,8 @@ from kaidan.work.local import hands
 class ThreadWorkers:
     """Threads of this process, for work that crashes no process and lets others run.
 
-    Parameters
-    ----------
-    work : Work
-        What is done; one that is `alone` in its process gains nothing here.
-    count : int, optional
-        Number of threads; without one each processor gets one.
+    work: what is done; one that is `alone` in its process gains nothing here.
+    count: number of threads; without one each processor gets one.
     """
 
     def __init__(self, work: Work, count: int | None = None) -> None:
@@ -28,12 +23,7 @@ class ThreadWorkers:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         self._pool.shutdown(wait=True, cancel_futures=True)
 
     def room(self) -> int:

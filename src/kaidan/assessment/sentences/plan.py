@@ -11,15 +11,7 @@ if TYPE_CHECKING:
 
 
 def notes(question: "Question", ends: Sequence[str]) -> tuple[str, ...]:
-    """What was tried to find a plan, where that is less than people may take it for.
-
-    Parameters
-    ----------
-    question : Question
-        With the plan.
-    ends : sequence of str
-        Ends that were tried first.
-    """
+    """What was tried to find a plan, where that is less than people may take it for."""
     each = []
     if question.robot.flippers() and not question.plannable:
         where = "at a yaw" if question.yaw else f"by the {MODELS[question.model].label}"

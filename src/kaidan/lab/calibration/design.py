@@ -115,15 +115,7 @@ def points_of(
 ) -> list[Point]:
     """Figures at places of the design; all trials in one go.
 
-    Parameters
-    ----------
-    bench : Bench
-        What runs the trials.
-    evidence : Evidence
-        Of which only the conditions are used, no result.
-    robot : Robot
-        Whose ends are replaced.
-    places : sequence of (shares, ground)
+    evidence: of which only the conditions are used, no result.
     """
     settings = [setting_of(robot, shares, ground) for shares, ground in places]
     series = [series_of(evidence, setting) for setting in settings]

@@ -56,15 +56,7 @@ class Emulator(NamedTuple):
 
 
 def emulator_of(points: Sequence[Point], seed: int = 0) -> Emulator:
-    """Emulator through points of one ground.
-
-    Raises
-    ------
-    InputError
-        Too few points.
-    MissingExtraError
-        scikit-learn is not installed.
-    """
+    """Emulator through points of one ground."""
     if find_spec("sklearn") is None:
         raise MissingExtraError("the emulator", "calibration")
     if len(points) < FEWEST:

@@ -150,16 +150,9 @@ def trial_of(
 ) -> TrialSpec:
     """Trial of grousers on a slope.
 
-    Parameters
-    ----------
-    angle : float
-        [rad]
-    height, spacing, nosing_radius : float
-        [m]
-    friction : float
-        [1]
-    seed : int
-        Of start offset and phase.
+    angle: [rad]
+    height, spacing, nosing_radius: [m]
+    friction: [1]
     """
     question = Question.in_one_posture(
         ROBOT,
@@ -192,15 +185,10 @@ def engagement(
         What runs the trials.
     trials : int
         A cell, each from its own start offset and phase of the grousers.
-    seed : int
     slopes : sequence of float
         [deg]
     frictions : sequence of float
         [1]
-
-    Returns
-    -------
-    Engagement
     """
     keys = [(design, slope, mu) for design in designs() for slope in slopes for mu in frictions]
     specs = [
@@ -253,9 +241,7 @@ def rule(
     The simulated tips are round with half their height. A round tip on a round nosing touches as a
     sharp one does on a nosing whose radius is the sum.
 
-    Returns
-    -------
-    friction required [1], kinetic-energy height of a slip by a spacing [m], energy margin [m]
+    friction required [1], kinetic-energy height of a slip by a spacing [m], energy margin [m].
     """
     question = Question.in_one_posture(
         ROBOT, Stairs.inclined(angle=angle, nosing_spacing=NOSING_SPACING), friction=friction

@@ -23,14 +23,7 @@ _UNITS = {"m": (1e3, "mm"), "N_m": (1e-3, "kN/m")}
 def calibration_figure(found: "Calibration") -> Figure:
     """Extra inclination over the fitted stiffness, profile likelihoods, blind predictions.
 
-    Parameters
-    ----------
-    found : Calibration
-        What `kaidan.lab.calibration.report.calibrate` found.
-
-    Returns
-    -------
-    Figure
+    found: what `kaidan.lab.calibration.report.calibrate` found.
     """
     with look.settings():
         figure = look.blank(3.5)
@@ -165,14 +158,7 @@ def _draw_blind(axes: Axes, found: "Calibration") -> None:
 def effects_figure(found: "GrouserEffects") -> Figure:
     """theta_M and both margins over height, spacing and stiffness of the grousers.
 
-    Parameters
-    ----------
-    found : GrouserEffects
-        What `kaidan.lab.calibration.effects.effects` found.
-
-    Returns
-    -------
-    Figure
+    found: what `kaidan.lab.calibration.effects.effects` found.
     """
     panels = [
         ("height", 1e3, "height [mm]"),

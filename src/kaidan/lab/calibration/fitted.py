@@ -26,10 +26,6 @@ From = Literal["stated", "sheet", "fit"]
 def fitted(robot: Robot) -> tuple[Robot, YieldingBelt]:
     """Robot and track of a test in which no track is named.
 
-    Parameters
-    ----------
-    robot : Robot
-
     Returns
     -------
     (Robot, YieldingBelt)

@@ -136,10 +136,6 @@ def fit(
         What is fitted, for the report.
     grid : sequence of (values, setting)
         Candidates.
-
-    Returns
-    -------
-    Fit
     """
     conditions = conditions_fitted(evidence)
     counts = bench.counts((setting, each) for _, setting in grid for each in conditions)
@@ -160,13 +156,6 @@ def intervals(
 
     It has the values whose profile likelihood, the largest over all other parameters, is within
     1.92 (``WITHIN``) of the largest of all.
-
-    Parameters
-    ----------
-    candidates : sequence of Candidate
-        All of a grid.
-    judge : callable
-        Logarithm of the likelihood that counts.
     """
     best = max(candidates, key=judge)
     found = []

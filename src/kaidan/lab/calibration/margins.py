@@ -96,12 +96,7 @@ def margins_of(
 ) -> list[Margin]:
     """Margins of settings at spacings, in directions, on grids of slopes; all in one go.
 
-    Parameters
-    ----------
-    bench : Bench
-        What runs the trials.
-    jobs : sequence of (setting, nosing spacing [m], direction, slopes [deg])
-        Whose margins to find.
+    jobs: whose margins to find.
     """
     counts = bench.counts(
         (setting, condition(p, angle, direction))

@@ -41,14 +41,8 @@ def log_likelihood(evidence: Evidence, margin: Array, spread: Array, extra: Arra
                    ) -> Array:  # fmt: skip
     """Logarithm of the likelihood of the fall zone and of theta_d, and of nothing else.
 
-    Parameters
-    ----------
-    evidence : Evidence
-        Of which the zone and theta_d are used.
-    margin, spread : array
-        Slope from which it falls at the zone's spacing, and its standard deviation [deg].
-    extra, doubt : array
-        log(SMALL + theta_d), and its standard deviation.
+    margin, spread: slope from which it falls at the zone's spacing, and its standard deviation
+        [deg].
 
     Notes
     -----
@@ -80,20 +74,9 @@ def posterior(
 ) -> Draws:
     """Draws from the posterior, uniform over the shares of the ranges and over both grounds.
 
-    Parameters
-    ----------
-    emulators : mapping
-        By ground, "steps" and "noses".
-    evidence : Evidence
-        Of which only the zone and theta_d are used.
-    seed : int
-    steps : int
-        Of each of the sampler's walkers; a third of them is thrown away.
-
-    Raises
-    ------
-    MissingExtraError
-        emcee is not installed.
+    emulators: by ground, "steps" and "noses".
+    evidence: of which only the zone and theta_d are used.
+    steps: of each of the sampler's walkers; a third of them is thrown away.
     """
     if find_spec("emcee") is None:
         raise MissingExtraError("the posterior", "calibration")

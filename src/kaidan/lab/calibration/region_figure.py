@@ -25,16 +25,7 @@ _PAIRS = (
 
 
 def region_figure(found: "YieldingCalibration") -> Figure:
-    """Posterior draws over the whole range of the design.
-
-    Parameters
-    ----------
-    found : YieldingCalibration
-
-    Returns
-    -------
-    Figure
-    """
+    """Posterior draws over the whole range of the design."""
     tried = {each.name: each.tried for each in found.parameters}
     with look.settings():
         figure = look.blank(_HEIGHT)

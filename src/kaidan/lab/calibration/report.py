@@ -59,10 +59,6 @@ def calibrate(
         Number of candidates, the likeliest first and none beyond the intervals, that predict.
     step : float
         Between the slopes at which margins are looked for [deg].
-
-    Returns
-    -------
-    Calibration
     """
     found = fit(bench, evidence, kind, grid)
     blind = predict(bench, evidence, found.kept[:judged], step=step)

@@ -89,14 +89,8 @@ def zone(
 ) -> str:
     """Fall zone beside the simulated falls.
 
-    Parameters
-    ----------
-    p_mm : float
-        Nosing spacing [mm].
-    counts : sequence of (angle, (falls, trials))
-        At each slope [deg].
-    probability, best : float
-        Of the fall zone with this candidate, and at best.
+    p_mm: nosing spacing [mm].
+    counts: at each slope [deg].
     """
     found = ", ".join(f"{falls} of {trials} at {angle:.1f}" for angle, (falls, trials) in counts)
     return (

@@ -142,10 +142,6 @@ def theta_m_study(
         Inclination beyond the stairs from which a trial counts as a fall [deg].
     step : float
         Between slopes [deg].
-
-    Returns
-    -------
-    ThetaMStudy
     """
     coded = design()
     names = list(FACTORS)

@@ -133,10 +133,6 @@ def calibrate_yielding(
     steps : int
         Of the sampler.
 
-    Returns
-    -------
-    YieldingCalibration
-
     Raises
     ------
     InputError

@@ -41,10 +41,6 @@ def carry_out(
     progress : bool
         Whether to show on standard error how it goes, if that is a terminal.
 
-    Returns
-    -------
-    Tally
-
     Raises
     ------
     InputError
@@ -73,24 +69,10 @@ def rows_of(
 ) -> list[dict[str, Any]]:
     """Rows of some specs, on all processors of this machine; those in the store are not done again.
 
-    Parameters
-    ----------
-    work : Work
-        What is done with each.
-    specs : sequence
-    store : str or Path
-        Folder of the results; made if it does not exist, resumed if it does.
-    columns : sequence of str
-        Of the table.
-    workers : int, optional
-        Processes; without one each processor gets one.
-    progress : bool
-        Whether to show on standard error how it goes, if that is a terminal.
-
-    Returns
-    -------
-    list of dict
-        In the order of the specs.
+    work: what is done with each.
+    store: folder of the results; made if it does not exist, resumed if it does.
+    workers: processes; without one each processor gets one.
+    progress: whether to show on standard error how it goes, if that is a terminal.
     """
     with (
         Store(Path(store), work) as opened,

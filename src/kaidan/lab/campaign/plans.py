@@ -111,7 +111,6 @@ class Setting(Sheet):
 
         Parameters
         ----------
-        condition : Condition
         seed : int
             Of what is random.
         **others
@@ -262,13 +261,7 @@ _PLAN: TypeAdapter[VerificationTest | Grid] = TypeAdapter(Plan)
 
 
 def plan_from(stored: Any) -> VerificationTest | Grid:
-    """Plan as a store keeps it.
-
-    Raises
-    ------
-    InputError
-        It is none, or of another version.
-    """
+    """Plan as a store keeps it."""
     try:
         return _PLAN.validate_python(stored)
     except InputError as error:

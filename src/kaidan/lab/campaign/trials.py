@@ -116,13 +116,7 @@ def text(spec: TrialSpec) -> str:
 
 @cache
 def physics_version() -> str:
-    """Version of what a trial's result depends on: kaidan, MuJoCo, and the source of the models.
-
-    Raises
-    ------
-    MissingExtraError
-        MuJoCo is not installed.
-    """
+    """Version of what a trial's result depends on: kaidan, MuJoCo, and the source of the models."""
     try:
         engine = version("mujoco")
     except PackageNotFoundError:

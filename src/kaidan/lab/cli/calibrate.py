@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kaidan.cli import options, output
+from kaidan.lab.cli.experiment import Seed, StoreFolder, Workers
 from kaidan.lab.cli.rig import FileOrStudy, rig
 
 if TYPE_CHECKING:
@@ -26,22 +27,8 @@ RobotName = Annotated[
     str,
     typer.Argument(metavar="[ROBOT]", help="The paper's, or own figures for it (TOML file)."),
 ]
-StoreFolder = Annotated[
-    Path | None,
-    typer.Option(
-        "--store",
-        metavar="DIR",
-        help="Folder that keeps the trials; those it has are not repeated.",
-    ),
-]
-Workers = Annotated[
-    int | None, typer.Option(min=1, max=1024, help="Processes on this machine [one a processor].")
-]
 Trials = Annotated[
     int, typer.Option(min=2, max=1000, help="Trials for each condition; the paper made 5.")
-]
-Seed = Annotated[
-    int, typer.Option(min=0, help="Seed of the start offsets and the grousers' phases.")
 ]
 Judged = Annotated[
     int, typer.Option(min=0, max=50, help="Fits that predict blind, the likeliest first.")

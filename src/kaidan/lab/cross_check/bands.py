@@ -51,10 +51,7 @@ class Band(Part):
 def falling(speed: float) -> float | None:
     """Largest expected excess of a trial over the contact model [deg]; None beyond the data.
 
-    Parameters
-    ----------
-    speed : float
-        [m/s]
+    speed: [m/s]
 
     Examples
     --------
@@ -75,10 +72,7 @@ def static_criterion() -> Band:
 def arrested(radius: float) -> Band:
     """Steepest flight on which a rotation is arrested, less that on which there is none.
 
-    Parameters
-    ----------
-    radius : float
-        Of the end of the track [m].
+    radius: of the end of the track [m].
     """
     return Band(low_deg=-0.01, high_deg=None, reason=said.other_limits(radius))
 

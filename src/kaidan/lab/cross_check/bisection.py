@@ -32,19 +32,10 @@ class Found(NamedTuple):
 def steepest_climbed(question: Question, near: float, resolution: float) -> Found:
     """Steepest flight that the smooth belt climbs, by bisection: its outcome is monotone in slope.
 
-    Parameters
-    ----------
-    question : Question
-        Robot and spacing.
-    near : float
-        Where to begin [deg]; NaN: in the middle.
-    resolution : float
-        Width of the last bracket [deg].
+    near: where to begin [deg]; NaN: in the middle.
+    resolution: width of the last bracket [deg].
 
-    Returns
-    -------
-    Found
-        The middle of the last bracket [deg].
+    The middle of the last bracket [deg].
     """
     plenty = with_friction(question, PLENTY)
     least, most = (math.degrees(each) for each in slopes(question))
@@ -80,19 +71,10 @@ def steepest_climbed(question: Question, near: float, resolution: float) -> Foun
 def friction_required(question: Question, formula: float, resolution: float) -> Found:
     """Least friction with which the smooth belt does not slide on the stairs, by bisection.
 
-    Parameters
-    ----------
-    question : Question
-        Its friction plays no part.
-    formula : float
-        What it should be about [1].
-    resolution : float
-        Width of the last bracket, as an angle of friction [deg].
+    formula: what it should be about [1].
+    resolution: width of the last bracket, as an angle of friction [deg].
 
-    Returns
-    -------
-    Found
-        The middle of the last bracket [1]; NaN where it falls, or slides with plenty.
+    The middle of the last bracket [1]; NaN where it falls, or slides with plenty.
     """
     trials, ended = 0, ""
 

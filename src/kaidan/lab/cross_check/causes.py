@@ -32,15 +32,7 @@ class Context(NamedTuple):
 def why_not(judge_name: JudgeName, answer: Value, context: Context, *, name: ComparisonName) -> str:
     """Why a model gives no answer that could be compared; empty where it does.
 
-    Parameters
-    ----------
-    judge_name : str
-        Whose answer it is.
-    answer : float, str or None
-        Its number or word, None where it has none.
-    context : Context
-    name : str
-        What is compared.
+    answer: its number or word, None where it has none.
     """
     if answer not in (None, "outside"):
         return ""

@@ -44,11 +44,6 @@ def common(question: Question) -> Question:
 
     Models are compared and nobody is judged. Without a surface friction is `PLENTY`, of a range
     the low end counts.
-
-    Raises
-    ------
-    InputError
-        A profile of its own, several flights, or a heading off the line of steepest ascent.
     """
     if not isinstance(question.terrain, Stairs):
         raise InputError(
@@ -105,14 +100,7 @@ def trial_of(question: Question, begin: Begin = "flight") -> TrialSpec:
 
 
 def flight_traverse(question: Question, *, with_friction: bool = True) -> FlightTraverse:
-    """Contact model on the course of a trial that begins on the flight, from its start to its end.
-
-    Parameters
-    ----------
-    question : Question
-    with_friction : bool
-        Whether the required friction is worked out too.
-    """
+    """Contact model on the course of a trial that begins on the flight, all along it."""
     course = course_of(trial_of(question))
     path = contact.traverse(
         course.profile.points,
@@ -137,9 +125,7 @@ def flight_traverse(question: Question, *, with_friction: bool = True) -> Flight
 def static_criterion(question: Question) -> tuple[float, float]:
     """Criterion of no rotation as the contact model applies it to any profile.
 
-    Returns
-    -------
-    margin against tipping over the downhill end, and over the uphill end [rad]; NaN outside
+    margin against tipping over the downhill end, and over the uphill end [rad]; NaN outside.
     """
     course = course_of(trial_of(question))
     criterion = criterion_of(course.profile, course.outline, along(question))[1]

@@ -69,10 +69,6 @@ def agree(
     resolution : float
         Of what is found by bisection over trials [deg].
 
-    Returns
-    -------
-    Agreement
-
     Raises
     ------
     InputError

@@ -40,10 +40,6 @@ def agreement_figure(found: "Agreement") -> Figure:
     ----------
     found : Agreement
         What `kaidan.lab.agree` found.
-
-    Returns
-    -------
-    Figure
     """
     shown = [each for each in found.differences if each.value_deg is not None]
     with look.settings():

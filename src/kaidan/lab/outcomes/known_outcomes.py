@@ -100,12 +100,7 @@ class KnownOutcomes(Answer):
 
 
 def known_outcomes() -> KnownOutcomes:
-    """Put the question of every public outcome to kaidan, and count agreement and errors.
-
-    Returns
-    -------
-    KnownOutcomes
-    """
+    """Put the question of every public outcome to kaidan, and count agreement and errors."""
     table = catalog.outcomes()
     pairs = [_pair(entry, terrain) for entry in table["pair"] for terrain in _terrains(entry)]
     kinds: tuple[Evidence, ...] = ("test", "simulation")

@@ -20,13 +20,7 @@ _STYLES = ("-", "--", "-.", ":")
 
 
 def trial_figure(log: "TrialLog") -> Figure:
-    """Figure of a trial.
-
-    Raises
-    ------
-    InputError
-        A trial that ended before the track moved.
-    """
+    """Figure of a trial."""
     result = log.result
     if len(log) == 0:
         raise InputError(f"trial: it has no log to draw (outcome: {result.outcome.value})")

@@ -25,13 +25,7 @@ NO_DRAWING = (
 
 
 class Stage:
-    """A model with a camera beside it that keeps up with the robot; use it in a ``with``.
-
-    Raises
-    ------
-    KaidanError
-        Nothing can be drawn here; the text says what to install.
-    """
+    """A model with a camera beside it that keeps up with the robot; use it in a ``with``."""
 
     def __init__(self, model: Model, size: tuple[int, int] = SIZE) -> None:
         mujoco = engine()

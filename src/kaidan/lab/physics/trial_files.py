@@ -16,15 +16,7 @@ LOGS = (".csv", ".parquet")
 
 
 def log_writer(path: Path) -> Callable[[TrialLog], bytes]:
-    """What makes the bytes of a log with that suffix.
-
-    Raises
-    ------
-    InputError
-        Another suffix than .csv or .parquet.
-    MissingExtraError
-        pyarrow is not installed (.parquet only).
-    """
+    """What makes the bytes of a log with that suffix."""
     suffix = path.suffix.lower()
     if suffix not in LOGS:
         found = f"unknown suffix {shown(path.suffix)}" if path.suffix else "no suffix"

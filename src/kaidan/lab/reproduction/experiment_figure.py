@@ -16,19 +16,7 @@ _HEIGHT = 4.4
 
 
 def experiment_figure(found: "Reproduction", curve: "MarginCurve") -> Figure:
-    """Predicted margin and the printed results, with the steps of Eq. (24) beside it.
-
-    Parameters
-    ----------
-    found : Reproduction
-        What the text prints, and the corrected margin.
-    curve : MarginCurve
-        Predicted margin.
-
-    Returns
-    -------
-    Figure
-    """
+    """Predicted margin and the printed results, with the steps of Eq. (24) beside it."""
     with look.settings():
         figure = look.blank(_HEIGHT)
         left = figure.add_axes((0.085, 0.19, 0.43, 0.66))

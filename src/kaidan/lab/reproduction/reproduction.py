@@ -117,10 +117,6 @@ class Reproduction(Answer):
 def reproduce() -> Reproduction:
     """Reproduce the paper: what its text prints, what kaidan computes, and the difference.
 
-    Returns
-    -------
-    Reproduction
-
     Examples
     --------
     >>> row = reproduce().table[3]

@@ -12,12 +12,8 @@ NOT_PRINTED = (
 def statements(n: str, spacings: str, worst_deg: float) -> tuple[str, ...]:
     """Statements of the text that a number of ours confirms or contradicts.
 
-    Parameters
-    ----------
-    n, spacings : str
-        Numbers of contacts at the nosing spacings [mm].
-    worst_deg : float
-        Largest difference of Eqs. (19)-(23) as printed and in closed form [deg].
+    n, spacings: numbers of contacts at the nosing spacings [mm].
+    worst_deg: largest difference of Eqs. (19)-(23) as printed and in closed form [deg].
     """
     return (
         f'"n is an integer greater than 2" cannot be meant: n = {n} at {spacings} mm.',
@@ -29,12 +25,8 @@ def statements(n: str, spacings: str, worst_deg: float) -> tuple[str, ...]:
 def captions(friction: float, corrected: tuple[float, float]) -> dict[str, str]:
     """What each figure shows, and what it does not.
 
-    Parameters
-    ----------
-    friction : float
-        Static friction with which Fig. 7 is drawn [1].
-    corrected : (float, float)
-        Corrected margin of Eq. (24) [deg].
+    friction: static friction with which Fig. 7 is drawn [1].
+    corrected: corrected margin of Eq. (24) [deg].
     """
     low, high = corrected
     return {

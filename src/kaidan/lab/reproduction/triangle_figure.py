@@ -19,17 +19,7 @@ _HEIGHT = 4.9
 
 
 def triangle_figure(at: "StateC") -> Figure:
-    """Side view of the robot in state C with the symbols of Eqs. (19)-(23), and their values.
-
-    Parameters
-    ----------
-    at : StateC
-        What is to be drawn.
-
-    Returns
-    -------
-    Figure
-    """
+    """Side view of the robot in state C with the symbols of Eqs. (19)-(23), and their values."""
     with look.settings():
         figure = look.blank(_HEIGHT)
         axes = figure.add_axes((0.02, 0.02, 0.62, 0.88))

@@ -85,16 +85,7 @@ def answer_recording(path: Path) -> bytes:
 
 
 def traverse_recording(found: "TraverseReport") -> bytes:
-    """Recording of a traverse: terrain, robot at each pose, contacts, forces, margins, events.
-
-    Parameters
-    ----------
-    found : TraverseReport
-
-    Returns
-    -------
-    bytes
-    """
+    """Recording of a traverse: terrain, robot at each pose, contacts, forces, margins, events."""
     made = _Recording(found.assessment.question.robot.name)
     poses = found.poses
     made.document("answer", str(found))
@@ -120,14 +111,6 @@ def traverse_recording(found: "TraverseReport") -> bytes:
 def trial_recording(log: "TrialLog") -> bytes:
     """Recording of a trial in MuJoCo: terrain, centroid and inclination, every column over time.
 
-    Parameters
-    ----------
-    log : TrialLog
-
-    Returns
-    -------
-    bytes
-
     Raises
     ------
     InputError
@@ -150,16 +133,7 @@ def trial_recording(log: "TrialLog") -> bytes:
 
 
 def file_recording(found: "FileAnswer") -> bytes:
-    """Recording of a file: nosings with their doubt over the points, or the robot from the side.
-
-    Parameters
-    ----------
-    found : FileAnswer
-
-    Returns
-    -------
-    bytes
-    """
+    """Recording of a file: nosings with their doubt over the points, or the robot from the side."""
     made = _Recording(found.title)
     made.document("answer", str(found))
     for staircase in found.staircases:

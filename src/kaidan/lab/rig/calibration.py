@@ -88,14 +88,6 @@ class RigCalibration(Answer):
 def calibrate_rig(sheet: RigSheet) -> RigCalibration:
     """Fit what a rig sheet has.
 
-    Parameters
-    ----------
-    sheet : RigSheet
-
-    Returns
-    -------
-    RigCalibration
-
     Raises
     ------
     InputError

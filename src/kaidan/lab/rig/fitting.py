@@ -40,13 +40,7 @@ class Fitted(NamedTuple):
 
 
 def student(degrees: int, among: int = 1) -> float:
-    """Quantile of Student's t for an interval of `ALONE`, or for so many that hold together.
-
-    Raises
-    ------
-    MissingExtraError
-        scipy is not installed.
-    """
+    """Quantile of Student's t for an interval of `ALONE`, or for so many that hold together."""
     if util.find_spec("scipy") is None:
         raise MissingExtraError("calibrating a rig", "calibration")
     stats: Any = import_module("scipy.stats")
@@ -57,11 +51,6 @@ def stiffness_of(measurements: tuple[Measurement, ...], name: str) -> Fitted | N
     """Stiffness of a line through measurements, least squares in the travel [N/m]; None: too few.
 
     The zero of the gauge is free: play of the rig drops out.
-
-    Raises
-    ------
-    InputError
-        Forces all alike, or a track that yields towards the force.
     """
     if len(measurements) < FEWEST:
         return None

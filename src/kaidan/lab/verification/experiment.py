@@ -45,10 +45,6 @@ def experiment(robot: Any, *, store: str | Path | None = None, **options: Any) -
         payload, override, friction, speed, track, ground), and those of
         `kaidan.lab.campaign.carry_out` (workers, scheduler, progress).
 
-    Returns
-    -------
-    Verification
-
     Raises
     ------
     InputError
@@ -74,7 +70,6 @@ def carried_out(plan: VerificationTest, store: str | Path | None = None, **how: 
 
     Parameters
     ----------
-    plan : VerificationTest
     store : path, optional
         Folder that keeps the trials.
     **how
@@ -157,11 +152,6 @@ def angles_of(given: Any) -> list[float]:
     --------
     >>> [round(math.degrees(angle)) for angle in angles_of("50deg,44deg..48deg/3")]
     [44, 46, 48, 50]
-
-    Raises
-    ------
-    InputError
-        No such list, or slopes that no stairs have.
     """
     found: set[float] = set()
     for part in _parts(given, "angles"):

@@ -34,10 +34,6 @@ def verification_figure(found: "Verification") -> Figure:
     found : Verification
         With descending trials there are panels of theta_M and of theta_d beside the main one, and
         the corrected points of Eq. (24) in it.
-
-    Returns
-    -------
-    Figure
     """
     with look.settings():
         figure = look.blank(_HEIGHT)

@@ -253,18 +253,10 @@ def closed_form(setting: Setting, p: float) -> float | None:
 def contact_margin(setting: Setting, p: float) -> float | None:
     """Steepest slope that the contact model climbs on the flight (grade two) [deg].
 
-    Parameters
-    ----------
-    setting : Setting
-        Robot, posture and payload.
-    p : float
-        Nosing spacing [m].
+    p: nosing spacing [m].
 
-    Returns
-    -------
-    float or None
-        To 0.01 deg; it has no time, so it is the limit of a low speed. None if it does not climb
-        the gentlest stairs of that spacing.
+    To 0.01 deg; it has no time, so it is the limit of a low speed. None if it does not climb the
+    gentlest stairs of that spacing.
     """
 
     def flight(angle: float) -> tuple[Any, float, float]:
@@ -294,11 +286,6 @@ def usual_conditions(
     the higher one to 22 above it, since the downward margin lies higher. Without grousers no slope
     is steeper than the angle of friction, where it slides and a fall says nothing: where that ends
     all of it, the last `BELOW_SLIDING` below it are tried.
-
-    Raises
-    ------
-    InputError
-        Neither model has a margin at a spacing.
     """
     conditions: list[Condition] = []
     for p in spacings:

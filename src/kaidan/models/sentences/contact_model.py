@@ -8,16 +8,7 @@ if TYPE_CHECKING:
 
 
 def notes(question: "Question", found: "Traverse", *, driven_risers: int | None) -> tuple[str, ...]:
-    """Notes on an answer.
-
-    Parameters
-    ----------
-    question : Question
-    found : Traverse
-        Of the question.
-    driven_risers : int, optional
-        Risers that were driven of a longer uniform flight.
-    """
+    """Notes on an answer."""
     each = []
     if driven_risers is not None:
         each.append(

@@ -11,11 +11,7 @@ if TYPE_CHECKING:
 def turning(turn: "TurnFigures", landing: str = "") -> str:
     """Why a robot does not get round on a landing, or only just.
 
-    Parameters
-    ----------
-    turn : TurnFigures
-    landing : str
-        Which landing, where the reader does not know.
+    landing: which landing, where the reader does not know.
     """
     by = f"{_by(turn)}{f' on the {landing}' if landing else ''}"
     if turn.way == "unknown":
@@ -39,14 +35,7 @@ def turning(turn: "TurnFigures", landing: str = "") -> str:
 
 
 def turned(turn: "TurnFigures", landing: str) -> str:
-    """How a robot turns on a landing.
-
-    Parameters
-    ----------
-    turn : TurnFigures
-    landing : str
-        Which landing, or the name of a floor.
-    """
+    """How a robot turns on a landing."""
     raised = f"change the flippers to {turn.flippers} and " if turn.changed else ""
     return f"On the {landing} {raised}{_by(turn)}: {_how(turn)}."
 

@@ -53,11 +53,6 @@ def points_of_columns(
 
     Points at exactly (0, 0, 0), where sensors put what they did not see, and points that are not
     finite become NaN in an organised cloud and are left out of another one.
-
-    Raises
-    ------
-    InputError
-        No valid point, more than `MOST_POINTS`, or a sensor farther off than any.
     """
     count = len(columns[0])
     if count > MOST_POINTS:

@@ -54,11 +54,6 @@ _LONGEST = 4096
 def read(source: Source, hints: Hints) -> Bodies:
     """Stairs and slabs of a building model, tessellated, and what limits the way over them.
 
-    Parameters
-    ----------
-    source : Source
-    hints : Hints
-
     Returns
     -------
     Bodies
@@ -199,13 +194,7 @@ def _meant(schema: bytes) -> bytes | None:
 
 
 def _parsed(source: Source, path: Path) -> tuple[bytes, bytes]:
-    """First line of the child's output, and the rest.
-
-    Raises
-    ------
-    InputError
-        What the parser says, or that it crashed, took too long or too much memory.
-    """
+    """First line of the child's output, and the rest."""
     size = path.stat().st_size
     seconds = MOST_SECONDS + SECONDS_A_MB * size / 1e6
     child = [sys.executable, ifc_child.__file__, str(path.absolute())]

@@ -10,11 +10,6 @@ def unpacked(packed: bytes, size: int, source: Source) -> bytes:
     has in its three high bits a length (7: the next byte is added), plus two; its five low bits
     and the next byte say how far back the run stands.
 
-    Raises
-    ------
-    InputError
-        A run that begins before the first byte, or another number of bytes.
-
     Examples
     --------
     >>> unpacked(bytes([2]) + b"abc" + bytes([0x20 + 0x20, 2]), 7, None)

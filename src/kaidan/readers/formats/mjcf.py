@@ -36,18 +36,8 @@ def read(source: Source, hints: Hints) -> Mechanism:
 def mechanism(root: Element, *, body: str = "") -> Mechanism:
     """Links and joints of one body tree of an MJCF file.
 
-    Parameters
-    ----------
-    root : Element
-        Its ``<mujoco>``.
-    body : str
-        Name of the outermost body, where the file has several.
-
-    Raises
-    ------
-    InputError
-        A file that contradicts itself, needs another one, or has several bodies of which none is
-        named.
+    root: its ``<mujoco>``.
+    body: name of the outermost body, where the file has several.
     """
     for element in root.descendants():
         if element.tag in _OTHER_FILES and "file" in element.attributes:
@@ -64,7 +54,6 @@ def mechanism(root: Element, *, body: str = "") -> Mechanism:
     tracks, speed = declared_tracks(root)
     made = Mechanism(
         name=root.attributes.get("model", ""),
-        dialect="MJCF",
         links=_scaled(reader.links, settings.total_mass),
         joints=tuple(reader.joints),
         places=reader.places,

@@ -22,13 +22,7 @@ Elements = dict[str, tuple[int, list[list[str]]]]
 
 
 def header_of(source: Source) -> tuple[Elements, str, int]:
-    """Elements of a PLY file with their properties, the byte order, and where the data begins.
-
-    Raises
-    ------
-    InputError
-        A header that is none.
-    """
+    """Elements of a PLY file with their properties, the byte order, and where the data begins."""
     elements: Elements = {}
     order, name, at = None, "", 0
     while True:

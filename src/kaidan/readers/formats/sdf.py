@@ -45,18 +45,8 @@ def read(source: Source, hints: Hints) -> Mechanism:
 def mechanism(root: Element, *, model: str = "") -> Mechanism:
     """Links and joints of one model of an SDF file.
 
-    Parameters
-    ----------
-    root : Element
-        Its ``<sdf>``.
-    model : str
-        Name of the model, where the file has several.
-
-    Raises
-    ------
-    InputError
-        A file that contradicts itself, needs another one, or has several models of which none is
-        named.
+    root: its ``<sdf>``.
+    model: name of the model, where the file has several.
     """
     chosen = _chosen(root, model)
     version = _version(root)
@@ -80,7 +70,6 @@ def mechanism(root: Element, *, model: str = "") -> Mechanism:
     tracks, speed = declared_tracks(root)
     made = Mechanism(
         name=chosen.attributes.get("name", ""),
-        dialect="SDF",
         links=links,
         joints=_tree(joints, faults),
         places={name: frames.in_model(name) for name in links},

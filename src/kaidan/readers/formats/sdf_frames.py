@@ -29,13 +29,7 @@ class Frames:
 
     @classmethod
     def of(cls, model: Element, version: tuple[int, int]) -> Self:
-        """Frames of a model.
-
-        Raises
-        ------
-        InputError
-            Two things of one name.
-        """
+        """Frames of a model."""
         found = cls(model.origin)
         found.poses[MODEL] = ("", np.eye(4))
         found._collect(model, "", MODEL, version)
@@ -68,13 +62,7 @@ class Frames:
                 self._collect(element, f"{name}::", name, version)
 
     def in_model(self, name: str, asked_by: Element | None = None) -> Array:
-        """Frame of a name in that of the model, shape (4, 4).
-
-        Raises
-        ------
-        InputError
-            A name that is none, or frames that refer to each other in a circle.
-        """
+        """Frame of a name in that of the model, shape (4, 4)."""
         path: list[str] = []
         at = name
         while at and at not in self._known:
@@ -94,13 +82,7 @@ class Frames:
         return self._known[name]
 
     def link_of(self, joint: Element, end: str, name: str) -> str:
-        """Link that is the parent or the child of a joint; empty: the world.
-
-        Raises
-        ------
-        InputError
-            No such link.
-        """
+        """Link that is the parent or the child of a joint; empty: the world."""
         stated = joint.required(end).text.strip()
         if stated == WORLD:
             return ""

@@ -41,13 +41,7 @@ def read(source: Source, hints: Hints) -> Mechanism:
 
 
 def mechanism(root: Element) -> Mechanism:
-    """Links and joints of the ``<robot>`` element of a URDF file.
-
-    Raises
-    ------
-    InputError
-        A file that contradicts itself or lacks what it needs.
-    """
+    """Links and joints of the ``<robot>`` element of a URDF file."""
     faults: list[Fault] = []
     links: dict[str, Link] = {}
     for element in root.all("link"):
@@ -61,7 +55,6 @@ def mechanism(root: Element) -> Mechanism:
     tracks, speed = declared_tracks(root)
     made = Mechanism(
         name=root.attributes.get("name", ""),
-        dialect="URDF",
         links=links,
         joints=joints,
         tracks=tracks,

@@ -25,20 +25,7 @@ GLOBAL_ID = 22
 def found(contents: Bodies, hints: Hints) -> Found:
     """Staircases of a building model, or of the element that is named.
 
-    Parameters
-    ----------
-    contents : Bodies
-    hints : Hints
-        `element`: GlobalId or name of a flight or a staircase, or several joined by colons.
-
-    Returns
-    -------
-    Found
-
-    Raises
-    ------
-    InputError
-        No element of that name.
+    hints: `element`: GlobalId or name of a flight or a staircase, or several joined by colons.
     """
     building = building_of(contents)
     groups, refusals = building.staircases, building.refusals

@@ -57,17 +57,7 @@ class _Way:
 def found(mesh: Mesh, hints: Hints) -> Found:
     """Staircases that a mesh holds, or why it holds none.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        As a reader yields it.
-    hints : Hints
-        What the person knows.
-
-    Returns
-    -------
-    Found
-        A refusal where two units or up axes are plausible: it names both.
+    A refusal where two units or up axes are plausible: it names both.
     """
     provenance = mesh.provenance
     extent = float(np.linalg.norm(np.ptp(mesh.vertices[mesh.faces.ravel()], axis=0)))

@@ -104,17 +104,6 @@ def found(points: Points, hints: Hints) -> Found:
 
     A unit and an up axis that nobody states are those with which stairs come out; where none come
     out metres are assumed.
-
-    Parameters
-    ----------
-    points : Points
-        As a reader yields them.
-    hints : Hints
-        What the person knows.
-
-    Returns
-    -------
-    Found
     """
     xyz = _those(points.xyz, np.isfinite(points.xyz[:, 0]))
     best: _Try | None = None

@@ -37,19 +37,7 @@ _SLOPING = math.radians(0.3)
 
 
 def found(contents: Mechanism, hints: Hints) -> Found:
-    """Robot of a mechanism, or why it is none.
-
-    Parameters
-    ----------
-    contents : Mechanism
-    hints : Hints
-        Axes, joint angles and figures that the user states.
-
-    Raises
-    ------
-    InputError
-        An unknown joint, an angle beyond its limits, or axes that are one.
-    """
+    """Robot of a mechanism, or why it is none."""
     stated = contents.checked_angles(hints.joints)
     turned = _turned(hints.up or "+z", hints.forward or "+x")
     as_is = Placed(contents, turned, stated)

@@ -31,8 +31,6 @@ class Flipper:
     """[kg]"""
     com_from_pivot: float
     """Of its centroid, towards the tip [m]."""
-    com_aside: float
-    """Of its centroid, square to that [m]."""
     angle: float
     """At which the file has it, away from the robot and raising positive [rad]."""
     round_ends: bool
@@ -82,7 +80,6 @@ def _flipper(placed: Placed, joints: FlipperJoint, end: End) -> Flipper:
         tip_radius=radius,
         mass=of_all.mass,
         com_from_pivot=float(com @ way),
-        com_aside=float(com @ [-way[1], way[0]]),
         angle=math.atan2(float(way[1]), outward * float(way[0])),
         round_ends=bool(tips) and bool(roots),
     )

@@ -46,15 +46,9 @@ class Edge:
 def hull_of_discs(discs: Array) -> tuple[Edge, ...]:
     """Edges of the convex hull of discs, anticlockwise from straight left.
 
-    Parameters
-    ----------
-    discs : array, shape (n, 3)
-        x, z, radius [m].
+    discs, shape (n, 3): x, z, radius [m].
 
-    Returns
-    -------
-    tuple of Edge
-        None without discs, for a single one, or where one holds all others.
+    None without discs, for a single one, or where one holds all others.
 
     Examples
     --------

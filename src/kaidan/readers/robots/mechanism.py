@@ -14,7 +14,6 @@ from kaidan.readers.kinds import Provenance
 
 NOWHERE = Provenance(path="", digest="", form="")
 Array = NDArray[np.float64]
-Dialect = Literal["URDF", "SDF", "MJCF"]
 ShapeKind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "mesh"]
 
 
@@ -109,7 +108,6 @@ class Mechanism:
     """Links and joints of one robot."""
 
     name: str
-    dialect: Dialect
     links: dict[str, Link]
     joints: tuple[Joint, ...]
     places: dict[str, Array] = field(default_factory=dict)
@@ -264,13 +262,7 @@ class Placed:
 
 
 def checked_tree(whole: Mechanism, *, origin: str) -> Mechanism:
-    """Same mechanism, once it is sure that each link hangs on one joint at most, none on itself.
-
-    Raises
-    ------
-    InputError
-        A joint of links that there are not, a link that two joints hold, or a circle of joints.
-    """
+    """Same mechanism, once it is sure that each link hangs on one joint at most, none on itself."""
     held: dict[str, str] = {}
     for joint in whole.joints:
         for name in (joint.parent, joint.child):

@@ -73,12 +73,7 @@ class SideView:
 def side_view(pieces: Sequence[Piece], centroid: tuple[float, float]) -> SideView | None:
     """Underside of pieces; None where none of it is level.
 
-    Parameters
-    ----------
-    pieces : sequence of Piece
-        What stands on the ground.
-    centroid : (float, float)
-        x forward and z up of the whole robot [m].
+    centroid: x forward and z up of the whole robot [m].
     """
     discs = outer_discs(discs_of(pieces))
     hull = hull_of_discs(discs)

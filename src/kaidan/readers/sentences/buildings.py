@@ -13,14 +13,7 @@ OTHER_ANGLE = "sheets know turns of 90 and 180 deg (kaidan building judges any i
 def not_judged(turn: float, below: str, why: str) -> str:
     """Why a turn that was seen between two flights is not in their sheets.
 
-    Parameters
-    ----------
-    turn : float
-        To the left positive [rad].
-    below : str
-        Name of the flight below.
-    why : str
-        What a sheet with it refuses.
+    turn: to the left positive [rad].
     """
     return (
         f"On the landing above {below} the way turns by {math.degrees(abs(turn)):.0f} deg, which "

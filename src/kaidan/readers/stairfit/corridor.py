@@ -69,16 +69,9 @@ def lanes(
     Most stairs climb along the first axis that plumb patches look along, or across it: the other
     headings are looked at where the clearest line of these two is no sure flight.
 
-    Parameters
-    ----------
-    seen : Views
-        Of the cloud.
-    left : array, shape (n,)
-        Which of its points belong to no flight yet.
-    tolerance : float
-        Distance within which a point lies on a step [m].
-    another : bool
-        Whether one was found already, so that faint lines are not worth a fit.
+    left, shape (n,): which of its points belong to no flight yet.
+    tolerance: distance within which a point lies on a step [m].
+    another: whether one was found already, so that faint lines are not worth a fit.
     """
     if another and seen.steps(left) < FEWEST_MORE:
         return

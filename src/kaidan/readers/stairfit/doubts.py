@@ -39,15 +39,10 @@ def correlation(middle: Array, spread: Array) -> Array:
         rho_ij = exp(-(m_i - m_j)^T (a^2 + 2 S_i + 2 S_j)^-1 (m_i - m_j))
                  / sqrt(det(1 + 2 (S_i + S_j) / a^2)).
 
-    Parameters
-    ----------
-    middle, spread : array, shape (p, 3)
-        Of the points of each element, from the sensor, and their standard deviations [m].
+    middle, spread, shape (p, 3): of the points of each element, from the sensor, and their standard
+        deviations [m].
 
-    Returns
-    -------
-    array, shape (p, p)
-        Below 1 on the diagonal, because a mean averages the field out.
+    Shape (p, p): below 1 on the diagonal, because a mean averages the field out.
     """
     away = np.maximum(np.linalg.norm(middle, axis=1), 1e-6)
     ray = middle / away[:, None]
@@ -65,23 +60,14 @@ def correlation(middle: Array, spread: Array) -> Array:
 def common(nosings: Array, places: Array, *, eye: Array, range_error: float, level: float) -> Array:
     """Covariance that faces, levels and the floor have because of the range and of up.
 
-    Parameters
-    ----------
-    nosings : array, shape (m, 2)
-        (s, z) [m].
-    places : array, shape (2 m + 1, 2, 3)
-        `place_of` the face and the level of each nosing in turn, and of the floor.
-    eye : array, shape (3,)
-        The sensor [m].
-    range_error : float
-        Doubt of measured distances as a share of them [1].
-    level : float
-        Standard uncertainty of up against what was built [rad].
+    nosings, shape (m, 2): (s, z) [m].
+    places, shape (2 m + 1, 2, 3): `place_of` the face and the level of each nosing in turn, and of
+        the floor.
+    eye, shape (3,): the sensor [m].
+    range_error: doubt of measured distances as a share of them [1].
+    level: standard uncertainty of up against what was built [rad].
 
-    Returns
-    -------
-    array, shape (2 m + 1, 2 m + 1)
-        [m^2]
+    Shape (2 m + 1, 2 m + 1): [m^2]
     """
     count = len(nosings)
     middle = places[:, 0] - eye

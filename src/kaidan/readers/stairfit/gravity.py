@@ -47,22 +47,10 @@ def refined(
     plumb patches and up: the eigenvector to the least eigenvalue of the plumb ones' scatter matrix
     less the level ones'. Large planes put it right, and what the sensor states has its weight too.
 
-    Parameters
-    ----------
-    patches : Patches
-        Of the cloud.
-    up : array, shape (3,)
-        Direction that is up as stated.
-    sigma : float
-        Standard uncertainty of it [rad].
-    eye : array, shape (3,), or None
-        The sensor [m]; None: not known.
-    local : float
-        Error of the range that differs from one direction to the next, as a share of it [1].
-
-    Returns
-    -------
-    Upward
+    up, shape (3,): direction that is up as stated.
+    sigma: standard uncertainty of it [rad].
+    eye, shape (3,): the sensor [m]; None: not known.
+    local: error of the range that differs from one direction to the next, as a share of it [1].
     """
     stated = up
     normal, weight = patches.normal, patches.weight

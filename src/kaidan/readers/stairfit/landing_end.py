@@ -27,13 +27,9 @@ TALL = 0.4
 def landing_end(ahead: Array, t: Array, over: Array, *, width: tuple[float, float]) -> float:
     """Distance from a nosing to the wall across the way [m]; NaN: none was seen.
 
-    Parameters
-    ----------
-    ahead, t, over : array, shape (n,)
-        Points: distance from the nosing, away from the flight; place across; height over the level
-        [m].
-    width : tuple of float
-        Least and greatest t of the flight [m].
+    ahead, t, over, shape (n,): points: distance from the nosing, away from the flight; place
+        across; height over the level [m].
+    width: least and greatest t of the flight [m].
     """
     low, high = width
     near = (ahead > NEAREST) & (ahead < FARTHEST) & (t > low) & (t < high)

@@ -163,10 +163,7 @@ def principal(covariance: Array) -> Array:
 
     The roots of the characteristic cubic by its angle (Smith 1961, doi:10.1145/355578.366316).
 
-    Parameters
-    ----------
-    covariance : array, shape (6, m)
-        xx, xy, xz, yy, yz, zz of each.
+    covariance, shape (6, m): xx, xy, xz, yy, yz, zz of each.
 
     Examples
     --------

@@ -51,23 +51,10 @@ def leans(
 ) -> list[Lean]:
     """What large planes say of a direction up.
 
-    Parameters
-    ----------
-    patches : Patches
-        Of the cloud.
-    up : array, shape (3,)
-        Unit vector, true within a few degrees.
-    near : float
-        Angle within which a patch counts as level or plumb [rad].
-    eye : array, shape (3,), or None
-        The sensor [m]; None: not known.
-    local : float
-        Error of the range that differs from one direction to the next, as a share of it [1].
-
-    Returns
-    -------
-    list of Lean
-        Of a floor in two directions, of a wall in that of its normal; none of what is small.
+    up, shape (3,): unit vector, true within a few degrees.
+    near: angle within which a patch counts as level or plumb [rad].
+    eye, shape (3,): the sensor [m]; None: not known.
+    local: error of the range that differs from one direction to the next, as a share of it [1].
     """
     centre = patches.middle.mean(axis=0)
     middle = patches.middle - centre

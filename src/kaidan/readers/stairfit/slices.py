@@ -19,14 +19,9 @@ GAP = 0.05
 def slice_of(s: Array, t: Array, z: Array, faces: Indices, at: float) -> Array:
     """Segments in which a vertical plane cuts the triangles, shape (n, 2, 2): (s, z) of both ends.
 
-    Parameters
-    ----------
-    s, t, z : array, shape (v,)
-        Vertices; the plane lies at one t.
-    faces : array, shape (m, 3)
-        Rows of the vertices.
-    at : float
-        Place of the plane, moved by a hair where a vertex lies in it.
+    s, t, z, shape (v,): vertices; the plane lies at one t.
+    faces, shape (m, 3): rows of the vertices.
+    at: place of the plane, moved by a hair where a vertex lies in it.
     """
     off = t - at
     off = np.where(np.abs(off) < 1e-9, 1e-9, off)

@@ -118,20 +118,11 @@ def steps_of(
 ) -> Steps | None:
     """Single steps along a line, or None where fewer than three are left.
 
-    Parameters
-    ----------
-    line : StairLine
-        Fitted to the thinned cloud.
-    s, t, z : array, shape (n,)
-        Points of the lane in the frame of the heading [m].
-    noise : float
-        Scatter of the points [m].
-    eye : array, shape (3,)
-        (s, t, z) of the sensor [m].
-    range_error : float
-        Doubt of measured distances as a share of them [1].
-    level : float
-        Standard uncertainty of up against what was built [rad].
+    s, t, z, shape (n,): points of the lane in the frame of the heading [m].
+    noise: scatter of the points [m].
+    eye, shape (3,): (s, t, z) of the sensor [m].
+    range_error: doubt of measured distances as a share of them [1].
+    level: standard uncertainty of up against what was built [rad].
     """
     tight = min(max(3.0 * noise, 0.008), 0.35 * line.rise)
     every = s, t, z

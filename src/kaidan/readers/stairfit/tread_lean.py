@@ -29,22 +29,12 @@ def tread_lean(
 ) -> tuple[float, float]:  # fmt: skip
     """Angle by which up leans ahead as the treads have it, and its doubt [rad]; NaN: too few.
 
-    Parameters
-    ----------
-    line : StairLine
-        Of the flight.
-    levels : array, shape (m,)
-        Heights of its nosings [m]; the last one is not a tread.
-    s, t, z : array, shape (n,)
-        Points in the frame of the heading [m].
-    eye : array, shape (3,)
-        (s, t, z) of the sensor [m].
-    width : float
-        Distance from the level up to which a point lies on the tread [m].
-    range_error : float
-        Doubt of measured distances as a share of them [1].
-    out_of_true : float
-        Standard deviation of the slope of a tread as it was built [rad].
+    levels, shape (m,): heights of its nosings [m]; the last one is not a tread.
+    s, t, z, shape (n,): points in the frame of the heading [m].
+    eye, shape (3,): (s, t, z) of the sensor [m].
+    width: distance from the level up to which a point lies on the tread [m].
+    range_error: doubt of measured distances as a share of them [1].
+    out_of_true: standard deviation of the slope of a tread as it was built [rad].
     """
     k, u, _ = line.local(s, t, z)
     k = k - line.first

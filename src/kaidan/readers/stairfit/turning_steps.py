@@ -43,16 +43,9 @@ def nosing_angles(
 ) -> Array:
     """Angle of each nosing off square to the heading, shape (m,) [rad]; NaN: too little was seen.
 
-    Parameters
-    ----------
-    line : StairLine
-        Of the flight.
-    s, t, z : array, shape (n,)
-        Points in the frame of its heading [m].
-    sides : tuple of float
-        Least and greatest t of the flight [m].
-    floor : float
-        Its level [m], which below an odd first riser lies where a face is looked for; NaN: not
+    s, t, z, shape (n,): points in the frame of its heading [m].
+    sides: least and greatest t of the flight [m].
+    floor: its level [m], which below an odd first riser lies where a face is looked for; NaN: not
         seen.
     """
     low, high = sides[0] + 0.05, sides[1] - 0.05

@@ -20,17 +20,7 @@ from kaidan.verbs.building.answer import TurnShown
 def turn_on(
     building: Building, robot: Robot, before: Flight, after: Flight, flippers: str
 ) -> TurnShown:
-    """How a robot gets from one flight onto the next on the landing between them.
-
-    Parameters
-    ----------
-    building : Building
-    robot : Robot
-    before, after : Flight
-        The flight below and the one above.
-    flippers : str
-        Posture in which it climbs, as the option is written; a plan counts with its last part.
-    """
+    """How a robot gets from one flight onto the next on the landing between them."""
     turn = math.remainder(after.estimate.heading - before.estimate.heading, 2 * math.pi)
     floor = building.floors[before.upper]
     tried = [

@@ -87,22 +87,7 @@ def ways_of(
     turn: Callable[[Flight, Flight], TurnShown],
     doors: Sequence[DoorShown],
 ) -> Iterator[WayShown]:
-    """Best way of a robot to each other storey.
-
-    Parameters
-    ----------
-    building : Building
-    robot : Robot
-    start : StoreyShown
-        Where it begins.
-    storeys : sequence of StoreyShown
-    cell : callable
-        Verdict on a flight, up or down.
-    turn : callable
-        Turn from one flight onto the next one up.
-    doors : sequence of DoorShown
-        At the ends of flights.
-    """
+    """Best way of a robot to each other storey."""
     by_storey = {floor.storey: key for key, floor in building.floors.items() if floor.storey}
 
     def hindrances(before: Leg | None, leg: Leg) -> Iterator[Hindrance]:

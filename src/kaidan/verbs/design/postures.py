@@ -11,14 +11,7 @@ from kaidan.verbs.design.problem import Problem
 
 
 def planned(problem: Problem, values: Sequence[float]) -> Problem:
-    """Same problem in the plans of one of its designs, with nothing tried.
-
-    Parameters
-    ----------
-    problem : Problem
-    values : sequence of float
-        Free figures of the design.
-    """
+    """Same problem in the plans of one of its designs, with nothing tried."""
     own = {each.name: value for each, value in zip(problem.free, values, strict=True)}
     bare = replace(problem, plans=(), tried={})
     plans = [_plan({**problem.values, **own, **way}) for way in bare.ways]

@@ -160,13 +160,7 @@ def terrain_name(stairs: Any) -> str:
 def free_of(
     values: Mapping[str, Any], given: Mapping[str, Any], weights: Mapping[str, float]
 ) -> tuple[Free, ...]:
-    """Free figures of ranges by name.
-
-    Raises
-    ------
-    InputError
-        No free figure, an unknown one, a word, a range without width, or a cost of another figure.
-    """
+    """Free figures of ranges by name."""
     if not given:
         raise InputError("nothing is free: give a figure its range, com_from_front=200mm..400mm")
     unknown = sorted(weights.keys() - given.keys())

@@ -106,7 +106,6 @@ class Liveness:
 
         Parameters
         ----------
-        sample : Sample
         judged : bool
             Whether it could be judged.
         arrived : float, optional

@@ -147,10 +147,6 @@ class Monitor:
             When it came, by a clock that never goes back [s]; None in a recording, in which the
             stamps alone tell the time.
 
-        Returns
-        -------
-        MonitorState
-
         Raises
         ------
         InputError
@@ -192,10 +188,6 @@ class Monitor:
         ----------
         states : iterable of MonitorState
             What `feed` returned, if it is to stand in the answer.
-
-        Returns
-        -------
-        MonitorAnswer
 
         Raises
         ------

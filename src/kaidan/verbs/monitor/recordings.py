@@ -90,10 +90,6 @@ def samples_of_recording(
     nose_up : bool
         Whether the nose points up the stairs.
 
-    Returns
-    -------
-    list of Sample
-
     Raises
     ------
     InputError

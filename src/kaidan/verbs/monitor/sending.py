@@ -32,24 +32,7 @@ class Channel(NamedTuple):
     def at(
         cls, url: str, question: Question, *, limits: AlarmLimits | None = None, token: str = ""
     ) -> Self:
-        """Channel of a page that waits, whose address ends in its name, else a new one.
-
-        Parameters
-        ----------
-        url : str
-            Address of a server or of a page.
-        question : Question
-            What is driven: of a new channel.
-        limits : AlarmLimits, optional
-            When its alarm is raised and cleared.
-        token : str
-            Of the server.
-
-        Raises
-        ------
-        InputError
-            No address, or a server that does not answer as one of kaidan.
-        """
+        """Channel of a page that waits, whose address ends in its name, else a new one."""
         if urlsplit(url).scheme not in ("http", "https") or not urlsplit(url).netloc:
             raise InputError(f"--to {short(url)!r} is no address: write http://HOST:PORT/")
         if not token.isascii():

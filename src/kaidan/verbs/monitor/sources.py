@@ -58,10 +58,6 @@ def open_samples(
     nose_up : bool
         Whether the nose points up the stairs: a recording's acceleration counts along the track.
 
-    Yields
-    ------
-    iterator of Sample
-
     Raises
     ------
     InputError

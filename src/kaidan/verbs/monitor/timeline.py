@@ -46,10 +46,7 @@ class Timeline:
     Of stamp and arrival the one counts that tells of more. A sample of which neither tells anything
     counts as one period. What passed before the stamps say so, they make up for later.
 
-    Parameters
-    ----------
-    period : float
-        Taken for that of the source until it is known [s].
+    period: taken for that of the source until it is known [s].
 
     Examples
     --------
@@ -78,12 +75,8 @@ class Timeline:
     def step(self, t: float, arrived: float | None) -> Step:
         """Step to the next sample.
 
-        Parameters
-        ----------
-        t : float
-            Its stamp [s].
-        arrived : float, optional
-            When it came, by a clock that never goes back [s]; None in a recording.
+        t: its stamp [s].
+        arrived: when it came, by a clock that never goes back [s]; None in a recording.
         """
         waited = self._waited(arrived)
         known = math.isfinite(t)

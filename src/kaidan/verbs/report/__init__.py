@@ -40,10 +40,6 @@ def report(robots: Any, stairs: Any = None, **manner: Any) -> Report:
     **manner
         Everything else of a question, see `kaidan.Question.of`; of all missions.
 
-    Returns
-    -------
-    Report
-
     Raises
     ------
     InputError
@@ -74,16 +70,7 @@ def report(robots: Any, stairs: Any = None, **manner: Any) -> Report:
 
 
 def mission(question: Question) -> Mission:
-    """One robot on one terrain.
-
-    Parameters
-    ----------
-    question : Question
-
-    Returns
-    -------
-    Mission
-    """
+    """One robot on one terrain."""
     assessment = answer_to(question)
     followed = _traverse(question, assessment)
     return Mission(
@@ -116,16 +103,7 @@ def _way_back(question: Question, assessment: Assessment) -> Assessment | None:
 
 
 def back(question: Question) -> Question:
-    """The same question on the way back: the robot backs, each phase in the posture it had there.
-
-    Parameters
-    ----------
-    question : Question
-
-    Returns
-    -------
-    Question
-    """
+    """Same question on the way back: the robot backs, each phase in the posture it had there."""
     at = question.postures
     there: tuple[Posture, ...] = (at[Phase.LAND], at[Phase.TRAVERSE], at[Phase.ENTER])
     changes = tuple(

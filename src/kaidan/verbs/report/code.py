@@ -31,10 +31,6 @@ _FOLDERS: dict[type[Sheet], tuple[str, ...]] = {
 def code_of(question: Question) -> str:
     """Code of a question.
 
-    Parameters
-    ----------
-    question : Question
-
     Returns
     -------
     str
@@ -60,10 +56,6 @@ def question_of(code: str) -> Question:
     ----------
     code : str
         As `code_of` wrote it; spaces and line breaks do not count, nor do small letters.
-
-    Returns
-    -------
-    Question
 
     Raises
     ------

@@ -12,13 +12,8 @@ def field_card(assessment: Assessment, followed: TraverseReport | None) -> Field
 
     Parameters
     ----------
-    assessment : Assessment
     followed : TraverseReport, optional
         The traverse that it stands on.
-
-    Returns
-    -------
-    FieldCard
     """
     question, plan = assessment.question, assessment.plan
     least, most = _inclinations(followed)

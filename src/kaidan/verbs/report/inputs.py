@@ -14,19 +14,7 @@ from kaidan.verbs.sheet_rows import field_rows
 
 
 def inputs_of(question: Question, assessment: Assessment) -> Iterator[InputRow]:
-    """Rows of robot, terrain, surface and manner.
-
-    Parameters
-    ----------
-    question : Question
-        As it was put.
-    assessment : Assessment
-        Its answer, which has the allowances and their sources.
-
-    Yields
-    ------
-    InputRow
-    """
+    """Rows of robot, terrain, surface and manner."""
     yield from _of("robot", question.robot)
     for terrain in _flights(question):
         if isinstance(terrain, Profile):

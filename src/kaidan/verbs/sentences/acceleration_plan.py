@@ -29,18 +29,9 @@ def follows(
 ) -> str:
     """There is one.
 
-    Parameters
-    ----------
-    a, v : (float, float)
-        Smallest and largest acceleration and speed of the plan [m/s^2, m/s].
-    reserve : float
-        Distance from its limits everywhere [m/s^2].
-    needless : bool
-        Whether a constant speed would do.
-    repeats : bool
-        Whether it can repeat from nosing to nosing.
-    ends : (float, float)
-        Speed at its start and end [m/s].
+    a, v: smallest and largest acceleration and speed of the plan [m/s^2, m/s].
+    reserve: distance from its limits everywhere [m/s^2].
+    ends: speed at its start and end [m/s].
     """
     more = ""
     if needless:

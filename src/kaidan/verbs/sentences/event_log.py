@@ -26,18 +26,9 @@ def sentence(
 ) -> str:
     """What an entry says.
 
-    Parameters
-    ----------
-    kind : str
-        As `kaidan.traversal.event_log.LogEntry` has it.
-    places : sequence of Place
-        What it leads to, then what it comes from.
-    end : str or None
-        End of the robot that it is about.
-    rotation_deg : float
-        Angle of a rotation [deg].
-    topples_with_momentum : bool
-        Whether the momentum of the rotation carries it over.
+    kind: as `kaidan.traversal.event_log.LogEntry` has it.
+    places: what it leads to, then what it comes from.
+    rotation_deg: angle of a rotation [deg].
     """
     if kind == "arrives":
         return "stands on the landing"

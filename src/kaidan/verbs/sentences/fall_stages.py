@@ -18,18 +18,9 @@ def sentence(
 ) -> str:
     """What a stage says.
 
-    Parameters
-    ----------
-    name : str
-        As `kaidan.traversal.fall_stages.Stage` has it.
-    place : Place
-        What carries, or what the robot rotates about.
-    downhill_end : str
-        nose or tail.
-    rotation_deg : float, optional
-        How far the body rotates [deg].
-    share : float, optional
-        Share of the load on the lowest contact [1].
+    name: as `kaidan.traversal.fall_stages.Stage` has it.
+    rotation_deg: how far the body rotates [deg].
+    share: share of the load on the lowest contact [1].
     """
     if name == "parallel motion":
         return f"along the nosings, the lowest contact {where(place)}"

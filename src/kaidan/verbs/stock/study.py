@@ -55,7 +55,6 @@ def stock_study(
 
     Returns
     -------
-    answer : StockStudy
     swept : Swept
         Every pair.
 
