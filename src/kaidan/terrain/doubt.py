@@ -39,13 +39,9 @@ def common_doubts(flight: Stairs, before: int) -> list[Array]:
 def covariance_of_steps(sigma: Array, common: Sequence[Array] = ()) -> Array | None:
     """Covariance of nosings whose steps, one from the other, are in doubt; None: all are exact.
 
-    Parameters
-    ----------
-    sigma : array, shape (m, 2)
-        Standard uncertainty of the going and of the rise to each nosing from the one before; of
-        the first one from the lower landing [m].
-    common : sequence of array, shape (k, 2)
-        Standard uncertainties that the first k steps have in common [m].
+    sigma, shape (m, 2): standard uncertainty of the going and of the rise to each nosing from the
+        one before; of the first one from the lower landing [m].
+    common, shape (k, 2): standard uncertainties that the first k steps have in common [m].
     """
     if not sigma.any() and not common:
         return None

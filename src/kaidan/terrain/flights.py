@@ -41,19 +41,7 @@ class FlightsLine(NamedTuple):
 def line_of_flights(flights: Sequence[Stairs]) -> FlightsLine:
     """Line of flights with their landings and gaps.
 
-    Parameters
-    ----------
-    flights : sequence of Stairs
-        One at least, from bottom to top.
-
-    Returns
-    -------
-    FlightsLine
-
-    Raises
-    ------
-    InputError
-        Too many nosings with a doubt of their own.
+    flights: one at least, from bottom to top.
 
     Examples
     --------

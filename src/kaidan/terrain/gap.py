@@ -64,17 +64,10 @@ class Gap(Sheet):
 def carved(points: Array, gaps: Iterable[Gap]) -> tuple[Array, Array]:
     """Line of a terrain with its gaps, and their far edges.
 
-    Parameters
-    ----------
-    points : array, shape (n, 2)
-        Line that leads ahead; the first nosing stands at x = 0 [m].
-    gaps : iterable of Gap
-        What has an unknown end is not carved: nobody knows the terrain there.
+    points, shape (n, 2): line that leads ahead; the first nosing stands at x = 0 [m].
+    gaps: what has an unknown end is not carved: nobody knows the terrain there.
 
-    Returns
-    -------
-    points, edges
-        Shapes (m, 2) and (k, 2), the near and the far edge of each gap in turn [m].
+    Shapes (m, 2) and (k, 2), the near and the far edge of each gap in turn [m].
 
     Examples
     --------

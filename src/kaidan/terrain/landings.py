@@ -54,20 +54,8 @@ class Landing(NamedTuple):
 def landings_of(flights: Sequence[Stairs]) -> tuple[Landing, ...]:
     """Landings of some flights on which the way turns, from bottom to top.
 
-    Parameters
-    ----------
-    flights : sequence of Stairs
-        From bottom to top. A landing between two is as the upper end of the lower one's sheet has
-        it; where that states no turn, as the lower end of the upper one's.
-
-    Returns
-    -------
-    tuple of Landing
-
-    Raises
-    ------
-    InputError
-        Two sheets that state the landing between them differently, or a passage between flights.
+    flights: from bottom to top. A landing between two is as the upper end of the lower one's sheet
+        has it; where that states no turn, as the lower end of the upper one's.
 
     Examples
     --------

@@ -26,13 +26,7 @@ LARGEST_EXTENT = 1e4
 
 
 def measured_line(points: ArrayLike) -> Array:
-    """Points of a line that leads ahead, shape (n, 2) [m], without repeated ones.
-
-    Raises
-    ------
-    InputError
-        Not (n, 2) finite numbers of metres, or fewer than two different points.
-    """
+    """Points of a line that leads ahead, shape (n, 2) [m], without repeated ones."""
     try:
         line = np.array(points, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
@@ -70,11 +64,8 @@ def convex_corners(points: Array) -> tuple[NDArray[np.int64], NDArray[np.int64],
     it and higher ones, or the ends of the line, on either side. So it depends on the line alone,
     not on where points lie on it, and moving all points by d changes it by 2 sqrt(2) d at most.
 
-    Returns
-    -------
-    rising, falling, roughness
-        Rows of the points at the upper end of a steep part that rises, and of one that falls;
-        largest prominence of peaks and dents of z, z - x and z + x that are up to `ROUGHNESS` [m].
+    Rows of the points at the upper end of a steep part that rises, and of one that falls; largest
+    prominence of peaks and dents of z, z - x and z + x that are up to `ROUGHNESS` [m].
     """
     x, z = points.T
     rising, climbing = _peaks(z - x)

@@ -35,16 +35,8 @@ def shape_of(points: Array, nosings: Array, edges: Array) -> Shape:
     What is built so is built right across the path; of anything else one track may meet more than
     the other.
 
-    Parameters
-    ----------
-    points : array, shape (n, 2)
-        x ahead and z up [m].
-    nosings, edges : array, shape (m, 2) and (k, 2)
-        Upper ends of steep parts that rise, and of all steep parts [m].
-
-    Returns
-    -------
-    Shape
+    points, shape (n, 2): x ahead and z up [m].
+    nosings, edges, shape (m, 2): upper ends of steep parts that rise, and of all steep parts [m].
 
     Examples
     --------

@@ -16,15 +16,7 @@ from kaidan.terrain.sentences import FLOOR_UNSEEN
 
 
 def with_surroundings(flight: FlightEstimate, solids: Triangles) -> FlightEstimate:
-    """Flight up to the floor that is drawn at its head, with its gaps and what is free along it.
-
-    Parameters
-    ----------
-    flight : FlightEstimate
-        Straight, of the mesh.
-    solids : Triangles
-        The whole mesh.
-    """
+    """Flight up to the floor that is drawn at its head, with its gaps and what is free along it."""
     path = _path_of(flight)
     if not flight.begins:
         floor = floor_before(path, solids)

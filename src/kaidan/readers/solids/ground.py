@@ -67,14 +67,9 @@ class Followed(NamedTuple):
 def followed(segments: Array, start: float, level: float) -> Followed:
     """Level that begins at a place of a section, towards larger s.
 
-    Parameters
-    ----------
-    segments : array, shape (n, 4)
-        s, z of one end and of the other [m].
-    start : float
-        Place where it begins, s [m].
-    level : float
-        Height there [m].
+    segments, shape (n, 4): s, z of one end and of the other [m].
+    start: place where it begins, s [m].
+    level: height there [m].
     """
     end = min(start + LOOKED, _wall(segments, start, level + WALL))
     places = _places(segments, start + _BESIDE, end, np.arange(start, end, PIECE))
@@ -157,14 +152,7 @@ class Ends(NamedTuple):
 
 
 def ends_of(path: Path, solids: Triangles) -> Ends:
-    """Gaps of a flight and of the floors at its ends.
-
-    Parameters
-    ----------
-    path : Path
-    solids : Triangles
-        Of what carries.
-    """
+    """Gaps of a flight and of the floors at its ends."""
     lines = _lines(path, solids)
     places, first = path.nosings, float(path.nosings[0])
     found: list[Gap] = []
@@ -212,11 +200,8 @@ def floor_before(path: Path, solids: Triangles) -> float:
 def floor_behind(path: Path, solids: Triangles) -> tuple[float, Array] | None:
     """Floor that is drawn behind the last nosing, level with it or a riser higher; None: none is.
 
-    Returns
-    -------
-    level, edge
-        Its height [m], and s of its edge near the left and the right side of the lane, shape (2,);
-        of a level one that of the last nosing [m].
+    Its height [m], and s of its edge near the left and the right side of the lane, shape (2,); of a
+    level one that of the last nosing [m].
     """
     lines, z = _lines(path, solids), float(path.levels[-1])
     found = [_floor(path, t, segments, head=True) for t, segments in lines]

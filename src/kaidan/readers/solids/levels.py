@@ -98,17 +98,7 @@ class Plate:
 
 
 def plates_of(solids: Triangles) -> list[Plate]:
-    """Level surfaces that can be stood on, from the lowest up.
-
-    Parameters
-    ----------
-    solids : Triangles
-        Faces of all solids.
-
-    Returns
-    -------
-    list of Plate
-    """
+    """Level surfaces that can be stood on, from the lowest up."""
     normals = solids.normals
     length = np.linalg.norm(normals, axis=1)
     level = np.abs(normals[:, 2]) > math.cos(STEEPEST_TREAD) * np.maximum(length, 1e-12)

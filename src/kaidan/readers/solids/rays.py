@@ -93,17 +93,10 @@ class Triangles:
 def first_hits(starts: Array, direction: Array, solids: Triangles) -> Array:
     """Distance from each start to the first face in a direction [m]; infinite: none.
 
-    Parameters
-    ----------
-    starts : array, shape (n, 3)
-        Where the rays begin [m].
-    direction : array, shape (3,)
-        Of all rays, of length 1.
-    solids : Triangles
+    starts, shape (n, 3): where the rays begin [m].
+    direction, shape (3,): of all rays, of length 1.
 
-    Returns
-    -------
-    array, shape (n,)
+    Shape (n,).
     """
     found = np.full(len(starts), np.inf)
     ray, _, t = hits(starts, direction, solids)
@@ -117,17 +110,10 @@ def inside(starts: Array, shell: NDArray[np.int64], solids: Triangles) -> NDArra
     Every ray from within crosses it an odd number of times. From a tread of an open surface some
     rays do too, such as one that meets another flight above, but not all.
 
-    Parameters
-    ----------
-    starts : array, shape (n, 3)
-        Points, on no face [m].
-    shell : array, shape (n,)
-        Number of that surface for each, of `Triangles.shells`.
-    solids : Triangles
+    starts, shape (n, 3): points, on no face [m].
+    shell, shape (n,): number of that surface for each, of `Triangles.shells`.
 
-    Returns
-    -------
-    array of bool, shape (n,)
+    Shape (n,).
     """
     found = np.ones(len(starts), dtype=bool)
     for direction in WAYS:

@@ -60,21 +60,11 @@ def free_strips(
     All that stands or hangs along it is seen in one picture, along the line of the nosings: a robot
     that goes straight passes where a strip that is free up to its height holds its width.
 
-    Parameters
-    ----------
-    path : Path
-    around : Triangles
-        Solids that may stand in the way, those of the flight among them.
-    ends : (float, float)
-        Lengths of the floors before the first and behind the last nosing as lines found them, side
-        by side: between two of them other steps may begin sooner [m].
-    finishes : frozenset of int
-        Solids of which what lies low is a floor finish.
+    around: solids that may stand in the way, those of the flight among them.
+    ends: lengths of the floors before the first and behind the last nosing as lines found them,
+        side by side: between two of them other steps may begin sooner [m].
 
-    Returns
-    -------
-    list of Strip
-        One at least; of width 0 where there is nothing free.
+    One at least; of width 0 where there is nothing free.
     """
     before, behind = (min(max(each - APART, 0.0), BEYOND) for each in ends)
     line = path.line(before, behind)
@@ -211,14 +201,8 @@ def _take(free: list[tuple[float, float]], right: float, left: float) -> None:
 def walls_around(around: Triangles, level: float, low: Array, high: Array) -> Array:
     """What stands on a floor, as segments in the plan, shape (n, 4) [m].
 
-    Parameters
-    ----------
-    around : Triangles
-        Solids.
-    level : float
-        Of the floor [m].
-    low, high : array, shape (2,)
-        Corners of the part of the plan that is looked at [m].
+    level: of the floor [m].
+    low, high, shape (2,): corners of the part of the plan that is looked at [m].
     """
     found = [np.zeros((0, 4))]
     for height in HEIGHTS:
@@ -243,18 +227,11 @@ def walls_around(around: Triangles, level: float, low: Array, high: Array) -> Ar
 def free_outline(shape: Any, walls: Array, points: Array) -> Any:
     """Part of a floor from which some points can be reached, less what stands on it.
 
-    Parameters
-    ----------
-    shape : shapely polygon
-        Of the floor.
-    walls : array, shape (n, 4)
-        Segments [m].
-    points : array, shape (m, 2)
-        Ends of flights on it [m].
+    shape: of the floor.
+    walls, shape (n, 4): segments [m].
+    points, shape (m, 2): ends of flights on it [m].
 
-    Returns
-    -------
-    shapely polygon
+    shapely polygon.
     """
     import shapely
 

@@ -65,18 +65,7 @@ class Edge(NamedTuple):
 
 
 def runs_of(plates: Sequence[Plate]) -> list[Run]:
-    """Flights, winders and curved flights of level surfaces.
-
-    Parameters
-    ----------
-    plates : sequence of Plate
-        From the lowest up.
-
-    Returns
-    -------
-    list of Run
-        In the order of their lowest treads.
-    """
+    """Flights, winders and curved flights of level surfaces."""
     up, down = _next_to(plates)
     reach = _grown([each.shape for each in plates], 2 * REACH)
     depth = [each.depth for each in plates]

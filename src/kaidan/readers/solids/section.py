@@ -77,16 +77,7 @@ def section_of(
 ) -> Section | None:
     """Nosings of a flight; None where no lane runs over all of its treads.
 
-    Parameters
-    ----------
-    plates : list of Plate
-        Surfaces behind its nosings, from the lowest up.
-    heading : float
-        Of the ascent [rad].
-    solids : Triangles
-        What the flight is made of.
-    complete : bool
-        Whether the last surface is what it leads to, and no tread.
+    heading: of the ascent [rad].
     """
     treads = plates[:-1] if complete and len(plates) > 1 else plates
     frame = Frame(plates[0].middle, heading)

@@ -42,20 +42,7 @@ def surroundings_of(
 ) -> Surroundings:
     """What is drawn around a flight.
 
-    Parameters
-    ----------
-    path : Path
-        Of the flight.
-    ground : Triangles
-        What carries.
-    obstacles : Triangles
-        What may stand or hang in the way, the flight itself among it.
-    finishes : frozenset of int
-        Solids of which what lies low is a floor finish.
-
-    Returns
-    -------
-    Surroundings
+    obstacles: what may stand or hang in the way, the flight itself among it.
     """
     ends = ends_of(path, ground)
     strips = free_strips(path, obstacles, ends.level, finishes)

@@ -30,21 +30,13 @@ BODY = 0.5
 def gap_behind(ahead: Array, over: Array, *, going: float, tight: float) -> float:
     """Where the level behind the last nosing ends though it was seen [m]; NaN: it goes on.
 
-    Parameters
-    ----------
-    ahead, over : array, shape (n,)
-        Points between the sides of the flight: distance behind its last nosing, height over its
-        level [m].
-    going : float
-        Of the flight [m].
-    tight : float
-        Distance within which a point lies on the level [m].
+    ahead, over, shape (n,): points between the sides of the flight: distance behind its last
+        nosing, height over its level [m].
+    going: of the flight [m].
+    tight: distance within which a point lies on the level [m].
 
-    Returns
-    -------
-    float
-        NaN too where the level was not seen, something stands or steps up where it ends, or so much
-        of it was seen as a landing is deep and nothing farther.
+    NaN too where the level was not seen, something stands or steps up where it ends, or so much of
+    it was seen as a landing is deep and nothing farther.
     """
     near = (ahead > 0.0) & (ahead < FARTHEST) & (over < BODY)
     ahead, over = ahead[near], over[near]

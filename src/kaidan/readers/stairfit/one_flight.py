@@ -136,16 +136,8 @@ def with_gap(
 ) -> FlightEstimate:
     """Flight with where the level behind its last nosing was seen to end.
 
-    Parameters
-    ----------
-    flight : FlightEstimate
-    steps : Steps
-        Of which it was made.
-    cloud : tuple of array
-        Points along the lane.
-    eye : array, shape (3,), optional
-        Where the sensor stood, in the levelled frame of the cloud; one that stood behind the last
-        nosing, or hardly saw its level, says nothing. None: not known [m].
+    eye, shape (3,): where the sensor stood, in the levelled frame of the cloud; one that stood
+        behind the last nosing, or hardly saw its level, says nothing. None: not known [m].
     """
     last, line = steps.at[-1], steps.line
     if eye is not None:
