@@ -9,7 +9,7 @@ import inspect
 import pytest
 
 import kaidan
-from kaidan import InputError, KaidanError, Stairs
+from kaidan import InputError, KaidanError, Stairs, lab
 from kaidan.errors import LONGEST
 
 LOW = Stairs(name="low", rise=0.1, going=0.3, steps=3)
@@ -33,6 +33,7 @@ SOUND = {
     "report": {"robots": "kenaf", "stairs": STEEP, **FAST},
     "doctor": {},
     "reproduce": {},
+    "known_outcomes": {},
     "agree": {"robot": "nowhere", "stairs": LOW},
     "experiment": {"robot": "kenaf", "angles": "none"},
     "sensitivity": {"robot": "kenaf", "stairs": STEEP, "samples": 8, **FAST,
@@ -69,7 +70,7 @@ ODD = {
 
 
 def verbs():
-    functions = {name: getattr(kaidan, name) for name in kaidan.__all__}
+    functions = {name: getattr(house, name) for house in (kaidan, lab) for name in house.__all__}
     return {name: each for name, each in functions.items() if inspect.isfunction(each)}
 
 

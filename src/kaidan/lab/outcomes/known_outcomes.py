@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 from kaidan import catalog
 from kaidan.answer import Answer, Part
+from kaidan.arguments import known_arguments
 from kaidan.assessment import with_plan
 from kaidan.assessment.verdict import conclude
 from kaidan.modes import Direction, Phase, Verdict
@@ -99,6 +100,7 @@ class KnownOutcomes(Answer):
     """Public outcomes and makers' claims whose geometry is not public: no question can be put."""
 
 
+@known_arguments
 def known_outcomes() -> KnownOutcomes:
     """Put the question of every public outcome to kaidan, and count agreement and errors."""
     table = catalog.outcomes()

@@ -90,20 +90,6 @@ class Triangles:
         return Triangles(self.corners[keep], self.owner[keep])
 
 
-def first_hits(starts: Array, direction: Array, solids: Triangles) -> Array:
-    """Distance from each start to the first face in a direction [m]; infinite: none.
-
-    starts, shape (n, 3): where the rays begin [m].
-    direction, shape (3,): of all rays, of length 1.
-
-    Shape (n,).
-    """
-    found = np.full(len(starts), np.inf)
-    ray, _, t = hits(starts, direction, solids)
-    np.minimum.at(found, ray, t)
-    return found
-
-
 def inside(starts: Array, shell: NDArray[np.int64], solids: Triangles) -> NDArray[np.bool_]:
     """Whether points lie inside a closed surface, whichever way its faces look.
 
@@ -129,8 +115,11 @@ def hits(
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:
     """All faces that rays meet: numbers of ray and face, and the distance [m].
 
-    See `first_hits`. Seen along the direction each face is a triangle in a plane: a ray hits it
-    where the barycentric coordinates of its point are none of them negative.
+    Seen along the direction each face is a triangle in a plane: a ray hits it where the barycentric
+    coordinates of its point are none of them negative.
+
+    starts, shape (n, 3): where the rays begin [m].
+    direction, shape (3,): of all rays, of length 1.
     """
     nothing = np.zeros(0, dtype=np.int64)
     if len(solids.corners) == 0 or len(starts) == 0:
