@@ -9,7 +9,7 @@ import pytest
 
 from kaidan import Robot
 from kaidan.contact import Feature, FeatureKind, Placement, Poses, belt_slides, body_table
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.modes import Phase
 from kaidan.robot import Posture
 from kaidan.traversal.drift import drift
@@ -24,10 +24,10 @@ R, L, SMALL = 0.1, 0.4, 1e-3
 def path_of(poses, outlines):
     """Path of poses that are given by column."""
     table = np.full((len(poses.x), at.POSE_COLUMNS), np.nan)
-    table[:, at.POSE_X], table[:, at.POSE_Z], table[:, at.POSE_PHI] = (
+    table["x"], table["z"], table["inclination"] = (
         poses.x, poses.z, poses.inclination
     )  # fmt: skip
-    table[:, at.POSE_REAR], table[:, at.POSE_FRONT] = poses.rear, poses.front
+    table["rear"]["feature"], table["front"]["feature"] = poses.rear, poses.front
     for end in ("rear", "front"):
         x, n_x = (getattr(at, f"{end.upper()}_{each}") for each in ("X", "N_X"))
         table[:, x : x + 2] = getattr(poses, f"{end}_point")

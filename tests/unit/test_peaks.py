@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.codes import CUT_AT_ONCE, PIECES, ROUNDS
 from kaidan.contact.kernel import peak_search
 from kaidan.contact.kernel.peaks import LEAST, is_open, promised, slope, told
@@ -18,34 +18,34 @@ NAN = math.nan
 def search(figure, s, leg=0.0, group=None, narrow=None):
     """Largest figure found in between of group 0, the places and the rows."""
     poses = np.full((len(s), at.POSE_COLUMNS), NAN)
-    poses[:, at.POSE_S], poses[:, at.POSE_LEG] = s, leg
+    poses["s"], poses["leg"] = s, leg
     group = np.zeros(len(s), dtype=int) if group is None else group
     narrow = np.zeros(len(s), dtype=int) if narrow is None else narrow
 
     def poses_between(ground, body, of, rows, shares, count, new):
         assert ((shares[:count] > 0) & (shares[:count] < 1)).all()
-        begin = of[rows[:count], at.POSE_S]
-        new[:count, at.POSE_S] = begin + shares[:count] * (of[rows[:count] + 1, at.POSE_S] - begin)
+        begin = of["s"][rows[:count]]
+        new["s"][:count] = begin + shares[:count] * (of["s"][rows[:count] + 1] - begin)
 
     def pose_margins(ground, body, new, count, a, g, touch, margins, contacts):
         assert (a, g, touch) == (0.5, 9.8, 1e-9)
-        margins[:count, at.TRACTION] = new[:count, at.POSE_S]
+        margins["traction"][:count] = new["s"][:count]
 
     def figure_of(ground, body, new, margins, row, side, hint):
         assert side == -1.0
-        return float(figure(margins[row, at.TRACTION])), hint
+        return float(figure(margins["traction"][row])), hint
 
     scratch = peak_scratch(len(s), int(group.max()) + 1)
     with pytest.MonkeyPatch.context() as patch:
         for each in (poses_between, pose_margins, figure_of):
             patch.setattr(peak_search, each.__name__, each)
         count = peak_search.find_peaks(
-            None, None, poses, figure(poses[:, at.POSE_S]), group, narrow, 1e-4, -1.0, 0.5, 9.8,
+            None, None, poses, figure(poses["s"]), group, narrow, 1e-4, -1.0, 0.5, 9.8,
             1e-9, *scratch,
         )  # fmt: skip
     rows, between, margins = (each[:count].copy() for each in scratch[-3:])
-    places = between[:, at.POSE_S]
-    assert (margins[:, at.TRACTION] == places).all()
+    places = between["s"]
+    assert (margins["traction"] == places).all()
     return max(figure(places), default=-math.inf), places, rows
 
 
@@ -194,7 +194,7 @@ def test_lines_through_the_neighbours_bound_a_figure():
 def test_the_figures_of_which_peaks_are_looked_for(monkeypatch):
     """Friction, infinite where nothing holds; or minus the tilt at which a pose rotates at all."""
     margins = np.full((4, at.MARGIN_COLUMNS), 7.0)
-    margins[:, at.FRICTION] = [0.4, NAN, -math.inf, math.inf]
+    margins["required_friction"] = [0.4, NAN, -math.inf, math.inf]
     found = [peak_search.figure_of(None, None, None, margins, row, 0.0, 3) for row in range(4)]
     assert found == [(0.4, 3), *[(math.inf, 3)] * 3]
 

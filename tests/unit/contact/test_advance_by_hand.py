@@ -10,7 +10,7 @@ import pytest
 
 from contact_cases import stadium
 from kaidan.contact import Feature, FeatureKind, body_table, ground_table
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.codes import Advance
 from kaidan.contact.kernel import advance, continuation
 from kaidan.contact.kernel.continuation import ARM, tilt

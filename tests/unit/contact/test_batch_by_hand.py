@@ -15,7 +15,7 @@ from kaidan.contact import (
     traverse,
     traverse_many,
 )
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.kernel.batch import extremes, settle_many, worst_margins
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from contact_cases import stadium
 from kaidan.contact import Event, Feature, FeatureKind, Status, body_table, ground_table
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.codes import Advance, RotationOutcome
 from kaidan.contact.kernel import driver
 from kaidan.contact.kernel.contact_changes import effective_gravity
@@ -55,13 +55,13 @@ def test_after_a_failure_it_is_let_down_a_little_farther_on(monkeypatch):
     put(monkeypatch, lambda call, here: failed(here) if call in (3, 4) else None)
     status, poses, events, rotations = driven()
     assert (status, rotations) == (Status.OK, 0)
-    assert events[:, at.EVENT_KIND].tolist() == [Event.RESETTLED, Event.RESETTLED, Event.ARRIVED]
+    assert events["kind"].tolist() == [Event.RESETTLED, Event.RESETTLED, Event.ARRIVED]
     # two steps of 10 mm, then on by two nudges
-    assert events[:2, at.EVENT_X] == pytest.approx([0.32 + NUDGE, 0.32 + 2 * NUDGE], abs=1e-12)
-    assert events[:2, at.EVENT_S] == pytest.approx([0.02 + NUDGE, 0.02 + 2 * NUDGE], abs=1e-12)
-    assert events[:, at.EVENT_POSE].tolist() == [2, 2, len(poses) - 1]
-    assert poses[-1, at.POSE_X] == pytest.approx(0.4, abs=1e-9)
-    assert poses[-1, at.POSE_S] == pytest.approx(0.1, abs=1e-9)
+    assert events["x"][:2] == pytest.approx([0.32 + NUDGE, 0.32 + 2 * NUDGE], abs=1e-12)
+    assert events["s"][:2] == pytest.approx([0.02 + NUDGE, 0.02 + 2 * NUDGE], abs=1e-12)
+    assert events["pose"].tolist() == [2, 2, len(poses) - 1]
+    assert poses["x"][-1] == pytest.approx(0.4, abs=1e-9)
+    assert poses["s"][-1] == pytest.approx(0.1, abs=1e-9)
 
 
 def test_fifty_failures_are_too_many(monkeypatch):
@@ -102,7 +102,7 @@ def test_short_steps_are_joined(monkeypatch):
     monkeypatch.setattr(driver, "step_on", step)
     status, poses, _, _ = driven(x_end=0.4)
     assert status == Status.OK
-    assert np.diff(poses[:-1, at.POSE_S]) == pytest.approx([0.008] * 12, abs=1e-9)
+    assert np.diff(poses["s"][:-1]) == pytest.approx([0.008] * 12, abs=1e-9)
 
 
 def test_full_tables_and_steps_without_end_are_too_long(monkeypatch):
@@ -193,8 +193,8 @@ def test_what_happens_where_it_arrives_counts_no_more(monkeypatch, short):
         assert status == Status.FELL_FORWARD
         return
     assert status == Status.OK
-    assert events[:, at.EVENT_KIND].tolist() == [Event.ARRIVED]
-    assert poses[-1, at.POSE_X] == 0.35 - short
+    assert events["kind"].tolist() == [Event.ARRIVED]
+    assert poses["x"][-1] == 0.35 - short
 
 
 @pytest.mark.parametrize(

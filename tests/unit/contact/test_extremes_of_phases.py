@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from kaidan.contact import BESIDE_NOSINGS, EVERY_POSE, NO_POSE
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.kernel import extremes
 from kaidan.contact.scratch import peak_scratch
 from kaidan.mechanics.measures import sudden_stop_height
@@ -33,7 +33,7 @@ def marks(*rows, count=COUNT):
 
 def poses_at(rear=REAR, front=FRONT):
     found = np.full((len(front), at.POSE_COLUMNS), 7.0)
-    found[:, at.REAR_X], found[:, at.FRONT_X] = rear, front
+    found["rear"]["x"], found["front"]["x"] = rear, front
     found[:, [at.REAR_Z, at.FRONT_Z]] = 0.2
     return found
 
@@ -45,8 +45,8 @@ def looked_at(monkeypatch):
     def of(*, descending=False, whole=True, counts=(EVERY_POSE,) * 3, friction=FRICTION, **more):
         asked = []
         margins = np.full((COUNT, at.MARGIN_COLUMNS), NAN)
-        margins[:, at.FRONT], margins[:, at.BACK] = np.arange(COUNT) + 0.5, np.arange(COUNT) + 0.25
-        margins[:, at.BELLY_TOUCHES] = more.get("belly", marks(4, 6))
+        margins["front"], margins["back"] = np.arange(COUNT) + 0.5, np.arange(COUNT) + 0.25
+        margins["belly_touches"] = more.get("belly", marks(4, 6))
 
         def energy(ground, body, poses, of, rows, side, weights, tie, order, pivots):
             assert (tie, len(weights)) == (1e-9, COUNT)
@@ -97,42 +97,42 @@ def test_which_poses_count_on_the_way_up(looked_at):
     ]  # fmt: skip
     # on one flight stand the third and the ninth; the seventh is judged as it lands
     assert rock == [(1.0, [0, 1]), (1.0, [5, 9]), (-1.0, [3]), (1.0, lands)]
-    assert table[:, at.EXTREME_POSES].tolist() == [2, 6, 4]
-    assert table[:, at.EXTREME_ENERGY].tolist() == [0.002] * 3
-    assert table[:, at.EXTREME_ENERGY_X].tolist() == FRONT[[0, 2, 5]].tolist()
-    assert table[:, at.EXTREME_STEADY].tolist() == [0.0015] * 3
-    assert table[:, at.EXTREME_STEADY_X].tolist() == FRONT[[0, 2, 5]].tolist()
-    assert table[:, at.EXTREME_UPHILL].tolist() == [INF, 0.0005, INF]
-    np.testing.assert_array_equal(table[:, at.EXTREME_UPHILL_X], [NAN, FRONT[2], NAN])
-    assert table[:, at.EXTREME_TILT_DOWNHILL].tolist() == pytest.approx([0.2, 0.2, 0.4])
-    assert table[:, at.EXTREME_TILT_DOWNHILL_X].tolist() == FRONT[[1, 9, 9]].tolist()
-    assert table[:, at.EXTREME_TILT_UPHILL].tolist() == [INF, 0.1, INF]
-    np.testing.assert_array_equal(table[:, at.EXTREME_TILT_UPHILL_X], [NAN, FRONT[3], NAN])
+    assert table["poses"].tolist() == [2, 6, 4]
+    assert table["energy"].tolist() == [0.002] * 3
+    assert table["energy_place"].tolist() == FRONT[[0, 2, 5]].tolist()
+    assert table["steadiness"].tolist() == [0.0015] * 3
+    assert table["steadiness_place"].tolist() == FRONT[[0, 2, 5]].tolist()
+    assert table["uphill"].tolist() == [INF, 0.0005, INF]
+    np.testing.assert_array_equal(table["uphill_place"], [NAN, FRONT[2], NAN])
+    assert table["tilt_downhill"].tolist() == pytest.approx([0.2, 0.2, 0.4])
+    assert table["tilt_downhill_place"].tolist() == FRONT[[1, 9, 9]].tolist()
+    assert table["tilt_uphill"].tolist() == [INF, 0.1, INF]
+    np.testing.assert_array_equal(table["tilt_uphill_place"], [NAN, FRONT[3], NAN])
 
 
 def test_figures_of_the_poses_of_a_phase(looked_at):
     """Only landing the trailing end slides down what it comes off."""
     table, *_ = looked_at()
-    assert table[:, at.EXTREME_FRICTION].tolist() == [0.9, 0.5, 0.5]
-    assert table[:, at.EXTREME_FRICTION_X].tolist() == FRONT[[1, 6, 6]].tolist()
-    np.testing.assert_array_equal(table[:, at.EXTREME_SLIDES], [NAN, NAN, 0.8])
-    assert table[:, at.EXTREME_TRACTION].tolist() == [1.9, 1.5, 1.5]
-    assert table[:, at.EXTREME_STATIC].tolist() == [0.25, 2.25, 5.25]
-    assert table[:, at.EXTREME_BELLY].tolist() == [0, 1, 1]
+    assert table["friction"].tolist() == [0.9, 0.5, 0.5]
+    assert table["friction_place"].tolist() == FRONT[[1, 6, 6]].tolist()
+    np.testing.assert_array_equal(table["slides_below"], [NAN, NAN, 0.8])
+    assert table["traction"].tolist() == [1.9, 1.5, 1.5]
+    assert table["static_margin"].tolist() == [0.25, 2.25, 5.25]
+    assert table["belly"].tolist() == [0, 1, 1]
     table, *_ = looked_at(belly=marks(4))
-    assert table[:, at.EXTREME_BELLY].tolist() == [0, 0, 0]
+    assert table["belly"].tolist() == [0, 0, 0]
 
 
 def test_of_figures_alike_the_first_pose_is_told(looked_at):
     friction = [0.1, 0.1, 0.5 - 0.9e-9, 0.3, 9.0, 0.4, 0.5, 0.8, 0.3, 0.4]
     table, *_ = looked_at(friction=friction)
-    assert table[1, at.EXTREME_FRICTION_X] == FRONT[2]
+    assert table["friction_place"][1] == FRONT[2]
     friction[2] = 0.5 - 1.1e-9
     assert looked_at(friction=friction)[0][1, at.EXTREME_FRICTION_X] == FRONT[6]
     friction[3] = friction[8] = INF
     table, *_ = looked_at(friction=friction)
-    assert table[1, at.EXTREME_FRICTION] == INF
-    assert table[1, at.EXTREME_FRICTION_X] == FRONT[3]
+    assert table["friction"][1] == INF
+    assert table["friction_place"][1] == FRONT[3]
 
 
 def test_where_no_flat_carries_every_pose_is_judged(looked_at):
@@ -154,16 +154,16 @@ def test_which_poses_count_on_the_way_down(looked_at):
     on = [2, 3, 5, 6, 8, 9]
     assert energy[:5] == [(-1.0, [0, 1])] * 2 + [(-1.0, on)] * 2 + [(1.0, on)]
     assert rock == [(-1.0, [5, 9]), (1.0, [3, 5, 9]), (-1.0, [5, 6, 7, 9])]
-    assert table[0, at.EXTREME_TILT_DOWNHILL] == table[0, at.EXTREME_TILT_UPHILL] == INF
-    assert table[:, at.EXTREME_STATIC].tolist() == [0.5, 2.5, 5.5]
+    assert table["tilt_downhill"][0] == table["tilt_uphill"][0] == INF
+    assert table["static_margin"].tolist() == [0.5, 2.5, 5.5]
 
 
 def test_where_no_pose_is_the_least(looked_at):
     """Of energies that are all infinite the first pose is told, of tilts none."""
     table, *_ = looked_at(least=INF, row=-1)
-    assert table[:, at.EXTREME_ENERGY].tolist() == [INF] * 3
-    assert table[:, at.EXTREME_ENERGY_X].tolist() == FRONT[[0, 2, 5]].tolist()
-    assert np.isnan(table[:, at.EXTREME_TILT_DOWNHILL_X]).all()
+    assert table["energy"].tolist() == [INF] * 3
+    assert table["energy_place"].tolist() == FRONT[[0, 2, 5]].tolist()
+    assert np.isnan(table["tilt_downhill_place"]).all()
 
 
 def of_phases(phase, corner):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from kaidan import contact
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.kernel import first_rock as module
 from kaidan.contact.scratch import peak_scratch
 
@@ -35,9 +35,9 @@ class Way:
 
     def __init__(self, places, *nosings, leg=0.0):
         self.poses = np.full((len(places), at.POSE_COLUMNS), np.nan)
-        self.poses[:, at.POSE_S] = places
-        self.poses[:, at.POSE_PHI] = -0.1 * self.poses[:, at.POSE_S]
-        self.poses[:, at.POSE_LEG] = leg
+        self.poses["s"] = places
+        self.poses["inclination"] = -0.1 * self.poses["s"]
+        self.poses["leg"] = leg
         self.looked_at, self.nosings = [], nosings
         self.hidden = ()
         """Rows at which nothing is rocked onto."""
@@ -50,7 +50,7 @@ def kernel(monkeypatch):
 
     def pose_tilt(ground, body, poses, margins, row, side, tolerance, hint):
         assert side == -1.0
-        way, s = given["way"], poses[row, at.POSE_S]
+        way, s = given["way"], poses["s"][row]
         assert isinstance(margins, str) == (poses is way.poses)
         alone, rocking, tilt = 0.1 + 0.05 * s, 0.0, 0.1 + 0.05 * s
         for each in way.nosings:
@@ -67,8 +67,8 @@ def kernel(monkeypatch):
     def poses_between(ground, body, poses, rows, shares, count, new):
         assert count == 1
         begin, end = poses[rows[0] : rows[0] + 2, at.POSE_S]
-        new[0, at.POSE_S] = begin + shares[0] * (end - begin)
-        new[0, at.POSE_PHI] = -0.1 * new[0, at.POSE_S]
+        new["s"][0] = begin + shares[0] * (end - begin)
+        new["inclination"][0] = -0.1 * new["s"][0]
 
     def pose_margins(ground, body, new, count, a, g, touch, margins, contacts):
         assert (count, a, g, touch) == (1, 0.7, 9.8, 1e-9)
@@ -80,8 +80,8 @@ def kernel(monkeypatch):
         rows, places = given["dips"]
         dips, between, _ = rest[-3:]
         dips[: len(rows)] = rows
-        between[: len(rows), at.POSE_S] = places
-        between[: len(rows), at.POSE_PHI] = -0.1 * np.array(places)
+        between["s"][: len(rows)] = places
+        between["inclination"][: len(rows)] = -0.1 * np.array(places)
         return len(rows)
 
     for each in (pose_tilt, poses_between, pose_margins, find_peaks):

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.kernel.cones import cone_margin
 from kaidan.contact.kernel.grip import (
     MANY,
@@ -43,7 +43,7 @@ def support(where, **other):
 
 
 def loads(x=0.0, z=G, coulomb=SLOPE, count=1):
-    table = np.zeros((count, at.LOAD_COLUMNS))
+    table = zeros(Load, count)
     table[:, [at.LOAD_X, at.LOAD_Z, at.LOAD_COULOMB]] = x, z, coulomb
     return table
 
@@ -170,7 +170,7 @@ def held(one, other, tip, *, rigid, place=at.NOSING, point=3, side=1.0, gamma=0.
         tip = (tip[0], -tip[1], *tip[2:])
     rolls = (False, 0.0, 0.0, tip[2] + 2 * RN * gamma, 0.0)
     how = (NOSINGS, TREADS, FACES, H, S, RN, rigid, side)
-    own, axis = rows[:, at.SUPPORT_NORMAL].tolist()
+    own, axis = rows["normal"].tolist()
     return margin_standing(rows, 0, 1, own, axis, loads(), 0, tip, rolls, *how)
 
 
@@ -239,7 +239,7 @@ def test_a_tip_rolls_no_farther_than_onto_the_face(one, other, own, its, tread, 
         rows[:, [at.SUPPORT_X, at.SUPPORT_NORMAL, at.SUPPORT_TREAD]] *= -1.0
     how = (NOSINGS, TREADS, FACES, H, S, RN, True, side)
     # the belt passes the own support no more slowly: the tip does not run back
-    normals = rows[:, at.SUPPORT_NORMAL].tolist()
+    normals = rows["normal"].tolist()
     back = tilt_run_back(rows, 0, 1, *normals, tip, S, RN, side, 0.0)
     rolling = (False, 0.0, 0.0, rolls, 0.0)
     found = margin_standing(rows, 0, 1, *normals, loads(), 0, tip, rolling, *how)
@@ -291,7 +291,7 @@ def test_grousers_at_another_support_push_an_end_back(place, lean, beyond, other
     assert abs(after - before) < 2 * H
     assert pushed_normal(rows, 0, 1, 0.0, r, 1.0) == tread - lean
     assert pushed_normal(rows, 0, 1, H, r, -1.0) == tread - lean
-    rows[0, at.SUPPORT_FLAT] = tread - lean - 0.01  # no farther back than onto the flat
+    rows["flat"][0] = tread - lean - 0.01  # no farther back than onto the flat
     most = min(expected, lean + 0.01)
     assert pushed_normal(rows, 0, 1, H, r, 1.0) == pytest.approx(tread - most, abs=1e-9)
 
@@ -319,8 +319,8 @@ def test_the_normals_of_ends_that_are_pushed_back_count():
         support(rear, place=at.TREAD, normal=0.0, tread=0.0, curvature=1.0 / RADIUS),
         support(front, place=at.FACE, normal=-math.pi / 2, tread=math.nan, curvature=12.0),
     ])  # fmt: skip
-    rows[:, at.SUPPORT_FLAT] = math.nan
-    rows[0, at.SUPPORT_BEYOND] = 0.004
+    rows["flat"] = math.nan
+    rows["beyond"][0] = 0.004
     pushed = pushed_normal(rows, 0, 1, H, RN, 1.0)
     assert pushed < -0.1
     how, found = (H, S, W, RN, True, 1.0), np.empty(2)
@@ -333,7 +333,7 @@ def test_the_normals_of_ends_that_are_pushed_back_count():
     )
     assert found[0] == pytest.approx(with_reserve(held, 0.7), abs=1e-9)
     # of the third of three poses too, between others: one stands on one support, one on none
-    empty = np.zeros((2, at.SUPPORT_COLUMNS))
+    empty = zeros(Support, 2)
     three = np.vstack([empty, [support(0.2 + 0.1j, normal=0.3), empty[0]], rows, empty])
     several = np.empty(8)
     standing_margins(three, 2, loads(count=4), np.arange(4), 0.7, 0.7, 0.7, *how, several)
@@ -378,7 +378,7 @@ def test_a_tip_runs_back_over_the_tread_and_the_round(other, side):
     if side < 0:
         rows[:, [at.SUPPORT_X, at.SUPPORT_NORMAL]] *= -1.0
     run, tilt = 0.001, -0.15
-    normals = rows[:, at.SUPPORT_NORMAL].tolist()
+    normals = rows["normal"].tolist()
     tip = (True, side * tilt, run, 0.0, 0.0)
     found = tilt_run_back(rows, 0, 1, *normals, tip, S, RN, side, 0.0)
     if side < 0:
@@ -427,9 +427,9 @@ def test_of_poses_on_one_friction_each_has_its_margin():
     rows = np.array([support(ONE), support(OTHER)] * 5)
     rows[7] = support(OTHER, place=at.FACE, curvature=10.0)
     rows[9] = 0.0
-    rows[9, at.SUPPORT_PLACE] = at.FACE  # no support, whatever is written there
+    rows["place"][9] = at.FACE  # no support, whatever is written there
     load = loads(count=5)
-    load[:, at.LOAD_COULOMB] = 0.5, 9.0, 0.3, 0.2, 0.1
+    load["coulomb"] = 0.5, 9.0, 0.3, 0.2, 0.1
     found = np.empty(5)
     belt_margins(rows, 2, load, np.array([0, 0, 2, 3, 4]), 0.7, 0.7, 0.7, 0.01, found)
     left = math.atan(grousers.face_friction(mu=math.tan(0.7), h=0.01, curvature=10.0))
@@ -449,7 +449,7 @@ def test_of_three_supports_the_better_pair_holds_the_belts():
     third = 0.3 + 0.1j
     one = [support(ONE), support(OTHER), support(third, normal=-0.2, place=at.TREAD)]
     rows, load, found = np.array(one * 2), loads(count=2), np.empty(2)
-    load[1, at.LOAD_COULOMB] = 0.4  # unlike the first
+    load["coulomb"][1] = 0.4  # unlike the first
     belt_margins(rows, 3, load, np.array([0, 1]), 0.6, 0.7, 0.5, 0.0, found)
     outer = cones(ONE, -SLOPE, 0.6, OTHER, -SLOPE, 0.6)
     better = cones(OTHER, -SLOPE, 0.6, third, -0.2, 0.7)
@@ -468,19 +468,19 @@ def test_of_all_pairs_that_carry_the_least_counts(rigid):
     """With a support among them, or else with the better of the two; poses one after the other."""
     rng = np.random.default_rng(4)
     slots, phi = 5, 0.9
-    rows = np.zeros((3 * slots, at.SUPPORT_COLUMNS))
+    rows = zeros(Support, 3 * slots)
     for pose, first in enumerate(range(0, 3 * slots, slots)):
         # the third one on the side of the first, so that these two do not carry
         for slot, along in enumerate((0.3, -0.2, 0.2, -0.1)):
             u = along + rng.uniform(-0.05, 0.05)
             place = u * np.exp(1j * SLOPE) - 0.1j * np.exp(1j * SLOPE)
             rows[first + slot] = support(place, tread=0.05 * slot - 0.02 * pose)
-            rows[first + slot, at.SUPPORT_NORMAL] += rng.uniform(-0.1, 0.1)
+            rows["normal"][first + slot] += rng.uniform(-0.1, 0.1)
     load, how = loads(coulomb=-9.0, count=3), (H, S, W, RN, rigid)  # all share: no bound
     found = np.empty(len(rows))
     standing_margins(rows, slots, load, np.arange(3), phi, phi, phi, *how, 1.0, found)
     for first in range(0, 3 * slots, slots):
-        normals = rows[first : first + 4, at.SUPPORT_NORMAL].tolist()
+        normals = rows["normal"][first : first + 4].tolist()
         tips = [tip_at(rows, first + k, normal, *how, 1.0) for k, normal in enumerate(normals)]
         pairs = [(i, j) for j in range(4) for i in range(j) if carry(rows, first, i, j, load, 0)]
         assert (0, 2) not in pairs
@@ -514,7 +514,7 @@ def test_ends_are_pushed_pair_by_pair(rigid):
         support(0.3 + 0.1j, place=at.FACE, normal=-1.3, tread=math.nan, curvature=3.0),
         support(-0.4 - 0.3j, normal=-0.2, tread=0.0, curvature=1.0 / RADIUS),
     ])  # fmt: skip
-    rows[:, at.SUPPORT_FLAT], rows[:, at.SUPPORT_BEYOND] = math.nan, 0.004
+    rows["flat"], rows["beyond"] = math.nan, 0.004
     for h in (H, 1.0):
         assert pushed_normal(rows, 2, 1, h, RN, 1.0) < -0.25
     load, pushing, found = loads(coulomb=-9.0), H if rigid else 0.0, np.empty(3)
@@ -539,7 +539,7 @@ def test_ends_are_pushed_pair_by_pair(rigid):
     ]  # fmt: skip
     assert not carry(rows, 0, 0, 2, load, 0)
     for slot in range(3):
-        tip = tip_at(rows, slot, rows[slot, at.SUPPORT_NORMAL], *how)
+        tip = tip_at(rows, slot, rows["normal"][slot], *how)
         of_all = margin_of_several(rows, slot, 3, -9.0, tip, 0.9, S, rigid, 1.0)
         held = min(expected[slot], of_all)
         assert found[slot] == (with_reserve(held, 0.9) if rigid else held)

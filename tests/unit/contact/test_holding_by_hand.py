@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from kaidan.contact import body_table
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.kernel import holding
 
 
@@ -30,9 +30,9 @@ def least(monkeypatch):
 
         monkeypatch.setattr(holding, "belt_margins", belt)
         monkeypatch.setattr(holding, "standing_margins", lambda *given: called.append(given[4:13]))
-        poses = np.zeros((3, at.POSE_COLUMNS))
-        poses[:, at.POSE_S] = places
-        loads = np.zeros((3, at.LOAD_COLUMNS))
+        poses = zeros(Pose, 3)
+        poses["s"] = places
+        loads = zeros(Load, 3)
         grousers = np.array([
             (0.01, 0.05, 0.008, 0.003, rigid, 0.5, 0.6, 0.7, is_best)
             for rigid, (is_best, _) in zip((1.0, 0.0, 1.0), each, strict=False)
@@ -81,8 +81,8 @@ def test_a_pose_on_its_way_is_no_exchange_on_either_side(least):
 
 def test_the_load_of_a_pose():
     """By hand: 3 m/s2 up a path of 30 degrees under 8 N/kg, leaning by 3 in 4; friction of 1."""
-    poses, margins = np.zeros((2, at.POSE_COLUMNS)), np.zeros((2, at.MARGIN_COLUMNS))
-    poses[0, at.POSE_PSI] = math.pi / 6
+    poses, margins = zeros(Pose, 2), zeros(Margin, 2)
+    poses["path_direction"][0] = math.pi / 6
     margins[0, [at.TILT, at.FRICTION]] = 0.75, 1.0
     loads = np.full((2, at.LOAD_COLUMNS), np.nan)
     holding.loads_of(poses, 2, margins, 3.0, 8.0, loads)
@@ -105,15 +105,15 @@ def test_what_poses_stand_on_has_as_much_room_as_it_needs(most, slots, monkeypat
     def find(ground, body, parts, own, poses, *more):
         asked.append((parts, own, len(poses), *more[:4], more[-1]))
         supports = more[-2]
-        supports[:, at.SUPPORT_POINT] = np.arange(len(supports)) + 100
+        supports["point"] = np.arange(len(supports)) + 100
         return most
 
     monkeypatch.setattr(holding, "find_supports", find)
     monkeypatch.setattr(
         holding, "find_alike", lambda *given: alike.append((given[1], len(given[2])))
     )
-    poses, margins = np.zeros((3, at.POSE_COLUMNS)), np.zeros((3, at.MARGIN_COLUMNS))
-    supports, loads = np.zeros((16, at.SUPPORT_COLUMNS)), np.zeros((3, at.LOAD_COLUMNS))
+    poses, margins = zeros(Pose, 3), zeros(Margin, 3)
+    supports, loads = zeros(Support, 16), zeros(Load, 3)
     points = np.full(16, -1)
     body = body_table([[-0.3, 0.1, 0.05, 0.2, -0.1, 0.06]])
     found = holding.find_standing(
@@ -125,4 +125,4 @@ def test_what_poses_stand_on_has_as_much_room_as_it_needs(most, slots, monkeypat
     assert asked == [(*given, room) for room in dict.fromkeys((4, slots or 4))]
     assert alike == ([(slots, 2)] if slots else [])
     assert points.tolist() == [100 + k if k < 2 * slots else -1 for k in range(16)]
-    assert (loads[:2, at.LOAD_Z] == 9.8).all()
+    assert (loads["z"][:2] == 9.8).all()

@@ -10,9 +10,11 @@ import numpy as np
 import pytest
 
 from contact_cases import flight, random_robot, stadium
+from kernel_memory import posed, scene
+from kaidan.contact.layout import At
 from kaidan import contact
 from kaidan.contact import Feature, FeatureKind, body_table, ground_table
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.kernel.continuation import ARM, corrected, stepped, tangent
 from kaidan.contact.kernel.gaps import gap, on_flat, relabelled
 from kaidan.contact.kernel.renaming import name_room, poses_between
@@ -43,7 +45,7 @@ def slopes(ground, body, pair, pose):
             values = []
             for sign in (1.0, -1.0):
                 x, z, phi = (v + (sign * step if i == column else 0.0) for i, v in enumerate(pose))
-                values.append(gap(ground, body, feature, x, z, math.cos(phi), math.sin(phi))[0])
+                values.append(gap(scene(ground, body), feature, posed(x, z, phi))[0])
             found[k, column] = (values[0] - values[1]) / 2e-6
     return found
 
@@ -63,7 +65,7 @@ def test_the_way_of_a_line_is_that_along_which_neither_gap_changes():
         # how fast the belt runs ahead, along the ground, over each contact
         runs = 0.0
         for feature in pair:
-            _, n_x, n_z, p_x, p_z = gap(ground, body, feature, *place)
+            _, n_x, n_z, p_x, p_z = gap(scene(ground, body), feature, At(*place))
             moves = complex(way[0], way[1]) + way[2] / ARM * 1j * complex(p_x - x, p_z - z)
             runs += (moves * (-1j * complex(n_x, n_z)).conjugate()).real
         senses.append(runs > 0.0)
@@ -104,7 +106,7 @@ def test_no_pose_touches_two_points_farther_apart_than_the_robot_is_long(x, z):
     body = body_table(stadium(0.3, 0.15, 0.08, 0.08))
     ground = ground_table([(-4, -3), (-0.236, -3), (-0.235, 0), (-0.234, -3),
                            (0.234, -3), (0.235, 0), (0.236, -3), (4, -3)])  # fmt: skip
-    pair = [at.POINT * k for k in np.flatnonzero(ground[:, 1] == 0.0)]
+    pair = [at.POINT * k for k in np.flatnonzero(ground["z"] == 0.0)]
     assert len(pair) == 2
     for phi in np.linspace(-0.3, 0.3, 13):
         good, *_, u_x, u_z, u_w = corrected(ground, body, *pair, x, z, float(phi))
@@ -143,9 +145,9 @@ def test_an_end_passes_many_points_in_one_step():
     assert good
     assert front == pair[1]
     assert (rear >> at.POINT_BITS) - (pair[0] >> at.POINT_BITS) > 5
-    assert relabelled(ground, body, rear, x1, z1, c, s) == rear
+    assert relabelled(scene(ground, body), rear, At(x1, z1, c, s)) == rear
     for feature in (rear, front):
-        assert abs(gap(ground, body, feature, x1, z1, c, s)[0]) < 1e-12
+        assert abs(gap(scene(ground, body), feature, At(x1, z1, c, s))[0]) < 1e-12
 
 
 def test_a_contact_has_room_as_long_as_it_keeps_its_name():
@@ -153,12 +155,12 @@ def test_a_contact_has_room_as_long_as_it_keeps_its_name():
     for ground, body, pair, (x, z, phi) in rough_cases(3, 400):
         c, s = math.cos(phi), math.sin(phi)
         for feature in pair:
-            distance = gap(ground, body, feature, x, z, c, s)[0]
+            distance = gap(scene(ground, body), feature, At(x, z, c, s))[0]
             if distance < -0.02:
                 continue  # its normal is no more that of the side on which it came
-            flat = on_flat(ground, body, feature, x, z, c, s)
-            same = relabelled(ground, body, feature, x, z, c, s) == feature
-            assert (name_room(ground, body, feature, flat, x, z, c, s) >= 0.0) == same
+            flat = on_flat(scene(ground, body), feature, At(x, z, c, s))
+            same = relabelled(scene(ground, body), feature, At(x, z, c, s)) == feature
+            assert (name_room(scene(ground, body), feature, flat, At(x, z, c, s)) >= 0.0) == same
             kept, lost = kept + same, lost + (not same)
     assert min(kept, lost) > 50
 
@@ -171,19 +173,19 @@ def test_room_by_hand(x, z):
     ahead, behind = (x - z) / math.sqrt(2.0), (x + z) / math.sqrt(2.0)  # feet, from the top on
     pose = (x, z, 1.0, 0.0)
     rear = [Feature(k, 0, FeatureKind.DISC_1).code for k in (0, 1)]
-    length = ground[:2, at.LENGTH]
-    assert name_room(ground, body, rear[1], False, *pose) == pytest.approx(ahead)
-    assert name_room(ground, body, rear[0], False, *pose) == pytest.approx(-behind)
-    assert ground[0, at.CONVEX] == ground[2, at.CONVEX] == 0.0
+    length = ground["length"][:2]
+    assert name_room(scene(ground, body), rear[1], False, At(*pose)) == pytest.approx(ahead)
+    assert name_room(scene(ground, body), rear[0], False, At(*pose)) == pytest.approx(-behind)
+    assert ground["convex"][0] == ground["convex"][2] == 0.0
     assert length[0] > 3.0
     # on the top: until the normal leans as that of either slope
     size = math.hypot(x, z)
     top = Feature(1, 0, FeatureKind.VERTEX).code
     along = (complex(-x, -z) * complex(0.3, 1.0).conjugate()).real / abs(complex(0.3, 1.0))
     room = min(behind / size, -ahead / size, -along)
-    assert name_room(ground, body, top, False, *pose) == pytest.approx(room)
+    assert name_room(scene(ground, body), top, False, At(*pose)) == pytest.approx(room)
     # under the flat: as far as it is from its rear end
-    assert name_room(ground, body, top, True, *pose) == pytest.approx(along)
+    assert name_room(scene(ground, body), top, True, At(*pose)) == pytest.approx(along)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.3, 0.8, 1.0])
@@ -199,8 +201,8 @@ def test_poses_between_two_of_a_path(share, every, back, off):
     ground, body, poses = path.ground.table, path.body.table, path.poses.table[::every].copy()
     if back:
         poses = poses[::-1].copy()
-        poses[:, at.POSE_S] = poses[0, at.POSE_S] - poses[:, at.POSE_S]
-    s, leg = poses[:, at.POSE_S], poses[:, at.POSE_LEG]
+        poses["s"] = poses["s"][0] - poses["s"]
+    s, leg = poses["s"], poses["leg"]
     same = (np.diff(leg) == 0) & (np.diff(s) > 1e-3)
     rows = np.flatnonzero(same)[::3].copy()
     between = np.full((len(rows), at.POSE_COLUMNS), math.nan)
@@ -230,5 +232,5 @@ def test_poses_between_two_of_a_path(share, every, back, off):
         assert found[at.POSE_LEG] == leg[row]
         for feature in (at.POSE_REAR, at.POSE_FRONT):
             pose = (placed[0], placed[1], math.cos(placed[2]), math.sin(placed[2]))
-            assert abs(gap(ground, body, int(found[feature]), *pose)[0]) < 1e-12
+            assert abs(gap(scene(ground, body), int(found[feature]), At(*pose))[0]) < 1e-12
     assert counts > 20 / every

@@ -154,7 +154,7 @@ def test_where_the_centroid_comes_over_an_edge(a, kappa_g, up):
     for p in edges:
         line += [(p.real - 1e-3, -2), (p.real, p.imag), (p.real + 1e-3, -2)]
     ground = ground_table([*line, (4, -2)])
-    rear, front = (int(np.argmin(abs(ground[:, 0] + 1j * ground[:, 1] - p))) for p in edges[:2])
+    rear, front = (int(np.argmin(abs(ground["x"] + 1j * ground["z"] - p))) for p in edges[:2])
     # gravity from the centroid meets the flat so far ahead of the foot of its height above it
     over = C_N * math.tan(phi + math.atan(tilt(a, G, kappa_g, turn.real, turn.imag)))
     start = (over - 0.006 + 1j * C_N) * turn
@@ -189,8 +189,8 @@ def test_no_place_where_the_corrector_fails():
 def test_no_place_where_a_gap_jumps():
     """A plate that is 30 mm deep in the flat all the way has not closed within a step."""
     ground = ground_table([(-4, 0), (0.3, 0), (0.3, 0.05), (0.301, 0), (4, 0)])
-    what = code(int(np.argmax(ground[:, 1])), FeatureKind.VERTEX)
-    k = int(np.flatnonzero(ground[:, 0] < 0.3)[-1])
+    what = code(int(np.argmax(ground["z"])), FeatureKind.VERTEX)
+    k = int(np.flatnonzero(ground["x"] < 0.3)[-1])
     rear, front = code(k, FeatureKind.DISC_1), code(len(ground) - 2, FeatureKind.DISC_2)
     at = (0.3, C_N, 0.0, 1.0, 0.0, 0.0)
     found = closing_time(ground, BODY, what, rear, front, *at, 0.01, 1e-3, -0.03, 0.0, G, 0.0)

@@ -16,7 +16,7 @@ import pytest
 
 from kaidan import Question, Robot, Stairs
 from kaidan.contact import body_table, ground_table
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.codes import BELLY, TRACK
 from kaidan.contact.kernel.forces import two_contact_forces
 from kaidan.contact.kernel.margins import (
@@ -218,7 +218,7 @@ def stand(*, ahead, edges=(0, 2)):
     ground = ground_table(line)
     found = []
     for k in edges:
-        apart = np.hypot(ground[:, 0] - EDGES[k].real, ground[:, 1] - EDGES[k].imag)
+        apart = np.hypot(ground[:, 0] - EDGES[k].real, ground["z"] - EDGES[k].imag)
         found.append(at.POINT * int(np.argmin(apart)))
     return ground, body_table(PARTS), found
 
@@ -226,9 +226,9 @@ def stand(*, ahead, edges=(0, 2)):
 def rows_of(stood, places):
     """Poses that all stand there, at some arclengths."""
     _, _, edges = stood
-    poses = np.zeros((len(places), at.POSE_COLUMNS))
+    poses = zeros(Pose, len(places))
     n = 1j * ALONG
-    poses[:, at.POSE_S], poses[:, at.POSE_PHI] = places, SLOPE
+    poses["s"], poses["inclination"] = places, SLOPE
     poses[:, [at.POSE_REAR, at.POSE_FRONT]] = edges[0], edges[-1]
     poses[:, [at.REAR_X, at.REAR_Z]] = EDGES[0].real, EDGES[0].imag
     poses[:, [at.FRONT_X, at.FRONT_Z]] = EDGES[2].real, EDGES[2].imag
@@ -259,12 +259,12 @@ def test_where_a_contact_is_exchanged_those_before_and_after_count(places, count
     if not ahead:
         places, counts = [-s for s in reversed(places)], counts[::-1]
     poses = rows_of(stood, places)
-    margins = np.zeros((len(places), at.MARGIN_COLUMNS))
-    found = np.zeros((8, at.CONTACT_COLUMNS))
+    margins = zeros(Margin, len(places))
+    found = zeros(Touching, 8)
     pose_margins(
         stood[0], stood[1], poses, len(places), 0.0, GRAVITY, 1e-9, margins, found
     )  # fmt: skip
-    assert margins[:, at.CONTACTS].tolist() == counts
+    assert margins["contacts"].tolist() == counts
     # one more face makes the outermost contact another
     outer, own = (at.FRONT, EDGES[2].real) if ahead else (at.BACK, -EDGES[0].real)
     face = AHEAD if ahead else -BEHIND
@@ -278,7 +278,7 @@ def test_contacts_that_stay_are_moved_to_the_head_as_they_are(order):
     face = at.POINT * int(np.flatnonzero(np.isclose(ground[:, 0], AHEAD))[0]) + at.DISC_2
     features = [edges[0], edges[1], face]
     table = np.arange(3.0 * at.CONTACT_COLUMNS).reshape(3, -1) + 0.5
-    table[:, at.CONTACT_FEATURE] = [features[k] for k in order]
+    table["feature"] = [features[k] for k in order]
     poses = rows_of((ground, body, edges), [0.0, 0.0])
     back = table.copy()
     assert lasting(ground, body, poses, 1, -1.0, back, 3) == 2
@@ -294,12 +294,12 @@ def test_margins_as_if_an_edge_were_not_there(k):
     ground, body, edges = stood = stand(ahead=True, edges=(0, 1, 2))
     ground = ground[ground[:, 0] < AHEAD - 1e-6]
     poses = rows_of(stood, [0.0, 1.0])
-    margins = np.zeros((2, at.MARGIN_COLUMNS))
-    found = np.zeros((8, at.CONTACT_COLUMNS))
+    margins = zeros(Margin, 2)
+    found = zeros(Touching, 8)
     points = np.array([edges[k] // at.POINT, 0])
     margins_without(ground, body, poses, points, 2, 0.0, GRAVITY, 1e-9, margins, found)
-    assert margins[:, at.CONTACTS].tolist() == [2, 3]
-    assert margins[:, at.WITHOUT].tolist() == points.tolist()
+    assert margins["contacts"].tolist() == [2, 3]
+    assert margins["without"].tolist() == points.tolist()
 
 
 def test_of_edges_on_one_level_one_alone_is_not_there():
@@ -307,14 +307,14 @@ def test_of_edges_on_one_level_one_alone_is_not_there():
     for x in (-0.2, 0.0, 0.1, 0.2):
         line += [(x, -2), (x, -ABOVE), (x + 1e-3, -2)]
     ground, body = ground_table([*line, (3, -2)]), body_table(PARTS)
-    edges = np.flatnonzero(ground[:, at.Z] == -ABOVE)
+    edges = np.flatnonzero(ground["z"] == -ABOVE)
     poses = rows_of((ground, body, edges[[0, 3]] * at.POINT), [0.0])
-    poses[:, at.POSE_PHI] = 0.0
+    poses["inclination"] = 0.0
     poses[:, [at.REAR_X, at.REAR_Z, at.FRONT_X, at.FRONT_Z]] = -0.2, -ABOVE, 0.2, -ABOVE
-    margins = np.zeros((1, at.MARGIN_COLUMNS))
-    found = np.zeros((8, at.CONTACT_COLUMNS))
+    margins = zeros(Margin, 1)
+    found = zeros(Touching, 8)
     margins_without(ground, body, poses, edges[[1]], 1, 0.0, GRAVITY, 1e-9, margins, found)
-    assert margins[0, at.CONTACTS] == 3
+    assert margins["contacts"][0] == 3
     assert margins[0, [at.BACK, at.FRONT]].tolist() == pytest.approx([0.2, 0.2], abs=EXACT)
 
 
@@ -342,7 +342,7 @@ def test_braking_down_over_nosings_that_differ_takes_the_friction_of_the_plane()
 @pytest.mark.parametrize("ahead", [True, False])
 def test_forces_over_one_contact_are_those_along_its_own_normal(ahead):
     """Others at its height or under it do not count; half a newton a kilogram is a force."""
-    poses, found = np.zeros((1, at.POSE_COLUMNS)), np.zeros((3, at.CONTACT_COLUMNS))
+    poses, found = zeros(Pose, 1), zeros(Touching, 3)
     rows = (0.1, 0.2, 0.6, 0.8), (0.1, 0.5, 0.0, 1.0), (0.7, 0.2, 0.0, 1.0)
     found[:, [at.CONTACT_X, at.CONTACT_Z, at.CONTACT_N_X, at.CONTACT_N_Z]] = rows
     mu, *forces = forces_over_one(poses, 0, found, 3, 0.1, 0.2, ahead, 0.0, 0.5)

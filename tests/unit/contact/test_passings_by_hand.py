@@ -7,7 +7,7 @@ import pytest
 
 from contact_cases import stadium
 from kaidan.contact import body_table, ground_table
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.kernel import passings
 from kaidan.contact.kernel.passings import (
     along_flat,
@@ -22,36 +22,36 @@ from kaidan.contact.kernel.passings import (
 def poses():
     """Ten poses: a turn after the third, two lines of poses, two poses at one place."""
     found = np.full((10, at.POSE_COLUMNS), np.nan)
-    found[:, at.POSE_LEG] = [0] * 8 + [1] * 2
-    found[:, at.POSE_PHI] = np.where(np.arange(10) < 3, 0.0, 1.1e-9)
-    found[:, at.POSE_S] = [0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0, 5.5, 6.0, 7.0]
+    found["leg"] = [0] * 8 + [1] * 2
+    found["inclination"] = np.where(np.arange(10) < 3, 0.0, 1.1e-9)
+    found["s"] = [0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0, 5.5, 6.0, 7.0]
     return found
 
 
 def margins():
     """Contacts change after the third pose, the front one after the seventh, the rear before."""
     found = np.full((10, at.MARGIN_COLUMNS), np.nan)
-    found[:, at.CONTACTS] = [2] * 3 + [3] * 7
-    found[:, at.OUTER_REAR] = 1
-    found[:, at.OUTER_FRONT] = [4] * 7 + [5] * 3
+    found["contacts"] = [2] * 3 + [3] * 7
+    found["outer_rear"] = 1
+    found["outer_front"] = [4] * 7 + [5] * 3
     return found
 
 
 def test_pieces_that_lead_straight_on():
     found = poses()
     assert [row for row in range(9) if leads_straight(found, row)] == [0, 1, 3, 5, 6, 8]
-    found[:, at.POSE_PHI] *= 0.9 / 1.1
+    found["inclination"] *= 0.9 / 1.1
     assert leads_straight(found, 2)
-    found[:, at.POSE_PHI] *= -1.2
+    found["inclination"] *= -1.2
     assert not leads_straight(found, 2)
 
 
 def test_where_contacts_change():
     found = margins()
     assert [row for row in range(-1, 10) if contacts_change(found, row)] == [2, 6]
-    found[4, at.OUTER_REAR] = 7
+    found["outer_rear"][4] = 7
     assert [row for row in range(-1, 10) if contacts_change(found, row)] == [2, 3, 4, 6]
-    found[[0, 9], at.CONTACTS] = 1
+    found["contacts"][[0, 9]] = 1
     assert [row for row in range(-1, 10) if contacts_change(found, row)] == [0, 2, 3, 4, 6, 8]
 
 
@@ -61,10 +61,10 @@ def test_place_along_the_flat(radii, phi):
     """The flat of a track lies C_N below the centroid, however large its ends are."""
     body = body_table(stadium(0.6, 0.28, 0.1, *radii))
     ground = ground_table([(-4, -3), (0.3, 0.2), (4, -3)])
-    point = int(np.argmax(ground[:, 1]))
+    point = int(np.argmax(ground["z"]))
     for along, gap in ((0.1, 0.0), (0.5, 0.02), (-0.1, -0.01)):
         com = (0.3 + 0.2j) - complex(along - 0.32, -0.1 - gap) * np.exp(1j * phi)
-        poses = np.zeros((2, at.POSE_COLUMNS))
+        poses = zeros(Pose, 2)
         poses[1, [at.POSE_X, at.POSE_Z, at.POSE_PHI]] = com.real, com.imag, phi
         found = along_flat(ground, body, poses, 1, 0, point)
         assert found == pytest.approx((along, gap), abs=1e-12)
@@ -77,7 +77,7 @@ def test_pieces_are_straight_and_beside_a_change_of_contacts(known, expected, mo
     def nosings_passed(ground, body, poses, events, rows, touch, reach, passed):
         looked.extend(rows.tolist())
         assert (ground, body, events, touch, reach) == ("ground", "body", "events", 1e-7, 0.4)
-        passed[:2, at.PASSED_S] = 3.0, 2.0
+        passed["s"][:2] = 3.0, 2.0
         return count
 
     monkeypatch.setattr(passings, "nosings_passed", nosings_passed)
@@ -85,7 +85,7 @@ def test_pieces_are_straight_and_beside_a_change_of_contacts(known, expected, mo
     def found(room):
         passed = np.full((room, at.PASSED_COLUMNS), 7.0)
         given = poses(), margins(), known, "events", 1e-7, 0.4, np.zeros(10, dtype=np.int64)
-        return find_passings("ground", "body", *given, passed), passed[:, at.PASSED_S].tolist()
+        return find_passings("ground", "body", *given, passed), passed["s"].tolist()
 
     count = 2
     assert found(3) == (2, [2.0, 3.0, 7.0])
@@ -104,7 +104,7 @@ def test_passings_in_their_order(seed):
     put_passings_in_order(made, 17)
     assert made.tolist() == expected
     for columns in itertools.pairwise(range(at.PASSED_COLUMNS)):
-        two = np.zeros((2, at.PASSED_COLUMNS))
+        two = zeros(Passed, 2)
         two[0, columns[0]], two[1, columns[1]] = 1.0, 1.0
         swapped = two[::-1].copy()
         put_passings_in_order(two, 2)
@@ -114,7 +114,7 @@ def test_passings_in_their_order(seed):
 def kept(*some):
     passed = np.full((len(some), at.PASSED_COLUMNS), 7.0)
     passed[:, [at.PASSED_S, at.PASSED_REACHED, at.PASSED_POINT]] = some
-    passed[:, at.PASSED_ROW] = range(len(some))
+    passed["row"] = range(len(some))
     count = without_twins(passed, len(some))
     return [(row[at.PASSED_S], int(row[at.PASSED_POINT])) for row in passed[:count]]
 

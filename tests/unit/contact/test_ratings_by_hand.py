@@ -7,7 +7,7 @@ import pytest
 
 from contact_cases import stadium
 from kaidan.contact import Job, PartKind, RotationOutcome, body_table, ground_table, rate_many
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.kernel import rating
 from kaidan.contact.tables import margin_tables
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kaidan import contact
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact import heights, rating, scratch, steepest, supports, traversing
 from kaidan.contact.codes import (
     Feature,

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from contact_cases import random_robot, stadium
+from kernel_memory import posed, scene
+from kaidan.contact.layout import At
 from kaidan import contact
 from kaidan.contact import Feature, FeatureKind, body_table, ground_table
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.kernel.continuation import ARM, stepped, tangent
 from kaidan.contact.kernel.gaps import gap, on_flat
 from kaidan.contact.kernel.renaming import (
@@ -37,7 +39,7 @@ REAR, FRONT = code(0, FeatureKind.DISC_1), code(0, FeatureKind.DISC_2)
 def names(ground, body, pair, pose):
     """Both contacts, and whether each is a vertex on the flat."""
     x, z, phi = pose
-    flats = (on_flat(ground, body, each, x, z, math.cos(phi), math.sin(phi)) for each in pair)
+    flats = (on_flat(scene(ground, body), each, posed(x, z, phi)) for each in pair)
     return (*pair, *flats)
 
 
@@ -170,7 +172,7 @@ def test_an_end_comes_over_a_corner(end):
     vertex = code(1, FeatureKind.VERTEX)
     pair = (vertex, here[7]) if end < 0.0 else (here[6], vertex)
     assert [*poses[0, [at.POSE_REAR, at.POSE_FRONT]]] == [*pair]
-    assert poses[0, at.POSE_X] == pytest.approx(1 - end, abs=2 * PLACE)
+    assert poses["x"][0] == pytest.approx(1 - end, abs=2 * PLACE)
 
 
 @pytest.mark.parametrize(("place", "way"), [(-0.3, 1), (0.26, -1)])
@@ -179,14 +181,14 @@ def test_a_point_leaves_the_flat(place, way):
     other = 0.1
     ground = ground_table([(-4, -2), *((x + d, h) for x in sorted((place, other))
                            for d, h in ((-1e-3, -2), (0, 0), (1e-3, -2))), (4, -2)])  # fmt: skip
-    one, two = (code(int(k), FeatureKind.VERTEX) for k in np.flatnonzero(ground[:, 1] == 0.0))
+    one, two = (code(int(k), FeatureKind.VERTEX) for k in np.flatnonzero(ground["z"] == 0.0))
     left = place + L - C_L if way > 0 else C_L - place  # from the end of the flat
     here = (0.0, C_N, 0.0, float(way), 0.0, 0.0, one, two)
     there = step(ground, BODY, here, left + 0.005)
     cut = looked_for(ground, BODY, here, there, left + 0.005)
     assert left - 1e-12 <= cut <= left + PLACE + 1e-12
     poses, length = written(ground, BODY, here, there, left + 0.005)
-    assert poses[:, at.POSE_X] == pytest.approx([way * left], abs=2 * PLACE)
+    assert poses["x"] == pytest.approx([way * left], abs=2 * PLACE)
     now = poses[0, [at.POSE_X, at.POSE_Z, at.POSE_PHI]]
     assert length == pytest.approx(chord(here, now) + chord(now, there), abs=1e-12)
 
@@ -200,11 +202,11 @@ def test_both_ends_come_over_corners_within_a_step():
     there = step(ground, BODY, here, 0.01)
     poses, length = written(ground, BODY, here, there, 0.01)
     # beyond the corner the tail sinks by the square of 4 mm over twice its radius
-    assert poses[:, at.POSE_X] == pytest.approx([0.003, 0.007], abs=1e-5)
+    assert poses["x"] == pytest.approx([0.003, 0.007], abs=1e-5)
     one, two = code(1, FeatureKind.VERTEX), code(4, FeatureKind.VERTEX)
-    assert poses[:, at.POSE_REAR].tolist() == [one, one]
-    assert poses[:, at.POSE_FRONT].tolist() == [here[7], two]
-    assert poses[:, at.POSE_S] == pytest.approx([2.003, 2.007], abs=1e-5)
+    assert poses["rear"]["feature"].tolist() == [one, one]
+    assert poses["front"]["feature"].tolist() == [here[7], two]
+    assert poses["s"] == pytest.approx([2.003, 2.007], abs=1e-5)
     assert length == pytest.approx(0.01, abs=1e-5)
 
 
@@ -218,7 +220,7 @@ def test_of_many_names_within_a_step_four_are_written():
     there = step(ground, body, here, 0.01)
     poses, length = written(ground, body, here, there, 0.01)
     assert len(poses) == 4
-    assert (np.diff(poses[:, at.POSE_REAR]) > 0).all()
+    assert (np.diff(poses["rear"]["feature"]) > 0).all()
     assert length == pytest.approx(chord(here, there), abs=1e-5)
 
 
@@ -271,7 +273,7 @@ def test_no_name_is_looked_for_where_the_corrector_fails():
 def test_the_room_of_two_contacts_is_the_smaller():
     pose = (0.5, C_N, 1.0, 0.0)
     for pair in ((REAR, FRONT), (FRONT, REAR)):
-        rooms = [name_room(CORNER, BODY, each, False, *pose) for each in pair]
+        rooms = [name_room(scene(CORNER, BODY), each, False, At(*pose)) for each in pair]
         assert sorted(rooms) == pytest.approx([1 - 0.5 - C_L, 1 - 0.5 + L - C_L])
         assert least_room(CORNER, BODY, *pair, False, False, *pose) == min(rooms)
     # a vertex under the flat, and one that is not
@@ -297,7 +299,7 @@ def over_a_nosing(centre):
 
 def table_of(*poses):
     """Rows of poses, with their arclength last."""
-    rows = np.zeros((len(poses), at.POSE_COLUMNS))
+    rows = zeros(Pose, len(poses))
     for row, (x, z, phi, rear, front, s) in zip(rows, poses, strict=True):
         row[[at.POSE_X, at.POSE_Z, at.POSE_PHI]] = x, z, phi
         row[[at.POSE_REAR, at.POSE_FRONT, at.POSE_S]] = rear, front, s
@@ -322,12 +324,12 @@ def test_poses_between_two_lie_on_the_line(ends, back):
     ground = ground_table([(-4, 0), (0, 0), (0, NOSING), (4, NOSING)])
     pair = code(0, FeatureKind.DISC_1), code(2, FeatureKind.VERTEX)
     first, then = ends[::-1] if back else ends
-    poses = np.zeros((4, at.POSE_COLUMNS))
+    poses = zeros(Pose, 4)
     for row, k in ((1, first), (2, then)):
         poses[row, [at.POSE_X, at.POSE_Z, at.POSE_PHI]] = LINE[k]
-        poses[row, at.POSE_S] = 5.0 + abs(ALONG[k] - ALONG[first])
+        poses["s"][row] = 5.0 + abs(ALONG[k] - ALONG[first])
         poses[row, [at.POSE_REAR, at.POSE_FRONT]] = pair
-    poses[1, at.POSE_LEG] = 2
+    poses["leg"][1] = 2
     shares = np.array([0.0, 0.25, 0.6, 1.0])
     between = np.full((4, at.POSE_COLUMNS), math.nan)
     poses_between(ground, BODY, poses, np.ones(4, dtype=np.int64), shares, 4, between)
@@ -352,8 +354,8 @@ def test_a_pose_between_is_by_the_names_that_hold_there():
     poses_between(CORNER, BODY, poses, rows, shares, 1, between)
     assert np.isnan(between[1]).all()
     poses_between(CORNER, BODY, poses, rows, shares, 2, between)
-    assert between[:, at.POSE_FRONT].tolist() == [FRONT, code(1, FeatureKind.VERTEX)]
-    assert between[:, at.POSE_REAR].tolist() == [REAR, REAR]
+    assert between["front"]["feature"].tolist() == [FRONT, code(1, FeatureKind.VERTEX)]
+    assert between["rear"]["feature"].tolist() == [REAR, REAR]
 
 
 @pytest.mark.parametrize("back", [False, True])
@@ -362,7 +364,7 @@ def test_a_pose_between_two_on_a_steep_slope(back):
     slope = math.radians(70)
     u = complex(math.cos(slope), math.sin(slope))
     ground = ground_table([(s * u.real, s * u.imag) for s in (-4.0, 4.0)])
-    k = int(np.flatnonzero(ground[:, 0] < 0.0)[-1])
+    k = int(np.flatnonzero(ground["x"] < 0.0)[-1])
     pair = code(k, FeatureKind.DISC_1), code(k, FeatureKind.DISC_2)
     one, other = ((s + 1j * C_N) * u for s in ((0.2, 0.1) if back else (0.1, 0.2)))
     poses = table_of(
@@ -382,7 +384,7 @@ def test_a_pose_so_far_that_twenty_steps_do_not_lead_there_is_told_where_it_is()
     poses = table_of((*LINE[0], *pair, 1.0), (*LINE[100], *pair, 6.0))
     between = np.full((1, at.POSE_COLUMNS), math.nan)
     poses_between(ground, BODY, poses, np.zeros(1, dtype=np.int64), np.array([1.0]), 1, between)
-    end = float(between[0, at.REAR_X])
+    end = float(between["rear"]["x"][0])
     assert BEGIN + 0.2 < end < -0.05
     line, along = line_over_a_nosing(BEGIN, end)
     found = between[0, [at.POSE_X, at.POSE_Z, at.POSE_PHI, at.POSE_S]]

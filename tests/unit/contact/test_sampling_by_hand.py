@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from kaidan.contact import Feature, FeatureKind
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.kernel import sampling
 from kaidan.contact.kernel.peak_search import leads_on
 from kaidan.contact.scratch import peak_scratch, sample_scratch
@@ -158,17 +158,17 @@ def sampled(monkeypatch):
     def poses_between(ground, body, of, rows, parts, count, new):
         assert len(rows) == len(new) == count
         asked.setdefault("parts", []).append(parts[:count].tolist())
-        new[:, at.POSE_S] = of[rows, at.POSE_S] + parts[:count]
-        new[:, at.POSE_PSI] = asked["directions"][:count]
+        new["s"] = of["s"][rows] + parts[:count]
+        new["path_direction"] = asked["directions"][:count]
 
     def margins_without(ground, body, poses, points, count, a, g, touch, margins, contacts):
         assert (a, g, touch, len(poses), len(margins)) == (asked["a"], 9.8, 1e-9, count, count)
         asked["points"] = points[:count].tolist()
-        margins[:, at.TRACTION] = 100.0
+        margins["traction"] = 100.0
 
     def pose_margins(ground, body, poses, count, a, g, touch, margins, contacts):
         assert (a, g, touch, len(poses), len(margins)) == (asked["a"], 9.8, 1e-9, count, count)
-        margins[:, at.TRACTION] = 300.0
+        margins["traction"] = 300.0
 
     def find_peaks(ground, body, poses, values, group, narrow, tolerance, side, a, g, touch, *rest):
         assert (tolerance, side, a, g, touch) == (1e-4, 0.0, asked["a"], 9.8, 1e-9)
@@ -177,7 +177,7 @@ def sampled(monkeypatch):
         )
         rows, between, margins = rest[-3:]
         assert len(rows) == len(between) == len(margins)
-        rows[0], between[0, at.POSE_S], margins[0, at.TRACTION] = 1, 1.5, 200.0
+        rows[0], between["s"][0], margins["traction"][0] = 1, 1.5, 200.0
         return 1
 
     for each in (poses_between, margins_without, pose_margins, find_peaks):
@@ -187,7 +187,7 @@ def sampled(monkeypatch):
         asked.update(directions=np.array(directions), a=a)
         count = len(poses)
         margins = np.full((count, at.MARGIN_COLUMNS), 7.0)
-        margins[:, at.FRICTION] = friction
+        margins["required_friction"] = friction
         table = np.full((len(passed), at.PASSED_COLUMNS), np.nan)
         table[:, [at.PASSED_ROW, at.PASSED_S, at.PASSED_POINT]] = np.reshape(passed, (-1, 3))
         *scratch, _, _, _ = peak_scratch(count, 4)
@@ -211,12 +211,12 @@ def test_samples_are_poses_nosings_peaks_and_places_upright(sampled):
     passed = [(0, 0.25, 8), (2, 2.5, 6)]
     (rows, found, margins), asked = sampled(poses, [0] * 4, passed, directions=[HALF, 0.0])
     assert rows.tolist() == [0, 1, 2, 3, 0, 2, 1, 1]
-    assert found[:, at.POSE_S].tolist() == pytest.approx([0, 1, 2, 3, 0.25, 2.5, 1.5, 1.25])
+    assert found["s"].tolist() == pytest.approx([0, 1, 2, 3, 0.25, 2.5, 1.5, 1.25])
     assert asked["parts"] == [pytest.approx([0.25, 0.5]), pytest.approx([0.25])]
     assert asked["points"] == [8, 6]
-    assert margins[4:, at.TRACTION].tolist() == [100.0, 100.0, 200.0, 9.8]
+    assert margins["traction"][4:].tolist() == [100.0, 100.0, 200.0, 9.8]
     assert asked["room"] == 16 + 4 - 6
-    wide = path(4, s=[0.0, 2.0, 4.0, 6.0], psi=poses[:, at.POSE_PSI])
+    wide = path(4, s=[0.0, 2.0, 4.0, 6.0], psi=poses["path_direction"])
     _, asked = sampled(wide, [0] * 4, [(0, 0.5, 8), (2, 5.0, 6)], directions=[HALF, 0.0])
     assert asked["parts"][2] == pytest.approx([0.25, 0.5])
 
@@ -248,10 +248,10 @@ def test_the_traction_of_an_upright_path_is_that_of_all_its_weight(a, sampled):
     poses = path(3, psi=[HALF - 0.1, HALF + 0.2, HALF - 0.1])
     (rows, _, margins), _ = sampled(poses, [0] * 3, directions=[HALF, 1.0], a=a)
     assert rows.tolist() == [0, 1, 2, 1, 0, 1]
-    assert margins[-2:, at.TRACTION].tolist() == pytest.approx([9.8 + a, 300.0])
+    assert margins["traction"][-2:].tolist() == pytest.approx([9.8 + a, 300.0])
     poses = path(2, psi=[-HALF - 0.1, -HALF + 0.2])
     (_, _, margins), _ = sampled(poses, [0] * 2, directions=[-HALF], a=a)
-    assert margins[-1, at.TRACTION] == pytest.approx(-9.8 + a)
+    assert margins["traction"][-1] == pytest.approx(-9.8 + a)
     # up before down
     poses = path(4, psi=[-HALF - 0.1, -HALF + 0.2, HALF - 0.1, HALF + 0.1])
     (rows, _, _), _ = sampled(poses, [0] * 4, directions=[HALF, -HALF], a=a)

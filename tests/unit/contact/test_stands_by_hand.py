@@ -8,7 +8,7 @@ import pytest
 
 from contact_cases import stadium
 from kaidan.contact import PartKind, body_table, ground_table
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.kernel.impact import impact_speed
 from kaidan.contact.kernel.passings import is_reported, nosings_passed
 from kaidan.contact.kernel.supports import describe, find_supports, is_same, stand_alike
@@ -89,17 +89,17 @@ def test_a_pose_stands_on_what_carries_it_and_on_nosings_between(part):
     ground, points, normal = carried(part, 0.2, 0.9, 0.5, 0.7)
     most, (found,) = find(ground, points, [RAISED, part], part=1)
     assert most == 4
-    assert found[:, at.SUPPORT_IS_ONE].tolist() == [1.0, 1.0, 1.0, 1.0, 0.0]
+    assert found["is_one"].tolist() == [1.0, 1.0, 1.0, 1.0, 0.0]
     between = sorted(points[2:])
-    assert found[:, at.SUPPORT_POINT].tolist() == [*points[:2], *between, at.NOWHERE]
-    assert found[:4, at.SUPPORT_PLACE].tolist() == [at.NOSING] * 4
-    assert found[:4, at.SUPPORT_CURVATURE].tolist() == [0.0] * 4
-    assert found[:4, at.SUPPORT_TREAD] == pytest.approx(0.01 * found[:4, at.SUPPORT_POINT])
-    assert np.isnan(found[:4, at.SUPPORT_LIFT]).all()
+    assert found["point"].tolist() == [*points[:2], *between, at.NOWHERE]
+    assert found["place"][:4].tolist() == [at.NOSING] * 4
+    assert found["curvature"][:4].tolist() == [0.0] * 4
+    assert found["tread"][:4] == pytest.approx(0.01 * found["point"][:4])
+    assert np.isnan(found["lift"][:4]).all()
     places = [(1.1 - X, 0.4 - Z), (1.7 - X, 0.6 - Z), *(ground[k, :2] - (X, Z) for k in between)]
     np.testing.assert_allclose(found[:4, [at.SUPPORT_X, at.SUPPORT_Z]], places, atol=ROUNDING)
     tilts = [math.atan2(-0.6, 0.8), math.atan2(0.28, 0.96), *[np.pi / 2 - np.angle(normal)] * 2]
-    np.testing.assert_allclose(found[:4, at.SUPPORT_NORMAL], tilts, atol=ROUNDING)
+    np.testing.assert_allclose(found["normal"][:4], tilts, atol=ROUNDING)
 
 
 def test_supports_beyond_the_room_are_counted_and_left_out():
@@ -108,7 +108,7 @@ def test_supports_beyond_the_room_are_counted_and_left_out():
         most, (found,) = find(ground, points, [TAPERED], part=0, slots=slots)
         assert most == 4
         inner = sorted(points[2:])
-        assert found[:, at.SUPPORT_POINT].tolist() == [*points[:2], *inner][:slots]
+        assert found["point"].tolist() == [*points[:2], *inner][:slots]
 
 
 def test_a_nosing_without_a_tread_is_nowhere():
@@ -116,7 +116,7 @@ def test_a_nosing_without_a_tread_is_nowhere():
     treads = 0.01 * np.arange(len(ground))
     treads[points[1:]] = math.nan
     _, (found,) = find(ground, points, [TAPERED], part=0, treads=treads)
-    assert found[:3, at.SUPPORT_POINT].tolist() == [points[0], at.NOWHERE, at.NOWHERE]
+    assert found["point"][:3].tolist() == [points[0], at.NOWHERE, at.NOWHERE]
 
 
 def test_a_belly_carries_no_grouser_and_each_pose_has_its_own_posture():
@@ -142,16 +142,16 @@ def test_a_belt_beside_passes_a_nosing_another_way(disc, gap):
     ground, points, _ = carried(TAPERED, 0.2, 0.9)
     how = {"part": 0, "kinds": [PartKind.TRACK, PartKind.FLIPPER]}
     _, (found,) = find(ground, points, [TAPERED, flipper], **how)
-    assert found[0, at.SUPPORT_BESIDE] == pytest.approx(abs(gap), abs=1e-9)
-    assert found[1, at.SUPPORT_BESIDE] > 0.1
+    assert found["beside"][0] == pytest.approx(abs(gap), abs=1e-9)
+    assert found["beside"][1] > 0.1
     _, (found,) = find(ground, points, [TAPERED, flipper], **how | {"part": 1})
-    assert found[0, at.SUPPORT_BESIDE] == pytest.approx(0.0, abs=1e-9)
+    assert found["beside"][0] == pytest.approx(0.0, abs=1e-9)
     for kinds in ([PartKind.TRACK] * 2, [PartKind.TRACK, PartKind.BELLY]):  # one belt, or none
         _, (found,) = find(ground, points, [TAPERED, flipper], part=0, kinds=kinds)
-        assert found[0, at.SUPPORT_BESIDE] == math.inf
+        assert found["beside"][0] == math.inf
     # another flat passes it the same way
     _, (found,) = find(ground, points, [TAPERED, TAPERED], **how)
-    assert found[:2, at.SUPPORT_BESIDE].tolist() == [math.inf] * 2
+    assert found["beside"][:2].tolist() == [math.inf] * 2
 
 
 @pytest.mark.parametrize("beyond", [0.02, -0.02])
@@ -162,13 +162,13 @@ def test_a_nosing_under_an_arc_has_the_curvature_of_its_disc(part, beyond):
     place = other + beyond * along if beyond > 0 else one + beyond * along
     ground, (k,) = spikes(at_pose(place))
     poses = table(at.POSE_COLUMNS, {at.POSE_X: X, at.POSE_Z: Z, at.POSE_PHI: PHI})
-    found = np.zeros((1, at.SUPPORT_COLUMNS))
+    found = zeros(Support, 1)
     describe(ground, body_table([RAISED, part]), 0, 2, poses, 0, at.POINT * k + at.PART, True,
              STEEP, found, 0)  # fmt: skip
     radius = part[5] if beyond > 0 else part[2]
-    assert found[0, at.SUPPORT_CURVATURE] == pytest.approx(1.0 / radius, abs=ROUNDING)
-    assert found[0, at.SUPPORT_PLACE] == at.NOSING
-    assert found[0, at.SUPPORT_POINT] == k
+    assert found["curvature"][0] == pytest.approx(1.0 / radius, abs=ROUNDING)
+    assert found["place"][0] == at.NOSING
+    assert found["point"][0] == k
 
 
 ZIGZAG = ground_table([(-3, 0.0), (0, 0.0), (0.1, 0.4), (1.0, 0.5), (1.1, 0.1), (4, 0.1)])
@@ -187,26 +187,26 @@ def test_an_end_stands_on_a_tread_or_a_face_below_its_edge(x, disc, climbs):
     describe(ZIGZAG, body_table(parts), 1, 1, poses, 1, feature, climbs, STEEP, found, 1)
     assert found[0].tolist() == [-9.0] * at.SUPPORT_COLUMNS
     own = TAPERED[3 * disc - 3 : 3 * disc]
-    assert found[1, at.SUPPORT_CURVATURE] == pytest.approx(1.0 / own[2], abs=ROUNDING)
-    level = found[1, at.SUPPORT_FLAT]
+    assert found["curvature"][1] == pytest.approx(1.0 / own[2], abs=ROUNDING)
+    level = found["flat"][1]
     if disc == 1:  # farther back it comes onto the flat
         normal = -flat(TAPERED)[2] * np.exp(1j * PHI)
         assert level == pytest.approx(math.atan2(normal.real, normal.imag), abs=ROUNDING)
     else:
         assert level == -9.0  # as it was
     face = x in (0.05, 1.05)
-    assert found[1, at.SUPPORT_PLACE] == (at.FACE if face else at.TREAD)
+    assert found["place"][1] == (at.FACE if face else at.TREAD)
     if climbs and x == 0.05:
         axle = at_pose(complex(*own[:2])).imag
-        assert found[1, at.SUPPORT_POINT] == k + 1
-        assert found[1, at.SUPPORT_LIFT] == pytest.approx(0.4 - axle, abs=ROUNDING)
+        assert found["point"][1] == k + 1
+        assert found["lift"][1] == pytest.approx(0.4 - axle, abs=ROUNDING)
         return
     behind = climbs and x == 0.5  # a tread behind its nosing
-    assert found[1, at.SUPPORT_POINT] == (k if behind else -9.0)  # else as it was
-    assert math.isnan(found[1, at.SUPPORT_LIFT])
+    assert found["point"][1] == (k if behind else -9.0)  # else as it was
+    assert math.isnan(found["lift"][1])
     if behind:
         beyond = X - 9.0 - ZIGZAG[k, 0]  # what was written of its place from the centroid
-        assert found[1, at.SUPPORT_BEYOND] == pytest.approx(beyond, abs=ROUNDING)
+        assert found["beyond"][1] == pytest.approx(beyond, abs=ROUNDING)
 
 
 def test_what_is_the_same_to_a_tenth_of_a_micrometre():
@@ -227,14 +227,14 @@ def test_what_is_the_same_to_a_tenth_of_a_micrometre():
 def test_poses_stand_alike_if_all_but_the_point_is_alike(column, slot):
     """Three slots of which the second is empty, so what stands there counts for nothing."""
     supports = np.vstack([np.arange(at.SUPPORT_COLUMNS, dtype=float) + 2.0] * 6)
-    supports[:, at.SUPPORT_IS_ONE] = [1.0, 0.0, 1.0] * 2
+    supports["is_one"] = [1.0, 0.0, 1.0] * 2
     loads = np.ones((2, at.LOAD_COLUMNS))
-    supports[4, at.SUPPORT_X] = 9.0
+    supports["x"][4] = 9.0
     assert stand_alike(supports, 3, loads, 0, 1)
     supports[3 + slot, column] += 0.5 if column != at.SUPPORT_IS_ONE else -1.0
     assert stand_alike(supports, 3, loads, 0, 1) == (column == at.SUPPORT_POINT)
     supports[:] = supports[0]
-    supports[3 + slot, at.SUPPORT_POINT] = at.NOWHERE
+    supports["point"][3 + slot] = at.NOWHERE
     assert not stand_alike(supports, 3, loads, 0, 1)
 
 
@@ -265,10 +265,10 @@ def test_nosings_reached_and_left_in_a_drive_of_a_metre():
     points, count, made = passed([-0.2, 0.2, 0.5, 0.9, 1.2])
     assert count == 4  # that at half a metre lies under neither pose
     share = [0.05, 0.45, 0.65, 0.95]
-    np.testing.assert_allclose(made[:4, at.PASSED_SHARE], share, atol=ROUNDING)
-    np.testing.assert_allclose(made[:4, at.PASSED_S], [5.1, 5.9, 6.3, 6.9], atol=ROUNDING)
-    assert made[:4, at.PASSED_REACHED].tolist() == [0.0, 0.0, 1.0, 1.0]
-    assert made[:4, at.PASSED_POINT].tolist() == [points[k] for k in (0, 1, 3, 4)]
+    np.testing.assert_allclose(made["share"][:4], share, atol=ROUNDING)
+    np.testing.assert_allclose(made["s"][:4], [5.1, 5.9, 6.3, 6.9], atol=ROUNDING)
+    assert made["reached"][:4].tolist() == [0.0, 0.0, 1.0, 1.0]
+    assert made["point"][:4].tolist() == [points[k] for k in (0, 1, 3, 4)]
     assert (made[4:] == -9.0).all()
 
 
@@ -283,7 +283,7 @@ def test_a_belly_and_a_part_elsewhere_do_not_keep_the_next_part_from_passing():
     kinds = [PartKind.BELLY, PartKind.TRACK, PartKind.TRACK]
     _, count, made = passed([0.9], parts=(FLAT, high, FLAT), kinds=kinds)
     assert count == 1
-    assert made[0, at.PASSED_PART] == 2
+    assert made["part"][0] == 2
 
 
 @pytest.mark.parametrize("column", [at.EVENT_FEATURE, at.EVENT_OTHER])

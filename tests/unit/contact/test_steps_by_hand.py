@@ -21,7 +21,7 @@ from kaidan.contact import (
     ground_table,
     settle,
 )
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.codes import ROCKING, Advance
 from kaidan.contact.kernel import (
     advance,
@@ -435,7 +435,7 @@ def test_no_start_where_it_falls_at_once():
 
 
 def test_momentum_is_written_as_it_is():
-    row = np.zeros((1, at.ROTATION_COLUMNS))
+    row = zeros(RotationRow, 1)
     for topples in (True, False):
         recording.write_momentum(row, 0, 0.3, 0.2, 0.1, topples)
         columns = [at.KINETIC, at.BARRIER, at.BARRIER_ACROSS, at.TOPPLES]
@@ -443,10 +443,10 @@ def test_momentum_is_written_as_it_is():
 
 
 def test_a_rotation_repeats_one_of_the_twelve_before():
-    rows = np.zeros((16, at.ROTATION_COLUMNS))
-    rows[:, at.START_X] = np.arange(16.0)
-    rows[:, at.START_PHI] = 0.3
-    rows[:, at.ROTATION_SENSE] = 1.0
+    rows = zeros(RotationRow, 16)
+    rows["start"]["x"] = np.arange(16.0)
+    rows["start"]["inclination"] = 0.3
+    rows["sense"] = 1.0
 
     def repeats(row, last, **off):
         table = rows.copy()
@@ -529,7 +529,7 @@ def test_the_way_of_a_pose_follows_the_normals_of_the_belt():
         ways = [(1.0, 0.2), (-1.0, 0.2), (0.05, 1.0), (0.0, 0.0), (0.0, 1.0), (0.0, -1.0)]
         ways += [(-1.0, 0.0), (-1e-13, 0.0), (0.02, 1.0), (0.02, -1.0)]  # square to it, or nearly
         for t_x, t_z in ways:
-            poses = np.zeros((1, at.POSE_COLUMNS))
+            poses = zeros(Pose, 1)
             held = (0.0, 0.0, 0.0, t_x, t_z, 0.0, rear, front)
             recording.record_pose(ground, body_table([parts]), poses, 0, 2.5, held, 3)
             normals = poses[0, [at.REAR_N_X, at.REAR_N_Z, at.FRONT_N_X, at.FRONT_N_Z]]
@@ -551,7 +551,7 @@ def test_the_way_of_a_pose_follows_the_normals_of_the_belt():
                     continue  # square to it
                 ahead = math.copysign(1.0, u @ (t_x, t_z))
                 expected = math.atan2(ahead * u[1], ahead * u[0])
-            assert math.cos(poses[0, at.POSE_PSI] - expected) == pytest.approx(1.0, abs=1e-9)
+            assert math.cos(poses["path_direction"][0] - expected) == pytest.approx(1.0, abs=1e-9)
 
 
 @pytest.mark.parametrize("x", [-0.1, 0.1, 0.3, 0.45])

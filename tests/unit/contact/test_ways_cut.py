@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pytest
 
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.codes import PIECES
 from kaidan.contact.kernel import peak_search
 from kaidan.contact.kernel.peaks import (
@@ -113,7 +113,7 @@ def test_ways_that_promise_more_than_what_is_found(seed):
 def test_the_last_way_of_a_path_is_one():
     """By hand: it rises by 1 a metre to the last but one and is level then."""
     s, values = np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0, 1.0])
-    ways, largest = np.zeros((3, at.WAY_COLUMNS)), np.empty(1)
+    ways, largest = zeros(Way, 3), np.empty(1)
     none = np.zeros(3, dtype=np.int64)
     assert open_ways(s, none + 1, values, none, none, largest, TOLERANCE, ways) == 1
     assert ways[0, [at.WAY_ROW, at.WAY_PROMISE]].tolist() == [1.0, 2.0]
@@ -138,8 +138,8 @@ def test_the_most_promising_ways_are_cut_first(seed, at_once):
     ways = np.vstack([ways, ways[rng.permutation(len(ways))]])
     # repeated: at another place, and by less than a billionth something else
     half = len(ways) // 2
-    ways[half:, at.WAY_ROW] += 1000.0
-    ways[half:, at.WAY_PROMISE] += 1e-11
+    ways["row"][half:] += 1000.0
+    ways["promise"][half:] += 1e-11
     ways = ways[rng.permutation(len(ways))]
     largest = path.largest + 0.3  # some promise enough no more
     kept, picked = chosen(ways, largest, at_once, GROUPS * at_once)
@@ -159,10 +159,10 @@ def test_the_most_promising_ways_are_cut_first(seed, at_once):
 
 
 def test_of_ways_that_promise_the_same_the_lower_group_comes_first():
-    ways = np.zeros((4, at.WAY_COLUMNS))
-    ways[:, at.WAY_GROUP] = [1, 0, 1, 0]
-    ways[:, at.WAY_PROMISE] = [2.0, 2.0, 3.0, 2.0]
-    ways[:, at.WAY_BEGIN] = [0.0, 1.0, 0.0, 0.5]
+    ways = zeros(Way, 4)
+    ways["group"] = [1, 0, 1, 0]
+    ways["promise"] = [2.0, 2.0, 3.0, 2.0]
+    ways["begin"] = [0.0, 1.0, 0.0, 0.5]
     kept, picked = chosen(ways, np.zeros(2), 2, 4)
     assert kept[:, [at.WAY_GROUP, at.WAY_PROMISE, at.WAY_BEGIN]].tolist() == [
         [1, 3, 0], [0, 2, 0.5], [0, 2, 1], [1, 2, 0]
@@ -209,7 +209,7 @@ def test_a_way_is_cut_into_pieces(seed):
 
 def test_the_figure_of_a_pose(monkeypatch):
     """The friction that it requires, infinite where nothing holds; or how little it may tilt."""
-    margins = np.zeros((4, at.MARGIN_COLUMNS))
+    margins = zeros(Margin, 4)
     margins[:, peak_search.FRICTION] = 0.4, math.nan, math.inf, -math.inf
     found = [peak_search.figure_of(None, None, None, margins, row, 0.0, 5) for row in range(4)]
     assert found == [(0.4, 5), (math.inf, 5), (math.inf, 5), (math.inf, 5)]
