@@ -42,6 +42,28 @@ def turning(o, sense, end, pivot=0, start=None, finish=None, about=0j, radius=ma
     )  # fmt: skip
 
 
+def nothing(kind, count):
+    """Table of which no row has been written."""
+    rows = zeros(kind, count)
+    rows.view(np.uint8)[...] = 0xFF
+    return rows
+
+
+def written(rows):
+    """Which rows of such a table have been written."""
+    return ~(rows.view(np.uint8).reshape(len(rows), -1) == 0xFF).all(axis=1)
+
+
+def place_of(row):
+    """Centroid [m] and inclination [rad] of a pose, as a table has it."""
+    return float(row["x"]), float(row["z"]), float(row["inclination"])
+
+
+def pair_of(row):
+    """Features of a pose, as a table has them."""
+    return int(row["rear"]["feature"]), int(row["front"]["feature"])
+
+
 def called(function):
     """Any function of the plain kernel, which takes tables and tuples as its entries do."""
     return plain(function)

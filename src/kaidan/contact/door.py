@@ -37,6 +37,15 @@ def zeros(kind: Any, count: int) -> Records:
     return np.zeros(count, dtype=dtype_of(kind))
 
 
+def unknown(kind: Any, count: int) -> Records:
+    """Table of so many rows of which nothing is known yet: NaN for every number that may be."""
+    table = zeros(kind, count)
+    for name in table.dtype.names or ():
+        if table.dtype[name].kind == "f":
+            table[name] = np.nan
+    return table
+
+
 def table_of(kind: Any, rows: Iterable[Any]) -> Records:
     """Table of records, or of tuples of their fields."""
     given = [values_of(row) if is_dataclass(row) else tuple(row) for row in rows]

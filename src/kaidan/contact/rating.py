@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kaidan.contact.door import table_of, zeros
+from kaidan.contact.door import table_of, unknown
 from kaidan.contact.layout import (
     Belts,
     Course,
@@ -82,10 +82,7 @@ def rate_many(
     """
     ground, bodies = ground_of(terrain), [body_of(each, kinds) for each in parts]
     longest = max(each.x_end - each.x_start for each in jobs)
-    ratings = zeros(Rating, len(jobs))
-    for name in ratings.dtype.names or ():
-        if ratings.dtype[name].kind == "f":
-            ratings[name] = math.nan
+    ratings = unknown(Rating, len(jobs))
     of_belts = belts or NO_BELTS
     of_belts = of_belts._replace(grousers=table_of(GrouserCase, of_belts.grousers))
     course = Course(step, table_of(Zone, zones), table_of(Edge, edges), rough, *tilts)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kaidan.contact.codes import Status
-from kaidan.contact.door import table_of, zeros
+from kaidan.contact.door import table_of, unknown, zeros
 from kaidan.contact.layout import Job, Journey, Margin, Pull, Summary
 from kaidan.contact.path import Path
 from kaidan.contact.records import Body, Events, Ground, Margins, Poses, Rotations, Summaries
@@ -177,9 +177,7 @@ def traverse_many(
     """Many traverses in one call: a row of the summary for each job."""
     grounds = [ground_table(t) for t in terrains]
     bodies = [body_table(r, None if kinds is None else kinds[k]) for k, r in enumerate(robots)]
-    summaries = zeros(Summary, len(jobs))
-    for name in ("required_friction", "static_margin", "energy"):
-        summaries[name] = math.nan
+    summaries = unknown(Summary, len(jobs))
     kernel().traverse_many(
         (np.concatenate(grounds), np.concatenate(bodies)),
         np.cumsum([len(each) for each in grounds]),
