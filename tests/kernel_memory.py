@@ -17,7 +17,7 @@ def table(kind, rows):
     return Table(kind, rows, len(rows))
 
 
-def row(values, kind=float):
+def numbers(values, kind=float):
     """Numbers, which share the memory of an array of their type."""
     return Row(memoryview(np.asarray(values, dtype=dtype_of(kind))))
 
@@ -40,6 +40,19 @@ def turning(o, sense, end, pivot=0, start=None, finish=None, about=0j, radius=ma
         pivot, start or nowhere, o.real, o.imag, to[0], to[1].real, to[1].imag, sense, end,
         math.cos(end), math.sin(end), about.real, about.imag, radius, *(line or 3 * (math.nan,)),
     )  # fmt: skip
+
+
+def made(kind, *rows):
+    """Array of records that are noughts but for what each row names, `rear.x` say."""
+    found = zeros(kind, len(rows))
+    for k, row in enumerate(rows):
+        for path, value in row.items():
+            *parts, name = path.split(".")
+            place = found[k : k + 1]
+            for part in parts:
+                place = place[part]
+            place[name] = value
+    return found
 
 
 def nothing(kind, count):

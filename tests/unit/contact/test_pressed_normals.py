@@ -134,5 +134,7 @@ def test_under_any_end_of_any_part_in_any_pose(part, end, phi):
         up = (-n * turn).imag
         pressed = rigid if rigid.imag >= up else -n * np.exp(1j * sense * of_arc * first) * turn
         for parts, row in (([part], 0), ([*ELSEWHERE, part], 6), ([part, *ELSEWHERE], 0)):
-            found = pressed_normal(scene(ground, body_table(parts)), POINT * k + PART * row, posed(at.real, at.imag, phi), rigid.real, rigid.imag)  # fmt: skip
+            there, where = scene(ground, body_table(parts)), posed(at.real, at.imag, phi)
+            feature = POINT * k + PART * row
+            found = pressed_normal(there, feature, where, rigid.real, rigid.imag)
             assert found == pytest.approx((pressed.real, pressed.imag), abs=1e-9)

@@ -11,9 +11,7 @@ from kaidan.contact.tables import (
     SHARPEST,
     body_table,
     ground_table,
-    margin_tables,
     mirror,
-    path_tables,
 )
 
 # ground
@@ -57,7 +55,9 @@ def test_a_finer_profile_is_the_same_ground(seed):
     once = ground_table(points)
     assert len(once) == len(points)  # both ends are farther away, on the same lines
     # m: the points that were put between are rounded
-    assert ground_table(np.array(fine)) == pytest.approx(once, abs=1e-9)
+    again = ground_table(np.array(fine))
+    for field in once.dtype.names:
+        assert again[field] == pytest.approx(once[field], abs=1e-9)
 
 
 @pytest.mark.parametrize("slope", [-2.0, 0.0, 0.4])
@@ -234,11 +234,3 @@ def test_the_mirror_image_swaps_the_ends():
     again = mirror(points, parts)
     assert again[0].tolist() == [[0.0, 0.0], [1.0, 0.2]]
     assert again[1].tolist() == [[0.1, -0.2, 0.05, 0.4, -0.3, 0.06]]
-
-
-def test_rotations_have_room_for_a_few_more_than_every_eighth_pose():
-    for size in (1, 80, 800):
-        poses, events, rotations = path_tables(size)
-        assert (len(poses), len(events)) == (size, size)
-        assert size / 8 + 10 < len(rotations) < size / 8 + 20
-    assert all(len(each) >= 5 for each in margin_tables(5))

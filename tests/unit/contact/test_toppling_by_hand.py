@@ -52,7 +52,9 @@ def fallen_over(line, beyond, phi, kappa, mirrored):
     ground, body = ground_table(line), body_table(parts)
     edge = int(np.flatnonzero(np.hypot(ground["x"] - sign * A.real, ground["z"] - A.imag) == 0)[0])
     place = A + (beyond + 1j * ABOVE) * cmath.exp(1j * phi)
-    outcome, rear, front, x, z, end, before, after, turned = fall(scene(ground, body), 64 * edge, Release(sign * place.real, place.imag, sign * phi, -sign, sign * kappa), GYRATION, GRAVITY)  # fmt: skip
+    release = Release(sign * place.real, place.imag, sign * phi, -sign, sign * kappa)
+    found = fall(scene(ground, body), 64 * edge, release, GYRATION, GRAVITY)
+    outcome, rear, front, x, z, end, before, after, turned = found
     points = []
     for feature in (rear, front)[:: int(sign)]:
         if feature >= 0:

@@ -35,6 +35,7 @@ from kaidan.contact.layout import (
     Rating,
     RotationRow,
     Scene,
+    Zone,
 )
 from kaidan.contact.memory import Row, Table, empty
 
@@ -75,6 +76,11 @@ def row_before(poses: Table[Pose], s: float) -> int:
     if best >= 0:
         return best
     return low - 1 if low > 0 else 0
+
+
+def comes_off(pose: Pose, zones: Table[Zone]) -> bool:
+    """Whether the trailing end leaves an edge on the way down, the front contact on a landing."""
+    return leaves_edge(pose) and in_zone(zones, pose.front.x, pose.front.z)
 
 
 def beyond_the_edge(row: RotationRow, course: Course, flat: float) -> float:
@@ -186,8 +192,7 @@ def rate_poses(
     belly = False
     for row in range(len(poses)):
         pose = poses[row]
-        # a trailing end that leaves an edge on the way down, the front on a landing, does not count
-        counts[row] = not (leaves_edge(pose) and in_zone(course.zones, pose.front.x, pose.front.z))
+        counts[row] = not comes_off(pose, course.zones)
         belly = belly or margins[row].belly_touches
         friction = margins[row].required_friction
         if counts[row] and (friction > mu or math.isnan(friction)):
