@@ -29,12 +29,16 @@ STEPS = (0.005, 0.01, 0.02, 0.04)
 
 
 def same(plain, native):
-    """Bit for bit: the same statements, roots and functions of the same libm, nothing fused."""
+    """Bit for bit: the same statements and roots, nothing fused, and no function of a libm."""
     assert plain.status == native.status
     assert [each.kind for each in plain.events] == [each.kind for each in native.events]
-    np.testing.assert_array_equal(plain.poses.table, native.poses.table)
-    np.testing.assert_array_equal(plain.rotations.table, native.rotations.table)
-    np.testing.assert_array_equal(plain.margins.table, native.margins.table)
+    for name in ("poses", "rotations", "margins"):
+        assert told(getattr(plain, name).table) == told(getattr(native, name).table)
+
+
+def told(table):
+    """All numbers to their last digit, with their signs; NaN is NaN."""
+    return repr(table.tolist())
 
 
 def same_between(path, seed, acceleration):
@@ -60,9 +64,9 @@ def same_between(path, seed, acceleration):
                 np.abs(margins.traction), np.arange(len(seen.rows)) % 7 == 0,
             )  # fmt: skip
             extremes = extremes_of(samples, whence, back, manner)
-            found.append((seen.rows, seen.path.poses.table, margins.table, *extremes))
+            found.append([*map(told, (seen.rows, seen.path.poses.table, margins.table)), *extremes])
     for one, other in zip(*found, strict=True):
-        np.testing.assert_array_equal(one, other)
+        assert repr(one) == repr(other)
 
 
 def same_end(terrain, parts, start, end, kinds, how):
@@ -132,7 +136,7 @@ def test_a_batch():
                     kinds=[kinds for _, kinds in robots], with_margins=True,
                 ).table
             )  # fmt: skip
-    np.testing.assert_array_equal(*tables)
+    assert told(tables[0]) == told(tables[1])
 
 
 def test_a_robot_that_stands_in_one_posture_after_the_other():
@@ -144,8 +148,8 @@ def test_a_robot_that_stands_in_one_posture_after_the_other():
     for kernel in ("plain", "native"):
         with using_kernel(kernel):
             path = stand_in_turn(stairs, [flat, up, down], [0, 1], -0.05, 0.1)
-            slides = np.vstack([belt_slides(path), np.zeros(2)])
-            tables.append(np.hstack([path.poses.table, path.margins.table, slides]))
-    assert len(tables[0]) == 3
-    assert tables[0][:2, -2:].any()
-    np.testing.assert_array_equal(*tables)
+            tables.append((path.poses.table, path.margins.table, belt_slides(path)))
+    assert [len(each) for each in tables[0]] == [3, 3, 2]
+    assert tables[0][2].any()
+    for plain, native in zip(*tables, strict=True):
+        assert told(plain) == told(native)
