@@ -17,7 +17,6 @@ import ast
 import dataclasses
 import inspect
 import math
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, get_args, get_origin, get_type_hints
@@ -36,19 +35,21 @@ Typed = tuple[str, Any]
 """Text of an expression in C, and its type in Python."""
 
 
-class Refused(SyntaxError):
+class RefusedError(SyntaxError):
     """What the rules of the subset do not know."""
 
 
-class Unknown(Exception):
+class UnknownError(Exception):
     """A variable to which nothing has been assigned yet."""
 
 
 def is_place(of: Any) -> bool:
+    """Whether a type is a record, which is written to."""
     return dataclasses.is_dataclass(of)
 
 
 def is_value(of: Any) -> bool:
+    """Whether a type is a named tuple, which never changes."""
     return isinstance(of, type) and hasattr(of, "_fields")
 
 
@@ -93,9 +94,9 @@ class Module:
             if is_place(of) and of not in self.kinds and "Table" not in body:
                 self.kinds.append(of)
         else:
-            raise Refused(f"no type of the subset: {of}")
+            raise RefusedError(f"no type of the subset: {of}")
         if self.types.setdefault(name, body) != body:
-            raise Refused(f"two types of the name {name}")
+            raise RefusedError(f"two types of the name {name}")
         return f"{name} *" if is_place(of) and not inside else name
 
     def layout(self, of: Any) -> str:
@@ -167,8 +168,8 @@ class Function:
         self.changed = sorted(key for key in stored & set(self.given) if is_value(self.given[key]))
         self.makes_tables = "empty" in {each.id for each in names}
 
-    def refused(self, node: Any, why: str) -> Refused:
-        return Refused(f"{self.file}:{node.lineno}: {why}: {ast.unparse(node)}")
+    def refused(self, node: Any, why: str) -> RefusedError:
+        return RefusedError(f"{self.file}:{node.lineno}: {why}: {ast.unparse(node)}")
 
     def head(self) -> str:
         given = []
@@ -202,7 +203,7 @@ class Function:
                 self.note(node.target, eval(ast.unparse(node.annotation), self.scope))
             elif isinstance(node, ast.AugAssign):
                 self.note(node.target, self.joined(node, self.of(node.target), self.of(node.value)))
-        except Unknown:
+        except UnknownError:
             pass
 
     def note(self, target: Any, of: Any) -> None:
@@ -228,22 +229,14 @@ class Function:
             case ast.Assign(targets=[target]) | ast.AnnAssign(target=target):
                 yield from self.assign(target, node.value)
             case ast.AugAssign(target=target, op=op, value=value):
-                if type(op) in SIGNS and not isinstance(op, ast.Div):
-                    yield f"{self.place(target)} {SIGNS[type(op)]}= {self.number(value)[0]};"
-                else:
-                    whole = ast.copy_location(ast.BinOp(target, op, value), node)
-                    yield f"{self.place(target)} = {self.as_type(whole, self.of(target))};"
+                changed = ast.copy_location(ast.BinOp(target, op, value), node)
+                yield from self.assign(target, changed)
             case ast.If(test=test, body=body, orelse=orelse):
-                yield f"if ({self.truth(test)}) {{"
-                yield from (line for each in body for line in self.statement(each))
-                yield "} else {"
-                yield from (line for each in orelse for line in self.statement(each))
-                yield "}"
+                yield from self.block(f"if ({self.truth(test)})", body)
+                yield from self.block("else", orelse) if orelse else ()
             case ast.While(test=test, body=body, orelse=[]):
-                yield f"while ({self.truth(test)}) {{"
-                yield from (line for each in body for line in self.statement(each))
-                yield "}"
-            case ast.For(orelse=[]):
+                yield from self.block(f"while ({self.truth(test)})", body)
+            case ast.For(target=ast.Name(), orelse=[]):
                 yield from self.loop(node)
             case ast.Return(value=value):
                 given = "" if value is None else self.as_type(value, self.answer)
@@ -255,6 +248,11 @@ class Function:
                 yield f"{ast.unparse(node)};"
             case _:
                 raise self.refused(node, "no statement of the subset")
+
+    def block(self, head: str, body: list[Any], *first: str) -> Iterator[str]:
+        yield from (f"{head} {{", *first)
+        yield from (line for each in body for line in self.statement(each))
+        yield "}"
 
     def place(self, target: Any) -> str:
         """Where a number is written to."""
@@ -282,12 +280,10 @@ class Function:
                 step = ast.literal_eval(args[2]) if len(args) > 2 else 1
             case _:
                 raise self.refused(node.iter, "no range")
-        yield f"for (int64_t each_ = {first}, last_ = {last}; "
-        yield f"each_ {'<' if step > 0 else '>'} last_; each_ += {step}) {{"
-        if node.target.id != "_":
-            yield f"{node.target.id} = each_;"
-        yield from (line for each in node.body for line in self.statement(each))
-        yield "}"
+        ends = f"each_ {'<' if step > 0 else '>'} last_; each_ += {step}"
+        head = f"for (int64_t each_ = {first}, last_ = {last}; {ends})"
+        named = [] if node.target.id == "_" else [f"{node.target.id} = each_;"]
+        yield from self.block(head, node.body, *named)
 
     # expressions
 
@@ -336,7 +332,7 @@ class Function:
                 return self.constant(node, value)
             case ast.Name(id=key) | ast.Attribute(value=ast.Name(id=key)) if key not in self.types:
                 if key not in self.scope:
-                    raise Unknown(f"{self.file}:{node.lineno}: {key}")
+                    raise UnknownError(f"{self.file}:{node.lineno}: {key}")
                 return self.constant(node, eval(ast.unparse(node), self.scope))
             case ast.Name(id=key):
                 of = self.types[key]

@@ -175,15 +175,10 @@ static int read_in(Given *given, PyObject *value, const char **text, char **at) 
         *at += 8 + sizeof(int64_t);
         return 0;
     } else {
-        Py_ssize_t k = 0, count = PyTuple_Size(value);
-        if (count < 0) return -1;
-        for (; **text != ')' && **text != 'z'; k++)
-            if (k == count || read_in(given, PyTuple_GetItem(value, k), text, at) < 0) {
-                if (!PyErr_Occurred()) k = count + 1;
-                break;
-            }
-        if (PyErr_Occurred()) return -1;
-        if (k != count) {
+        Py_ssize_t k = 0, count = PyTuple_Check(value) ? PyTuple_Size(value) : 0;
+        for (; k < count && **text != ')' && **text != 'z'; k++)
+            if (read_in(given, PyTuple_GetItem(value, k), text, at) < 0) return -1;
+        if (k < count || (**text != ')' && **text != 'z')) {
             PyErr_Format(PyExc_TypeError, "%s: a tuple of other fields is expected", given->entry->name);
             return -1;
         }

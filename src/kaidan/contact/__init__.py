@@ -14,15 +14,16 @@ from kaidan.contact.codes import (
     RotationOutcome,
     Status,
 )
-from kaidan.contact.contacts import Contact, PairForces, pair_forces, spring_loads
+from kaidan.contact.contacts import Contact, pair_forces, spring_loads
 from kaidan.contact.extremes import Manner, Sampled, extremes_of
 from kaidan.contact.features import Feature, FeatureKind, FeatureTable
 from kaidan.contact.heights import TouchingHeights, touching_heights
 from kaidan.contact.layout import Belts, Extreme, Grousers, Job
+from kaidan.contact.layout import Forces as PairForces
 from kaidan.contact.nosings import nosings_passed
 from kaidan.contact.path import Path, joined
 from kaidan.contact.phases import Zone, phases_by_zones
-from kaidan.contact.rating import rate_many
+from kaidan.contact.rating import belts_on, rate_many
 from kaidan.contact.records import (
     ONE_PLACE,
     Body,
@@ -97,6 +98,7 @@ __all__ = [
     "Zone",
     "arrives",
     "belt_slides",
+    "belts_on",
     "body_table",
     "extremes_of",
     "ground_of",

@@ -9,8 +9,7 @@ import numpy as np
 
 from kaidan.contact.codes import PartKind
 from kaidan.contact.door import Records, zeros
-from kaidan.contact.layout import Forces as PairForces
-from kaidan.contact.layout import Touching
+from kaidan.contact.layout import Forces, Touching
 from kaidan.contact.switch import kernel
 from kaidan.contact.tables import FloatArray
 
@@ -47,7 +46,7 @@ def contacts_of(
 
 def pair_forces(
     first: Contact, second: Contact, com: tuple[float, float], pull: tuple[float, float]
-) -> PairForces:
+) -> Forces:
     """Least friction with which two contacts hold the robot, and the forces that do it.
 
     Parameters
@@ -61,7 +60,7 @@ def pair_forces(
 
     Returns
     -------
-    PairForces
+    Forces
         The friction is infinite if none suffices; forces are NaN where it is only approached by
         an ever growing inner force.
 
@@ -74,7 +73,7 @@ def pair_forces(
     (7.35, 2.45)
     """
     one, two = ((*each.point, *each.normal) for each in (first, second))
-    return PairForces(*kernel().two_contact_forces(one, two, *com, *pull))
+    return Forces(*kernel().two_contact_forces(one, two, *com, *pull))
 
 
 def spring_loads(

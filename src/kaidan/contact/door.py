@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import is_dataclass
 from functools import cache, wraps
-from typing import Any, get_args, get_origin, get_type_hints
+from typing import Any, TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.contact.memory import CODES, Row, Table, values_of
+
+T = TypeVar("T")
 
 #: Rows of one record, its fields by their names.
 Records = NDArray[np.void]
@@ -52,6 +54,11 @@ def table_of(kind: Any, rows: Iterable[Any]) -> Records:
     return np.array(given, dtype=dtype_of(kind))
 
 
+def given(kind: type[T], *fields: Any) -> T:
+    """Named tuple as an entry takes it: where it declares a table or a row it holds an array."""
+    return kind(*fields)
+
+
 def plain(function: Callable[..., Any]) -> Callable[..., Any]:
     """Entry of the plain kernel that takes what the native one takes."""
     hints = [hint for name, hint in get_type_hints(function).items() if name != "return"]
@@ -75,7 +82,9 @@ def opened(name: str, given: Any, kind: Any, tables: list[Table[Any]]) -> Any:
     """What the plain kernel takes for an array, or for a tuple of the fields of a record."""
     if get_origin(kind) in (Table, Row):
         (held,) = get_args(kind)
-        if getattr(given, "dtype", None) != dtype_of(held) or not given.flags.c_contiguous:
+        flags = getattr(given, "flags", None)
+        usable = flags and flags.c_contiguous and flags.writeable
+        if not usable or given.dtype != dtype_of(held):
             raise TypeError(f"{name}: a writable contiguous array of {held.__name__} is expected")
         if given.ndim != 1:
             raise TypeError(f"{name}: {held.__name__} in one row are expected")

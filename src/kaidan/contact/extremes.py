@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kaidan.contact.door import table_of, zeros
+from kaidan.contact.door import given, table_of, zeros
 from kaidan.contact.layout import Extreme, Flight, Known, Leading, Pull, Zone
 from kaidan.contact.path import Path
 from kaidan.contact.records import BoolArray
@@ -82,12 +82,13 @@ def extremes_of(
     """
     path = samples.path
     assert path.margins is not None
-    known = Known(
-        samples.phase, samples.corner, samples.row, samples.lasts, samples.friction,
+    known = given(
+        Known, samples.phase, samples.corner, samples.row, samples.lasts, samples.friction,
         samples.traction, samples.comes_off, whence, back,
     )  # fmt: skip
-    leading = Leading(
-        manner.descending, manner.whole, np.array(manner.counts), table_of(Zone, manner.tops),
+    leading = given(
+        Leading, manner.descending, manner.whole, np.array(manner.counts),
+        table_of(Zone, manner.tops),
         table_of(Flight, [(*each, math.nan) for each in manner.flights]), manner.nosings,
         manner.height, manner.gyration,
     )  # fmt: skip

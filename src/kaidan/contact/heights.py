@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from kaidan.contact.kernel.trigonometry import cos, sin
 from kaidan.contact.records import Body, BoolArray, Ground
 from kaidan.contact.tables import FloatArray
 
@@ -43,7 +44,7 @@ def touching_heights(
     """
     shape = (len(inclination), len(x))
     best, at_x, at_z = np.full(shape, -np.inf), np.zeros(shape), np.zeros(shape)
-    c, s = np.cos(inclination)[:, None], np.sin(inclination)[:, None]
+    c, s = (np.array([of(each) for each in inclination.tolist()])[:, None] for of in (cos, sin))
 
     def offer(
         z: FloatArray, p_x: FloatArray | float, p_z: FloatArray | float, valid: BoolArray

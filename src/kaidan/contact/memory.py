@@ -48,7 +48,8 @@ class Table(Generic[R]):
     def _made(self, row: int) -> R:
         """Place of a row that is read for the first time."""
         values = None if self.source is None else self.source[row].item()
-        self.places[row] = made = _place(self.record, values)
+        made: R = _place(self.record, values)
+        self.places[row] = made
         return made
 
     def _part(self, first: int, last: int) -> Table[R]:
@@ -69,7 +70,7 @@ class Row(Generic[N]):
 
     __slots__ = ("view",)
 
-    def __init__(self, view: memoryview) -> None:
+    def __init__(self, view: Any) -> None:
         self.view = view
 
     def __len__(self) -> int:
@@ -101,19 +102,21 @@ def _ends(part: slice, count: int) -> tuple[int, int]:
 
 
 @overload
-def empty(kind: type[N], count: int) -> Row[N]: ...
+def empty(kind: type[N], count: int) -> Row[N]: ...  # type: ignore[overload-overlap]
 @overload
 def empty(kind: type[R], count: int) -> Table[R]: ...
 def empty(kind: Any, count: int) -> Any:
     """Row or table that holds nothing yet; it lasts as long as the function that makes it."""
     if kind not in CODES:
         return Table(kind, None, count)
-    return Row(memoryview(array("d", [math.nan]) * count).cast("B").cast(CODES[kind])[:count])
+    places: Any = memoryview(array("d", [math.nan]) * count).cast("B")
+    return Row(places.cast(CODES[kind])[:count])
 
 
 def put(place: R, source: R) -> None:
     """Copy all that one place holds to another."""
-    for name, part in _parts(type(place)):
+    record: Any = type(place)
+    for name, part in _parts(record):
         if part is None:
             setattr(place, name, getattr(source, name))
         else:
@@ -121,7 +124,7 @@ def put(place: R, source: R) -> None:
 
 
 @cache
-def _parts(record: type) -> tuple[tuple[str, Any], ...]:
+def _parts(record: Any) -> tuple[tuple[str, Any], ...]:
     """Name of each field, and of one that is a record its type."""
     hints = get_type_hints(record)
     return tuple(
@@ -130,7 +133,7 @@ def _parts(record: type) -> tuple[tuple[str, Any], ...]:
     )
 
 
-def _place(record: type[R], values: Any) -> R:
+def _place(record: Any, values: Any) -> Any:
     """Place that holds values, nested as its fields are; None: nothing yet."""
     if values is None:
         hints = get_type_hints(record)
@@ -143,5 +146,5 @@ def values_of(place: Any) -> tuple[Any, ...]:
     """What a place holds, nested."""
     return tuple(
         getattr(place, name) if part is None else values_of(getattr(place, name))
-        for name, part in _parts(type(place))
+        for name, part in _parts(place.__class__)
     )

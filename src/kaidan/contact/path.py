@@ -13,6 +13,7 @@ from kaidan.contact.codes import PartKind, Status
 from kaidan.contact.contacts import Contact, contacts_of
 from kaidan.contact.door import Records, zeros
 from kaidan.contact.features import Feature
+from kaidan.contact.kernel.trigonometry import placed
 from kaidan.contact.layout import Margin, Pose, Pull
 from kaidan.contact.records import (
     Body,
@@ -240,8 +241,7 @@ class Path:
     def is_on_flat(self, feature: int, row: int) -> bool:
         """Whether a contact of a pose is a vertex under the straight underside of its part."""
         x, z, phi = self.poses.placement(row)
-        at = (x, z, math.cos(phi), math.sin(phi))
-        return bool(kernel().on_flat(self.scene, feature, at))
+        return bool(kernel().on_flat(self.scene, feature, placed(x, z, phi)))
 
     def largest_inclination(self) -> float:
         """Largest inclination reached, ends of rotations included [rad]."""

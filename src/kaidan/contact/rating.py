@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kaidan.contact.door import table_of, unknown
+from kaidan.contact.door import given, table_of, unknown
 from kaidan.contact.layout import (
     Belts,
     Course,
@@ -23,10 +23,45 @@ from kaidan.contact.records import Ratings
 from kaidan.contact.remembered import body_of, ground_of
 from kaidan.contact.scratch import most_poses
 from kaidan.contact.switch import kernel
+from kaidan.contact.tables import FloatArray
 from kaidan.mechanics import STANDARD_GRAVITY
 
+#: Some rows, each as the fields of one record.
+Rows = Sequence[Sequence[float]] | FloatArray
+
+
+def belts_on(
+    cases: Iterable[Sequence[float]],
+    treads: FloatArray,
+    *,
+    climbs: bool,
+    steep: float,
+    touch: float,
+    slip: float,
+) -> Belts:
+    """Belts with grousers, and on what they stand.
+
+    Parameters
+    ----------
+    cases
+        Of grousers, nosings and friction, all of which have to hold: fields as of
+        `kaidan.contact.layout.GrouserCase`.
+    treads
+        Tilt of the normal of the tread uphill of each point of the ground (n,) [rad]; NaN: none.
+    climbs
+        Whether the way leads up the stairs.
+    steep
+        Slope beyond which the ground is a face [rad].
+    touch
+        Gap up to which a nosing lies on a flat [m].
+    slip
+        How far beyond the spacing of grousers a slip is followed [m].
+    """
+    return given(Belts, table_of(GrouserCase, cases), treads, climbs, steep, touch, slip)
+
+
 #: Of no interest.
-NO_BELTS = Belts((), np.full(1, math.nan), True, 0.0, 0.0, 0.0)
+NO_BELTS = belts_on([], np.full(1, math.nan), climbs=True, steep=0.0, touch=0.0, slip=0.0)
 
 
 def rate_many(
@@ -34,12 +69,12 @@ def rate_many(
     parts: Sequence[ArrayLike],
     kinds: ArrayLike,
     flats: ArrayLike,
-    flights: Sequence[ArrayLike],
+    flights: Sequence[Rows],
     jobs: Sequence[Job],
     *,
     step: float,
-    zones: ArrayLike,
-    edges: ArrayLike,
+    zones: Rows,
+    edges: Rows,
     rough: float,
     tilts: tuple[float, float] = (0.0, 0.0),
     belts: Belts | None = None,
@@ -66,7 +101,7 @@ def rate_many(
     tilts
         Of gravity, towards the trailing and the leading end that comes down [rad].
     belts
-        Belts with grousers; without them it is not found how they hold.
+        Of `belts_on`; without them it is not found how they hold.
 
     Returns
     -------
@@ -83,13 +118,12 @@ def rate_many(
     ground, bodies = ground_of(terrain), [body_of(each, kinds) for each in parts]
     longest = max(each.x_end - each.x_start for each in jobs)
     ratings = unknown(Rating, len(jobs))
-    of_belts = belts or NO_BELTS
-    of_belts = of_belts._replace(grousers=table_of(GrouserCase, of_belts.grousers))
-    course = Course(step, table_of(Zone, zones), table_of(Edge, edges), rough, *tilts)
+    course = given(Course, step, table_of(Zone, zones), table_of(Edge, edges), rough, *tilts)
     kernel().rate_many(
         (ground, np.concatenate(bodies)), np.cumsum([len(each) for each in bodies]),
         np.array(flats, dtype=np.float64), np.cumsum([len(each) for each in flights]),
         table_of(Flight, [row for each in flights for row in each]), table_of(Job, jobs),
-        most_poses(longest, step, len(ground)), STANDARD_GRAVITY, course, of_belts, ratings,
+        most_poses(longest, step, len(ground)), STANDARD_GRAVITY, course,
+        NO_BELTS if belts is None else belts, ratings,
     )  # fmt: skip
     return Ratings(ratings)

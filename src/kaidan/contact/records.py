@@ -240,11 +240,10 @@ class Rotations(_Table, Sequence[RotationRecord]):
     @cached_property
     def _records(self) -> list[RotationRecord]:
         return [
-            RotationRecord(
+            RotationRecord._make((
                 sense, s, pivot, Placement(*start), Placement(*end), *rest,
-                outcome=RotationOutcome(outcome), pivot_point=(pivot_x, pivot_z),
-                barrier_across=across,
-            )
+                RotationOutcome(outcome), (pivot_x, pivot_z), across,
+            ))
             for sense, s, pivot, start, end, *rest, outcome, pivot_x, pivot_z, across
             in self.table.tolist()
         ]  # fmt: skip

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from numpy.typing import ArrayLike
 
+from kaidan.contact.kernel.trigonometry import cos, placed, sin
 from kaidan.contact.remembered import body_of, ground_of
 from kaidan.contact.switch import kernel
 
@@ -47,7 +48,7 @@ def settle(
     found, z, angle, rear, front = kernel().settle(scene, x, inclination, 0.0)
     rear_point = front_point = (math.nan, math.nan)
     if found:
-        at = (x, z, math.cos(angle), math.sin(angle))
+        at = placed(x, z, angle)
         rear_point, front_point = (kernel().gap(scene, each, at)[3:] for each in (rear, front))
     return Settled(
         bool(found), float(z), float(angle), int(rear), int(front), (rear_point, front_point)
@@ -71,5 +72,5 @@ def resting_height(
     0.071
     """
     scene = ground_of(terrain), body_of(parts, kinds)
-    z, _ = kernel().touching(scene, x, math.cos(inclination), math.sin(inclination))
+    z, _ = kernel().touching(scene, x, cos(inclination), sin(inclination))
     return float(z)

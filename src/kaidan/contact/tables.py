@@ -66,7 +66,7 @@ def ground_table(terrain: ArrayLike) -> Records:
     last, *others = points.tolist()
     keep = [last]
     for point in others:
-        if math.dist(point, last) > COLLINEAR:
+        if _length(point[0] - last[0], point[1] - last[1]) > COLLINEAR:
             keep.append(point)
             last = point
     if len(keep) < 2:
@@ -77,7 +77,7 @@ def ground_table(terrain: ArrayLike) -> Records:
     table = zeros(Point, len(xy))
     table["x"], table["z"] = xy.T
     step = np.diff(xy, axis=0)
-    length = np.hypot(step[:, 0], step[:, 1])
+    length = np.sqrt(step[:, 0] * step[:, 0] + step[:, 1] * step[:, 1])
     unit = step / length[:, None]
     u_x, u_z = np.vstack([unit, unit[-1:]]).T
     table["u_x"], table["u_z"] = u_x, u_z
@@ -124,7 +124,7 @@ def _corners(points: list[list[float]]) -> list[list[float]]:
     for then in points[2:]:
         a_x, a_z = then[0] - here[0], then[1] - here[1]
         across = abs(b_x * a_z - b_z * a_x)
-        before, after = math.hypot(b_x, b_z), math.hypot(a_x, a_z)
+        before, after = _length(b_x, b_z), _length(a_x, a_z)
         short, long = (before, after) if before < after else (after, before)
         if across > min(COLLINEAR, 1e-7 * short) * long or b_x * a_x + b_z * a_z <= 0.0:
             corners.append(here)
@@ -141,7 +141,7 @@ def _beyond(last: list[float], end: list[float], level: float) -> list[float]:
     """Point to which the terrain is continued over an end: straight on, or level over a riser."""
     u_x, u_z = level, 0.0
     if last[0] != end[0]:
-        away = math.dist(last, end)
+        away = _length(end[0] - last[0], end[1] - last[1])
         u_x, u_z = (end[0] - last[0]) / away, (end[1] - last[1]) / away
     return [end[0] + BEYOND * u_x, end[1] + BEYOND * u_z]
 
@@ -183,34 +183,36 @@ def body_table(parts: ArrayLike, kinds: ArrayLike | None = None) -> Records:
     if kind.shape != (len(rows),) or not KINDS.issuperset(kind.tolist()):
         raise ValueError("kinds: one of 0 (track), 1 (flipper), 2 (belly) for each part")
     each = zip(rows.tolist(), kind.tolist(), strict=True)
-    return table_of(Part, [_part(*discs, int(of)) for discs, of in each])
+    return table_of(Part, [_part(Disc(*of[:DISC]), Disc(*of[DISC:]), int(of_kind))
+                           for of, of_kind in each])  # fmt: skip
 
 
-def _part(x1: float, z1: float, r1: float, x2: float, z2: float, r2: float, kind: int) -> Part:
-    distance = float(np.hypot(x2 - x1, z2 - z1))
-    if distance <= abs(r1 - r2) + 1e-9:  # one disc holds the other: a single disc
-        if r1 >= r2:
-            x2, z2, r2 = x1, z1, r1
-        else:
-            x1, z1, r1 = x2, z2, r2
-        r1 = r2 = max(r1, SHARPEST)
-        one, two = Disc(x1, z1, r1), Disc(x2, z2, r2)
-        return Part(one, two, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, kind)
-    e_x, e_z = (x2 - x1) / distance, (z2 - z1) / distance
+def _part(one: Disc, two: Disc, kind: int) -> Part:
+    distance = _length(two.x - one.x, two.z - one.z)
+    if distance <= abs(one.r - two.r) + 1e-9:  # one disc holds the other: a single disc
+        larger = one if one.r >= two.r else two
+        only = Disc(larger.x, larger.z, max(larger.r, SHARPEST))
+        return Part(only, only, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, kind)
+    e_x, e_z = (two.x - one.x) / distance, (two.z - one.z) / distance
     side = 1.0 if e_x >= 0 else -1.0  # the side of the axis that looks down
-    sine = (r1 - r2) / distance
-    cosine = float(np.sqrt(1.0 - sine * sine))
+    sine = (one.r - two.r) / distance
+    cosine = math.sqrt(1.0 - sine * sine)
     n_x = sine * e_x + cosine * side * e_z
     n_z = sine * e_z - cosine * side * e_x
-    if r1 < SHARPEST or r2 < SHARPEST:
-        grow1, grow2 = max(SHARPEST - r1, 0.0), max(SHARPEST - r2, 0.0)
-        return _part(
-            x1 - grow1 * n_x, z1 - grow1 * n_z, r1 + grow1,
-            x2 - grow2 * n_x, z2 - grow2 * n_z, r2 + grow2, kind,
-        )  # fmt: skip
-    flat = distance * cosine
-    one, two = Disc(x1, z1, r1), Disc(x2, z2, r2)
-    return Part(one, two, e_x, e_z, distance, sine, cosine, flat, side, kind)
+    if one.r < SHARPEST or two.r < SHARPEST:
+        return _part(_grown(one, n_x, n_z), _grown(two, n_x, n_z), kind)
+    return Part(one, two, e_x, e_z, distance, sine, cosine, distance * cosine, side, kind)
+
+
+def _grown(disc: Disc, n_x: float, n_z: float) -> Disc:
+    """Disc no sharper than `SHARPEST` that touches the same flat, whose normal is given."""
+    grow = max(SHARPEST - disc.r, 0.0)
+    return Disc(disc.x - grow * n_x, disc.z - grow * n_z, disc.r + grow)
+
+
+def _length(x: float, z: float) -> float:
+    """Length of a vector; unlike a hypotenuse of some libm it is the same on every machine."""
+    return math.sqrt(x * x + z * z)
 
 
 def mirror(terrain: ArrayLike, parts: ArrayLike) -> tuple[FloatArray, FloatArray]:

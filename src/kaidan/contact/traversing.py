@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -10,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from kaidan.contact.codes import Status
 from kaidan.contact.door import table_of, unknown, zeros
+from kaidan.contact.kernel.trigonometry import cos, tan
 from kaidan.contact.layout import Job, Journey, Margin, Pull, Summary
 from kaidan.contact.path import Path
 from kaidan.contact.records import Body, Events, Ground, Margins, Poses, Rotations, Summaries
@@ -108,7 +108,7 @@ def traverse(
     ground, body = scene = ground_of(terrain), body_of(parts, kinds)
     entries = kernel()
     scratch = path_scratch(most_poses(x_end - x_start, step, len(ground)))
-    pull = Pull(acceleration, gravity * math.cos(tilt), math.tan(tilt))
+    pull = Pull(acceleration, gravity * cos(tilt), tan(tilt))
     status, *counts = entries.drive(
         scene, Journey(x_start, x_end, inclination, step, gyration), pull, (*scratch, True)
     )
@@ -155,7 +155,7 @@ def arrives(
     """
     ground, body = ground_of(terrain), body_of(parts, kinds)
     scratch = path_scratch(most_poses(x_end - x_start, step, len(ground)))
-    pull = Pull(acceleration, STANDARD_GRAVITY * math.cos(tilt), math.tan(tilt))
+    pull = Pull(acceleration, STANDARD_GRAVITY * cos(tilt), tan(tilt))
     status, *_ = kernel().drive(
         (ground, body), Journey(x_start, x_end, inclination, step, gyration), pull,
         (*scratch, False),

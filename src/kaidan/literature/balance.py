@@ -283,7 +283,8 @@ def balance_along(
 def _energy(run: contact.Path) -> Array:
     """Normalised energy stability margin of each pose: Hirose's, about the outermost contacts."""
     assert run.margins is not None
-    return np.minimum(run.margins.back_rise, run.margins.front_rise)
+    least: Array = np.minimum(run.margins.back_rise, run.margins.front_rise)
+    return least
 
 
 def _marks(run: contact.Path) -> list[int]:
