@@ -122,7 +122,10 @@ class Module:
             for name, each in called.items()
         ]
         most = " ".join(f"Call_{name} of_{name};" for name in called)
-        kinds = [(self.type_of(each, True), getattr(each, "__name__", "")) for each in self.kinds]
+        kinds = [
+            f'{{"{each.__name__}", sizeof({self.type_of(each, True)}), "{self.layout(each)}"}}'
+            for each in self.kinds
+        ]
         runtime = (Path(__file__).parent / "runtime.h").read_text(encoding="utf-8")
         checks, cut, door = runtime.partition("/* A call is")
         return "\n".join([
@@ -130,7 +133,7 @@ class Module:
             *(f"typedef struct {{ {body} }} {name};" for name, body in self.types.items()),
             *(f"{each.head()};" for each in functions.values()), *bodies, '#line 1 "calls"', *runs,
             f"typedef union {{ {most} }} AnyCall;", f'#define SOURCE "{source}"',
-            "#define KINDS " + ", ".join(f'{{"{name}", sizeof({of})}}' for of, name in kinds),
+            f"#define KINDS {', '.join(kinds)}",
             "#define ENTRIES \\", " \\\n".join(rows), '#line 1 "runtime.h"', cut + door,
         ])  # fmt: skip
 

@@ -35,6 +35,9 @@ static _Thread_local struct {
 } now;
 static Block *spare; /* from call to call; changed while the interpreter's lock is held */
 #define WHERE __FILE__, __LINE__
+#ifndef MOST_BYTES
+#define MOST_BYTES ((int64_t)1 << 40)
+#endif
 
 __attribute__((noreturn, cold, noinline))
 static void fault(int kind, int64_t index, int64_t count, const char *file, int line) {
@@ -79,7 +82,7 @@ static inline int64_t max_int64_t(int64_t a, int64_t b) { return b > a ? b : a; 
 static inline int64_t abs_int64_t(int64_t a) { return a < 0 ? -a : a; }
 
 static void *scratch(int64_t count, int64_t size, const char *file, int line) {
-    if (count < 0 || count > ((int64_t)1 << 40) / size) fault(NO_ROOM, count, 0, file, line);
+    if (count < 0 || count > MOST_BYTES / size) fault(NO_ROOM, count, 0, file, line);
     int64_t bytes = (count * size + 15) & ~(int64_t)15, room = 1 << 20;
     if (!now.top || now.top->used + bytes > now.top->size) {
         while (room < bytes || (now.top && room < 2 * now.top->size)) room *= 2;
@@ -121,9 +124,9 @@ static void end(void) {
    b a truth value, T and a letter a table of that kind, ( ) a struct, z what begins as nought. */
 typedef struct { const char *name, *given, *answer; void (*run)(void *); } Entry;
 static const Entry entries[] = { ENTRIES };
-static const struct { const char *name; int64_t size; } kinds[] = { KINDS };
+static const struct { const char *name; int64_t size; const char *held; } kinds[] = { KINDS };
 
-#ifndef __wasm__
+#if !defined(__wasm__) && !defined(ALONE)
 #define Py_LIMITED_API 0x030B0000
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
