@@ -14,10 +14,11 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 
+from kaidan.contact.columns import SETTLED_COLUMNS
+
 from contact_cases import flight, scanned, stadium, steps
 from kaidan import Robot
 from kaidan.contact import STEP, Job, body_table, ground_table, switch, traverse_many
-from kaidan.contact.columns import SETTLED_COLUMNS
 from kaidan.contact.tables import margin_tables, path_tables
 from kaidan.outline import Outline
 from kaidan.terrain.profile import Profile

@@ -1,14 +1,7 @@
-"""The contact kernel as plain C, written from its plain Python source; its rules: docs/subset.md.
+"""The contact kernel as plain C, written from its plain Python source.
 
-::
-
-    scene: Scene, at: At, poses: Table[Pose]    Scene *scene, const At *at, Table_Pose poses
-    poses[k].rear.x, poses[1:n], len(poses)     (&ROW(poses, k))->rear.x, SLICE(..), poses.count
-    VERTEX, Status.OK, math.inf                 0, 0, INFINITY                (constants folded)
-    def f(x: float) -> tuple[float, int]:       static Tuple_double_int64_t gaps_f(double x) {
-
-Local variables are declared from what is assigned to them. What the rules do not know is refused,
-with its file and line.
+Its rules are in ``docs/subset.md``. Local variables are declared from what is assigned to them;
+what the rules do not know is refused, with its file and line.
 """
 
 from __future__ import annotations
@@ -31,16 +24,7 @@ SIGNS = {
 }  # fmt: skip
 WHOLE = {ast.FloorDiv: "FLOOR_DIV", ast.Mod: "FLOOR_MOD"}
 NOTHING = type(None)
-Typed = tuple[str, Any]
-"""Text of an expression in C, and its type in Python."""
-
-
-class RefusedError(SyntaxError):
-    """What the rules of the subset do not know."""
-
-
-class UnknownError(Exception):
-    """A variable to which nothing has been assigned yet."""
+Typed = tuple[str, Any]  # an expression in C, and its type in Python
 
 
 def is_place(of: Any) -> bool:
@@ -94,9 +78,9 @@ class Module:
             if is_place(of) and of not in self.kinds and "Table" not in body:
                 self.kinds.append(of)
         else:
-            raise RefusedError(f"no type of the subset: {of}")
+            raise SyntaxError(f"no type of the subset: {of}")
         if self.types.setdefault(name, body) != body:
-            raise RefusedError(f"two types of the name {name}")
+            raise SyntaxError(f"two types of the name {name}")
         return f"{name} *" if is_place(of) and not inside else name
 
     def layout(self, of: Any) -> str:
@@ -123,8 +107,7 @@ class Module:
         ]
         most = " ".join(f"Call_{name} of_{name};" for name in called)
         kinds = [
-            f'{{"{each.__name__}", sizeof({self.type_of(each, True)}), "{self.layout(each)}"}}'
-            for each in self.kinds
+            (each.__name__, self.type_of(each, True), self.layout(each)) for each in self.kinds
         ]
         runtime = (Path(__file__).parent / "runtime.h").read_text(encoding="utf-8")
         checks, cut, door = runtime.partition("/* A call is")
@@ -133,7 +116,7 @@ class Module:
             *(f"typedef struct {{ {body} }} {name};" for name, body in self.types.items()),
             *(f"{each.head()};" for each in functions.values()), *bodies, '#line 1 "calls"', *runs,
             f"typedef union {{ {most} }} AnyCall;", f'#define SOURCE "{source}"',
-            f"#define KINDS {', '.join(kinds)}",
+            "#define KINDS " + ", ".join(f'{{"{a}", sizeof({b}), "{c}"}}' for a, b, c in kinds),
             "#define ENTRIES \\", " \\\n".join(rows), '#line 1 "runtime.h"', cut + door,
         ])  # fmt: skip
 
@@ -166,20 +149,15 @@ class Function:
         self.file = Path(python.__code__.co_filename).as_posix().rpartition("/src/")[2]
         self.tree: Any = ast.parse(inspect.getsource(python)).body[0]
         ast.increment_lineno(self.tree, python.__code__.co_firstlineno - 1)
-        names = [each for each in ast.walk(self.tree) if isinstance(each, ast.Name)]
-        stored = {each.id for each in names if isinstance(each.ctx, ast.Store)}
-        self.changed = sorted(key for key in stored & set(self.given) if is_value(self.given[key]))
-        self.makes_tables = "empty" in {each.id for each in names}
 
-    def refused(self, node: Any, why: str) -> RefusedError:
-        return RefusedError(f"{self.file}:{node.lineno}: {why}: {ast.unparse(node)}")
+    def refused(self, node: Any, why: str) -> SyntaxError:
+        return SyntaxError(f"{self.file}:{node.lineno}: {why}: {ast.unparse(node)}")
 
     def head(self) -> str:
-        given = []
-        for key, of in self.given.items():
-            by_reference = "const {} *" if is_value(of) else "{} "
-            name = f"{key}_given" if key in self.changed else key
-            given.append(by_reference.format(self.module.type_of(of)) + name)
+        given = [
+            f"{'const ' * is_value(of)}{self.module.type_of(of)} {'*' * is_value(of)}{key}"
+            for key, of in self.given.items()
+        ]
         return f"static {self.module.type_of(self.answer)} {self.name}({', '.join(given)})"
 
     def text(self) -> str:
@@ -188,11 +166,9 @@ class Function:
                 self.learn(node)
         own = {key: of for key, of in self.types.items() if key not in self.given}
         lines = [f"{self.module.type_of(of)} {key};" for key, of in own.items()]
-        lines += [f"{self.given[key].__name__} {key} = *{key}_given;" for key in self.changed]
-        lines += ["Mark kept_ = mark();"] if self.makes_tables else []
+        lines += ["KEEP_UNTIL_LEFT;"] if "empty(" in ast.unparse(self.tree) else []
         body = self.tree.body[1:] if ast.get_docstring(self.tree) else self.tree.body
         lines += [line for each in body for line in self.statement(each)]
-        lines += ["release(kept_);"] if self.makes_tables else []
         return "\n".join([f"{self.head()} {{", *lines, "}"])
 
     def learn(self, node: Any) -> None:
@@ -204,10 +180,8 @@ class Function:
                 self.note(node.targets[0], self.of(node.value))
             elif isinstance(node, ast.AnnAssign):
                 self.note(node.target, eval(ast.unparse(node.annotation), self.scope))
-            elif isinstance(node, ast.AugAssign):
-                self.note(node.target, self.joined(node, self.of(node.target), self.of(node.value)))
-        except UnknownError:
-            pass
+        except SyntaxError:
+            pass  # told when its text is written, unless it is assigned below
 
     def note(self, target: Any, of: Any) -> None:
         if isinstance(target, ast.Tuple):
@@ -222,8 +196,6 @@ class Function:
             raise self.refused(node, f"both {one} and {other}")
         return one if one == other else float
 
-    # statements
-
     def statement(self, node: Any) -> Iterator[str]:
         yield f'#line {node.lineno} "{self.file}"'
         match node:
@@ -235,18 +207,19 @@ class Function:
                 changed = ast.copy_location(ast.BinOp(target, op, value), node)
                 yield from self.assign(target, changed)
             case ast.If(test=test, body=body, orelse=orelse):
-                yield from self.block(f"if ({self.truth(test)})", body)
+                yield from self.block(f"if ({self.number(test, bool)[0]})", body)
                 yield from self.block("else", orelse) if orelse else ()
             case ast.While(test=test, body=body, orelse=[]):
-                yield from self.block(f"while ({self.truth(test)})", body)
-            case ast.For(target=ast.Name(), orelse=[]):
-                yield from self.loop(node)
+                yield from self.block(f"while ({self.number(test, bool)[0]})", body)
+            case ast.For(
+                target=ast.Name(id=key), orelse=[],
+                iter=ast.Call(func=ast.Name(id="range"), args=args),
+            ):  # fmt: skip
+                yield from self.block(
+                    self.counted(args), node.body, *([] if key == "_" else [f"{key} = each_;"])
+                )
             case ast.Return(value=value):
-                given = "" if value is None else self.as_type(value, self.answer)
-                if self.makes_tables and given:
-                    yield f"{self.module.type_of(self.answer)} answer_ = {given};"
-                    given = "answer_"
-                yield f"{'release(kept_); ' * self.makes_tables}return {given};"
+                yield f"return {'' if value is None else self.as_type(value, self.answer)};"
             case ast.Break() | ast.Continue():
                 yield f"{ast.unparse(node)};"
             case _:
@@ -260,41 +233,30 @@ class Function:
     def place(self, target: Any) -> str:
         """Where a number is written to."""
         text, of = self.expression(target)
-        if is_place(of) and not isinstance(target, ast.Name):
-            raise self.refused(target, "a record is copied by put()")
+        if (is_place(of) and not isinstance(target, ast.Name)) or text.startswith("(*"):
+            raise self.refused(target, "a record is copied by put(), a named tuple given stays")
         return text
 
     def assign(self, target: Any, value: Any) -> Iterator[str]:
+        of = self.of(value)
         if not isinstance(target, ast.Tuple):
             yield f"{self.place(target)} = {self.as_type(value, self.of(target))};"
             return
-        of = self.of(value)
         yield f"{{ {self.module.type_of(of)} all_ = {self.as_type(value, of)};"
         for each, key in zip(target.elts, fields(of), strict=True):
             if not isinstance(each, ast.Name) or each.id != "_":
                 yield f"{self.place(each)} = all_.{key};"
         yield "}"
 
-    def loop(self, node: Any) -> Iterator[str]:
-        match node.iter:
-            case ast.Call(func=ast.Name(id="range"), args=args) if len(args) <= 3:
-                first = self.as_type(args[0], int) if len(args) > 1 else "0"
-                last = self.as_type(args[len(args) > 1], int)
-                step = ast.literal_eval(args[2]) if len(args) > 2 else 1
-            case _:
-                raise self.refused(node.iter, "no range")
+    def counted(self, args: list[Any]) -> str:
+        """Head of a loop over a range, of which the count is taken once."""
+        first, last = ("0", *(self.as_type(each, int) for each in args[:2]))[-2:]
+        step = ast.literal_eval(args[2]) if len(args) > 2 else 1
         ends = f"each_ {'<' if step > 0 else '>'} last_; each_ += {step}"
-        head = f"for (int64_t each_ = {first}, last_ = {last}; {ends})"
-        named = [] if node.target.id == "_" else [f"{node.target.id} = each_;"]
-        yield from self.block(head, node.body, *named)
-
-    # expressions
+        return f"for (int64_t each_ = {first}, last_ = {last}; {ends})"
 
     def of(self, node: Any) -> Any:
         return self.expression(node)[1]
-
-    def truth(self, node: Any) -> str:
-        return self.number(node, bool)[0]
 
     def number(self, node: Any, *allowed: Any) -> Typed:
         text, of = self.expression(node)
@@ -305,13 +267,16 @@ class Function:
     def as_type(self, node: Any, of: Any) -> str:
         """An expression where a type is expected."""
         if isinstance(node, ast.Tuple) and (is_value(of) or get_origin(of) is tuple):
-            pairs = zip(node.elts, fields(of).values(), strict=True)
-            inner = ", ".join(self.as_type(each, part) for each, part in pairs)
-            return f"({self.module.type_of(of)}){{{inner}}}"
+            return self.struct(node.elts, of)
         text, own = self.expression(node)
         if self.joined(node, own, of) != of:
             raise self.refused(node, "a whole number is expected")
         return text
+
+    def struct(self, parts: list[Any], of: Any) -> str:
+        pairs = zip(parts, fields(of).values(), strict=True)
+        inner = ", ".join(self.as_type(each, part) for each, part in pairs)
+        return f"({self.module.type_of(of, True)}){{{inner}}}"
 
     def argument(self, node: Any, of: Any) -> str:
         """A named tuple is handed on by reference, as it never changes."""
@@ -335,12 +300,11 @@ class Function:
                 return self.constant(node, value)
             case ast.Name(id=key) | ast.Attribute(value=ast.Name(id=key)) if key not in self.types:
                 if key not in self.scope:
-                    raise UnknownError(f"{self.file}:{node.lineno}: {key}")
+                    raise self.refused(node, "nothing is assigned to it")
                 return self.constant(node, eval(ast.unparse(node), self.scope))
             case ast.Name(id=key):
                 of = self.types[key]
-                reference = is_value(of) and key in self.given and key not in self.changed
-                return (f"(*{key})" if reference else key), of
+                return (f"(*{key})" if is_value(of) and key in self.given else key), of
             case ast.Attribute(value=value, attr=name):
                 text, of = self.expression(value)
                 if not is_place(of) and not is_value(of):
@@ -351,24 +315,23 @@ class Function:
             case ast.Subscript(value=value, slice=index):
                 return self.subscript(node, *self.expression(value), index)
             case ast.UnaryOp(op=ast.Not(), operand=operand):
-                return f"(!{self.truth(operand)})", bool
+                return f"(!{self.number(operand, bool)[0]})", bool
             case ast.UnaryOp(op=ast.USub(), operand=operand):
                 text, of = self.number(operand)
                 return f"(-{text})", of
             case ast.BinOp(left=left, op=op, right=right):
                 return self.operation(node, self.number(left), op, self.number(right))
             case ast.BoolOp(op=op, values=values):
-                return f"({f' {SIGNS[type(op)]} '.join(map(self.truth, values))})", bool
-            case ast.Compare(left=left, ops=ops, comparators=others):
-                if any(isinstance(each, ast.Call) for x in others[:-1] for each in ast.walk(x)):
-                    raise self.refused(node, "a call amid a chain would be made twice")
-                texts = [self.number(each, float, int, bool)[0] for each in (left, *others)]
-                signs = [SIGNS[type(op)] for op in ops]
-                each = zip(texts, signs, texts[1:], strict=False)
-                return f"({' && '.join(map(' '.join, each))})", bool
+                texts = [self.number(each, bool)[0] for each in values]
+                return f"({f' {SIGNS[type(op)]} '.join(texts)})", bool
+            case ast.Compare(left=left, ops=[op], comparators=[right]):
+                one, other = (self.number(each, float, int, bool)[0] for each in (left, right))
+                return f"({one} {SIGNS[type(op)]} {other})", bool
             case ast.IfExp(test=test, body=body, orelse=orelse):
                 (one, of), (other, its) = self.expression(body), self.expression(orelse)
-                return f"({self.truth(test)} ? {one} : {other})", self.joined(node, of, its)
+                return f"({self.number(test, bool)[0]} ? {one} : {other})", self.joined(
+                    node, of, its
+                )
             case ast.Tuple(elts=elts):
                 of = tuple[tuple(map(self.of, elts))]  # type: ignore[misc]
                 return self.as_type(node, of), of
@@ -413,10 +376,8 @@ class Function:
             return text, of
         if name == "len":
             return f"{self.expression(args[0])[0]}.count", int
-        if name in ("int", "float"):
+        if name == "int":
             text, of = self.number(args[0])
-            if name == "float":
-                return f"((double){text})", float
             return (text if of is int else f"WHOLE({text})"), int
         if name == "put":
             return f"*{self.expression(args[0])[0]} = *{self.expression(args[1])[0]}", NOTHING
@@ -426,20 +387,15 @@ class Function:
             inside = self.module.type_of(kind, True)
             count = self.as_type(args[1], int)
             return f"EMPTY({self.module.type_of(table)}, {inside}, {count})", table
-        if is_value(named):
-            begun = list(named._field_defaults.values())[len(args) - len(named._fields) :]
-            args = [*args, *map(ast.Constant, begun if len(args) < len(named._fields) else [])]
-            return self.as_type(ast.Tuple(args, ast.Load()), named), named
-        if is_place(named):
-            begun = [each.default for each in dataclasses.fields(named)][len(args) :]
-            pairs = zip([*args, *map(ast.Constant, begun)], fields(named).values(), strict=True)
-            inner = ", ".join(self.as_type(each, part) for each, part in pairs)
-            return f"(&({named.__name__}){{{inner}}})", named
+        if is_value(named) or is_place(named):
+            missing = list(inspect.signature(named).parameters.values())[len(args) :]
+            more = [ast.Constant(each.default) for each in missing]
+            text = self.struct([*args, *more], named)
+            return f"(&{text})" if is_place(named) else text, named
         if named not in self.module.names:
             raise self.refused(node, "no function of the kernel")
         hints = dict(self.module.hints[named])
         answer = hints.pop("return")
-        given = map(self.argument, args, hints.values())
-        if len(args) != len(hints):
-            raise self.refused(node, f"{len(hints)} arguments are expected")
+        pairs = zip(args, hints.values(), strict=True)
+        given = [self.argument(each, of) for each, of in pairs]
         return f"{self.module.names[named]}({', '.join(given)})", answer

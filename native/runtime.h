@@ -100,8 +100,6 @@ static void *scratch(int64_t count, int64_t size, const char *file, int line) {
 }
 
 #define EMPTY(type, of, n) ((type){scratch((n), sizeof(of), WHERE), (n)})
-static inline Mark mark(void) { return (Mark){now.top, now.top ? now.top->used : 0}; }
-
 static void release(Mark until) { /* the lowest block stays, to be used again */
     while (now.top != until.top && now.top->below) {
         Block *block = now.top;
@@ -110,6 +108,10 @@ static void release(Mark until) { /* the lowest block stays, to be used again */
     }
     if (now.top) now.top->used = now.top == until.top ? until.used : 0;
 }
+
+static inline void left_(Mark *since) { release(*since); }
+#define KEEP_UNTIL_LEFT \
+    __attribute__((cleanup(left_))) Mark since_ = {now.top, now.top ? now.top->used : 0}
 
 static void begin(void) { now.top = spare, spare = NULL; }
 

@@ -356,7 +356,7 @@ class Passed:
     row: int
     """Of the pose before."""
     share: float
-    """Of the way to the next pose."""
+    """Of the distance to the next pose."""
 
 
 @dataclass(slots=True)

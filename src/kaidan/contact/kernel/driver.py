@@ -87,21 +87,21 @@ def exchange(scene: Scene, made: int, held: Held, kappa: float, log: Log) -> tup
     -------
     good, pose
     """
-    good, lost, held = exchanged(scene, made, held, kappa)
+    good, lost, then = exchanged(scene, made, held, kappa)
     if not good:
-        return False, held
-    if same_place(scene, made, lost, placed(held.x, held.z, held.phi)):
+        return False, then
+    if same_place(scene, made, lost, placed(then.x, then.z, then.phi)):
         # one contact by the name of the part that carries from here on
         if log.keeps:
-            record_pose(scene, log.poses[log.n_pose - 1], log.s, held, log.leg)
-        return True, held
+            record_pose(scene, log.poses[log.n_pose - 1], log.s, then, log.leg)
+        return True, then
     # the same pose with its new contacts: the forces jump here
     now = log.n_pose
-    keep_pose(scene, log, held)
-    kind = Event.TAIL_RESTS if made & KIND_MASK == DISC_1 and made == held.rear else Event.MADE
-    write_event(log, kind, held, made, lost, now)
-    write_event(log, Event.LOST, held, lost, made, now)
-    return True, held
+    keep_pose(scene, log, then)
+    kind = Event.TAIL_RESTS if made & KIND_MASK == DISC_1 and made == then.rear else Event.MADE
+    write_event(log, kind, then, made, lost, now)
+    write_event(log, Event.LOST, then, lost, made, now)
+    return True, then
 
 
 def rotate_on(
@@ -125,24 +125,24 @@ def rotate_on(
     x, z, phi = fallen.x, fallen.z, fallen.phi
     if fallen.outcome != RotationOutcome.ARRESTED:
         status, kind = end_of_fall(fallen.outcome, sense)
-        held = Held(x, z, phi, t_x, t_z, t_w, pivot, NO_FEATURE)
-        write_event(log, kind, held, pivot, NO_FEATURE, log.n_pose - 1)
-        return status, held
+        then = Held(x, z, phi, t_x, t_z, t_w, pivot, NO_FEATURE)
+        write_event(log, kind, then, pivot, NO_FEATURE, log.n_pose - 1)
+        return status, then
     at = placed(x, z, phi)
     rear = relabelled(scene, fallen.rear, at)
     front = relabelled(scene, fallen.front, at)
     t_x, t_z, t_w, size = tangent(scene, rear, front, at)
-    held = Held(x, z, phi, t_x, t_z, t_w, rear, front)
+    then = Held(x, z, phi, t_x, t_z, t_w, rear, front)
     if size == 0.0:
-        return Status.NOT_CONVERGED, held
+        return Status.NOT_CONVERGED, then
     now = log.n_pose
-    keep_pose(scene, log, held)
+    keep_pose(scene, log, then)
     if fallen.angle > 1e-7:
-        write_event(log, Event.ARRESTED, held, rear, front, now)
+        write_event(log, Event.ARRESTED, then, rear, front, now)
         if repeats(log.rotations, log.n_rotation):
-            write_event(log, Event.STUCK, held, rear, front, now)
-            return Status.STUCK, held
-    return GOES_ON, held
+            write_event(log, Event.STUCK, then, rear, front, now)
+            return Status.STUCK, then
+    return GOES_ON, then
 
 
 def ended(log: Log, kind: int, held: Held, status: int) -> tuple[int, int, int, int]:

@@ -126,6 +126,7 @@ def rolling_closing(
     -------
     What closes first: what is given unless one of these closes before.
     """
+    found = first
     point = scene.ground[k]
     part = scene.body[number]
     here = point.x
@@ -152,7 +153,7 @@ def rolling_closing(
             continue
         bend = curvature(piece, point, turn, swept)
         value, rate = separation(scene, k, part, piece, turn.start, turn.o_x, turn.o_z, turn.sense)
-        best = first.angle
+        best = found.angle
         if value > 0.0 and value + best * (rate - 0.5 * bend * best) > 0.0:
             continue
         if piece <= TO_TOP or piece >= FROM_DISC_1:
@@ -166,8 +167,8 @@ def rolling_closing(
         )
         at = closing_angle(scene, k, number, piece, turn, best, value, rate, far, far_rate, bend)
         if at < best:
-            first = First(at, feature)
-    return first
+            found = First(at, feature)
+    return found
 
 
 def stays_under(point: Point, turn: Turn) -> bool:
@@ -193,6 +194,7 @@ def part_closing(scene: Scene, number: int, turn: Turn, first: First) -> First:
     -------
     What closes first: what is given unless one of these closes before.
     """
+    best = first
     ground = scene.ground
     part = scene.body[number]
     swept = swept_by(part, turn)
@@ -210,19 +212,19 @@ def part_closing(scene: Scene, number: int, turn: Turn, first: First) -> First:
             k += 1
             continue
         if rolls:
-            first = rolling_closing(
-                scene, k, number, flat.faces_down, top.faces_down, turn, swept, first
+            best = rolling_closing(
+                scene, k, number, flat.faces_down, top.faces_down, turn, swept, best
             )
         else:
             if ground[k].convex:
                 if flat.faces_down:
-                    first = flat_closing(scene, k, number, TO_FLAT, turn, flat, first)
+                    best = flat_closing(scene, k, number, TO_FLAT, turn, flat, best)
                 if top.faces_down:
-                    first = flat_closing(scene, k, number, TO_TOP, turn, top, first)
-                first = arcs_closing(scene, k, number, turn, swept, first)
-            first = segment_closing(scene, k, number, turn, swept, first)
+                    best = flat_closing(scene, k, number, TO_TOP, turn, top, best)
+                best = arcs_closing(scene, k, number, turn, swept, best)
+            best = segment_closing(scene, k, number, turn, swept, best)
         k += 1
-    return first
+    return best
 
 
 def first_closing(scene: Scene, pivot: int, at: At, sense: float, end: float) -> First:

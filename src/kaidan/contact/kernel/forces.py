@@ -100,7 +100,7 @@ def two_contact_forces(
         split = d_x * w_z - d_z * w_x
         if abs(split) > 1e-9 * d * size:
             share = ((x - one.x) * w_z - (z - one.z) * w_x) / split
-            if 0.0 <= share <= 1.0:
+            if share >= 0.0 and share <= 1.0:
                 return Forces(
                     cone_angle(tangential, normal, size),
                     (1.0 - share) * normal, (1.0 - share) * tangential,

@@ -30,7 +30,7 @@ def figure_of(scene: Scene, pose: Pose, margin: Margin, side: float) -> float:
     """
     if side == 0.0:
         friction = margin.required_friction
-        return friction if -math.inf < friction < math.inf else math.inf
+        return friction if abs(friction) < math.inf else math.inf
     tilt, _ = pose_tilt(scene, pose, margin, side, 0.0)
     return -tilt
 

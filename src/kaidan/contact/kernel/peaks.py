@@ -79,7 +79,7 @@ def told(figures: Figures, row: int) -> bool:
     values = figures.values
     if row < 0 or row >= len(values) - 1 or not figures.line[row]:
         return False
-    return -math.inf < values[row] < math.inf and -math.inf < values[row + 1] < math.inf
+    return abs(values[row]) < math.inf and abs(values[row + 1]) < math.inf
 
 
 def open_ways(figures: Figures, tolerance: float, largest: Row[float], ways: Table[Way]) -> int:
@@ -210,14 +210,14 @@ def places_on_ways(
     for cut in range(1, PIECES):
         for k in range(count):
             way = kept[chosen[k]]
-            at = way.s_begin + float(cut) / PIECES * (way.s_end - way.s_begin)
+            at = way.s_begin + cut / PIECES * (way.s_end - way.s_begin)
             rows[(cut - 1) * count + k] = way.row
             shares[(cut - 1) * count + k] = (at - s[way.row]) / (s[way.row + 1] - s[way.row])
 
 
 def end_of_piece(way: Way, cut: int, inside: Row[float], count: int, k: int) -> tuple[float, float]:
     """Place and figure where a way is cut: -1 and `PIECES` + 1 are the poses behind and ahead."""
-    s = way.s_begin + float(cut) / PIECES * (way.s_end - way.s_begin)
+    s = way.s_begin + cut / PIECES * (way.s_end - way.s_begin)
     if cut < 0:
         return way.s_behind, way.behind
     if cut > PIECES:

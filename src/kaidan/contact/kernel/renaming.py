@@ -123,35 +123,36 @@ def record_renamings(scene: Scene, log: Log, held: Held, there: Held, ds: float)
     -------
     how far it is from pose to pose over the step [m]
     """
+    now = held
     at1 = placed(there.x, there.z, there.phi)
     left = ds
     length = 0.0
     for _ in range(4):
         if log.n_pose >= len(log.poses) - 2:
             break
-        at = placed(held.x, held.z, held.phi)
-        rear_on = on_flat(scene, held.rear, at)
-        front_on = on_flat(scene, held.front, at)
+        at = placed(now.x, now.z, now.phi)
+        rear_on = on_flat(scene, now.rear, at)
+        front_on = on_flat(scene, now.front, at)
         if (
-            held.rear == there.rear
-            and held.front == there.front
-            and rear_on == on_flat(scene, held.rear, at1)
-            and front_on == on_flat(scene, held.front, at1)
+            now.rear == there.rear
+            and now.front == there.front
+            and rear_on == on_flat(scene, now.rear, at1)
+            and front_on == on_flat(scene, now.front, at1)
         ):
             break
-        near = least_room(scene, held, rear_on, front_on, at)
-        far = least_room(scene, held, rear_on, front_on, at1)
-        cut = renaming(scene, held, left, rear_on, front_on, near, far)
+        near = least_room(scene, now, rear_on, front_on, at)
+        far = least_room(scene, now, rear_on, front_on, at1)
+        cut = renaming(scene, now, left, rear_on, front_on, near, far)
         if cut > left - 2.0 * PLACE:  # the pose at the end of the step is it
             break
         # found, as `renaming` has looked there
-        _, then, _ = stepped(scene, held, cut)
+        _, then, _ = stepped(scene, now, cut)
         left -= cut
-        length += distance(held, then)
-        held = then
-        record_pose(scene, log.poses[log.n_pose], log.s + length, held, log.leg)
+        length += distance(now, then)
+        now = then
+        record_pose(scene, log.poses[log.n_pose], log.s + length, now, log.leg)
         log.n_pose += 1
-    return length + distance(held, there)
+    return length + distance(now, there)
 
 
 @entry

@@ -74,6 +74,7 @@ def arcs_closing(
     -------
     What closes first: what is given unless it closes before.
     """
+    best = first
     point = scene.ground[k]
     part = scene.body[number]
     v_x = point.x - turn.o_x
@@ -92,9 +93,9 @@ def arcs_closing(
             level, -2.0 * (r_x * v_x + r_z * v_z), -2.0 * turn.sense * (r_x * v_z - r_z * v_x),
             turn.c, turn.s, 2.0 * radius * PENETRATED,
         )  # fmt: skip
-        if at < first.angle:
-            first = First(at, POINT * k + PART * number)
-    return first
+        if at < best.angle:
+            best = First(at, POINT * k + PART * number)
+    return best
 
 
 def segment_closing(
@@ -106,6 +107,7 @@ def segment_closing(
     -------
     What closes first: what is given unless it closes before.
     """
+    best = first
     point = scene.ground[k]
     part = scene.body[number]
     at_k = turn.pivot >> POINT_BITS
@@ -131,17 +133,17 @@ def segment_closing(
             at = turn.sense * (atan2(point.u_x, -point.u_z) - atan2(r_z, r_x))
             if at < -1e-9:
                 at += 2.0 * math.pi
-            if at < first.angle:
-                first = First(max(at, 0.0), feature)
+            if at < best.angle:
+                best = First(max(at, 0.0), feature)
             continue
         even = point.u_x * r_z - point.u_z * r_x
         level = point.u_z * v_x - point.u_x * v_z - radius
         rate = turn.sense * (r_x * point.u_x + r_z * point.u_z)
         beyond = v_x * point.u_x + v_z * point.u_z
         at = crossing_angle_on(level, even, rate, turn.c, turn.s, point.length, -beyond, turn.sense)
-        if at < first.angle:
+        if at < best.angle:
             # along the segment: the centre, turned
             foot = turn.sense * (cos(at) * rate - sin(at) * even) - beyond
             if foot >= 0.0 and foot <= point.length:
-                first = First(at, feature)
-    return first
+                best = First(at, feature)
+    return best
