@@ -84,13 +84,14 @@ class Module:
         return f"{name} *" if is_place(of) and not inside else name
 
     def layout(self, of: Any) -> str:
-        """A type in the words of ``runtime.h``."""
+        """A type in the words of ``runtime.h``; what is no row may begin with noughts."""
         if of is NOTHING or of in LETTERS:
             return LETTERS.get(of, "")
         if element(of):
             self.type_of(of)
             return "T" + chr(ord("A") + self.kinds.index(element(of)))
-        begun = {e.name for e in dataclasses.fields(of) if e.default == 0} if is_place(of) else ()
+        places = dataclasses.fields(of) if is_place(of) and of not in self.kinds else ()
+        begun = {each.name for each in places if each.default == 0}
         inner = ("z" if key in begun else self.layout(part) for key, part in fields(of).items())
         return f"({''.join(inner)})"
 
@@ -106,9 +107,7 @@ class Module:
             for name, each in called.items()
         ]
         most = " ".join(f"Call_{name} of_{name};" for name in called)
-        kinds = [
-            (each.__name__, self.type_of(each, True), self.layout(each)) for each in self.kinds
-        ]
+        kinds = [(e.__name__, self.type_of(e, True), self.layout(e)) for e in self.kinds]
         runtime = (Path(__file__).parent / "runtime.h").read_text(encoding="utf-8")
         checks, cut, door = runtime.partition("/* A call is")
         return "\n".join([
@@ -144,8 +143,7 @@ class Function:
         self.module, self.python, self.name = module, python, module.names[python]
         self.given = dict(module.hints[python])
         self.answer = self.given.pop("return")
-        self.types = dict(self.given)
-        self.scope = python.__globals__
+        self.types, self.scope = dict(self.given), python.__globals__
         self.file = Path(python.__code__.co_filename).as_posix().rpartition("/src/")[2]
         self.tree: Any = ast.parse(inspect.getsource(python)).body[0]
         ast.increment_lineno(self.tree, python.__code__.co_firstlineno - 1)

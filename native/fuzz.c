@@ -1,14 +1,13 @@
-/* libFuzzer over the emitted kernel: clang -fsanitize=fuzzer,address,undefined, with its bounds checked.
+/* libFuzzer over the emitted kernel, built with the sanitizers: see .ci/kernel.
 
    The first byte chooses: a robot driven over terrain, whose poses have to be finite; or any entry with
    any numbers in its tables, which may be refused and nothing else. */
-#define ALONE
 #define POISON
 #define MOST_BYTES ((int64_t)1 << 24)
-#include KERNEL
+#include "calls.h"
 #include <stdio.h>
 
-enum { MOST_ROWS = 40, POSES = 400 };
+enum { MOST_ROWS = 40, POSES = 120 };
 static const uint8_t *bytes;
 static size_t left;
 
@@ -113,52 +112,24 @@ static int64_t whole_number(void) {
     return kind < 200 ? kind & 7 : byte() << 6 | (byte() & 63);
 }
 
-static const char *fill(const char *text, char **at) {
-    char kind = *text++;
-    if (kind == 'b') { *(bool *)(*at)++ = byte() & 1; return text; }
-    *at = (char *)(((uintptr_t)*at + 7) & ~(uintptr_t)7);
-    if (kind == 'd') *(double *)*at = number();
-    else if (kind == 'i') *(int64_t *)*at = whole_number();
-    else if (kind == 'z') *(int64_t *)*at = 0;
+static void fill(char kind, int of, char *at) {
+    if (kind == 'b') *(bool *)at = byte() & 1;
+    else if (kind == 'd') *(double *)at = number();
     else if (kind == 'T') {
-        int of = *text++ - 'A';
         int64_t count = byte() % MOST_ROWS;
-        char *rows = calloc((size_t)count + 1, (size_t)kinds[of].size), *row = rows;
-        for (int64_t k = 0; k < count; k++) {
-            char *place = row;
-            fill(kinds[of].held, &place);
-            row += kinds[of].size;
-        }
-        ((void **)*at)[0] = rows;
-        ((int64_t *)*at)[1] = count;
-        *at += 8;
-    } else {
-        while (*text != ')') text = fill(text, at);
-        *at = (char *)(((uintptr_t)*at + 7) & ~(uintptr_t)7);
-        return text + 1;
-    }
-    *at += 8;
-    return text;
-}
-
-static void release_tables(const char *text, char **at) {
-    for (; *text; text++) {
-        if (*text == 'b') { ++*at; continue; }
-        *at = (char *)(((uintptr_t)*at + 7) & ~(uintptr_t)7);
-        if (*text == 'T') { free(((void **)*at)[0]); *at += 16; text++; }
-        else if (*text != '(' && *text != ')') *at += 8;
-    }
+        *(void **)at = calloc((size_t)count + 1, (size_t)kinds[of].size);
+        *(int64_t *)(at + 8) = count;
+        walk_rows(at, of, fill);
+    } else *(int64_t *)at = kind == 'z' ? 0 : whole_number();
 }
 
 static void ask(void) {
+    static AnyCall given, kept; /* an entry may narrow a table within what it is given */
     const Entry *entry = &entries[byte() % (sizeof(entries) / sizeof(*entries))];
-    static AnyCall given, kept;
-    char *at = (char *)&given;
-    for (const char *text = entry->given; *text;) text = fill(text, &at);
-    kept = given; /* an entry may narrow a table that it is given */
+    walk(entry->given, (char *)&given, fill);
+    kept = given;
     run(entry->run, &given);
-    at = (char *)&kept;
-    release_tables(entry->given, &at);
+    walk(entry->given, (char *)&kept, free_table);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

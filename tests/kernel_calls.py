@@ -4,12 +4,16 @@ import copy
 
 import numpy as np
 
-from contact_cases import flight, stadium, steps
+from contact_cases import LANDING, flight, random_robot, random_terrain, stadium, steps
 from kaidan import contact
 from kaidan.contact import switch
 from kaidan.contact.extremes import Manner, Sampled
 
 G = 9.80665
+STEPS = (0.005, 0.01, 0.02, 0.04)
+"""Arclength between poses [m]: larger ones cost less, and meet other brackets of the same roots."""
+TILTS = (0.0, 0.05, -0.1)
+"""Of gravity [rad]."""
 ROBOT = [*stadium(0.47, 0.2, 0.08, 0.06), [0.2, -0.02, 0.06, 0.45, 0.1, 0.03]]
 KINDS = [0, 1]
 
@@ -128,3 +132,50 @@ def changed(given, path, value):
         return value
     k, *rest = path
     return (*given[:k], changed(given[k], tuple(rest), value), *given[k + 1 :])
+
+
+def random_way(seed):
+    """A random robot from just before the first riser on: the landing is alike for all of them.
+
+    In plain Python a pose among a thousand points of a scan takes a hundred times as long as one on
+    a landing, so that a scan is of what the robot can come near.
+    """
+    rng = np.random.default_rng(seed)
+    parts, kinds = random_robot(rng)
+    terrain = random_terrain(rng)
+    start = terrain[0, 0] + LANDING - np.abs(parts[:, [0, 3]]).max() - 0.25
+    end = min(start + rng.uniform(0.3, 1.0), terrain[-1, 0] - 2)
+    if seed % 5 == 0:
+        x = np.arange(start - 1.5, end + 1.5, 0.02)
+        z = np.interp(x, terrain[:, 0] + 1e-9 * np.arange(len(terrain)), terrain[:, 1])
+        terrain = np.stack([x, z + rng.normal(0, 0.003, len(x))], 1)
+    how = {"kinds": kinds, "acceleration": (0.0, 0.3, -0.5)[seed % 3], "step": STEPS[seed % 4]}
+    return (terrain, parts, start, end), how
+
+
+def asked_of(way, how, seed):
+    """What a drive leaves behind, what lies between its poses, and whether it arrives tilted."""
+    path = contact.traverse(*way, **how)
+    rng = np.random.default_rng(seed)
+    count = len(path.poses)
+    phase = np.sort(rng.integers(0, 3, count))
+    whence = np.where(rng.random(count) < 0.3, path.inclination + 0.1, -np.inf)
+    back, corner = rng.random((2, count)) < 0.2
+    middle = float(np.median(path.poses.front_point[:, 0]))
+    manner = Manner(
+        descending=seed % 2 == 1, whole=seed % 3 == 0, counts=tuple(rng.permutation(3)),
+        tops=[(middle + 0.1, np.inf, -np.inf, np.inf)], flights=[(middle - 0.5, middle)],
+        nosings=np.array([middle]), height=0.1, gyration=0.2, acceleration=how["acceleration"],
+    )  # fmt: skip
+    seen = contact.samples_of(path, phase, 1e-7, acceleration=how["acceleration"])
+    margins, lasts = seen.path.margins, np.arange(len(seen.rows)) % 5 > 0
+    samples = Sampled(
+        seen.path, phase, corner, seen.rows, lasts, np.abs(margins.required_friction),
+        np.abs(margins.traction), np.arange(len(seen.rows)) % 7 == 0,
+    )  # fmt: skip
+    extremes = contact.extremes_of(samples, whence, back, manner)
+    tables = (path.poses, path.events, path.rotations, path.margins, seen.path.poses, margins)
+    return (
+        path.status, *(each.table.tolist() for each in tables), seen.rows.tolist(), extremes,
+        [contact.arrives(*way, tilt=tilt, **how) for tilt in TILTS],
+    )  # fmt: skip
