@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kaidan.contact.codes import CUT_AT_ONCE, PIECES, ROUNDS
-from kaidan.contact.door import zeros
+from kaidan.contact.door import stacked, zeros
 from kaidan.contact.layout import Margin, Pose, Pull
 from kaidan.contact.nosings import nosings_passed
 from kaidan.contact.path import Path
@@ -62,5 +62,5 @@ def samples_of(
         path.scene, path.poses.table, path.margins.table, phase, passed,
         Pull(acceleration, gravity), (rows, poses, margins),
     )  # fmt: skip
-    found = path.with_poses(poses[:total].copy(), margins[:total].copy())
+    found = path.with_poses(stacked([poses[:total]]), stacked([margins[:total]]))
     return Between(found, rows[:total].copy())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import is_dataclass
 from functools import cache, wraps
 from typing import Any, TypeVar, get_args, get_origin, get_type_hints
@@ -52,6 +52,17 @@ def table_of(kind: Any, rows: Iterable[Any]) -> Records:
     """Table of records, or of tuples of their fields."""
     given = [values_of(row) if is_dataclass(row) else tuple(row) for row in rows]
     return np.array(given, dtype=dtype_of(kind))
+
+
+def picked(table: Records, rows: Any) -> Records:
+    """Some rows; each moves whole, as number by number it would take 30 times as long."""
+    return table.view(f"V{table.itemsize}")[rows].view(table.dtype)
+
+
+def stacked(tables: Sequence[Records]) -> Records:
+    """Copy of some tables, one after the other; each row moves whole."""
+    whole = [table.view(f"V{table.itemsize}") for table in tables]
+    return np.concatenate(whole).view(tables[0].dtype)
 
 
 def given(kind: type[T], *fields: Any) -> T:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from kaidan.contact.codes import PartKind, Status
 from kaidan.contact.contacts import Contact, contacts_of
-from kaidan.contact.door import Records, zeros
+from kaidan.contact.door import Records, picked, stacked, zeros
 from kaidan.contact.features import Feature
 from kaidan.contact.kernel.trigonometry import placed
 from kaidan.contact.layout import Margin, Pose, Pull
@@ -195,7 +195,7 @@ class Path:
         Margins
             All but the energy along the flow.
         """
-        return Margins(self._margins(self.poses.table[rows], Pull(acceleration, gravity)))
+        return Margins(self._margins(picked(self.poses.table, rows), Pull(acceleration, gravity)))
 
     def _margins(self, poses: Records, pull: Pull) -> Records:
         table = zeros(Margin, len(poses))
@@ -255,6 +255,6 @@ def joined(paths: Sequence[Path]) -> Path:
     margins = [each.margins.table for each in paths if each.margins is not None]
     return replace(
         paths[0],
-        poses=Poses(np.concatenate([each.poses.table for each in paths])),
-        margins=Margins(np.concatenate(margins)) if len(margins) == len(paths) else None,
+        poses=Poses(stacked([each.poses.table for each in paths])),
+        margins=Margins(stacked(margins)) if len(margins) == len(paths) else None,
     )

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kaidan.contact.door import given, table_of, unknown
+from kaidan.contact.door import given, stacked, table_of, unknown
 from kaidan.contact.layout import (
     Belts,
     Course,
@@ -120,7 +120,7 @@ def rate_many(
     ratings = unknown(Rating, len(jobs))
     course = given(Course, step, table_of(Zone, zones), table_of(Edge, edges), rough, *tilts)
     kernel().rate_many(
-        (ground, np.concatenate(bodies)), np.cumsum([len(each) for each in bodies]),
+        (ground, stacked(bodies)), np.cumsum([len(each) for each in bodies]),
         np.array(flats, dtype=np.float64), np.cumsum([len(each) for each in flights]),
         table_of(Flight, [row for each in flights for row in each]), table_of(Job, jobs),
         most_poses(longest, step, len(ground)), STANDARD_GRAVITY, course,

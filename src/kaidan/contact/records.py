@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from kaidan.contact import layout
 from kaidan.contact.codes import Event, RotationOutcome
-from kaidan.contact.door import Records, table_of, zeros
+from kaidan.contact.door import Records, picked, stacked, table_of, zeros
 from kaidan.contact.tables import FloatArray, IntArray
 
 ONE_PLACE = 1e-8
@@ -89,7 +89,7 @@ class Poses(_Table):
     record = layout.Pose
 
     def __getitem__(self, rows: Rows) -> Poses:
-        return Poses(self.table[rows])
+        return Poses(picked(self.table, rows))
 
     @property
     def rear(self) -> IntArray:
@@ -170,8 +170,8 @@ class Events(_Table, Sequence[EventRecord]):
 
     def merged(self, other: Events) -> Events:
         """Both in the order of their arclengths."""
-        both = np.concatenate([self.table, other.table])
-        return Events(both[np.argsort(both["s"], kind="stable")])
+        both = stacked([self.table, other.table])
+        return Events(picked(both, np.argsort(both["s"], kind="stable")))
 
     def __iter__(self) -> Iterator[EventRecord]:
         for kind, *rest in self.table.tolist():
@@ -258,7 +258,7 @@ class Rotations(_Table, Sequence[RotationRecord]):
     def __getitem__(self, row: int | Rows) -> RotationRecord | Rotations:
         if isinstance(row, int | np.integer):
             return next(iter(Rotations(self.table[row][None])))
-        return Rotations(self.table[row])
+        return Rotations(picked(self.table, row))
 
 
 class Margins(_Table):
@@ -267,7 +267,7 @@ class Margins(_Table):
     record = layout.Margin
 
     def __getitem__(self, rows: Rows) -> Margins:
-        return Margins(self.table[rows])
+        return Margins(picked(self.table, rows))
 
     @property
     def outermost(self) -> IntArray:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kaidan.contact.codes import Status
-from kaidan.contact.door import table_of, unknown, zeros
+from kaidan.contact.door import stacked, table_of, unknown, zeros
 from kaidan.contact.kernel.trigonometry import cos, tan
 from kaidan.contact.layout import Job, Journey, Margin, Pull, Summary
 from kaidan.contact.path import Path
@@ -113,7 +113,7 @@ def traverse(
         scene, Journey(x_start, x_end, inclination, step, gyration), pull, (*scratch, True)
     )
     poses, events, rotations = (
-        table[:count].copy() for table, count in zip(scratch, counts, strict=True)
+        stacked([table[:count]]) for table, count in zip(scratch, counts, strict=True)
     )
     margins = None
     if with_margins:
@@ -179,7 +179,7 @@ def traverse_many(
     bodies = [body_table(r, None if kinds is None else kinds[k]) for k, r in enumerate(robots)]
     summaries = unknown(Summary, len(jobs))
     kernel().traverse_many(
-        (np.concatenate(grounds), np.concatenate(bodies)),
+        (stacked(grounds), stacked(bodies)),
         np.cumsum([len(each) for each in grounds]),
         np.cumsum([len(each) for each in bodies]),
         table_of(Job, jobs), step, gravity, size, with_margins, summaries,
