@@ -11,7 +11,6 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 
-
 from contact_cases import flight, scanned, stadium, steps
 from kaidan import Robot
 from kaidan.contact import STEP, Job, switch, traverse_many

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -14,8 +15,10 @@ from pathlib import Path
 EXACT = ("-std=gnu11", "-O3", "-fwrapv", "-ffp-contract=off", "-fno-math-errno", "-g0")
 #: Tried in this order where the environment names none in ``CC``; any takes the options of GCC.
 COMPILERS = ("cc", "gcc", "clang", "zig")
+#: For which the library is built: a tag of wheels, this machine's unless the environment names one.
+PLATFORM = os.environ.get("KAIDAN_PLATFORM") or re.sub(r"\W", "_", sysconfig.get_platform())
 #: File name of the library: of Python's stable interface.
-LIBRARY = "_native.pyd" if os.name == "nt" else "_native.abi3.so"
+LIBRARY = "_native.pyd" if PLATFORM.startswith("win") else "_native.abi3.so"
 
 
 class NoCompilerError(Exception):
@@ -34,10 +37,10 @@ def compiler() -> list[str]:
 
 def linking() -> list[str]:
     """Options with which Python's own functions are found when the library is loaded."""
-    if os.name == "nt":
-        return ["-shared", str(Path(sys.base_prefix) / "libs" / "python3.lib")]
-    if sys.platform == "darwin":
-        return ["-bundle", "-undefined", "dynamic_lookup"]
+    if PLATFORM.startswith("win"):
+        return ["-shared", f"-L{Path(sys.base_prefix) / 'libs'}", "-lpython3"]
+    if PLATFORM.startswith("macosx"):
+        return ["-shared", "-Wl,-undefined,dynamic_lookup"]
     return ["-shared", "-fPIC"]
 
 

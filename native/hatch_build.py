@@ -2,14 +2,13 @@
 
 A source distribution carries the generated C. Where no C compiler is at hand, or
 ``KAIDAN_BUILD_NATIVE=0`` is set, the package is built pure: it answers the same, about a hundred
-times slower. ``CC`` and ``CFLAGS`` are honored.
+times slower. With ``KAIDAN_BUILD_NATIVE=1`` that is an error. ``CC`` and ``CFLAGS`` are honored.
 """
 
 from __future__ import annotations
 
 import os
 import sys
-import sysconfig
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -18,7 +17,7 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from compiling import LIBRARY, NoCompilerError, compile_library
+from compiling import LIBRARY, PLATFORM, NoCompilerError, compile_library
 from kernel_source import CARRIED, carried_source, kernel_source
 
 #: Python whose stable interface is built for, the oldest that kaidan runs on.
@@ -46,6 +45,8 @@ class NativeKernel(BuildHookInterface[Any]):
         try:
             compile_library(source, library)
         except NoCompilerError as error:
+            if os.environ.get("KAIDAN_BUILD_NATIVE") == "1":
+                raise
             self.app.display_warning(f"kaidan is built without its native kernel: {error}")
             return
         if version == "editable":
@@ -53,8 +54,7 @@ class NativeKernel(BuildHookInterface[Any]):
             return
         build_data["force_include"][str(library)] = f"kaidan/contact/{LIBRARY}"
         build_data["pure_python"] = False
-        platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
-        build_data["tag"] = f"{ABI}-abi3-{platform}"
+        build_data["tag"] = f"{ABI}-abi3-{PLATFORM}"
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
         self.work.cleanup()
