@@ -1,7 +1,4 @@
-"""Speed of the contact kernel, warm, one core: poses, flights, a scan, many traverses.
-
-The native kernel, beside the same compiled by numba (``--numba``: half a minute to compile).
-"""
+"""Speed of the native contact kernel, warm, one core: poses, flights, a scan, many traverses."""
 
 import argparse
 import math
@@ -16,9 +13,11 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from contact_cases import flight, scanned, stadium, steps
 from kaidan import Robot
-from kaidan.contact import STEP, Job, body_table, ground_table, switch, traverse_many
-from kaidan.contact.columns import SETTLED_COLUMNS
-from kaidan.contact.tables import margin_tables, path_tables
+from kaidan.contact import STEP, Job, switch, traverse_many
+from kaidan.contact.door import zeros
+from kaidan.contact.layout import Journey, Margin, Pull
+from kaidan.contact.scratch import path_scratch
+from kaidan.contact.tables import body_table, ground_table
 from kaidan.outline import Outline
 from kaidan.terrain.profile import Profile
 from kaidan.traversal import traverse
@@ -26,14 +25,14 @@ from record import finish, options
 
 G = 9.80665
 KENAF = stadium(0.470, 0.196, 0.071, 0.06)
-SETTLED, POSE = "settled pose from scratch [us]", "pose along a traverse [us]"
+CALL = "call that does next to nothing, from Python [us]"
+SETTLED, POSE = "settled pose from scratch, a call each [us]", "pose along a traverse [us]"
 MOTION, EVERY = "flight of 12 steps, motion [ms]", "the same with every margin [ms]"
 SCAN, MANY = "scan, 1 cm, 3 mm noise [ms]", "random traverse from Python [ms]"
 POINTS = "growth of a traverse from 10^4 to 10^5 points [power]"
 STEPS = "growth of a traverse from 300 to 3,000 steps [power]"
 BASELINE = "plain numpy, dropped and turned, a pose [us]"
-TARGETS = {SETTLED: 0.6, POSE: 0.5, MOTION: 0.24, EVERY: 0.6, SCAN: 0.65, MANY: 0.3}
-TARGETS |= {f"{name} / numba's": 0.7 for name in (SETTLED, POSE, MOTION, EVERY, SCAN)}
+TARGETS = {CALL: 0.6, SETTLED: 1.2, POSE: 0.5, MOTION: 0.24, EVERY: 0.6, SCAN: 0.65, MANY: 0.3}
 TARGETS |= {POINTS: 1.1, STEPS: 1.1}
 
 
@@ -108,31 +107,38 @@ def random_jobs(count, rng):
 
 
 def kernel_figures(entries, rng, repeat=30):
-    """Figures of one kernel."""
-    tables = path_tables(8000)
+    """Figures of the kernel."""
+    log = path_scratch(8000)
     terrain = flight(np.radians(40), 0.15)
-    ground, body = ground_table(terrain), body_table(KENAF)
+    scene = ground_table(terrain), body_table(KENAF)
     end = 11 * 0.15 * np.cos(np.radians(40)) + 0.8
+    journey, pull = Journey(-1.0, end, 0.0, STEP, 0.2), Pull(0.0, G, 0.0)
 
-    def motion(g=ground):
-        return entries.drive(g, body, -1.0, end, 0.0, STEP, 0.0, G, 0.0, 0.2, True, *tables)
+    def motion(over=scene):
+        return entries.drive(over, journey, pull, (*log, True))
 
     count = motion()[1]
-    table, found = margin_tables(count)
-    rows = np.arange(count)
+    margins, rows = zeros(Margin, count), np.arange(count)
 
     def every_margin():
         motion()
-        entries.pose_margins(ground, body, tables[0], count, 0.0, G, 1e-9, table, found)
-        entries.flow_energy(ground, body, tables[0], table, rows)
+        entries.pose_margins(scene, log.poses[:count], pull, margins)
+        entries.flow_energy(scene, log.poses[:count], margins, rows)
 
-    x = np.linspace(-0.5, 1.2, 2000)
-    slope, rest = np.full(len(x), 0.3), np.empty((len(x), SETTLED_COLUMNS))
-    rough = ground_table(np.stack(scanned(terrain, rng), 1))
+    def settle_each():
+        for each in x:
+            entries.settle(scene, each, 0.3, 0.0)
+
+    def call_each():
+        for _ in x:
+            entries.row_before(log.poses, -9.0)
+
+    x = np.linspace(-0.5, 1.2, 2000).tolist()
+    rough = ground_table(np.stack(scanned(terrain, rng), 1)), scene[1]
     whole = best(motion, repeat)
-    settled = best(lambda: entries.settle_many(ground, body, x, slope, 0.0, rest), repeat)
     return {
-        SETTLED: 1e6 * settled / len(x),
+        CALL: 1e6 * best(call_each, repeat) / len(x),
+        SETTLED: 1e6 * best(settle_each, repeat) / len(x),
         MOTION: 1e3 * whole,
         POSE: 1e6 * whole / count,
         EVERY: 1e3 * best(every_margin, repeat),
@@ -141,15 +147,8 @@ def kernel_figures(entries, rng, repeat=30):
 
 
 def main():
-    parser = options(argparse.ArgumentParser(description=__doc__))
-    parser.add_argument("--numba", action="store_true", help="time numba's kernel too")
-    chosen = parser.parse_args()
+    chosen = options(argparse.ArgumentParser(description=__doc__)).parse_args()
     figures = kernel_figures(switch.kernel(), np.random.default_rng(0))
-    if chosen.numba:
-        from numba_kernel import numba_kernel
-
-        beside = kernel_figures(numba_kernel(), np.random.default_rng(0))
-        figures |= {f"{name} / numba's": figures[name] / beside[name] for name in beside}
     rng = np.random.default_rng(1)
     terrains, robots, jobs = random_jobs(1000, rng)
     terrain = flight(np.radians(40), 0.15)

@@ -30,7 +30,6 @@ from typing import Any
 
 import pytest
 
-from compiled_mutants import CompiledMutants
 from mutants import HANGS, KILLED, SURVIVES, UNTESTED, Mutant, answers, mutants
 
 LEAST_LIMIT = 1.0
@@ -152,9 +151,7 @@ class Run:
         self.again = None
         if chosen.again is not None:
             self.again = {each.key for each in answers(chosen.again) if each.lives}
-        self.mutants: ExchangedMutants | CompiledMutants = ExchangedMutants(self.paths)
-        if chosen.compiled:
-            self.mutants = CompiledMutants(self.paths, self.out.parent)
+        self.mutants = ExchangedMutants(self.paths)
         self.failed = False
 
     def pytest_configure(self) -> None:
@@ -320,14 +317,8 @@ def main() -> None:
     arguments.add_argument(
         "--native", action="store_true", help="on the native kernel: for code outside it"
     )
-    arguments.add_argument(
-        "--compiled", action="store_true",
-        help="modules of the kernel: all their mutants in one native kernel, kept beside OUT",
-    )  # fmt: skip
     chosen = arguments.parse_args(sys.argv[1:split])
-    os.environ["KAIDAN_KERNEL"] = "plain"
-    if chosen.native or chosen.compiled:
-        os.environ["KAIDAN_KERNEL"] = "native"
+    os.environ["KAIDAN_KERNEL"] = "native" if chosen.native else "plain"
     tests = sys.argv[split + 1 :]
     pytest.main(["-q", "-s", *OFF, *tests], plugins=[Run(chosen)])
 

@@ -25,8 +25,9 @@ def outline_distance(part, p):
 def room(ground, parts, c, phi):
     """Least distance between parts and ground at each pose; `parts` with ends apart."""
     turn = np.exp(-1j * phi)[:, None]
-    points = ground[:, 0] + 1j * ground[:, 1]
-    starts, u, length = points[:-1], ground[:-1, 2] + 1j * ground[:-1, 3], ground[:-1, 4]
+    points = ground["x"] + 1j * ground["z"]
+    starts, u = points[:-1], (ground["u_x"] + 1j * ground["u_z"])[:-1]
+    length = ground["length"][:-1]
     least = np.full(len(c), np.inf)
     for part in parts:
         least = np.minimum(least, outline_distance(part, (points - c[:, None]) * turn).min(1))

@@ -157,7 +157,10 @@ def test_on_a_terminal_a_question_is_put_again(monkeypatch, tmp_path, capsys):
         asking.ask(Surface)
 
 
-ASKING = "import sys; from kaidan.cli import asking; from kaidan.__main__ import main; asking.PATIENCE = 0.5; main()"
+ASKING = (
+    "import sys; from kaidan.cli import asking; from kaidan.__main__ import main; "
+    "asking.PATIENCE = 0.5; main()"
+)
 
 
 def asked_through(tmp_path, source):

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from kaidan import Robot
-from kaidan.contact import Feature, FeatureKind, Placement, Poses, belt_slides, body_table
-from kaidan.contact import columns as at
+from kaidan.contact import Feature, FeatureKind, Placement, Poses, belt_slides, body_table, layout
 from kaidan.modes import Phase
 from kaidan.robot import Posture
 from kaidan.traversal.drift import drift
 from kaidan.traversal.moves import BEHIND, move
+from kernel_memory import nothing
 
 ABSOLEM = Robot.named("absolem")
 FLOOR = [[-5.0, 0.0], [5.0, 0.0]]
@@ -22,16 +22,15 @@ R, L, SMALL = 0.1, 0.4, 1e-3
 
 
 def path_of(poses, outlines):
-    """Path of poses that are given by column."""
-    table = np.full((len(poses.x), at.POSE_COLUMNS), np.nan)
-    table[:, at.POSE_X], table[:, at.POSE_Z], table[:, at.POSE_PHI] = (
-        poses.x, poses.z, poses.inclination
-    )  # fmt: skip
-    table[:, at.POSE_REAR], table[:, at.POSE_FRONT] = poses.rear, poses.front
+    """Path of poses that are given by name."""
+    table = nothing(layout.Pose, len(poses.x))
+    for name in ("x", "z", "inclination"):
+        table[name] = getattr(poses, name)
     for end in ("rear", "front"):
-        x, n_x = (getattr(at, f"{end.upper()}_{each}") for each in ("X", "N_X"))
-        table[:, x : x + 2] = getattr(poses, f"{end}_point")
-        table[:, n_x : n_x + 2] = getattr(poses, f"{end}_normal")
+        touch = table[end]
+        touch["feature"] = getattr(poses, end)
+        touch["x"], touch["z"] = getattr(poses, f"{end}_point").T
+        touch["n_x"], touch["n_z"] = getattr(poses, f"{end}_normal").T
     bodies = np.stack([body_table(each.parts) for each in outlines])
     return SimpleNamespace(poses=Poses(table), bodies=bodies)
 

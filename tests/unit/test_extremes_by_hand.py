@@ -41,7 +41,7 @@ BODY = SimpleNamespace(stance=SimpleNamespace(flat_length=0.5, com_height=0.1), 
 
 def found(**more):
     """Figures of a phase, each place of the energies at a nosing of its own."""
-    usual = dict.fromkeys(contact.Extreme._fields, math.nan) | {
+    usual = dict.fromkeys(contact.Extreme.__annotations__, math.nan) | {
         "poses": 4.0, "friction": 0.5, "friction_place": NOSINGS[2, 0], "static_margin": 0.2,
         "traction": 4.0, "belly": 0.0, "energy": 0.002, "energy_place": NOSINGS[1, 0],
         "steadiness": 0.0015, "steadiness_place": NOSINGS[0, 0], "uphill": math.inf,

@@ -9,10 +9,12 @@ import pytest
 from contact_cases import vector
 from kaidan import contact
 from kaidan.contact import Contact, Event, EventRecord, Feature, FeatureKind, PartKind
-from kaidan.contact.columns import GROUND_COLUMNS, POSE_COLUMNS, POSE_PHI, POSE_X, POSE_Z, X, Z
+from kaidan.contact.door import table_of
 from kaidan.contact.kernel.passings import along_flat
+from kaidan.contact.layout import Part, Passed, Point
 from kaidan.traversal.contact_forces import contact_forces
 from kaidan.traversal.nosing_events import TOUCH, nosing_events
+from kernel_memory import made, posed, table
 
 G = 9.80665
 
@@ -23,7 +25,7 @@ def passed(monkeypatch):
 
     def told(path, touch):
         assert touch == TOUCH
-        return np.array(path.passings, dtype=float).reshape(-1, 6)
+        return table_of(Passed, path.passings)
 
     monkeypatch.setattr(contact, "nosings_passed", told)
 
@@ -38,7 +40,7 @@ def path_of(passings):
 
 def test_an_event_lies_between_two_poses():
     """A quarter of the way from (3, 9, -3) to (4, 16, -4)."""
-    left, reached = [2.2, 0.0, 7.0, 1.0, 3.0, 0.25], [4.0, 1.0, 8.0, 0.0, 5.0, 0.0]
+    left, reached = (2.2, False, 7, 1, 3, 0.25), (4.0, True, 8, 0, 5, 0.0)
     found = list(nosing_events(path_of([left, reached])))
     one, other = (Feature(*each, FeatureKind.VERTEX).code for each in ((7, 1), (8, 0)))
     assert found == [
@@ -67,10 +69,9 @@ def test_place_along_a_flat_by_hand():
     c, s = math.cos(turned), math.sin(turned)
     centroid = np.array([1.5, 0.7])
     x, z = (centroid + points @ np.array([[c, s], [-s, c]])).T
-    ground, poses = np.zeros((4, GROUND_COLUMNS)), np.zeros((1, POSE_COLUMNS))
-    ground[:, [X, Z]] = np.stack([x, z], axis=1)
-    poses[0, [POSE_X, POSE_Z, POSE_PHI]] = *centroid, turned
-    each = [along_flat(ground, run.body.table, poses, 0, 0, k) for k in range(4)]
+    ground = table(Point, made(Point, *({"x": x[k], "z": z[k]} for k in range(4))))
+    part, place = table(Part, run.body.table)[0], posed(*centroid, turned)
+    each = [along_flat(part, point, place) for point in ground]
     along, gap = zip(*each, strict=True)
     np.testing.assert_allclose(along, [0.0, length, 0.0, length], atol=1e-12)
     np.testing.assert_allclose(gap, [0.0, 0.0, 0.03, -0.01], atol=1e-12)

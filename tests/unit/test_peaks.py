@@ -6,46 +6,53 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from kaidan.contact import columns as at
 from kaidan.contact.codes import CUT_AT_ONCE, PIECES, ROUNDS
 from kaidan.contact.kernel import peak_search
 from kaidan.contact.kernel.peaks import LEAST, is_open, promised, slope, told
-from kaidan.contact.scratch import peak_scratch
+from kaidan.contact.layout import Figures, Margin, Pose, Pull, Samples
+from kernel_memory import made, nothing, numbers, table
 
 NAN = math.nan
 
 
 def search(figure, s, leg=0.0, group=None, narrow=None):
     """Largest figure found in between of group 0, the places and the rows."""
-    poses = np.full((len(s), at.POSE_COLUMNS), NAN)
-    poses[:, at.POSE_S], poses[:, at.POSE_LEG] = s, leg
-    group = np.zeros(len(s), dtype=int) if group is None else group
-    narrow = np.zeros(len(s), dtype=int) if narrow is None else narrow
+    count = len(s)
+    poses = nothing(Pose, count)
+    poses["s"], poses["leg"] = s, leg
+    group = np.zeros(count, dtype=int) if group is None else group
+    narrow = np.zeros(count, dtype=bool) if narrow is None else narrow
 
-    def poses_between(ground, body, of, rows, shares, count, new):
-        assert ((shares[:count] > 0) & (shares[:count] < 1)).all()
-        begin = of[rows[:count], at.POSE_S]
-        new[:count, at.POSE_S] = begin + shares[:count] * (of[rows[:count] + 1, at.POSE_S] - begin)
+    def poses_between(scene, of, rows, shares, new):
+        for k, pose in enumerate(new):
+            assert 0.0 < shares[k] < 1.0
+            begin, end = of[rows[k]].s, of[rows[k] + 1].s
+            pose.s = begin + shares[k] * (end - begin)
 
-    def pose_margins(ground, body, new, count, a, g, touch, margins, contacts):
-        assert (a, g, touch) == (0.5, 9.8, 1e-9)
-        margins[:count, at.TRACTION] = new[:count, at.POSE_S]
+    def pose_margins(scene, new, pull, margins):
+        assert pull == Pull(0.5, 9.8)
+        for pose, margin in zip(new, margins, strict=True):
+            margin.traction = pose.s
 
-    def figure_of(ground, body, new, margins, row, side, hint):
+    def figure_of(scene, pose, margin, side):
         assert side == -1.0
-        return float(figure(margins[row, at.TRACTION])), hint
+        assert margin.traction == pose.s
+        return float(figure(margin.traction))
 
-    scratch = peak_scratch(len(s), int(group.max()) + 1)
+    groups = int(group.max()) + 1
+    room = peak_search.most_peaks(groups)
+    found = Samples(numbers(np.zeros(room), int), table(Pose, room), table(Margin, room))
+    figures = Figures(
+        numbers(np.zeros(count)), numbers(np.zeros(count), bool), numbers(figure(poses["s"])),
+        numbers(group, int), numbers(narrow, bool),
+    )  # fmt: skip
     with pytest.MonkeyPatch.context() as patch:
         for each in (poses_between, pose_margins, figure_of):
             patch.setattr(peak_search, each.__name__, each)
-        count = peak_search.find_peaks(
-            None, None, poses, figure(poses[:, at.POSE_S]), group, narrow, 1e-4, -1.0, 0.5, 9.8,
-            1e-9, *scratch,
-        )  # fmt: skip
-    rows, between, margins = (each[:count].copy() for each in scratch[-3:])
-    places = between[:, at.POSE_S]
-    assert (margins[:, at.TRACTION] == places).all()
+        how = groups, 1e-4, -1.0, Pull(0.5, 9.8)
+        count = peak_search.find_peaks(None, table(Pose, poses), figures, *how, found)
+    places = np.array([pose.s for pose in found.poses[0:count]])
+    rows = np.array(list(found.rows)[:count])
     return max(figure(places), default=-math.inf), places, rows
 
 
@@ -71,7 +78,7 @@ def test_a_peak_hides_before_a_higher_pose():
     def figure(s):
         return np.interp(s, [0, 1, 2, 2.5, 3, 4], [0.0, 1.0, 1.95, 2.04, 1.96, 2.0])
 
-    highest, _, _ = search(figure, range(5), narrow=np.ones(5, dtype=int))
+    highest, _, _ = search(figure, range(5), narrow=np.ones(5, dtype=bool))
     assert highest == pytest.approx(2.04, rel=1e-4)
     assert len(search(figure, range(5))[1]) == 0  # no line tells of it
 
@@ -123,14 +130,18 @@ def test_a_way_is_open_that_promises_more_than_the_tolerance():
 
 
 def test_told_where_a_line_leads_on_between_known_figures():
-    line = np.array([1, 0, 1, 1, 1, 1, 1])
-    values = np.array([1.0, 2.0, 3.0, math.inf, -math.inf, 4.0, 5.0])
-    assert [told(line, values, row) for row in range(-1, 7)] == [
+    line = [True, False, True, True, True, True, True]
+
+    def figures(*values):
+        return Figures(None, line, values, None, None)
+
+    values = figures(1.0, 2.0, 3.0, math.inf, -math.inf, 4.0, 5.0)
+    assert [told(values, row) for row in range(-1, 7)] == [
         False, True, False, False, False, False, True, False,
     ]  # fmt: skip
     for hidden in (math.inf, -math.inf, NAN):
-        assert not told(line, np.array([hidden, 2.0]), 0)
-        assert not told(line, np.array([2.0, hidden]), 0)
+        assert not told(figures(hidden, 2.0), 0)
+        assert not told(figures(2.0, hidden), 0)
 
 
 def arch(s):
@@ -193,25 +204,25 @@ def test_lines_through_the_neighbours_bound_a_figure():
 
 def test_the_figures_of_which_peaks_are_looked_for(monkeypatch):
     """Friction, infinite where nothing holds; or minus the tilt at which a pose rotates at all."""
-    margins = np.full((4, at.MARGIN_COLUMNS), 7.0)
-    margins[:, at.FRICTION] = [0.4, NAN, -math.inf, math.inf]
-    found = [peak_search.figure_of(None, None, None, margins, row, 0.0, 3) for row in range(4)]
-    assert found == [(0.4, 3), *[(math.inf, 3)] * 3]
+    rows = [{"required_friction": mu} for mu in (0.4, NAN, -math.inf, math.inf)]
+    margins = table(Margin, made(Margin, *rows))
+    found = [peak_search.figure_of(None, None, margin, 0.0) for margin in margins]
+    assert found == [0.4, *[math.inf] * 3]
 
-    def pose_tilt(ground, body, poses, of, row, side, tolerance, hint):
-        assert of is margins
-        return 0.1 * row + side, tolerance, hint + 1
+    def pose_tilt(scene, pose, margin, side, tolerance):
+        assert margin is margins[2]
+        return 0.2 + side, tolerance
 
     monkeypatch.setattr(peak_search, "pose_tilt", pose_tilt)
     for side in (1.0, -1.0):
-        found = peak_search.figure_of(None, None, "poses", margins, 2, side, 3)
-        assert found == (pytest.approx(-0.2 - side), 4)
+        found = peak_search.figure_of(None, "pose", margins[2], side)
+        assert found == pytest.approx(-0.2 - side)
 
 
 def test_a_way_leads_on_along_one_line_of_poses_and_over_a_distance():
     """Poses 1e-8 m apart stand at one place; what lies between two lines is a rotation."""
     tent = lambda s: 1.0 - np.abs(s - 0.5)  # noqa: E731
-    hides = np.ones(2, dtype=int)
+    hides = np.ones(2, dtype=bool)
     assert len(search(tent, [0.0, 0.9], narrow=hides)[1])
     assert len(search(tent, [0.0, 0.9], leg=[0, 1], narrow=hides)[1]) == 0
     flat = lambda s: 1.0 + 0.0 * s  # noqa: E731
@@ -220,19 +231,6 @@ def test_a_way_leads_on_along_one_line_of_poses_and_over_a_distance():
 
 
 def test_places_of_one_search_do_not_stay_for_the_next():
-    """Its tables are those of the thread, which has room for the longest so far."""
-    one = peak_scratch(5, 2)
-    assert peak_scratch(4, 1) is one
-    longer = peak_scratch(len(one.s) + 1, 1)
-    assert len(longer.largest) == len(one.largest)
-    assert len(longer.s) == len(longer.line) == len(one.s) + 1
-    wider = peak_scratch(3, len(longer.largest) + 1)
-    assert (len(wider.largest), len(wider.s)) == (len(longer.largest) + 1, len(longer.s))
-    places = (PIECES - 1) * CUT_AT_ONCE * len(wider.largest)
-    for each in (wider.rows, wider.between, wider.margins):
-        assert len(each) == ROUNDS * places
-    for each in (wider.ways, wider.kept, wider.order):
-        assert len(each) == len(wider.s) + ROUNDS * places
     first = search(arch, range(6))
     search(lambda s: -arch(s), range(9))
     again = search(arch, range(6))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kaidan import contact
-from kaidan.contact import columns
+from kaidan.contact import layout
 from kaidan.terrain.profile import Profile
 from kaidan.traversal.phases import (
     flights_span,
@@ -18,6 +18,7 @@ from kaidan.traversal.phases import (
     top_zones,
     uneven_span,
 )
+from kernel_memory import nothing
 
 ROOM = 0.5
 """Length of the flat [m]."""
@@ -76,9 +77,9 @@ def driven(rows, descending):
     """Path with contacts alone, and the profile as driven."""
     sign = np.array([-1.0 if descending else 1.0, 1.0])
     rear, front = (np.array([row[k] for row in rows], dtype=float) * sign for k in (0, 1))
-    table = np.full((len(rows), columns.POSE_COLUMNS), np.nan)
-    table[:, [columns.REAR_X, columns.REAR_Z]] = rear
-    table[:, [columns.FRONT_X, columns.FRONT_Z]] = front
+    table = nothing(layout.Pose, len(rows))
+    for end, points in (("rear", rear), ("front", front)):
+        table[end]["x"], table[end]["z"] = np.transpose(points)
     path = SimpleNamespace(poses=contact.Poses(table))
     return path, PROFILE.reflected() if descending else PROFILE
 

@@ -166,9 +166,8 @@ def test_what_is_asked_of_the_kernel(monkeypatch):
     assert asked["flights"] == [slopes_of_flights(UNEVEN, each) for each in asked["lengths"]]
     ((_, outline, ends, step),) = refused
     assert (outline, ends, step) == (longer, span(UNEVEN, longer, None, None), 0.05)
-    jobs = [tuple(each) for each in asked["jobs"]]
-    assert [each[:2] for each in jobs] == [(0, 0), (0, 1), (0, 2)]
-    assert [each[4] for each in jobs] == [0.3, 0.0, 0.0]
+    assert [(each.terrain, each.robot) for each in asked["jobs"]] == [(0, 0), (0, 1), (0, 2)]
+    assert [each.inclination for each in asked["jobs"]] == [0.3, 0.0, 0.0]
 
 
 ROBOTS = {name: Robot.named(name) for name in ("kenaf", "marv")}

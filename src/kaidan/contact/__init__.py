@@ -10,31 +10,33 @@ from kaidan.contact.codes import (
     ROCKING,
     TRACK,
     Event,
-    Feature,
-    FeatureKind,
-    FeatureTable,
     PartKind,
     RotationOutcome,
     Status,
 )
-from kaidan.contact.contacts import Contact, PairForces, pair_forces, spring_loads
-from kaidan.contact.extremes import Extreme, Manner, Sampled, extremes_of
+from kaidan.contact.contacts import Contact, pair_forces, spring_loads
+from kaidan.contact.extremes import Manner, Sampled, extremes_of
+from kaidan.contact.features import Feature, FeatureKind, FeatureTable
 from kaidan.contact.heights import TouchingHeights, touching_heights
-from kaidan.contact.margin_records import Job, Margins, Summaries
+from kaidan.contact.layout import Belts, Extreme, Grousers, Job
+from kaidan.contact.layout import Forces as PairForces
 from kaidan.contact.nosings import nosings_passed
 from kaidan.contact.path import Path, joined
 from kaidan.contact.phases import Zone, phases_by_zones
-from kaidan.contact.rating import Belts, Ratings, rate_many
+from kaidan.contact.rating import belts_on, rate_many
 from kaidan.contact.records import (
     ONE_PLACE,
     Body,
     EventRecord,
     Events,
     Ground,
+    Margins,
     Placement,
     Poses,
+    Ratings,
     RotationRecord,
     Rotations,
+    Summaries,
 )
 from kaidan.contact.remembered import ground_of
 from kaidan.contact.rest import Settled, resting_height, settle
@@ -42,7 +44,7 @@ from kaidan.contact.rotations import impact_speeds, rotated
 from kaidan.contact.slipping import held_while_slipping
 from kaidan.contact.standing import belt_slides, stand_in_turn
 from kaidan.contact.steepest import steepest_flight
-from kaidan.contact.supports import Grousers, Supports
+from kaidan.contact.supports import Supports
 from kaidan.contact.switch import (
     kernel_in_use,
     use_kernel,
@@ -96,6 +98,7 @@ __all__ = [
     "Zone",
     "arrives",
     "belt_slides",
+    "belts_on",
     "body_table",
     "extremes_of",
     "ground_of",

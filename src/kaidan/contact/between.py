@@ -6,9 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from kaidan.contact.codes import CUT_AT_ONCE, PIECES, ROUNDS
+from kaidan.contact.door import stacked, zeros
+from kaidan.contact.layout import Margin, Pose, Pull
 from kaidan.contact.nosings import nosings_passed
-from kaidan.contact.path import TOUCH, Path
-from kaidan.contact.scratch import peak_scratch, sample_scratch
+from kaidan.contact.path import Path
 from kaidan.contact.switch import kernel
 from kaidan.contact.tables import IntArray
 from kaidan.mechanics import STANDARD_GRAVITY
@@ -54,15 +56,11 @@ def samples_of(
     """
     assert path.margins is not None
     passed, count = nosings_passed(path, touch), len(path.poses)
-    peaks = peak_scratch(count, GROUPS)
-    room = len(passed) + len(peaks.rows) + 2 * count
-    group, narrow = np.empty((2, count), dtype=np.int64)
-    *scratch, _, _, _ = peaks
-    rows, poses, margins = sample_scratch(count + room)
+    room = 3 * count + len(passed) + GROUPS * ROUNDS * (PIECES - 1) * CUT_AT_ONCE
+    rows, poses, margins = np.empty(room, dtype=np.int64), zeros(Pose, room), zeros(Margin, room)
     total = kernel().find_samples(
-        path.ground.table, path.body.table, path.poses.table, path.margins.table, phase, passed,
-        len(passed), acceleration, gravity, TOUCH, np.empty(count), group, narrow,
-        np.empty(room, dtype=np.int64), np.empty(room), *scratch, rows, poses, margins,
+        path.scene, path.poses.table, path.margins.table, phase, passed,
+        Pull(acceleration, gravity), (rows, poses, margins),
     )  # fmt: skip
-    found = path.with_poses(poses[:total].copy(), margins[:total].copy())
+    found = path.with_poses(stacked([poses[:total]]), stacked([margins[:total]]))
     return Between(found, rows[:total].copy())

@@ -8,16 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from kaidan.contact.codes import PartKind
-from kaidan.contact.columns import (
-    CONTACT_COLUMNS,
-    CONTACT_FEATURE,
-    CONTACT_GAP,
-    CONTACT_KIND,
-    CONTACT_N_X,
-    CONTACT_N_Z,
-    CONTACT_X,
-    CONTACT_Z,
-)
+from kaidan.contact.door import Records, zeros
+from kaidan.contact.layout import Forces, Touching
 from kaidan.contact.switch import kernel
 from kaidan.contact.tables import FloatArray
 
@@ -40,37 +32,21 @@ class Contact(NamedTuple):
     """Of the part."""
 
 
-class PairForces(NamedTuple):
-    """Forces of two contacts at the least friction [N/kg]; traction drives ahead positive."""
-
-    required_friction: float
-    first_load: float
-    first_traction: float
-    second_load: float
-    second_traction: float
-
-
 def contacts_of(
-    ground: FloatArray, body: FloatArray, x: float, z: float, inclination: float, touch: float
+    scene: tuple[Records, Records], x: float, z: float, inclination: float, touch: float
 ) -> tuple[Contact, ...]:
     """Contacts of a pose: every feature whose gap is at most ``touch`` [m], each point once."""
-    table = np.empty((MOST, CONTACT_COLUMNS))
-    count, _ = kernel().contacts_at(ground, body, x, z, inclination, touch, table, 0)
+    table = zeros(Touching, MOST)
+    count = kernel().contacts_at(scene, x, z, inclination, touch, table)
     return tuple(
-        Contact(
-            point=(row[CONTACT_X], row[CONTACT_Z]),
-            normal=(row[CONTACT_N_X], row[CONTACT_N_Z]),
-            feature=int(row[CONTACT_FEATURE]),
-            gap=row[CONTACT_GAP],
-            kind=PartKind(int(row[CONTACT_KIND])),
-        )
-        for row in table[:count].tolist()
+        Contact((x, z), (n_x, n_z), feature, gap, PartKind(kind))
+        for feature, x, z, n_x, n_z, gap, kind in table[:count].tolist()
     )
 
 
 def pair_forces(
     first: Contact, second: Contact, com: tuple[float, float], pull: tuple[float, float]
-) -> PairForces:
+) -> Forces:
     """Least friction with which two contacts hold the robot, and the forces that do it.
 
     Parameters
@@ -84,7 +60,7 @@ def pair_forces(
 
     Returns
     -------
-    PairForces
+    Forces
         The friction is infinite if none suffices; forces are NaN where it is only approached by
         an ever growing inner force.
 
@@ -96,11 +72,8 @@ def pair_forces(
     >>> found.first_load, found.second_load
     (7.35, 2.45)
     """
-    return PairForces(
-        *kernel().two_contact_forces(
-            *first.point, *first.normal, *second.point, *second.normal, *com, *pull
-        )
-    )
+    one, two = ((*each.point, *each.normal) for each in (first, second))
+    return Forces(*kernel().two_contact_forces(one, two, *com, *pull))
 
 
 def spring_loads(
@@ -124,8 +97,9 @@ def spring_loads(
     ndarray (k,)
         Along effective gravity.
     """
-    table = np.zeros((len(contacts), CONTACT_COLUMNS))
-    table[:, [CONTACT_X, CONTACT_Z]] = [each.point for each in contacts]
+    table = zeros(Touching, len(contacts))
+    table["x"] = [each.point[0] for each in contacts]
+    table["z"] = [each.point[1] for each in contacts]
     loads = np.zeros(len(contacts))
-    kernel().shared_loads(table, len(contacts), *com, tilt, gravity, loads)
+    kernel().shared_loads(table, *com, tilt, gravity, loads)
     return loads

@@ -9,6 +9,7 @@ _F = TypeVar("_F", bound=Callable[..., Any])
 
 #: Kernel modules in the order in which they import one another.
 KERNEL_MODULES = (
+    "trigonometry",
     "gaps",
     "nearest_feature",
     "settling",

@@ -8,50 +8,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kaidan.contact import columns as at
-from kaidan.contact.path import TOUCH, Path
+from kaidan.contact.door import given, table_of, zeros
+from kaidan.contact.layout import Extreme, Flight, Known, Leading, Pull, Zone
+from kaidan.contact.path import Path
 from kaidan.contact.records import BoolArray
-from kaidan.contact.scratch import peak_scratch
 from kaidan.contact.switch import kernel
 from kaidan.contact.tables import FloatArray, IntArray
 from kaidan.mechanics import STANDARD_GRAVITY
 
 #: Phases of a path: it enters, traverses, lands.
 PHASES = 3
-
-
-class Extreme(NamedTuple):
-    """Extreme figures of a phase; each place is that of the front contact there [m]."""
-
-    poses: float
-    """How many."""
-    friction: float
-    """Largest that is required [1]."""
-    friction_place: float
-    slides_below: float
-    """Friction below which the trailing end slides down as the robot lands [1]; NaN: it leaves no
-    edge."""
-    static_margin: float
-    """Smallest towards the downhill end [m]."""
-    traction: float
-    """Largest tractive force over mass [N/kg]."""
-    belly: float
-    """1: it carries somewhere."""
-    energy: float
-    """Least rise that a fall downhill needs [m]; infinite: no pose counts."""
-    energy_place: float
-    steadiness: float
-    """The same about the flat, by the sudden stop that brings it about [m]."""
-    steadiness_place: float
-    uphill: float
-    """The same uphill, traversing [m]."""
-    uphill_place: float
-    tilt_downhill: float
-    """Least tilt of gravity at which it rotates by more than rocking [rad]."""
-    tilt_downhill_place: float
-    tilt_uphill: float
-    """The same uphill, traversing [rad]."""
-    tilt_uphill_place: float
 
 
 class Sampled(NamedTuple):
@@ -114,25 +80,21 @@ def extremes_of(
         Which came down otherwise, so that they only come back.
     manner
     """
-    path, size = samples.path, len(samples.row)
+    path = samples.path
     assert path.margins is not None
-    scratch = peak_scratch(size, 1)
-    most = size + len(scratch.rows)
-    weights, came, pivots, values = np.empty((4, size))
-    rows, posed, some, heap, group, narrow = np.empty((6, size), dtype=np.int64)
-    marks, pose, beside = np.empty((3, most), dtype=np.int64)
-    reach, alone, tilt = np.empty((3, most))
-    table = np.empty((PHASES, at.EXTREME_COLUMNS))
-    flights = [(*each, math.nan) for each in manner.flights]
-    lasts, leaves = samples.lasts.astype(np.int64), samples.comes_off.astype(np.int64)
-    kernel().find_extremes(
-        path.ground.table, path.body.table, path.poses.table, path.margins.table, samples.phase,
-        samples.corner.astype(np.int64), samples.row, lasts, samples.friction, samples.traction,
-        leaves, whence, back.astype(np.int64), np.array(manner.counts), manner.descending,
-        manner.whole, np.array(manner.tops).reshape(-1, at.ZONE_COLUMNS),
-        np.array(flights).reshape(-1, at.FLIGHT_COLUMNS), manner.nosings, manner.height,
-        manner.gyration, manner.acceleration, STANDARD_GRAVITY, TOUCH, weights, came, rows, posed,
-        some, heap, pivots, values, group, narrow, marks, pose, reach, alone, tilt, beside,
-        *scratch, table,
+    known = given(
+        Known, samples.phase, samples.corner, samples.row, samples.lasts, samples.friction,
+        samples.traction, samples.comes_off, whence, back,
     )  # fmt: skip
-    return [Extreme._make(row) if row[0] > 0 else None for row in table.tolist()]
+    leading = given(
+        Leading, manner.descending, manner.whole, np.array(manner.counts),
+        table_of(Zone, manner.tops),
+        table_of(Flight, [(*each, math.nan) for each in manner.flights]), manner.nosings,
+        manner.height, manner.gyration,
+    )  # fmt: skip
+    table = zeros(Extreme, PHASES)
+    kernel().find_extremes(
+        path.scene, path.poses.table, path.margins.table, known, leading,
+        Pull(manner.acceleration, STANDARD_GRAVITY), table,
+    )  # fmt: skip
+    return [Extreme(*row) if row[0] > 0 else None for row in table.tolist()]

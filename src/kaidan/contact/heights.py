@@ -7,22 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kaidan.contact.columns import (
-    CONVEX,
-    COSINE,
-    DISC,
-    DISC_R,
-    DISC_X,
-    DISC_Z,
-    E_X,
-    E_Z,
-    LENGTH,
-    SINE,
-    U_X,
-    U_Z,
-    X,
-    Z,
-)
+from kaidan.contact.kernel.trigonometry import cos, sin
 from kaidan.contact.records import Body, BoolArray, Ground
 from kaidan.contact.tables import FloatArray
 
@@ -59,7 +44,7 @@ def touching_heights(
     """
     shape = (len(inclination), len(x))
     best, at_x, at_z = np.full(shape, -np.inf), np.zeros(shape), np.zeros(shape)
-    c, s = np.cos(inclination)[:, None], np.sin(inclination)[:, None]
+    c, s = (np.array([of(each) for each in inclination.tolist()])[:, None] for of in (cos, sin))
 
     def offer(
         z: FloatArray, p_x: FloatArray | float, p_z: FloatArray | float, valid: BoolArray
@@ -70,30 +55,24 @@ def touching_heights(
         at_z[better] = np.broadcast_to(p_z, shape)[better]
 
     for part in body.table:
-        starts = (0, DISC)
+        ends = [part["one"], part["two"]]
         discs = [
-            (
-                c * part[j + DISC_X] - s * part[j + DISC_Z],
-                s * part[j + DISC_X] + c * part[j + DISC_Z],
-                float(part[j + DISC_R]),
-            )
-            for j in starts
+            (c * end["x"] - s * end["z"], s * end["x"] + c * end["z"], float(end["r"]))
+            for end in ends
         ]
-        e_x, e_z = c * part[E_X] - s * part[E_Z], s * part[E_X] + c * part[E_Z]
+        e_x = c * part["e_x"] - s * part["e_z"]
+        e_z = s * part["e_x"] + c * part["e_z"]
         turn = np.where(e_x < 0, -1.0, 1.0)
-        n_x = part[SINE] * e_x + part[COSINE] * turn * e_z
-        n_z = part[SINE] * e_z - part[COSINE] * turn * e_x
+        n_x = part["sine"] * e_x + part["cosine"] * turn * e_z
+        n_z = part["sine"] * e_z - part["cosine"] * turn * e_x
         (t1_x, t1_z), (t2_x, t2_z) = [(d_x + r * n_x, d_z + r * n_z) for d_x, d_z, r in discs]
         wide = np.where(np.abs(t2_x - t1_x) < 1e-12, 1e-12, t2_x - t1_x)
         slope = (t2_z - t1_z) / wide
-        reach = max(
-            math.hypot(part[j + DISC_X], part[j + DISC_Z]) + part[j + DISC_R] for j in starts
-        )
-        for row in ground.table[:-1]:
-            g_x, g_z, u_x, u_z, length = (float(row[k]) for k in (X, Z, U_X, U_Z, LENGTH))
+        reach = max(math.hypot(end["x"], end["z"]) + end["r"] for end in ends)
+        for g_x, g_z, u_x, u_z, length, convex in ground.table[:-1].tolist():
             if g_x > x[-1] + reach or g_x + length * u_x < x[0] - reach:
                 continue
-            if row[CONVEX] == 1.0:
+            if convex:
                 d = g_x - x
                 flat = (d - t1_x) * (d - t2_x) <= 0
                 offer(g_z - (t1_z + slope * (d - t1_x)), g_x, g_z, flat)

@@ -9,24 +9,24 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kaidan.contact.codes import Feature, PartKind, Status
-from kaidan.contact.columns import ENERGY, POSE_COLUMNS
+from kaidan.contact.codes import PartKind, Status
 from kaidan.contact.contacts import Contact, contacts_of
-from kaidan.contact.margin_records import Margins
+from kaidan.contact.door import Records, picked, stacked, zeros
+from kaidan.contact.features import Feature
+from kaidan.contact.kernel.trigonometry import placed
+from kaidan.contact.layout import Margin, Pose, Pull
 from kaidan.contact.records import (
     Body,
     Events,
     Ground,
+    Margins,
     Placement,
     Poses,
     Rotations,
 )
 from kaidan.contact.switch import kernel
-from kaidan.contact.tables import FloatArray, IntArray, margin_tables
+from kaidan.contact.tables import FloatArray, IntArray
 from kaidan.mechanics import STANDARD_GRAVITY
-
-#: Gap up to which a feature counts as a contact [m].
-TOUCH = 1e-9
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Path:
     ground, body
         Terrain and robot as driven, to read features by.
     bodies
-        Robot at each pose (n, m, columns), where its posture is not the same in all; else None.
+        Robot at each pose (n, m), where its posture is not the same in all; else None.
     """
 
     status: Status
@@ -58,7 +58,12 @@ class Path:
     margins: Margins | None
     ground: Ground
     body: Body
-    bodies: FloatArray | None = None
+    bodies: Records | None = None
+
+    @property
+    def scene(self) -> tuple[Records, Records]:
+        """Terrain and robot, as the kernel takes them."""
+        return self.ground.table, self.body.table
 
     @property
     def s(self) -> FloatArray:
@@ -93,7 +98,7 @@ class Path:
     @property
     def reach(self) -> float:
         """Distance from the centroid that no part of the robot exceeds [m]."""
-        tables = self.body.table if self.bodies is None else np.concatenate(self.bodies)
+        tables = self.body.table if self.bodies is None else self.bodies.ravel()
         return float(np.abs(Body(tables).discs).sum(axis=1).max())
 
     def first(self) -> Path:
@@ -106,7 +111,7 @@ class Path:
 
         A rotation lies between two rows of one arclength, before it and after it.
         """
-        row: int = kernel().row_before(self.poses.table, len(self.poses), s)
+        row: int = kernel().row_before(self.poses.table, s)
         return row
 
     def first_beyond(self, mu: float) -> int | None:
@@ -150,17 +155,14 @@ class Path:
         if self.margins is None:
             raise ValueError("traverse: energy needs with_margins=True")
         chosen = np.atleast_1d(np.asarray(rows, dtype=np.int64))
-        table = self.margins.table
-        missing = chosen[np.isnan(table[chosen, ENERGY])]
+        missing = chosen[np.isnan(self.margins.energy[chosen])]
         if len(missing):
-            kernel().flow_energy(
-                self.ground.table, self.body.table, self.poses.table, table, missing
-            )
+            kernel().flow_energy(self.scene, self.poses.table, self.margins.table, missing)
         return self.margins.energy[chosen], self.margins.energy_side[chosen]
 
     def contacts_at(self, place: Placement, touch: float = 1e-7) -> tuple[Contact, ...]:
         """Contacts of the robot at a place: gaps up to ``touch`` [m]."""
-        return contacts_of(self.ground.table, self.body.table, *place, touch)
+        return contacts_of(self.scene, *place, touch)
 
     def carrying(self, row: int) -> tuple[Contact, Contact]:
         """Rear and front contact of a pose."""
@@ -193,13 +195,12 @@ class Path:
         Margins
             All but the energy along the flow.
         """
-        poses = np.ascontiguousarray(self.poses.table[rows])
-        table, found = margin_tables(len(poses))
-        kernel().pose_margins(
-            self.ground.table, self.body.table, poses, len(poses), acceleration, gravity, TOUCH,
-            table, found,
-        )  # fmt: skip
-        return Margins(table)
+        return Margins(self._margins(picked(self.poses.table, rows), Pull(acceleration, gravity)))
+
+    def _margins(self, poses: Records, pull: Pull) -> Records:
+        table = zeros(Margin, len(poses))
+        kernel().pose_margins(self.scene, np.ascontiguousarray(poses), pull, table)
+        return table
 
     def between(
         self, rows: IntArray, shares: FloatArray, *, acceleration: float = 0.0,
@@ -222,22 +223,15 @@ class Path:
             A pose for each, with its margins; neither events nor rotations.
         """
         poses = self.table_between(rows, shares)
-        margins, found = margin_tables(len(poses))
-        kernel().pose_margins(
-            self.ground.table, self.body.table, poses, len(poses), acceleration, gravity, TOUCH,
-            margins, found,
-        )  # fmt: skip
-        return self.with_poses(poses, margins)
+        return self.with_poses(poses, self._margins(poses, Pull(acceleration, gravity)))
 
-    def table_between(self, rows: IntArray, shares: FloatArray) -> FloatArray:
+    def table_between(self, rows: IntArray, shares: FloatArray) -> Records:
         """Those poses as a table, without margins."""
-        poses = np.empty((len(rows), POSE_COLUMNS))
-        kernel().poses_between(
-            self.ground.table, self.body.table, self.poses.table, rows, shares, len(rows), poses
-        )
+        poses = zeros(Pose, len(rows))
+        kernel().poses_between(self.scene, self.poses.table, rows, shares, poses)
         return poses
 
-    def with_poses(self, poses: FloatArray, margins: FloatArray) -> Path:
+    def with_poses(self, poses: Records, margins: Records) -> Path:
         """Other poses of it, as tables; neither events nor rotations."""
         return Path(
             self.status, Poses(poses), self.events[:0], self.rotations[:0], Margins(margins),
@@ -247,11 +241,7 @@ class Path:
     def is_on_flat(self, feature: int, row: int) -> bool:
         """Whether a contact of a pose is a vertex under the straight underside of its part."""
         x, z, phi = self.poses.placement(row)
-        return bool(
-            kernel().on_flat(
-                self.ground.table, self.body.table, feature, x, z, math.cos(phi), math.sin(phi)
-            )
-        )
+        return bool(kernel().on_flat(self.scene, feature, placed(x, z, phi)))
 
     def largest_inclination(self) -> float:
         """Largest inclination reached, ends of rotations included [rad]."""
@@ -265,6 +255,6 @@ def joined(paths: Sequence[Path]) -> Path:
     margins = [each.margins.table for each in paths if each.margins is not None]
     return replace(
         paths[0],
-        poses=Poses(np.concatenate([each.poses.table for each in paths])),
-        margins=Margins(np.concatenate(margins)) if len(margins) == len(paths) else None,
+        poses=Poses(stacked([each.poses.table for each in paths])),
+        margins=Margins(stacked(margins)) if len(margins) == len(paths) else None,
     )

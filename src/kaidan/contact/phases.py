@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from kaidan.contact.columns import ZONE_COLUMNS
+from kaidan.contact import layout
+from kaidan.contact.door import table_of
 from kaidan.contact.path import Path
 from kaidan.contact.switch import kernel
 from kaidan.contact.tables import IntArray
@@ -32,9 +33,8 @@ def phases_by_zones(
     """
     numbers = np.empty(len(path.poses), dtype=np.int64)
     zones = [each for flight in enters for each in flight]
+    ends = np.cumsum([len(each) for each in enters], dtype=np.int64)
     kernel().name_phases(
-        path.poses.table, np.array(zones, dtype=np.float64).reshape(-1, ZONE_COLUMNS),
-        np.cumsum([len(each) for each in enters]),
-        np.array(lands, dtype=np.float64).reshape(-1, ZONE_COLUMNS), numbers,
-    )  # fmt: skip
+        path.poses.table, table_of(layout.Zone, zones), ends, table_of(layout.Zone, lands), numbers
+    )
     return numbers

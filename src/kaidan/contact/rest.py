@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from numpy.typing import ArrayLike
 
+from kaidan.contact.kernel.trigonometry import cos, placed, sin
 from kaidan.contact.remembered import body_of, ground_of
 from kaidan.contact.switch import kernel
 
@@ -43,13 +44,12 @@ def settle(
     >>> round(pose.z, 6), abs(round(pose.inclination, 12))
     (0.071, 0.0)
     """
-    ground, body = ground_of(terrain), body_of(parts, kinds)
-    found, z, angle, rear, front = kernel().settle(ground, body, x, inclination, 0.0)
+    scene = ground_of(terrain), body_of(parts, kinds)
+    found, z, angle, rear, front = kernel().settle(scene, x, inclination, 0.0)
     rear_point = front_point = (math.nan, math.nan)
     if found:
-        c, s = math.cos(angle), math.sin(angle)
-        rear_point = kernel().gap(ground, body, rear, x, z, c, s)[3:]
-        front_point = kernel().gap(ground, body, front, x, z, c, s)[3:]
+        at = placed(x, z, angle)
+        rear_point, front_point = (kernel().gap(scene, each, at)[3:] for each in (rear, front))
     return Settled(
         bool(found), float(z), float(angle), int(rear), int(front), (rear_point, front_point)
     )
@@ -71,8 +71,6 @@ def resting_height(
     >>> round(resting_height([[0, 0], [4, 0]], robot, 2.0, 0.0), 6)
     0.071
     """
-    z, _ = kernel().touching(
-        ground_of(terrain), body_of(parts, kinds),
-        x, math.cos(inclination), math.sin(inclination),
-    )  # fmt: skip
+    scene = ground_of(terrain), body_of(parts, kinds)
+    z, _ = kernel().touching(scene, x, cos(inclination), sin(inclination))
     return float(z)

@@ -4,8 +4,6 @@ import math
 
 import numpy as np
 
-from kaidan.contact.columns import CONTACT_COLUMNS
-from kaidan.contact.contacts import MOST
 from kaidan.contact.path import Path
 from kaidan.contact.records import Placement, RotationRecord
 from kaidan.contact.switch import kernel
@@ -18,10 +16,10 @@ def impact_speeds(path: Path) -> FloatArray:
     The rate just before the last impact, from the energy of the fall as a free rotation about
     the pivot, times how far the contacts lie apart.
     """
-    table, found = path.rotations.table, np.empty((MOST, CONTACT_COLUMNS))
+    table = path.rotations.table
     speeds = np.full(len(table), math.nan)
     for row in np.flatnonzero(path.rotations.arrested).tolist():
-        speeds[row] = kernel().impact_speed(path.ground.table, path.body.table, table, row, found)
+        speeds[row] = kernel().impact_speed(path.scene, table, row)
     return speeds
 
 
@@ -29,5 +27,5 @@ def rotated(path: Path, rotation: RotationRecord, angle: float) -> Placement:
     """Where the body is after a part of a rotation about its first pivot [rad]."""
     x, z, phi = rotation.start
     turn = rotation.sense * angle
-    x, z = kernel().turned(path.ground.table, path.body.table, rotation.pivot, x, z, phi, turn)
+    x, z = kernel().turned(path.scene, rotation.pivot, x, z, phi, turn)
     return Placement(x, z, phi + turn)

@@ -38,7 +38,7 @@ def held_while_slipping(
     """
     found = np.empty(len(poses))
     kernel().held_while_slipping(
-        poses.table, points.ravel(), standing.ravel(), np.ascontiguousarray(friction),
-        points.shape[1], 1 if ahead else -1, way, over, found,
+        poses.table, np.ascontiguousarray(points).ravel(), standing.ravel(),
+        np.ascontiguousarray(friction), points.shape[1], 1 if ahead else -1, way, over, found,
     )  # fmt: skip
     return found

@@ -12,6 +12,6 @@ def source_mark() -> str:
     """Digest of all that the native kernel is built from."""
     here = Path(__file__).parent
     digest = hashlib.sha256()
-    for name in ("codes", "columns", "tables", *(f"kernel/{each}" for each in KERNEL_MODULES)):
+    for name in ("codes", "layout", "memory", *(f"kernel/{each}" for each in KERNEL_MODULES)):
         digest.update((here / f"{name}.py").read_bytes())
     return digest.hexdigest()[:16]

@@ -8,19 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kaidan.contact.codes import Status
-from kaidan.contact.columns import (
-    BODY_COLUMNS,
-    EVENT_COLUMNS,
-    POINT_COLUMNS,
-    POSE_COLUMNS,
-    ROTATION_COLUMNS,
-)
-from kaidan.contact.margin_records import Margins
-from kaidan.contact.path import TOUCH, Path
-from kaidan.contact.records import Body, Events, Ground, Poses, Rotations
+from kaidan.contact.door import zeros
+from kaidan.contact.layout import Margin, Pose, Pull, Slide
+from kaidan.contact.path import Path
+from kaidan.contact.records import Body, Events, Ground, Margins, Poses, Rotations
 from kaidan.contact.remembered import body_of, ground_of
 from kaidan.contact.switch import kernel
-from kaidan.contact.tables import FloatArray, margin_tables
+from kaidan.contact.tables import FloatArray
 from kaidan.mechanics import STANDARD_GRAVITY
 
 
@@ -55,23 +49,22 @@ def stand_in_turn(
     >>> found.z.round(6).tolist()
     [0.071, 0.071]
     """
-    ground, bodies = ground_of(terrain), [body_of(each, kinds) for each in parts]
+    ground, bodies = ground_of(terrain), np.stack([body_of(each, kinds) for each in parts])
     count = len(bodies)
-    poses = np.empty((count, POSE_COLUMNS))
-    margins, found = margin_tables(count)
+    poses, margins = zeros(Pose, count), zeros(Margin, count)
     stands = kernel().stand_in_turn(
-        ground, np.concatenate(bodies), np.cumsum([len(each) for each in bodies]), x,
-        inclination, STANDARD_GRAVITY, TOUCH, poses, margins, found, np.zeros(1, dtype=np.int64),
+        (ground, bodies.ravel()), bodies.shape[1], x, inclination, Pull(0.0, STANDARD_GRAVITY),
+        poses, margins,
     )  # fmt: skip
     return Path(
         Status.OK if stands == count else Status.NO_START,
         Poses(poses[:stands]),
-        Events(np.empty((0, EVENT_COLUMNS))),
-        Rotations(np.empty((0, ROTATION_COLUMNS))),
+        Events.none(),
+        Rotations.none(),
         Margins(margins[:stands]),
         Ground(ground),
         Body(bodies[0]),
-        bodies=np.stack(bodies[:stands]) if stands else None,
+        bodies=bodies[:stands] if stands else None,
     )
 
 
@@ -89,8 +82,8 @@ def belt_slides(path: Path) -> FloatArray:
         At the rear and at the front contact [m]; none where the contact is steeper than 45 degrees,
         which holds no robot in its place.
     """
-    slides = np.empty((max(len(path.poses) - 1, 0), POINT_COLUMNS))
+    slides = zeros(Slide, max(len(path.poses) - 1, 0))
     if path.bodies is not None and len(slides):
-        bodies = path.bodies.reshape(-1, BODY_COLUMNS)
-        kernel().belt_slides(bodies, path.bodies.shape[1], path.poses.table, slides)
-    return slides
+        parts = path.bodies.shape[1]
+        kernel().belt_slides(path.bodies.ravel(), parts, path.poses.table, slides)
+    return np.stack([slides["rear"], slides["front"]], axis=-1)

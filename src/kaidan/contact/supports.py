@@ -3,33 +3,17 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
-from kaidan.contact.columns import LOAD_COLUMNS, SUPPORT_COLUMNS, SUPPORT_POINT
+from kaidan.contact.door import zeros
+from kaidan.contact.layout import Friction, Grousers, Load, Stance, Support
 from kaidan.contact.path import Path
 from kaidan.contact.switch import kernel
 from kaidan.contact.tables import FloatArray, IntArray
 
 #: Supports of a pose for which there is room at first.
 ROOM = 4
-
-
-class Grousers(NamedTuple):
-    """Grousers under load, and the nosings that they meet: one case of what is given as ranges."""
-
-    height: float
-    """Under load [m]."""
-    spacing: float
-    """[m]"""
-    tip_width: float
-    """Along the belt [m]."""
-    nosing_radius: float
-    """[m]"""
-    rigid: bool
-    """Whether they are rigid and sharp: of several nosings two carry, and one that has passed a
-    nosing rolls off it. Else they share the load, and are worn round."""
 
 
 class Supports:
@@ -58,30 +42,30 @@ class Supports:
         treads: FloatArray, climbs: bool, steep: float, touch: float,
     ) -> None:  # fmt: skip
         self._climbs = climbs
-        self._loads = np.empty((len(path.poses), LOAD_COLUMNS))
-        self._loads[:] = np.stack([*force, coulomb], axis=1)
-        bodies, parts = path.body.table, len(path.body.table)
-        if path.bodies is not None:
-            bodies = np.ascontiguousarray(path.bodies).reshape(-1, bodies.shape[1])
+        self._loads = zeros(Load, len(path.poses))
+        self._loads["x"], self._loads["z"] = force
+        self._loads["coulomb"] = coulomb
+        bodies = path.body.table if path.bodies is None else path.bodies.ravel()
+        stance, parts = Stance(climbs, steep, touch, path.reach), len(path.body)
         self._slots, most = 0, ROOM
         while most > self._slots:
             self._slots = most
-            self._table = np.empty((len(path.poses) * most, SUPPORT_COLUMNS))
+            self._table = zeros(Support, len(path.poses) * most)
             most = kernel().find_supports(
-                path.ground.table, bodies, parts, path.bodies is not None, path.poses.table,
-                treads, climbs, steep, touch, path.reach, self._table, self._slots,
+                (path.ground.table, bodies), parts, path.poses.table, treads, stance, self._table,
+                self._slots,
             )  # fmt: skip
 
     @property
     def points(self) -> IntArray:
         """Points of the ground at which grousers may stand (n, supports of a pose); -1: none."""
-        return self._table[:, SUPPORT_POINT].astype(np.int64).reshape(-1, self._slots)
+        return self._table["point"].reshape(-1, self._slots)
 
     @cached_property
     def _like(self) -> IntArray:
         """Of each pose the first one that stands alike: a regular flight repeats itself."""
-        like, unlike = np.empty((2, len(self._loads)), dtype=np.int64)
-        kernel().find_alike(self._table, self._slots, self._loads, unlike, like)
+        like = np.empty(len(self._loads), dtype=np.int64)
+        kernel().find_alike(self._table, self._slots, self._loads, like)
         return like
 
     def belt_margins(self, phi: tuple[float, float, float], height: float) -> FloatArray:
@@ -96,7 +80,7 @@ class Supports:
         """
         found = np.empty(len(self._loads))
         kernel().belt_margins(
-            self._table, self._slots, self._loads, self._like, *phi, height, found
+            self._table, self._slots, self._loads, self._like, Friction(*phi), height, found
         )
         return found
 
@@ -117,7 +101,7 @@ class Supports:
         """
         found = np.empty(len(self._table))
         kernel().standing_margins(
-            self._table, self._slots, self._loads, self._like, *phi, *grousers,
+            self._table, self._slots, self._loads, self._like, Friction(*phi), grousers,
             1.0 if self._climbs else -1.0, found,
         )  # fmt: skip
         return found.reshape(-1, self._slots)

@@ -14,13 +14,11 @@ from __future__ import annotations
 
 import importlib
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import cache, wraps
+from functools import cache
 from types import SimpleNamespace
 from typing import Any, Literal, get_args
-
-import numpy as np
 
 from kaidan.contact.entries import KERNEL_MODULES, KERNEL_PACKAGE
 from kaidan.contact.source_mark import source_mark
@@ -29,8 +27,6 @@ from kaidan.errors import InputError, shown
 Choice = Literal["auto", "plain", "native"]
 
 VARIABLE = "KAIDAN_KERNEL"
-CUT_UP = ("phases", "sampling", "standing", "impact", "rating", "batch")
-"""Modules of the kernel whose entries cut up their tables."""
 
 _chosen: Choice | None = None
 
@@ -116,6 +112,12 @@ def _native() -> tuple[Any, str]:
         return None, f"the native kernel is not installed ({error})"
     if source_mark() != module.SOURCE:
         return None, "the native kernel was built from another source: install kaidan again"
+    from kaidan.contact import layout
+    from kaidan.contact.door import dtype_of
+
+    numbers = {"float": float, "int": int, "bool": bool}
+    kinds = [numbers.get(name) or getattr(layout, name) for name in module.KINDS]
+    module.use_dtypes(tuple(map(dtype_of, kinds)))
     return module, ""
 
 
@@ -130,33 +132,14 @@ def _warn_once() -> None:
 
 @cache
 def _plain() -> SimpleNamespace:
+    from kaidan.contact.door import plain
+
     entries = {}
     for name in KERNEL_MODULES:
         for key, value in vars(importlib.import_module(f"{KERNEL_PACKAGE}.{name}")).items():
             if hasattr(value, "_kaidan_entry"):
-                entries[key] = value if name in CUT_UP else _through_views(value)
+                entries[key] = plain(value)
     return SimpleNamespace(**entries)
-
-
-def _through_views(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Entry that reads its tables through views.
-
-    An element of a view is a float, one of an array is an object of numpy's, on which arithmetic
-    takes four times as long: the plain kernel runs nearly twice as fast. Those that
-    are cut up (`CUT_UP`) cannot be views.
-    """
-
-    @wraps(function)
-    def call(*arguments: Any) -> Any:
-        tables = (isinstance(each, np.ndarray) and each.ndim == 2 for each in arguments)
-        return function(
-            *(
-                memoryview(each) if is_table else each
-                for each, is_table in zip(arguments, tables, strict=True)
-            )
-        )
-
-    return call
 
 
 def _choice() -> Choice:

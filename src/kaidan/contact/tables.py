@@ -1,97 +1,20 @@
-"""Terrain and robot as the flat tables of numbers that the kernel reads.
-
-::
-
-    ground table, one row a point k              body table, one row a part (hull of two discs)
-
-       k+1 o------                                    e = unit vector disc 1 -> disc 2
-           | u (unit vector k -> k+1)              .--------------------------.
-           | m = left normal of u                 ( c1 . r1 --> e      c2 . r2 )
-      -----o k                                     '--------------------------'  flat: the lower
-                                                                                 common tangent
-"""
+"""Terrain and robot as the tables that the kernel reads, see `kaidan.contact.layout`."""
 
 from __future__ import annotations
 
 import math
-from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kaidan.contact.codes import PartKind
-from kaidan.contact.columns import (
-    BODY_COLUMNS,
-    CONTACT_COLUMNS,
-    CONVEX,
-    DISC,
-    EVENT_COLUMNS,
-    EXTREME_COLUMNS,
-    FLIGHT_COLUMNS,
-    GROUND_COLUMNS,
-    GROUSER_COLUMNS,
-    JOB_COLUMNS,
-    LENGTH,
-    LOAD_COLUMNS,
-    MARGIN_COLUMNS,
-    PASSED_COLUMNS,
-    POINT_COLUMNS,
-    POSE_COLUMNS,
-    R1,
-    R2,
-    RATING_COLUMNS,
-    ROTATION_COLUMNS,
-    SETTLED_COLUMNS,
-    SUMMARY_COLUMNS,
-    SUPPORT_COLUMNS,
-    U_X,
-    U_Z,
-    WAY_COLUMNS,
-    X1,
-    X2,
-    Z1,
-    Z2,
-    ZONE_COLUMNS,
-    X,
-    Z,
-)
+from kaidan.contact.door import Records, table_of, zeros
+from kaidan.contact.layout import Disc, Part, Point
 
-#: In the kernel: a table (rows, columns), a list of numbers, a list of indices, contiguous all.
-#: The native build reads types and numbers of columns off the annotations.
 FloatArray = NDArray[np.float64]
-FloatRow = np.ndarray[tuple[int], np.dtype[np.float64]]
 IntArray = NDArray[np.int64]
-GroundTable = Annotated[FloatArray, GROUND_COLUMNS]
-BodyTable = Annotated[FloatArray, BODY_COLUMNS]
-PoseTable = Annotated[FloatArray, POSE_COLUMNS]
-EventTable = Annotated[FloatArray, EVENT_COLUMNS]
-RotationTable = Annotated[FloatArray, ROTATION_COLUMNS]
-MarginTable = Annotated[FloatArray, MARGIN_COLUMNS]
-ContactTable = Annotated[FloatArray, CONTACT_COLUMNS]
-JobTable = Annotated[FloatArray, JOB_COLUMNS]
-SummaryTable = Annotated[FloatArray, SUMMARY_COLUMNS]
-RatingTable = Annotated[FloatArray, RATING_COLUMNS]
-PointTable = Annotated[FloatArray, POINT_COLUMNS]
-ZoneTable = Annotated[FloatArray, ZONE_COLUMNS]
-FlightTable = Annotated[FloatArray, FLIGHT_COLUMNS]
-PassedTable = Annotated[FloatArray, PASSED_COLUMNS]
-SupportTable = Annotated[FloatArray, SUPPORT_COLUMNS]
-LoadTable = Annotated[FloatArray, LOAD_COLUMNS]
-GrouserTable = Annotated[FloatArray, GROUSER_COLUMNS]
-SettledTable = Annotated[FloatArray, SETTLED_COLUMNS]
-ExtremeTable = Annotated[FloatArray, EXTREME_COLUMNS]
-WayTable = Annotated[FloatArray, WAY_COLUMNS]
-#: Numbers that belong together, in the kernel: four, or x, z, cosine, sine and a point, or x, z and
-#: inclination, tangent (3) of the line of poses, rear and front contact, or of a part's side
-#: whether it faces down, its normal, how far the pivot lies beyond its line and where along it; or
-#: of the tip of a grouser whether it can stand, tilt, run, loss of sine and how far ahead; or of a
-#: line its normal and its height over a point.
-Four = tuple[float, float, float, float]
-Pose = tuple[float, float, float, float, float, float]
-Line = tuple[float, float, float]
-Held = tuple[float, float, float, float, float, float, int, int]
-Side = tuple[bool, float, float, float, float]
-Tip = tuple[bool, float, float, float, float]
+#: Numbers of a disc: centre and radius.
+DISC = 3
 
 #: Points closer than this to the line of those beside them are dropped [m]; far below any scan,
 #: far above the rounding of coordinates of some metres.
@@ -105,7 +28,7 @@ KINDS = frozenset(float(kind) for kind in PartKind)
 BEYOND = 30.0
 
 
-def ground_table(terrain: ArrayLike) -> FloatArray:
+def ground_table(terrain: ArrayLike) -> Records:
     """Terrain polyline as the kernel's table.
 
     Repeated points and points on the line of those beside them are dropped, and folds of a vertical
@@ -119,8 +42,8 @@ def ground_table(terrain: ArrayLike) -> FloatArray:
 
     Returns
     -------
-    ndarray (k, GROUND_COLUMNS)
-        Columns in ``kaidan.contact.columns``.
+    ndarray (k,)
+        Rows of `kaidan.contact.layout.Point`.
 
     Raises
     ------
@@ -129,21 +52,21 @@ def ground_table(terrain: ArrayLike) -> FloatArray:
 
     Examples
     --------
-    >>> ground_table([[0, 0], [1, 0], [2, 0], [2, 0.2], [3, 0.2]])[:, CONVEX]
-    array([0., 0., 1., 0.])
+    >>> ground_table([[0, 0], [1, 0], [2, 0], [2, 0.2], [3, 0.2]])["convex"].tolist()
+    [False, False, True, False]
     """
     points = np.array(terrain, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] != 2:
         raise ValueError(f"terrain: expected points of shape (n, 2), got {points.shape}")
     if not np.isfinite(points).all():
         raise ValueError("terrain: every coordinate must be finite")
-    if (np.diff(points[:, X]) < 0).any():
-        where = int(np.argmax(np.diff(points[:, X]) < 0))
+    if (np.diff(points[:, 0]) < 0).any():
+        where = int(np.argmax(np.diff(points[:, 0]) < 0))
         raise ValueError(f"terrain: x runs backwards after point {where}")
     last, *others = points.tolist()
     keep = [last]
     for point in others:
-        if math.dist(point, last) > COLLINEAR:
+        if _length(point[0] - last[0], point[1] - last[1]) > COLLINEAR:
             keep.append(point)
             last = point
     if len(keep) < 2:
@@ -151,16 +74,17 @@ def ground_table(terrain: ArrayLike) -> FloatArray:
     keep = without_folds(np.array(keep)).tolist()
     keep = [_beyond(keep[1], keep[0], -1.0), *keep, _beyond(keep[-2], keep[-1], 1.0)]
     xy = np.array(_corners(keep))
-    table = np.zeros((len(xy), GROUND_COLUMNS))
-    table[:, [X, Z]] = xy
+    table = zeros(Point, len(xy))
+    table["x"], table["z"] = xy.T
     step = np.diff(xy, axis=0)
-    length = np.hypot(step[:, 0], step[:, 1])
-    table[:-1, [U_X, U_Z]] = step / length[:, None]
-    table[-1, [U_X, U_Z]] = table[-2, [U_X, U_Z]]
-    table[:-1, LENGTH] = length
-    turn = table[:-2, U_X] * table[1:-1, U_Z] - table[:-2, U_Z] * table[1:-1, U_X]
-    back = (turn == 0) & (table[:-2, U_Z] > 0) & (table[1:-1, U_Z] < 0)  # a tip of a face
-    table[1:-1, CONVEX] = (turn < 0) | back
+    length = np.sqrt(step[:, 0] * step[:, 0] + step[:, 1] * step[:, 1])
+    unit = step / length[:, None]
+    u_x, u_z = np.vstack([unit, unit[-1:]]).T
+    table["u_x"], table["u_z"] = u_x, u_z
+    table["length"][:-1] = length
+    turn = u_x[:-2] * u_z[1:-1] - u_z[:-2] * u_x[1:-1]
+    back = (turn == 0) & (u_z[:-2] > 0) & (u_z[1:-1] < 0)  # a tip of a face
+    table["convex"][1:-1] = (turn < 0) | back
     return table
 
 
@@ -200,7 +124,7 @@ def _corners(points: list[list[float]]) -> list[list[float]]:
     for then in points[2:]:
         a_x, a_z = then[0] - here[0], then[1] - here[1]
         across = abs(b_x * a_z - b_z * a_x)
-        before, after = math.hypot(b_x, b_z), math.hypot(a_x, a_z)
+        before, after = _length(b_x, b_z), _length(a_x, a_z)
         short, long = (before, after) if before < after else (after, before)
         if across > min(COLLINEAR, 1e-7 * short) * long or b_x * a_x + b_z * a_z <= 0.0:
             corners.append(here)
@@ -217,12 +141,12 @@ def _beyond(last: list[float], end: list[float], level: float) -> list[float]:
     """Point to which the terrain is continued over an end: straight on, or level over a riser."""
     u_x, u_z = level, 0.0
     if last[0] != end[0]:
-        away = math.dist(last, end)
+        away = _length(end[0] - last[0], end[1] - last[1])
         u_x, u_z = (end[0] - last[0]) / away, (end[1] - last[1]) / away
     return [end[0] + BEYOND * u_x, end[1] + BEYOND * u_z]
 
 
-def body_table(parts: ArrayLike, kinds: ArrayLike | None = None) -> FloatArray:
+def body_table(parts: ArrayLike, kinds: ArrayLike | None = None) -> Records:
     """Robot underside as the kernel's table.
 
     Parameters
@@ -235,8 +159,8 @@ def body_table(parts: ArrayLike, kinds: ArrayLike | None = None) -> FloatArray:
 
     Returns
     -------
-    ndarray (m, BODY_COLUMNS)
-        Columns in ``kaidan.contact.columns``.
+    ndarray (m,)
+        Rows of `kaidan.contact.layout.Part`.
 
     Raises
     ------
@@ -245,65 +169,50 @@ def body_table(parts: ArrayLike, kinds: ArrayLike | None = None) -> FloatArray:
 
     Examples
     --------
-    >>> from kaidan.contact.columns import FLAT
-    >>> round(float(body_table([[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]])[0, FLAT]), 9)
-    0.47
+    >>> body_table([[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]])["flat"].round(9)
+    array([0.47])
     """
     rows = np.array(parts, dtype=np.float64)
     if rows.ndim != 2 or rows.shape[1] != 2 * DISC or not 1 <= len(rows) <= 16:
         raise ValueError(f"parts: expected shape (m, 6) with 1 <= m <= 16, got {rows.shape}")
     if not np.isfinite(rows).all():
         raise ValueError("parts: every number must be finite")
-    if (rows[:, [R1, R2]] < 0).any():
+    if (rows[:, [2, 5]] < 0).any():
         raise ValueError("parts: radii must not be negative")
     kind = np.zeros(len(rows)) if kinds is None else np.array(kinds, dtype=np.float64)
     if kind.shape != (len(rows),) or not KINDS.issuperset(kind.tolist()):
         raise ValueError("kinds: one of 0 (track), 1 (flipper), 2 (belly) for each part")
-    table = np.zeros((len(rows), BODY_COLUMNS))
-    for row, (x1, z1, r1, x2, z2, r2) in enumerate(rows.tolist()):
-        table[row] = _body_row(x1, z1, r1, x2, z2, r2, kind[row])
-    return table
+    each = zip(rows.tolist(), kind.tolist(), strict=True)
+    return table_of(Part, [_part(Disc(*of[:DISC]), Disc(*of[DISC:]), int(of_kind))
+                           for of, of_kind in each])  # fmt: skip
 
 
-def _body_row(
-    x1: float, z1: float, r1: float, x2: float, z2: float, r2: float, kind: float
-) -> list[float]:
-    distance = float(np.hypot(x2 - x1, z2 - z1))
-    if distance <= abs(r1 - r2) + 1e-9:  # one disc holds the other: a single disc
-        if r1 >= r2:
-            x2, z2, r2 = x1, z1, r1
-        else:
-            x1, z1, r1 = x2, z2, r2
-        r1 = r2 = max(r1, SHARPEST)
-        return [x1, z1, r1, x2, z2, r2, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, kind]
-    e_x, e_z = (x2 - x1) / distance, (z2 - z1) / distance
+def _part(one: Disc, two: Disc, kind: int) -> Part:
+    distance = _length(two.x - one.x, two.z - one.z)
+    if distance <= abs(one.r - two.r) + 1e-9:  # one disc holds the other: a single disc
+        larger = one if one.r >= two.r else two
+        only = Disc(larger.x, larger.z, max(larger.r, SHARPEST))
+        return Part(only, only, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, kind)
+    e_x, e_z = (two.x - one.x) / distance, (two.z - one.z) / distance
     side = 1.0 if e_x >= 0 else -1.0  # the side of the axis that looks down
-    sine = (r1 - r2) / distance
-    cosine = float(np.sqrt(1.0 - sine * sine))
+    sine = (one.r - two.r) / distance
+    cosine = math.sqrt(1.0 - sine * sine)
     n_x = sine * e_x + cosine * side * e_z
     n_z = sine * e_z - cosine * side * e_x
-    if r1 < SHARPEST or r2 < SHARPEST:
-        grow1, grow2 = max(SHARPEST - r1, 0.0), max(SHARPEST - r2, 0.0)
-        return _body_row(
-            x1 - grow1 * n_x, z1 - grow1 * n_z, r1 + grow1,
-            x2 - grow2 * n_x, z2 - grow2 * n_z, r2 + grow2, kind,
-        )  # fmt: skip
-    flat = distance * cosine
-    return [x1, z1, r1, x2, z2, r2, e_x, e_z, distance, sine, cosine, flat, side, kind]
+    if one.r < SHARPEST or two.r < SHARPEST:
+        return _part(_grown(one, n_x, n_z), _grown(two, n_x, n_z), kind)
+    return Part(one, two, e_x, e_z, distance, sine, cosine, distance * cosine, side, kind)
 
 
-def path_tables(size: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Empty tables of poses, events and rotations for so many poses."""
-    return (
-        np.empty((size, POSE_COLUMNS)),
-        np.zeros((size, EVENT_COLUMNS)),
-        np.zeros((size // 8 + 16, ROTATION_COLUMNS)),
-    )
+def _grown(disc: Disc, n_x: float, n_z: float) -> Disc:
+    """Disc no sharper than `SHARPEST` that touches the same flat, whose normal is given."""
+    grow = max(SHARPEST - disc.r, 0.0)
+    return Disc(disc.x - grow * n_x, disc.z - grow * n_z, disc.r + grow)
 
 
-def margin_tables(size: int) -> tuple[FloatArray, FloatArray]:
-    """Empty tables of margins for so many poses, and of the contacts of one pose."""
-    return np.empty((size, MARGIN_COLUMNS)), np.empty((32, CONTACT_COLUMNS))
+def _length(x: float, z: float) -> float:
+    """Length of a vector; unlike a hypotenuse of some libm it is the same on every machine."""
+    return math.sqrt(x * x + z * z)
 
 
 def mirror(terrain: ArrayLike, parts: ArrayLike) -> tuple[FloatArray, FloatArray]:
@@ -319,5 +228,5 @@ def mirror(terrain: ArrayLike, parts: ArrayLike) -> tuple[FloatArray, FloatArray
     """
     points = np.array(terrain, dtype=np.float64)[::-1] * np.array([-1.0, 1.0])
     rows = np.array(parts, dtype=np.float64)
-    swapped = rows[:, [X2, Z2, R2, X1, Z1, R1]] * np.array([-1.0, 1.0, 1.0, -1.0, 1.0, 1.0])
+    swapped = rows[:, [3, 4, 5, 0, 1, 2]] * np.array([-1.0, 1.0, 1.0, -1.0, 1.0, 1.0])
     return points + 0.0, swapped + 0.0

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from kaidan.contact.codes import Status
-from kaidan.contact.columns import JOB_COLUMNS, SUMMARY_COLUMNS
-from kaidan.contact.margin_records import Job, Margins, Summaries
-from kaidan.contact.path import TOUCH, Path
-from kaidan.contact.records import Body, Events, Ground, Poses, Rotations
+from kaidan.contact.door import stacked, table_of, unknown, zeros
+from kaidan.contact.kernel.trigonometry import cos, tan
+from kaidan.contact.layout import Job, Journey, Margin, Pull, Summary
+from kaidan.contact.path import Path
+from kaidan.contact.records import Body, Events, Ground, Margins, Poses, Rotations, Summaries
 from kaidan.contact.remembered import body_of, ground_of
 from kaidan.contact.scratch import most_poses, path_scratch
 from kaidan.contact.switch import kernel
-from kaidan.contact.tables import body_table, ground_table, margin_tables, path_tables
+from kaidan.contact.tables import body_table, ground_table
 from kaidan.mechanics import STANDARD_GRAVITY
 
 #: Arclength between poses [m]: beyond 5 mm grazing contacts could be passed over between two poses.
@@ -105,27 +105,27 @@ def traverse(
         raise ValueError("traverse: margins are those of upright gravity")
     if not step > 0:
         raise ValueError(f"traverse: step {step} must be positive")
-    ground = ground_of(terrain)
-    body = body_of(parts, kinds)
+    ground, body = scene = ground_of(terrain), body_of(parts, kinds)
     entries = kernel()
-    poses, events, rotations = path_scratch(most_poses(x_end - x_start, step, len(ground)))
-    status, n_pose, n_event, n_rotation = entries.drive(
-        ground, body, x_start, x_end, inclination, step, acceleration, gravity * math.cos(tilt),
-        math.tan(tilt), gyration, True, poses, events, rotations,
-    )  # fmt: skip
+    scratch = path_scratch(most_poses(x_end - x_start, step, len(ground)))
+    pull = Pull(acceleration, gravity * cos(tilt), tan(tilt))
+    status, *counts = entries.drive(
+        scene, Journey(x_start, x_end, inclination, step, gyration), pull, (*scratch, True)
+    )
+    poses, events, rotations = (
+        stacked([table[:count]]) for table, count in zip(scratch, counts, strict=True)
+    )
     margins = None
     if with_margins:
-        margins, found = margin_tables(n_pose)
-        entries.pose_margins(
-            ground, body, poses, n_pose, acceleration, gravity, TOUCH, margins, found
-        )
+        margins = zeros(Margin, len(poses))
+        entries.pose_margins(scene, poses, pull, margins)
         if with_energy:
-            entries.flow_energy(ground, body, poses, margins, np.arange(n_pose))
+            entries.flow_energy(scene, poses, margins, np.arange(len(poses)))
     return Path(
         Status(status),
-        Poses(poses[:n_pose].copy()),
-        Events(events[:n_event].copy()),
-        Rotations(rotations[:n_rotation].copy()),
+        Poses(poses),
+        Events(events),
+        Rotations(rotations),
         None if margins is None else Margins(margins),
         Ground(ground),
         Body(body),
@@ -154,10 +154,11 @@ def arrives(
     [True, False]
     """
     ground, body = ground_of(terrain), body_of(parts, kinds)
+    scratch = path_scratch(most_poses(x_end - x_start, step, len(ground)))
+    pull = Pull(acceleration, STANDARD_GRAVITY * cos(tilt), tan(tilt))
     status, *_ = kernel().drive(
-        ground, body, x_start, x_end, inclination, step, acceleration,
-        STANDARD_GRAVITY * math.cos(tilt), math.tan(tilt), gyration, False,
-        *path_scratch(most_poses(x_end - x_start, step, len(ground))),
+        (ground, body), Journey(x_start, x_end, inclination, step, gyration), pull,
+        (*scratch, False),
     )  # fmt: skip
     return bool(status == Status.OK)
 
@@ -176,14 +177,11 @@ def traverse_many(
     """Many traverses in one call: a row of the summary for each job."""
     grounds = [ground_table(t) for t in terrains]
     bodies = [body_table(r, None if kinds is None else kinds[k]) for k, r in enumerate(robots)]
-    summaries = np.full((len(jobs), SUMMARY_COLUMNS), math.nan)
+    summaries = unknown(Summary, len(jobs))
     kernel().traverse_many(
-        np.concatenate(grounds),
-        np.cumsum([len(g) for g in grounds]),
-        np.concatenate(bodies),
-        np.cumsum([len(b) for b in bodies]),
-        np.array(jobs, dtype=np.float64).reshape(-1, JOB_COLUMNS),
-        step, gravity, TOUCH, with_margins, *path_tables(size), *margin_tables(size),
-        np.arange(size), summaries,
+        (stacked(grounds), stacked(bodies)),
+        np.cumsum([len(each) for each in grounds]),
+        np.cumsum([len(each) for each in bodies]),
+        table_of(Job, jobs), step, gravity, size, with_margins, summaries,
     )  # fmt: skip
     return Summaries(summaries)

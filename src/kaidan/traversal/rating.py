@@ -163,7 +163,9 @@ def _on(ground: Array, belts: Gripping, descending: bool) -> Belts:
     """Belts on some ground [m]."""
     treads = treads_of(contact.Ground(contact.ground_of(ground)), descending)
     cases = tuple((*each.grousers, *each.phi, each.best) for each in belts)
-    return Belts(cases, treads, not descending, STEEP, TOUCH, contact.STEP)
+    return contact.belts_on(
+        cases, treads, climbs=not descending, steep=STEEP, touch=TOUCH, slip=contact.STEP
+    )
 
 
 def _inclination(part: Part) -> float:

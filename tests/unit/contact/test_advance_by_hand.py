@@ -10,17 +10,18 @@ import pytest
 
 from contact_cases import stadium
 from kaidan.contact import Feature, FeatureKind, body_table, ground_table
-from kaidan.contact import columns as at
 from kaidan.contact.codes import Advance
 from kaidan.contact.kernel import advance, continuation
 from kaidan.contact.kernel.continuation import ARM, tilt
+from kaidan.contact.layout import NO_FEATURE, At, Held, Pull
+from kernel_memory import posed, scene
 
 L, C_L, C_N, R = 0.6, 0.28, 0.1, 0.08
 TRACK = stadium(L, C_L, C_N, R)
 BODY = body_table(TRACK)
 LEVEL = ground_table([(-4, 0), (4, 0)])
 G = 9.8
-HINT = 0
+STRAIGHT = Pull(0.0, G)
 
 
 def code(point, kind, part=0):
@@ -31,14 +32,14 @@ REAR, FRONT = code(0, FeatureKind.DISC_1), code(0, FeatureKind.DISC_2)
 
 
 def level_at(x):
-    return (x, C_N, 0.0, 1.0, 0.0, 0.0, REAR, FRONT)
+    return Held(x, C_N, 0.0, 1.0, 0.0, 0.0, REAR, FRONT)
 
 
 # --- what shortens a step -----------------------------------------------------------------------
 
 
 def test_a_long_step_is_cut_to_a_share_of_the_radius():
-    what, there, _, ds = advance.advance(LEVEL, BODY, level_at(0.3), 0.05, R, 0.0, G, 0.0, HINT)
+    what, there, ds = advance.advance(scene(LEVEL, BODY), level_at(0.3), 0.05, R, STRAIGHT)
     assert what == Advance.NOTHING
     assert (ds, there[0]) == pytest.approx((0.25 * R, 0.3 + 0.25 * R), abs=1e-12)
 
@@ -52,18 +53,18 @@ def test_a_step_that_leads_past_a_corner_is_short(end):
     """20 um up to the corner: a step of 200 um is cut to 80 um, one of 50 um is not."""
     here = level_at(1 - end - 2e-5)
     if end < 0.0:
-        here = (*here[:7], code(1, FeatureKind.DISC_2))
+        here = here._replace(front=code(1, FeatureKind.DISC_2))
     for ds, taken in ((5e-5, 5e-5), (2e-4, 8e-5)):
-        found = advance.clear_step(TURNS_UP, BODY, here, ds, 0.0, G, 0.0, HINT)
+        found = advance.clear_step(scene(TURNS_UP, BODY), here, ds, STRAIGHT)
         assert found[0]
-        assert found[7] == pytest.approx(taken)
+        assert found[-1] == pytest.approx(taken)
 
 
 def test_a_disc_has_run_past_where_its_foot_is_beyond_its_segment():
     for past, does in ((2e-9, True), (0.5e-9, False), (-1e-3, False)):
-        place = (1 - C_L + past, C_N, 1.0, 0.0)
-        assert advance.runs_past(TURNS_UP, BODY, FRONT, *place) == does
-        assert not advance.runs_past(TURNS_UP, BODY, code(1, FeatureKind.VERTEX), *place)
+        place, there = At(1 - C_L + past, C_N, 1.0, 0.0), scene(TURNS_UP, BODY)
+        assert advance.runs_past(there, FRONT, place) == does
+        assert not advance.runs_past(there, code(1, FeatureKind.VERTEX), place)
 
 
 def test_a_step_that_leads_deep_into_what_is_thin_is_shortened():
@@ -72,15 +73,16 @@ def test_a_step_that_leads_deep_into_what_is_thin_is_shortened():
     wall = ground_table([(-4, 0), (1, 0), (1, 1), (4, 1)])
     here = level_at(1 - 0.6 - 0.001 - 0.005)  # its end 5 mm before the wall
     for ds, taken in ((0.0053, 0.0053), (0.008, 0.0032)):
-        found = advance.clear_step(wall, thin, here, ds, 0.0, G, 0.0, HINT)
+        found = advance.clear_step(scene(wall, thin), here, ds, STRAIGHT)
         assert found[0]
-        assert found[7] == pytest.approx(taken)
+        assert found[-1] == pytest.approx(taken)
 
 
 BEGIN, END = (0.2, 0.5, 0.05, 1.0, 0.0, 0.2), (0.21, 0.52, 0.1, 0.0, 1.0, -0.2)
 REAR_1, FRONT_1 = code(2, FeatureKind.DISC_1), code(3, FeatureKind.DISC_2)
 A = 0.1 * G
-LEANS, LEANS_1 = tilt(A, G, 0.0, 1.0, 0.0), tilt(A, G, 0.0, 0.0, 1.0)
+THERE = Held(*END, REAR_1, FRONT_1)
+LEANS, LEANS_1 = tilt(Pull(A, G), 1.0, 0.0), tilt(Pull(A, G), 0.0, 1.0)
 """Tilt of gravity at both ends of a step that turns from level to upright."""
 
 
@@ -88,28 +90,30 @@ def put_step(monkeypatch, levers, grazes=lambda sign, ds: False):
     """A step between two poses, how far ahead contacts lie at its end, and what may be grazed."""
     asked = []
 
-    def stepped(ground, body, rear, front, *given):
-        assert (rear, front, *given[:6]) == (REAR, FRONT, *BEGIN)
-        return True, *END[:3], math.cos(END[2]), math.sin(END[2]), *END[3:], REAR_1, FRONT_1
+    def stepped(scene, held, ds):
+        assert held == (*BEGIN, REAR, FRONT)
+        return True, THERE, posed(*END[:3])
 
-    def lever(ground, body, feature, x, z, c, s, kappa):
-        assert (x, z, c, s) == (*END[:2], math.cos(END[2]), math.sin(END[2]))
+    def lever(scene, feature, at, kappa):
+        assert at == posed(*END[:3])
         return levers[feature, kappa]
 
-    def may_graze(ground, body, one, other, sign, *given):
-        asked.append((one, other, sign, *given))
-        return grazes(sign, given[-1])
+    def may_graze(scene, held, there, ahead, *given):
+        sign = 1.0 if ahead else -1.0
+        one, other = (held.front, there.front) if ahead else (held.rear, there.rear)
+        asked.append((one, other, sign, *given[:2], *held[:6], *there[:6], given[2]))
+        return grazes(sign, given[2])
 
     monkeypatch.setattr(advance, "stepped", stepped)
     monkeypatch.setattr(advance, "lever", lever)
     monkeypatch.setattr(advance, "may_graze", may_graze)
-    monkeypatch.setattr(advance, "nearest", lambda *given: (at.NO_FEATURE, 9.0, 7))
+    monkeypatch.setattr(advance, "nearest", lambda *given: (NO_FEATURE, 9.0))
     monkeypatch.setattr(advance, "runs_past", lambda *given: False)
     return asked
 
 
 def clear(ds=0.01):
-    return advance.clear_step(LEVEL, BODY, (*BEGIN, REAR, FRONT), ds, A, G, 0.0, HINT)
+    return advance.clear_step(scene(LEVEL, BODY), Held(*BEGIN, REAR, FRONT), ds, Pull(A, G))
 
 
 @pytest.mark.parametrize("side", ["front", "rear"])
@@ -125,9 +129,9 @@ def test_a_step_that_may_graze_a_contact_is_shortened(monkeypatch, side, then, b
     sign, one, other = (1.0, FRONT, FRONT_1) if side == "front" else (-1.0, REAR, REAR_1)
     levers |= {(other, LEANS_1): sign * then, (other, LEANS): sign * before}
     asked = put_step(monkeypatch, levers, lambda sign, ds: ds > 0.005)
-    good, there, third, distance, behind, ahead, hint, ds = clear()
-    assert (good, there, third) == (True, (*END, REAR_1, FRONT_1), at.NO_FEATURE)
-    assert (distance, hint) == (9.0, 7)
+    good, there, third, distance, behind, ahead, ds = clear()
+    assert (good, there, third) == (True, THERE, NO_FEATURE)
+    assert distance == 9.0
     assert (behind, ahead) == (-levers[REAR_1, LEANS_1], levers[FRONT_1, LEANS_1])
     # twice as near for a step of four tenths
     still = near and min(then, before) <= 3.0 * 0.004
@@ -142,14 +146,14 @@ def test_what_is_not_grazed_shortens_nothing(monkeypatch):
     levers = {(each, kappa): sign * 0.01 for each, sign in ((FRONT_1, 1), (REAR_1, -1))
               for kappa in (LEANS, LEANS_1)}  # fmt: skip
     asked = put_step(monkeypatch, levers)
-    assert clear()[7] == 0.01
+    assert clear()[-1] == 0.01
     assert [each[2] for each in asked] == [1.0, -1.0]
 
 
 def test_a_step_of_twenty_micrometres_is_not_shortened_for_what_is_grazed(monkeypatch):
     levers = {(each, kappa): 0.0 for each in (FRONT_1, REAR_1) for kappa in (LEANS, LEANS_1)}
     put_step(monkeypatch, levers, lambda sign, ds: True)
-    assert clear()[7] == pytest.approx(0.01 * 0.4**7)  # 16 um
+    assert clear()[-1] == pytest.approx(0.01 * 0.4**7)  # 16 um
 
 
 def test_no_step_where_the_corrector_finds_none(monkeypatch):
@@ -158,13 +162,13 @@ def test_no_step_where_the_corrector_finds_none(monkeypatch):
 
     def stepped(*given):
         tried.append(given[-1])
-        return False, *END[:3], 1.0, 0.0, *END[3:], REAR_1, FRONT_1
+        return False, THERE, posed(*END[:3])
 
     monkeypatch.setattr(advance, "stepped", stepped)
     *found, ds = clear()
     assert tried == pytest.approx([0.01 * 0.4**k for k in range(18)])
     assert tried[-1] > 1e-9 > ds == pytest.approx(0.01 * 0.4**18)
-    assert found == [False, (*BEGIN, REAR, FRONT), at.NO_FEATURE, 0.0, 0.0, 0.0, HINT]
+    assert found == [False, (*BEGIN, REAR, FRONT), NO_FEATURE, 0.0, 0.0, 0.0]
 
 
 def at_angle(v, phi, kappa):
@@ -183,8 +187,9 @@ def test_an_end_that_rolls_may_be_grazed(sign):
         for v, phi, rate in ((v0, phi0, rate0), (v1, phi1, rate1)):
             up = C_L * math.sin(phi) + (R - C_N) * math.cos(phi)  # of the disc from the centroid
             turn = -sign * rate / up  # its foot moves with it, less the centroid
-            poses += [0.7, at_angle(sign * v, phi, kappa), phi, 0.3, 0.2, ARM * turn]
-        return advance.may_graze(LEVEL, BODY, FRONT, FRONT, sign, kappa, kappa1, *poses, ds)
+            z = at_angle(sign * v, phi, kappa)
+            poses.append(Held(0.7, z, phi, 0.3, 0.2, ARM * turn, FRONT, FRONT))
+        return advance.may_graze(scene(LEVEL, BODY), *poses, sign > 0.0, kappa, kappa1, ds)
 
     assert grazes(0.01, 0.01, -1.0, 1.0, 0.021)
     assert not grazes(0.01, 0.01, -1.0, 1.0, 0.019)
@@ -203,7 +208,7 @@ def test_an_end_that_rolls_may_be_grazed(sign):
 def test_what_has_happened():
     for third, distance, behind, ahead, what in (
         (5, -2e-9, 1.0, 1.0, 5), (5, -0.5e-9, 1.0, 1.0, Advance.NOTHING),
-        (5, 0.5e-9, 1.0, 1.0, Advance.NOTHING), (at.NO_FEATURE, -1.0, 1.0, 1.0, Advance.NOTHING),
+        (5, 0.5e-9, 1.0, 1.0, Advance.NOTHING), (NO_FEATURE, -1.0, 1.0, 1.0, Advance.NOTHING),
         (5, -2e-9, -1.0, -1.0, 5), (5, 1.0, -1.0, 1.0, Advance.OVER_REAR),
         (5, 1.0, 1.0, -1.0, Advance.OVER_FRONT), (5, 1.0, -1.0, -1.0, Advance.OVER_REAR),
         (5, 1.0, 0.0, 1.0, Advance.OVER_REAR), (5, 1.0, 1.0, 0.0, Advance.OVER_FRONT),
@@ -218,11 +223,11 @@ def test_a_feature_is_named_as_at_the_pose(past):
     u = complex(2.0, 1.0) / math.sqrt(5.0)
     centre = (past + 0.09j) * u
     com = centre - complex(C_L, R - C_N) * complex(math.cos(phi), math.sin(phi))
-    here = (com.real, com.imag, phi, 0.6, 0.8, 0.0, REAR, FRONT)
+    here, there = Held(com.real, com.imag, phi, 0.6, 0.8, 0.0, REAR, FRONT), scene(ground, BODY)
     expected = code(1, FeatureKind.VERTEX) if past > 0.0 else FRONT
-    assert advance.named(ground, BODY, FRONT, here) == expected
+    assert advance.named(there, FRONT, here) == expected
     for what in (Advance.NOTHING, Advance.OVER_REAR, Advance.OVER_FRONT):
-        assert advance.named(ground, BODY, what, here) == what
+        assert advance.named(there, what, here) == what
 
 
 @pytest.mark.parametrize(
@@ -231,9 +236,9 @@ def test_a_feature_is_named_as_at_the_pose(past):
 def test_what_has_happened_at_the_begin_takes_no_step(kappa_g, what):
     """So far leans gravity that it passes both contacts on one side."""
     here = level_at(0.3)
-    found = advance.cut_at_event(LEVEL, BODY, here, 0.01, 0.0, G, kappa_g, HINT)
+    found = advance.cut_at_event(scene(LEVEL, BODY), here, 0.01, Pull(0.0, G, kappa_g))
     assert found[:2] == (what, here)
-    assert found[3] == 0.0
+    assert found[2] == 0.0
 
 
 RISER = ground_table([(-4, 0), (1, 0), (1, 0.1), (4, 0.1)])
@@ -242,11 +247,11 @@ MEETS = 1 - C_L - R
 
 
 def cut(ds=0.01):
-    return advance.cut_at_event(RISER, BODY, level_at(MEETS - 0.004), ds, 0.0, G, 0.0, HINT)
+    return advance.cut_at_event(scene(RISER, BODY), level_at(MEETS - 0.004), ds, STRAIGHT)
 
 
 def test_a_step_is_cut_at_the_first_event():
-    what, there, _, ds = cut()
+    what, there, ds = cut()
     assert what == code(1, FeatureKind.DISC_2)
     assert (ds, there[0]) == pytest.approx((0.004, MEETS), abs=1e-9)
 
@@ -254,7 +259,7 @@ def test_a_step_is_cut_at_the_first_event():
 @pytest.mark.parametrize("found", [(0, 0.003), (1, 0.0)])
 def test_no_event_that_is_not_found(monkeypatch, found):
     monkeypatch.setattr(advance, "closing_time", lambda *given: found)
-    what, there, _, ds = cut()
+    what, there, ds = cut()
     assert (what, there, ds) == (Advance.NOT_CONVERGED, level_at(MEETS - 0.004), found[1])
 
 
@@ -267,14 +272,14 @@ def test_no_event_at_a_pose_that_is_not_found(monkeypatch):
 
     monkeypatch.setattr(advance, "stepped", fails)
     monkeypatch.setattr(advance, "closing_time", lambda *given: (1, 0.003))
-    what, there, _, ds = cut()
+    what, there, ds = cut()
     assert (what, there, ds) == (Advance.NOT_CONVERGED, level_at(MEETS - 0.004), 0.003)
 
 
 def test_a_name_taken_on_the_way_is_no_event(monkeypatch):
     """The step ends where that was found, and nothing has happened there."""
     monkeypatch.setattr(advance, "closing_time", lambda *given: (2, 0.003))
-    what, there, _, ds = cut()
+    what, there, ds = cut()
     assert (what, ds) == (Advance.NOTHING, 0.003)
     assert there[0] == pytest.approx(MEETS - 0.001, abs=1e-12)
 
@@ -283,19 +288,19 @@ def test_a_name_taken_on_the_way_is_no_event(monkeypatch):
 def test_a_step_that_fails_is_shortened_eight_times(monkeypatch, fails):
     tried = []
 
-    def cut_at_event(ground, body, here, ds, *given):
+    def cut_at_event(scene, here, ds, *given):
         tried.append(ds)
         what = Advance.NOT_CONVERGED if len(tried) <= fails else Advance.NOTHING
-        return what, here, 5, 0.9 * ds
+        return what, here, 0.9 * ds
 
     monkeypatch.setattr(advance, "cut_at_event", cut_at_event)
     here = level_at(0.3)
-    found = advance.advance(LEVEL, BODY, here, 0.01, R, 0.0, G, 0.0, HINT)
+    found = advance.advance(scene(LEVEL, BODY), here, 0.01, R, STRAIGHT)
     assert tried == pytest.approx([0.01 * 0.4**k for k in range(min(fails + 1, 8))])
     if fails == 8:
-        assert found == (Advance.NOT_CONVERGED, here, 5, pytest.approx(0.01 * 0.4**8))
+        assert found == (Advance.NOT_CONVERGED, here, pytest.approx(0.01 * 0.4**8))
     else:
-        assert found == (Advance.NOTHING, here, 5, 0.9 * tried[-1])
+        assert found == (Advance.NOTHING, here, 0.9 * tried[-1])
 
 
 # --- the corrector's answer ---------------------------------------------------------------------
@@ -307,24 +312,24 @@ def test_a_step_that_fails_is_shortened_eight_times(monkeypatch, fails):
 @pytest.mark.parametrize("ds", [0.02, 1e-4])
 def test_a_step_that_went_elsewhere_is_none(monkeypatch, ds, share, good):
     """A fifth nearer or farther than it was to go, however alike the ways on are."""
-    found = (True, 0.3 + share * ds, C_N, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0)
-    monkeypatch.setattr(continuation, "corrected", lambda *given: found)
-    step = continuation.stepped(LEVEL, BODY, REAR, FRONT, 0.3, C_N, 0.0, 1.0, 0.0, 0.0, ds)
-    assert step[0] == good
+    here = level_at(0.3)
+
+    def found(x, good=True):
+        return good, here._replace(x=x), posed(x, C_N, 0.0)
+
+    monkeypatch.setattr(continuation, "corrected", lambda *given: found(0.3 + share * ds))
+    assert continuation.stepped(scene(LEVEL, BODY), here, ds)[0] == good
     # of steps that are rounding it does not tell
-    tiny = (True, 0.3 + 1.9e-10, *found[2:])
-    monkeypatch.setattr(continuation, "corrected", lambda *given: tiny)
-    assert continuation.stepped(LEVEL, BODY, REAR, FRONT, 0.3, C_N, 0.0, 1.0, 0.0, 0.0, 1e-10)[0]
+    monkeypatch.setattr(continuation, "corrected", lambda *given: found(0.3 + 1.9e-10))
+    assert continuation.stepped(scene(LEVEL, BODY), here, 1e-10)[0]
 
 
 def test_no_step_where_the_corrector_fails_by_the_next_name(monkeypatch):
     """It is asked for no further name then."""
-    answers = iter([(True, 0.31, C_N, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0),
-                    (False, 0.31, C_N, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0),
-                    (True, 0.31, C_N, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0)])  # fmt: skip
+    there = level_at(0.31), posed(0.31, C_N, 0.0)
+    answers = iter([(True, *there), (False, *there), (True, *there)])
     fresh = itertools.count(40)
     monkeypatch.setattr(continuation, "corrected", lambda *given: next(answers))
     monkeypatch.setattr(continuation, "relabelled", lambda *given: next(fresh))
-    step = continuation.stepped(LEVEL, BODY, REAR, FRONT, 0.3, C_N, 0.0, 1.0, 0.0, 0.0, 0.01)
-    assert not step[0]
+    assert not continuation.stepped(scene(LEVEL, BODY), level_at(0.3), 0.01)[0]
     assert len(list(answers)) == 1

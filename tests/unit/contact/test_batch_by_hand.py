@@ -10,45 +10,54 @@ from kaidan.contact import (
     Job,
     PartKind,
     Status,
-    body_table,
-    ground_table,
     traverse,
     traverse_many,
 )
-from kaidan.contact import columns as at
-from kaidan.contact.kernel.batch import extremes, settle_many, worst_margins
-
-
-def table(columns, width, *rows):
-    """Rows with some columns filled; beyond those that count a row that would be the most."""
-    made = np.zeros((len(rows), width))
-    for k, row in enumerate(rows):
-        made[k, columns] = row
-    return made
+from kaidan.contact.door import zeros
+from kaidan.contact.kernel import batch
+from kaidan.contact.kernel.batch import sum_up
+from kaidan.contact.layout import Pose, RotationRow, Summary
+from kernel_memory import table
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_inclinations_of_poses_and_ends_of_rotations(sign):
-    poses = table([at.POSE_PHI], at.POSE_COLUMNS, 0.2 * sign, 0.4 * sign, 0.3 * sign, 9.0)
-    columns = [at.END_PHI, at.ROTATION_ANGLE, at.TOPPLES]
-    ends = table(columns, at.ROTATION_COLUMNS, (0.5, 0.02, 0.0), (0.1, 0.01, 1.0), (9.0, 9.0, 9.0))
+    poses, rotations = zeros(Pose, 2), zeros(RotationRow, 2)
+    poses["inclination"], poses["x"] = (0.2 * sign, 0.4 * sign), (0.1, 0.3)
+    rotations["end"]["inclination"], rotations["angle"] = (0.5, 0.1), (0.02, 0.01)
+    rotations["topples_with_momentum"] = (False, True)
+
+    def summed(rotations):
+        summary = Summary(*Summary.__dataclass_fields__)
+        sum_up(table(Pose, poses), table(RotationRow, rotations), summary)
+        found = summary.largest_inclination, summary.smallest_inclination
+        return (*found, summary.largest_rotation, summary.topples_with_momentum, summary.x)
+
     alone = sorted([0.2 * sign, 0.4 * sign])
-    assert extremes(poses, 3, ends, 0) == (alone[1], alone[0], 0.0, 0.0)
+    assert summed(rotations[:0]) == (alone[1], alone[0], 0.0, False, 0.3)
     both = sorted([*alone, 0.5, 0.1])
-    assert extremes(poses, 3, ends, 2) == (both[-1], both[0], 0.02, 1.0)
-    assert extremes(poses, 0, ends, 0) == (-math.inf, math.inf, 0.0, 0.0)
+    assert summed(rotations) == (both[-1], both[0], 0.02, True, 0.3)
 
 
-def test_worst_of_some_margins():
-    columns = [at.FRICTION, at.BACK, at.FRONT, at.ENERGY, at.BELLY_TOUCHES]
-    margins = table(
-        columns, at.MARGIN_COLUMNS,
-        (0.3, 0.2, 0.4, 0.05, 0.0), (0.7, 0.5, 0.1, 0.03, 1.0), (0.1, 0.3, 0.3, 0.04, 0.0),
-        (9.0, -9.0, -9.0, -9.0, 9.0),
-    )  # fmt: skip
-    assert worst_margins(margins, 3) == (0.7, 0.1, 0.03, 1.0)
-    assert worst_margins(margins, 1) == (0.3, 0.2, 0.05, 0.0)
-    assert worst_margins(margins, 0) == (0.0, math.inf, math.inf, 0.0)
+def test_worst_of_some_margins(monkeypatch):
+    """Largest friction, smallest margins to either side, least energy, any belly that touches."""
+    rows = [(0.3, 0.2, 0.4, 0.05, False), (0.7, 0.5, 0.1, 0.03, True), (0.1, 0.3, 0.3, 0.04, False)]
+
+    def pose_margins(scene, poses, pull, margins):
+        for k, (friction, back, front, _, belly) in enumerate(rows[: len(poses)]):
+            margins[k].required_friction, margins[k].belly_touches = friction, belly
+            margins[k].back, margins[k].front = back, front
+
+    def work_out_energy(scene, pose, margin):
+        margin.energy = next(row[3] for row in rows if row[0] == margin.required_friction)
+
+    monkeypatch.setattr(batch, "pose_margins", pose_margins)
+    monkeypatch.setattr(batch, "work_out_energy", work_out_energy)
+    for count, expected in ((3, (0.7, 0.1, 0.03, True)), (1, (0.3, 0.2, 0.05, False))):
+        summary = Summary(*Summary.__dataclass_fields__)
+        batch.sum_up_margins(None, table(Pose, zeros(Pose, count)), None, summary)
+        found = summary.required_friction, summary.static_margin, summary.energy
+        assert (*found, summary.belly_touches) == expected
 
 
 L, C_N, R = 0.5, 0.15, 0.1
@@ -69,34 +78,25 @@ def test_jobs_on_planes_of_some_slopes():
     ]  # fmt: skip
     found = traverse_many(FLOORS, robots, jobs, kinds=kinds, with_margins=True).table
     none, *others, low = found
-    assert (low[at.SUMMARY_STATUS], low[at.SUMMARY_BELLY]) == (Status.OK, 1.0)
-    assert none[at.SUMMARY_STATUS] == Status.NO_START
-    assert np.isnan(none[at.SUMMARY_HIGHEST :]).all()
+    assert (low["status"], low["belly_touches"]) == (Status.OK, True)
+    assert none["status"] == Status.NO_START
+    assert np.isnan([value for value in none.item() if isinstance(value, float)]).all()
     for row, job, slope, ahead in zip(
         others, jobs[1:4], (0.2, -0.3, 0.0), (0.3, 0.2, 0.2), strict=True
     ):
         angle = math.atan(slope)
-        assert row[at.SUMMARY_STATUS] == Status.OK
-        assert row[at.SUMMARY_HIGHEST] == pytest.approx(angle, abs=1e-9)
-        assert row[at.SUMMARY_LOWEST] == pytest.approx(angle, abs=1e-9)
-        assert row[at.SUMMARY_EXTRA] == pytest.approx(angle - job.reference, abs=1e-9)
-        assert row[at.SUMMARY_REACHED] == pytest.approx(job.x_end, abs=1e-9)
-        assert row[[at.SUMMARY_ANGLE, at.SUMMARY_TOPPLES, at.SUMMARY_ROTATIONS]].tolist() == [0] * 3
-        assert row[at.SUMMARY_FRICTION] == pytest.approx(abs(slope), abs=1e-9)
-        assert row[at.SUMMARY_BELLY] == (ahead == 0.2)
-
-
-def test_poses_settled_on_a_floor():
-    ground, body = ground_table(FLOORS[0]), body_table(stadium(L, 0.3, C_N, R))
-    settled = np.full((3, at.SETTLED_COLUMNS), -9.0)
-    settle_many(ground, body, np.array([0.0, 0.5, -1.0]), np.array([0.3, -0.2, 0.0]), 0.0, settled)
-    assert settled[:, at.SETTLED_FOUND].tolist() == [1.0] * 3
-    np.testing.assert_allclose(settled[:, at.SETTLED_Z], C_N, atol=1e-9)
-    np.testing.assert_allclose(settled[:, at.SETTLED_PHI], 0.0, atol=1e-9)
-    assert (settled[:, at.SETTLED_FRONT] - settled[:, at.SETTLED_REAR]).tolist() == [1.0] * 3
-    # no tilt of gravity is borne that leads beyond both ends
-    settle_many(ground, body, np.array([0.0]), np.array([0.0]), 9.0, settled)
-    assert settled[:, at.SETTLED_FOUND].tolist() == [0.0, 1.0, 1.0]
+        assert row["status"] == Status.OK
+        assert row["largest_inclination"] == pytest.approx(angle, abs=1e-9)
+        assert row["smallest_inclination"] == pytest.approx(angle, abs=1e-9)
+        assert row["extra"] == pytest.approx(angle - job.reference, abs=1e-9)
+        assert row["x"] == pytest.approx(job.x_end, abs=1e-9)
+        assert (row["largest_rotation"], row["topples_with_momentum"], row["rotations"]) == (
+            0,
+            False,
+            0,
+        )
+        assert row["required_friction"] == pytest.approx(abs(slope), abs=1e-9)
+        assert row["belly_touches"] == (ahead == 0.2)
 
 
 def test_the_first_pose_counts_as_any_other():
@@ -108,4 +108,4 @@ def test_the_first_pose_counts_as_any_other():
     assert path.margins.energy[0] < path.margins.energy[1:].min() - 1e-6
     job = Job(0, 0, begin, 1.0, 0.3)
     found = traverse_many([terrain], [robot], [job], with_margins=True).table[0]
-    assert found[at.SUMMARY_ENERGY] == path.margins.energy[0]
+    assert found["energy"] == path.margins.energy[0]

@@ -23,11 +23,14 @@ from test_reserves_by_hand import (
     plates,
 )  # fmt: skip
 
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
+from kaidan.contact.kernel import first_closing as module
 from kaidan.contact.kernel.closing import BESIDE, crossing_angle
 from kaidan.contact.kernel.event_location import PENETRATED
-from kaidan.contact.kernel.first_closing import first_closing
 from kaidan.contact.kernel.rotation import NEVER
+from kernel_memory import called
+
+first_closing = called(module.first_closing)
 
 
 def crossing(level, size, phase, end, deep=PENETRATED):
@@ -166,8 +169,8 @@ def test_what_closes_while_an_end_rolls(what, mirrored):
     case = Case(line, mirrored, EVERY)
     # the line ends 30 m beyond the last point
     pivot = case.rear_disc((GROUND_END, complex(35, 0)))
-    start = case.ground, case.body, pivot, *case.turned_pose(1j * ABOVE, 0.0), case.sign
-    closed, angle, _ = first_closing(*start, FARTHEST, 0)
+    start = (case.ground, case.body), pivot, case.turned_pose(1j * ABOVE, 0.0), case.sign
+    angle, closed = first_closing(*start, FARTHEST)
     assert angle == near(expected)
     if what in PLATES:
         assert closed == case.edge(p, 1)
@@ -175,7 +178,7 @@ def test_what_closes_while_an_end_rolls(what, mirrored):
         kind = at.DISC_1 if case.sign > 0.0 else at.DISC_2
         assert closed & at.KIND_MASK == kind
         assert (closed >> at.PART_BITS) & at.PART_MASK == 1
-    assert first_closing(*start, 0.99 * expected, 0)[:2] == (at.NO_FEATURE, 0.99 * expected)
+    assert first_closing(*start, 0.99 * expected) == (0.99 * expected, at.NO_FEATURE)
 
 
 EDGE = 1.7 + 0.3j
@@ -207,8 +210,8 @@ def test_what_an_end_meets_about_an_edge(less, phi, upon, part, swapped, mirrore
         line += [(ends[1].real, LOW)]
     case = Case([*line, *plates(EDGE)[1:]], mirrored, parts)
     start = EDGE + (0.05 + 1j * ABOVE) * cmath.exp(1j * phi)
-    given = case.ground, case.body, case.edge(EDGE), *case.turned_pose(start, phi), case.sign
-    closed, angle, _ = first_closing(*given, 1.1 * upon, 0)
+    given = (case.ground, case.body), case.edge(EDGE), case.turned_pose(start, phi), case.sign
+    angle, closed = first_closing(*given, 1.1 * upon)
     assert angle == near(upon)
     if less is None:
         assert closed == case.edge(met, part)
@@ -216,7 +219,7 @@ def test_what_an_end_meets_about_an_edge(less, phi, upon, part, swapped, mirrore
         kind = at.DISC_1 if (case.sign > 0.0) is not swapped else at.DISC_2
         segment = min(map(case.point, ends))
         assert closed == at.POINT * segment + at.PART * part + kind
-    assert first_closing(*given, 0.9 * upon, 0)[:2] == (at.NO_FEATURE, 0.9 * upon)
+    assert first_closing(*given, 0.9 * upon) == (0.9 * upon, at.NO_FEATURE)
 
 
 @MIRRORED
@@ -228,7 +231,7 @@ def test_another_part_meets_what_stays_under_the_line_of_the_pivots_part(upon, m
     c = 0.05 + 1j * ABOVE
     met = EDGE + (c + complex(*hanging[:2]) + 0.05 * cmath.exp(-0.75j * math.pi)) * turn
     case = Case(plates(met, EDGE), mirrored, [*PARTS, hanging])
-    given = case.ground, case.body, case.edge(EDGE), *case.turned_pose(EDGE + c, 0.0), case.sign
-    closed, angle, _ = first_closing(*given, 1.1 * upon, 0)
+    given = (case.ground, case.body), case.edge(EDGE), case.turned_pose(EDGE + c, 0.0), case.sign
+    angle, closed = first_closing(*given, 1.1 * upon)
     assert angle == near(upon)
     assert closed == case.edge(met, 1)

@@ -12,7 +12,9 @@ import pytest
 from test_reserves_by_hand import MIRRORED, Case, near, plates
 
 from kaidan.contact import body_table
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
+from kaidan.contact.door import table_of
+from kaidan.contact.kernel import first_closing as module
 from kaidan.contact.kernel.closing import (
     BESIDE,
     FROM_DISC_1,
@@ -28,10 +30,12 @@ from kaidan.contact.kernel.closing import (
     stays_beside,
 )
 from kaidan.contact.kernel.event_location import PENETRATED
-from kaidan.contact.kernel.first_closing import first_closing
 from kaidan.contact.kernel.rotation import NEVER
 from kaidan.contact.kernel.turning_closing import arcs_closing, flat_closing, segment_closing
+from kaidan.contact.layout import First, Side, Swept
+from kernel_memory import called, posed, scene, turning
 
+first_closing = called(module.first_closing)
 EVERYWHERE = (-1e9, 1e9, -1e9, 1e9)
 
 
@@ -51,7 +55,9 @@ def along(a, b):
 
 def table(*rows):
     """Ground of segments: start, unit vector, length."""
-    return np.array([[p.real, p.imag, u.real, u.imag, length, 1.0] for p, u, length in rows])
+    return table_of(
+        at.Point, [(p.real, p.imag, u.real, u.imag, length, True) for p, u, length in rows]
+    )
 
 
 def discs(*each):
@@ -99,7 +105,8 @@ class Rolling:
         self.sense, self.end = sense, end
         ground = table((0j, u, 1e3), line)
         body = [discs((0j, rolling), (APART, rolling)), discs((APART, radius), (lever, radius))]
-        self.where = ground, np.vstack(body), 1, 1, FROM_DISC_2
+        self.scene = scene(ground, np.concatenate(body))
+        self.where = self.scene, 1, self.scene.body[1], FROM_DISC_2
 
     def contact(self, angle):
         return -self.rolling * self.sense * angle * self.u
@@ -120,7 +127,7 @@ class Rolling:
         contact = self.contact(angle)
         hub = contact + self.rolling * 1j * self.u
         c, s = math.cos(angle), self.sense * math.sin(angle)
-        return hub.real, hub.imag, c, s, contact.real, contact.imag
+        return at.At(hub.real, hub.imag, c, s), contact.real, contact.imag
 
     def ends(self):
         """Gap and rate at both ends of the turn."""
@@ -130,10 +137,12 @@ class Rolling:
         ]  # fmt: skip
 
     def closing(self, before, bend):
-        ends = self.pose(0.0), self.pose(self.end)
-        return closing_angle(
-            *self.where, 1, *ends, self.sense, self.end, before, *self.ends(), bend
-        )
+        start, finish = self.pose(0.0), self.pose(self.end)
+        turn = turning(
+            complex(*start[1:]), self.sense, self.end, at.DISC_1, start[0],
+            (finish[0], complex(*finish[1:])),
+        )  # fmt: skip
+        return closing_angle(self.scene, 1, 1, FROM_DISC_2, turn, before, *self.ends(), bend)
 
 
 @pytest.mark.parametrize("seed", range(2))
@@ -222,10 +231,10 @@ def test_a_point_that_the_end_discs_come_upon_about_another_one():
         ground = table((o + v, 1 + 0j, 1.0), (o + v + 1, 1 + 0j, 1.0))
         body = discs((0j, radii[0]), (APART, radii[1]))
         a, b = o + centres[0], o + centres[1]
-        angle, which = arcs_closing(
-            ground, body, 0, 0, o.real, o.imag, sense, math.cos(end), math.sin(end),
-            (a.real, a.imag, b.real, b.imag), end, at.NO_FEATURE,
-        )  # fmt: skip
+        swept = Swept(a.real, a.imag, b.real, b.imag, *EVERYWHERE)
+        turn = turning(o, sense, end)
+        first = First(end, at.NO_FEATURE)
+        angle, which = arcs_closing(scene(ground, body), 0, 0, turn, swept, first)
         assert angle == near(expected)
         assert (which == 0) == (expected < end)
         found.append(expected < end)
@@ -264,13 +273,13 @@ def test_a_segment_that_the_end_discs_come_upon_about_a_point():
         if not sure:
             continue
         ground = table((o + 99, u, 1.0), (o + 98, u, 1.0), (o + begin, u, length))
-        ground = np.vstack([ground, ground[-1:]])
-        body = np.vstack([discs((0j, radii[0]), (APART, radii[1]))] * 2)
+        ground = np.concatenate([ground, ground[-1:]])
+        body = np.concatenate([discs((0j, radii[0]), (APART, radii[1]))] * 2)
         a, b = o + centres[0], o + centres[1]
-        angle, feature = segment_closing(
-            ground, body, 2, 1, 0, o.real, o.imag, sense, math.cos(end), math.sin(end),
-            (a.real, a.imag, b.real, b.imag), EVERYWHERE, end, at.NO_FEATURE,
-        )  # fmt: skip
+        swept = Swept(a.real, a.imag, b.real, b.imag, *EVERYWHERE)
+        turn = turning(o, sense, end)
+        first = First(end, at.NO_FEATURE)
+        angle, feature = segment_closing(scene(ground, body), 2, 1, turn, swept, first)
         assert angle == near(min(best, end))
         code = at.NO_FEATURE if which is None else at.POINT * 2 + at.PART + at.DISC_1 + which
         assert feature == code
@@ -290,10 +299,10 @@ def test_what_an_arc_has_sunk_into_by_a_centimetre_has_passed_beside(beside, exp
     o = centre - 2.0 * scale
     far = centre + 50.0
     for sense in (-1.0, 1.0):
-        angle, which = arcs_closing(
-            ground, body, 0, 0, o.real, o.imag, sense, math.cos(0.1), math.sin(0.1),
-            (centre.real, centre.imag, far.real, far.imag), 0.1, at.NO_FEATURE,
-        )  # fmt: skip
+        swept = Swept(centre.real, centre.imag, far.real, far.imag, *EVERYWHERE)
+        turn = turning(o, sense, 0.1)
+        first = First(0.1, at.NO_FEATURE)
+        angle, which = arcs_closing(scene(ground, body), 0, 0, turn, swept, first)
         falls = sense < 0.0 and expected is not None
         assert (angle, which) == ((expected, 0) if falls else (0.1, at.NO_FEATURE))
 
@@ -322,8 +331,8 @@ def test_a_disc_on_an_edge_rolls_on_along_the_segment_behind(onto, swapped, mirr
         if swapped:
             row = [*row[3:], *row[:3]]
         case = Case(line, mirrored, [row])
-        start = case.ground, case.body, case.edge(edge), *case.turned_pose(0j, 0.0), case.sign
-        closed, angle, _ = first_closing(*start, 0.6, 0)
+        start = (case.ground, case.body), case.edge(edge), case.turned_pose(0j, 0.0), case.sign
+        angle, closed = first_closing(*start, 0.6)
         if left < -1e-9:
             assert (closed, angle) == (at.NO_FEATURE, 0.6)
             continue
@@ -342,8 +351,8 @@ def test_of_points_in_line_the_flat_comes_upon_the_outermost(phi, apart, mirrore
     outer = edge - 0.12 * cmath.exp(1j * (phi + upon + apart))
     case = Case(plates(outer, inner, edge), mirrored)
     c = edge + (0.02 + 0.1j) * cmath.exp(1j * phi)
-    given = case.ground, case.body, case.edge(edge), *case.turned_pose(c, phi), case.sign
-    closed, angle, _ = first_closing(*given, 0.5, 0)
+    given = (case.ground, case.body), case.edge(edge), case.turned_pose(c, phi), case.sign
+    angle, closed = first_closing(*given, 0.5)
     assert closed == case.edge(inner if apart > 1e-9 else outer)
     assert angle == near(upon + min(apart, 0.0))
 
@@ -366,11 +375,10 @@ def test_a_point_that_a_flat_comes_upon_about_another_one(size):
             continue
         ground = table((o + v, 1 + 0j, 1.0), (o, 1 + 0j, 1.0))
         meets = turn < end and 0.3 * size < foot.real < 1.1 * size
-        angle, which = flat_closing(
-            ground, body, 0, 0, TO_FLAT, at.POINT, (o.real, o.imag, 1.0, 0.0, o.real, o.imag), -1.0,
-            math.cos(end), math.sin(end), (True, 0.0, -1.0, height, -0.3 * size), end,
-            at.NO_FEATURE,
-        )  # fmt: skip
+        about = turning(o, -1.0, end, at.POINT, at.At(o.real, o.imag, 1.0, 0.0))
+        side = Side(True, 0.0, -1.0, height, -0.3 * size)
+        first = First(end, at.NO_FEATURE)
+        angle, which = flat_closing(scene(ground, body), 0, 0, TO_FLAT, about, side, first)
         assert (angle, which) == ((near(turn), 0) if meets else (end, at.NO_FEATURE))
         found.append(meets)
     assert 0.1 < np.mean(found) < 0.9
@@ -381,13 +389,13 @@ def test_a_point_on_the_upper_side_is_met_by_parts_that_are_not_thin(radius):
     """Of a part of 8 mm that slants over a point, what lies above the axis has gone through it."""
     body = discs((-0.3 + 0j, radius), (0.3 + 0j, radius))
     for phi in (0.9, 1.6):
-        pose = 0.0, 0.0, math.cos(phi), math.sin(phi)
+        pose = posed(0.0, 0.0, phi)
         for share, on in ((-0.31, False), (-0.2, True), (0.2, True), (0.31, False)):
             for side, piece in ((1j, TO_TOP), (-1j, TO_FLAT)):
                 place = (share + side * radius) * cmath.exp(1j * phi)
                 ground = table((place, 1 + 0j, 1.0), (1 + place, 1 + 0j, 1.0))
                 met = on and (piece == TO_FLAT or radius > 0.01)
-                assert on_piece(ground, body, 0, 0, piece, *pose) is met
+                assert on_piece(scene(ground, body), 0, 0, piece, pose) is met
 
 
 def flat_of(first, second, upper):
@@ -410,7 +418,7 @@ def test_a_foot_lies_along_the_tangent_of_both_discs_or_along_the_segment(piece)
             c, phi, v = random_place(rng, 3.0), random_direction(rng), random_place(rng, 3.0)
             u = random_direction(rng)
             ground = table((9j, 1 + 0j, 1.0), (v, u, 1.0))
-            body = np.vstack([discs((0j, 1.0), (9j, 2.0)), discs(*both)])
+            body = np.concatenate([discs((0j, 1.0), (9j, 2.0)), discs(*both)])
             placed = [(c + centre * phi, radius) for centre, radius in both]
             if piece in (TO_FLAT, TO_TOP):
                 # from the first disc to the second the lower side may be on the left
@@ -418,8 +426,9 @@ def test_a_foot_lies_along_the_tangent_of_both_discs_or_along_the_segment(piece)
                 foot = along(direction, v - begin)[0]
             else:
                 foot = along(u, placed[piece - FROM_DISC_1][0] - v)[0]
-            pose = c.real, c.imag, phi.real, phi.imag
-            assert foot_on(ground, body, 1, 1, piece, *pose) == near(foot)
+            pose = at.At(c.real, c.imag, phi.real, phi.imag)
+            tables = scene(ground, body)
+            assert foot_on(tables, 1, tables.body[1], piece, pose) == near(foot)
 
 
 @pytest.mark.parametrize(("foot", "later", "sagitta", "beside"), [

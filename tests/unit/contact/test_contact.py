@@ -7,6 +7,8 @@ from contact_cases import stadium, steps
 from kaidan.contact import Event, Status, body_table, ground_table, settle, traverse
 from kaidan.contact.kernel.gaps import gap, relabelled
 from kaidan.contact.kernel.rotation import turned
+from kaidan.contact.layout import At
+from kernel_memory import scene
 
 
 def test_flat_ground():
@@ -29,7 +31,7 @@ def test_gradient_of_gaps(feature):
     x, z, phi = 0.05, 0.4, 0.3
 
     def value(q):
-        return gap(ground, body, feature, q[0], q[1], np.cos(q[2]), np.sin(q[2]))
+        return gap(scene(ground, body), feature, At(q[0], q[1], np.cos(q[2]), np.sin(q[2])))
 
     _, n_x, n_z, p_x, p_z = value((x, z, phi))
     gradient = [n_x, n_z, (p_x - x) * n_z - (p_z - z) * n_x]
@@ -45,8 +47,10 @@ def test_gap_of_a_disc_over_a_step_edge():
     body = body_table(stadium(0.5, 0.2, 0.1, 0.06))
     # front disc's centre 0.1 left of the edge and 0.05 above it: hypot - R
     x, z = -0.1 - 0.2, 0.25 - (0.06 - 0.1)
-    assert gap(ground, body, 64 * 2, x, z, 1.0, 0.0)[0] == pytest.approx(np.hypot(0.1, 0.05) - 0.06)
-    assert relabelled(ground, body, 64 * 2 + 2, x, z, 1.0, 0.0) == 64 * 2
+    assert gap(scene(ground, body), 64 * 2, At(x, z, 1.0, 0.0))[0] == pytest.approx(
+        np.hypot(0.1, 0.05) - 0.06
+    )
+    assert relabelled(scene(ground, body), 64 * 2 + 2, At(x, z, 1.0, 0.0)) == 64 * 2
 
 
 def test_rolling_keeps_the_gap():
@@ -55,9 +59,11 @@ def test_rolling_keeps_the_gap():
     phi = np.arctan(0.25)
     pose = settle([[0, 0], [4, 1]], stadium(0.5, 0.2, 0.1, 0.06), 2.0, phi)
     feature = 64 * 0 + 1
-    x, z = turned(ground, body, feature, 2.0, pose.z, pose.inclination, 0.4)
+    x, z = turned(scene(ground, body), feature, 2.0, pose.z, pose.inclination, 0.4)
     angle = pose.inclination + 0.4
-    assert gap(ground, body, feature, x, z, np.cos(angle), np.sin(angle))[0] == pytest.approx(0)
+    assert gap(scene(ground, body), feature, At(x, z, np.cos(angle), np.sin(angle)))[
+        0
+    ] == pytest.approx(0)
 
 
 def test_rates_of_a_rotation():
@@ -120,12 +126,12 @@ FOLDS = [(-3, 0), (0, 0), (0, 0.04), (0, 0.02), (0, 0.09), (0, 0.03), (0, 0.1), 
 def test_a_face_that_goes_up_and_down_within_itself_is_the_same_face():
     """Of its points the ends count; a tip over the tread and a slit into the floor stay."""
     ends = [FOLDS[1], FOLDS[-2]]
-    assert ground_table(FOLDS)[1:-1, :2].tolist() == [list(each) for each in ends]
+    assert ground_table(FOLDS)[["x", "z"]][1:-1].tolist() == ends
     tip, slit = (0, 0.13), (0, -0.02)
     for more in ([tip], [slit], [slit, tip], [tip, slit]):
         points = [*FOLDS[:3], *more, *FOLDS[3:]]
         expected = [ends[0], *more, ends[1]]
-        assert ground_table(points)[1:-1, :2].tolist() == [list(each) for each in expected]
+        assert ground_table(points)[["x", "z"]][1:-1].tolist() == expected
     # as high as the tread, twice: still its end alone
     twice = [*FOLDS[:3], (0, 0.1), *FOLDS[3:]]
     assert (ground_table(twice) == ground_table(FOLDS)).all()

@@ -17,13 +17,14 @@ from kaidan.contact import (
     spring_loads,
     traverse,
 )
-from kaidan.contact import columns as at
 from kaidan.contact.kernel.first_closing import first_closing
 from kaidan.contact.kernel.gaps import gap
 from kaidan.contact.kernel.nearest_feature import nearest
 from kaidan.contact.kernel.reserves import barrier
 from kaidan.contact.kernel.rotation import foot_limit, next_pivot, turned
 from kaidan.contact.kernel.settling import lever
+from kaidan.contact.layout import At, Release
+from kernel_memory import posed, scene
 
 G = 9.80665
 ANGLE, SPACING = np.radians(35), 0.15
@@ -115,11 +116,11 @@ def fine_rise(ground, body, pivot, x, z, phi, sense, kappa):
     start = (z + kappa * x) / down
     best, total, step = 0.0, 0.0, 5e-4
     while total < math.pi / 2:
-        if lever(ground, body, pivot, x, z, math.cos(phi), math.sin(phi), kappa) * sense >= 0:
+        if lever(scene(ground, body), pivot, posed(x, z, phi), kappa) * sense >= 0:
             return True, best
-        x1, z1 = turned(ground, body, pivot, x, z, phi, sense * step)
+        x1, z1 = turned(scene(ground, body), pivot, x, z, phi, sense * step)
         c, s = math.cos(phi + sense * step), math.sin(phi + sense * step)
-        which, distance, _ = nearest(ground, body, x1, z1, c, s, pivot, -1, 0.0, 0)
+        which, distance = nearest(scene(ground, body), At(x1, z1, c, s), pivot, -1, 0.0)
         if which >= 0 and distance < -1e-7:
             pivot = which  # the old contact is left by at most one small turn
         x, z, phi, total = x1, z1, phi + sense * step, total + step
@@ -133,13 +134,13 @@ def rolled_off(ground, body, pivot, x, z, phi):
     k, part, kind = Feature.of(pivot)
     if kind is FeatureKind.VERTEX:
         return pivot
-    j = at.DISC * (kind - FeatureKind.DISC_1)
-    b_x, b_z = body[part, j + at.DISC_X], body[part, j + at.DISC_Z]
+    b_x, b_z, _ = body["one" if kind is FeatureKind.DISC_1 else "two"][part].item()
     centre = [x + math.cos(phi) * b_x - math.sin(phi) * b_z]
     centre.append(z + math.sin(phi) * b_x + math.cos(phi) * b_z)
-    foot = (centre - ground[k, [at.X, at.Z]]) @ ground[k, [at.U_X, at.U_Z]]
-    end = k if foot < 0 else k + 1 if foot > ground[k, at.LENGTH] else None
-    if end is None or ground[end, at.CONVEX] != 1.0:
+    g_x, g_z, u_x, u_z, length, _ = ground[k].item()
+    foot = (centre[0] - g_x) * u_x + (centre[1] - g_z) * u_z
+    end = k if foot < 0 else k + 1 if foot > length else None
+    if end is None or not ground["convex"][end]:
         return pivot
     return Feature(end, part, FeatureKind.VERTEX).code
 
@@ -155,7 +156,7 @@ def test_rise_along_the_flow(seed):
         for sense, pivot in ((1.0, int(run.poses.rear[row])), (-1.0, int(run.poses.front[row]))):
             place = run.poses.placement(row)
             start = (run.ground.table, run.body.table, pivot, *place, sense, 0.0)
-            bounded, rise, _, _ = barrier(*start, 0.0, 0)
+            bounded, rise, _ = barrier(scene(*start[:2]), pivot, Release(*place, sense, 0.0), 0.0)
             fine_bounded, fine = fine_rise(*start)
             if bounded and fine_bounded:
                 # m: each change of contact sinks in by up to one turn's path, 0.5 mrad x 0.5 m
@@ -173,14 +174,12 @@ def test_nothing_is_hit_before_the_first_closing(seed):
         ground, body = run.ground.table, run.body.table
         for sense, pivot in ((1.0, int(run.poses.rear[row])), (-1.0, int(run.poses.front[row]))):
             x, z, phi = run.poses.placement(row)
-            closed, angle, _ = first_closing(
-                ground, body, pivot, x, z, math.cos(phi), math.sin(phi), sense, 0.5, 0
-            )
+            angle, closed = first_closing(scene(ground, body), pivot, posed(x, z, phi), sense, 0.5)
             for part in (0.02, 0.3, 0.6, 0.9, 0.99):
-                x1, z1 = turned(ground, body, pivot, x, z, phi, sense * part * angle)
+                x1, z1 = turned(scene(ground, body), pivot, x, z, phi, sense * part * angle)
                 angle1 = phi + sense * part * angle
-                which, distance, _ = nearest(
-                    ground, body, x1, z1, math.cos(angle1), math.sin(angle1), pivot, -1, 0.0, 0
+                which, distance = nearest(
+                    scene(ground, body), posed(x1, z1, angle1), pivot, -1, 0.0
                 )
                 rolls_on = (
                     which >= 0 and abs(Feature.of(which).point - Feature.of(pivot).point) <= 1
@@ -258,11 +257,13 @@ def test_momentum_over_several_rotations():
             omega, after = 0.0, 0.0
             while phi * sense < phi_end * sense - 1e-9:
                 c, s = math.cos(phi), math.sin(phi)
-                limit = foot_limit(ground, body, pivot, x, z, c, s, sense)
+                limit = foot_limit(scene(ground, body), pivot, At(x, z, c, s), sense)
                 end = min(abs(phi_end - phi) + 1e-9, limit)
-                closed, angle, _ = first_closing(ground, body, pivot, x, z, c, s, sense, end, 0)
+                angle, closed = first_closing(
+                    scene(ground, body), pivot, At(x, z, c, s), sense, end
+                )
                 # (k^2 + r^2) omega' = g Delta - rolling terms: integrated as energy, trapezoid free
-                x1, z1 = turned(ground, body, pivot, x, z, phi, sense * angle)
+                x1, z1 = turned(scene(ground, body), pivot, x, z, phi, sense * angle)
                 a = contact_arm(run, pivot, x1, z1, phi + sense * angle)
                 a0 = contact_arm(run, pivot, x, z, phi)
                 energy = 0.5 * omega**2 * (k**2 + a0 @ a0) + G * (z - z1)
@@ -271,7 +272,7 @@ def test_momentum_over_several_rotations():
                 if closed < 0:
                     if phi * sense >= phi_end * sense - 1e-8:
                         break
-                    pivot = next_pivot(ground, body, pivot, x, z, phi, sense)
+                    pivot = next_pivot(scene(ground, body), pivot, sense)
                     continue
                 before = omega
                 b = contact_arm(run, closed, x, z, phi)
@@ -287,5 +288,5 @@ def test_momentum_over_several_rotations():
 
 def contact_arm(run, feature, x, z, phi):
     ground, body = run.ground.table, run.body.table
-    _, _, _, p_x, p_z = gap(ground, body, feature, x, z, math.cos(phi), math.sin(phi))
+    _, _, _, p_x, p_z = gap(scene(ground, body), feature, posed(x, z, phi))
     return np.array([x - p_x, z - p_z])

@@ -6,14 +6,15 @@ import pytest
 from contact_cases import random_robot, steps
 from kaidan import contact
 from kaidan.contact import ROCKING
-from kaidan.contact import columns as at
+from kaidan.contact.kernel.energy_margins import least_flow_energy
 from kaidan.contact.kernel.reserves import barrier
-from kaidan.contact.switch import kernel
+from kaidan.contact.layout import Release
 from kaidan.outline import Outline
 from kaidan.robot import Posture, Robot, Track
 from kaidan.terrain.profile import Profile
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import traverse
+from kernel_memory import called, scene
 
 RNG = np.random.default_rng(7)
 
@@ -36,8 +37,8 @@ def test_energy_equals_the_full_table(seed):
     assert np.isfinite(whole.margins.energy).all()
     assert np.isnan([bare.margins.energy, bare.margins.energy_side]).all()
     assert not bare.margins.bounded.any()
-    rest = np.setdiff1d(range(at.MARGIN_COLUMNS), [at.ENERGY, at.ENERGY_SIDE, at.BOUNDED])
-    np.testing.assert_array_equal(whole.margins.table[:, rest], bare.margins.table[:, rest])
+    for name in set(whole.margins.table.dtype.names) - {"energy", "energy_side", "bounded"}:
+        np.testing.assert_array_equal(whole.margins.table[name], bare.margins.table[name])
     some = RNG.permutation(len(bare.poses))[:20]
     np.testing.assert_array_equal(bare.energy(some), energy_of(whole.margins[some]))
     np.testing.assert_array_equal(bare.margins.bounded[some], whole.margins.bounded[some])
@@ -64,19 +65,16 @@ def test_energy_is_the_smaller_of_both_sides():
     second = 0
     for seed in range(30):
         run = run_of(seed)
-        poses, margins, hint = run.poses.table, run.margins.table, 0
-        for row in range(0, len(poses), 7):
-            place = poses[row, [at.POSE_X, at.POSE_Z, at.POSE_PHI]]
+        margins, tables = run.margins, scene(run.ground.table, run.body.table)
+        for row in range(0, len(run.poses), 7):
+            place = run.poses.placement(row)
             rises = []
-            for outer, side in ((at.OUTER_REAR, 1.0), (at.OUTER_FRONT, -1.0)):
-                pivot = int(margins[row, outer])
-                _, rise, _, hint = barrier(
-                    run.ground.table, run.body.table, pivot, *place, side,
-                    margins[row, at.TILT], ROCKING, hint,
-                )  # fmt: skip
+            for pivot, side in zip(margins.outermost[row].tolist(), (1.0, -1.0), strict=True):
+                release = Release(*place, side, float(margins.tilt[row]))
+                _, rise, _ = barrier(tables, pivot, release, ROCKING)
                 rises.append(rise)
-            assert margins[row, at.ENERGY] == pytest.approx(min(rises), abs=1e-12)
-            back, front = np.abs(margins[row, [at.BACK_RISE, at.FRONT_RISE]])
+            assert margins.energy[row] == pytest.approx(min(rises), abs=1e-12)
+            back, front = abs(margins.back_rise[row]), abs(margins.front_rise[row])
             second += back <= front < rises[0] and rises[1] < rises[0]
     assert second > 3, "the front is looked at second, and falls first"
 
@@ -134,10 +132,9 @@ def test_the_least_energy_is_worked_out_only_where_it_may_be(seed, low, side):
     weights = np.random.default_rng(seed).uniform(low, 1.0, len(whole.poses))
     pivot = (weights * (whole.margins.back_rise if side > 0 else whole.margins.front_rise))[rows]
     needed = np.maximum((weights * whole.margins.energy)[rows], pivot)
-    least, row = kernel().least_flow_energy(
-        bare.ground.table, bare.body.table, bare.poses.table, bare.margins.table, rows, side,
-        weights, 1e-9, np.empty(len(rows), dtype=np.int64), np.empty(len(rows)),
-    )  # fmt: skip
+    least, row = called(least_flow_energy)(
+        bare.scene, bare.poses.table, bare.margins.table, rows, side, weights, 1e-9
+    )
     assert least == needed.min()
     assert row == rows[np.flatnonzero(needed <= least + 1e-9)[0]]
     known = ~np.isnan(bare.margins.energy)

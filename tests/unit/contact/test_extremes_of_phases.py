@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from kaidan.contact import BESIDE_NOSINGS, EVERY_POSE, NO_POSE
-from kaidan.contact import columns as at
+from kaidan.contact.door import table_of
 from kaidan.contact.kernel import extremes
-from kaidan.contact.scratch import peak_scratch
+from kaidan.contact.layout import Extreme, Flight, Known, Leading, Margin, Pose, Pull, Zone
 from kaidan.mechanics.measures import sudden_stop_height
+from kernel_memory import nothing, numbers, table
 
 G = 9.80665
 INF, NAN = math.inf, math.nan
@@ -32,9 +33,9 @@ def marks(*rows, count=COUNT):
 
 
 def poses_at(rear=REAR, front=FRONT):
-    found = np.full((len(front), at.POSE_COLUMNS), 7.0)
-    found[:, at.REAR_X], found[:, at.FRONT_X] = rear, front
-    found[:, [at.REAR_Z, at.FRONT_Z]] = 0.2
+    found = nothing(Pose, len(front))
+    found["rear"]["x"], found["front"]["x"] = rear, front
+    found["rear"]["z"] = found["front"]["z"] = 0.2
     return found
 
 
@@ -44,43 +45,46 @@ def looked_at(monkeypatch):
 
     def of(*, descending=False, whole=True, counts=(EVERY_POSE,) * 3, friction=FRICTION, **more):
         asked = []
-        margins = np.full((COUNT, at.MARGIN_COLUMNS), NAN)
-        margins[:, at.FRONT], margins[:, at.BACK] = np.arange(COUNT) + 0.5, np.arange(COUNT) + 0.25
-        margins[:, at.BELLY_TOUCHES] = more.get("belly", marks(4, 6))
+        margins = nothing(Margin, COUNT)
+        margins["front"], margins["back"] = np.arange(COUNT) + 0.5, np.arange(COUNT) + 0.25
+        margins["belly_touches"] = more.get("belly", marks(4, 6))
 
-        def energy(ground, body, poses, of, rows, side, weights, tie, order, pivots):
+        def energy(scene, poses, of, rows, side, weights, tie):
             assert (tie, len(weights)) == (1e-9, COUNT)
-            asked.append(("energy", side, rows.tolist()))
-            assert len(set(weights[rows])) == 1
+            asked.append(("energy", side, list(rows)))
+            assert len({weights[row] for row in rows}) == 1
             return more.get("least", 0.002 * weights[rows[0]]), more.get("row", rows[0])
 
-        def rock(ground, body, poses, of, rows, own, side, whence, a, g, touch, *scratch):
-            assert (own, a, g, touch) == (8, 0.7, G, 1e-9)
-            asked.append(("rock", side, rows.tolist()))
+        def rock(scene, poses, of, rows, own, side, whence, pull):
+            assert (own, pull) == (8, Pull(0.7, G))
+            asked.append(("rock", side, list(rows)))
             # towards the downhill end alone
             came = side == (-1.0 if descending else 1.0)
-            assert whence.tolist() == (AT / 10.0).tolist() if came else np.isinf(whence).all()
-            return 0.1 * len(rows), more.get("row", rows[-1])
+            assert list(whence) == (AT / 10.0).tolist() if came else np.isinf(list(whence)).all()
+            return 0.1 * len(rows), more.get("row", list(rows)[-1])
 
         monkeypatch.setattr(extremes, "least_flow_energy", energy)
         monkeypatch.setattr(extremes, "first_rock", rock)
-        monkeypatch.setattr(
-            extremes, "as_on_flat", lambda poses, row, side, *given: 0.5 + 0.25 * side
-        )
-        size = COUNT + 5
-        table = np.full((3, at.EXTREME_COLUMNS), NAN)
-        extremes.find_extremes(
-            None, None, poses_at(), margins, PHASE, CORNER, AT, 1 - marks(4),
-            np.array(friction), np.array(friction) + 1.0, marks(1, 7), np.arange(8) / 10.0,
-            marks(3, count=8), np.array(counts), descending, whole,
-            np.array([(0.58, 0.7, 0.1, 0.3), (0.75, 9.0, 0.0, 1.0), (0.6, 0.7, 0.3, 1.0)]),
-            np.array([(-0.1, 0.1, NAN), (0.04, 0.6, NAN)]), NOSINGS, 0.1, 0.2, 0.7, G, 1e-9,
-            *np.full((2, COUNT), 9.0), *np.full((4, COUNT), 9), *np.full((2, COUNT), 9.0),
-            *np.full((4, size), 9), *np.full((3, size), 9.0), np.full(size, 9),
-            *peak_scratch(COUNT, 1), table,
+        monkeypatch.setattr(extremes, "as_on_flat", lambda pose, side, *given: 0.5 + 0.25 * side)
+        known = Known(
+            numbers(PHASE, int), numbers(CORNER, bool), numbers(AT, int),
+            numbers(1 - marks(4), bool), numbers(friction), numbers(np.array(friction) + 1.0),
+            numbers(marks(1, 7), bool),
+            numbers(np.arange(8) / 10.0), numbers(marks(3, count=8), bool),
         )  # fmt: skip
+        tops = [(0.58, 0.7, 0.1, 0.3), (0.75, 9.0, 0.0, 1.0), (0.6, 0.7, 0.3, 1.0)]
+        flights = [(-0.1, 0.1, NAN), (0.04, 0.6, NAN)]
+        leading = Leading(
+            descending, whole, numbers(counts, int), table(Zone, table_of(Zone, tops)),
+            table(Flight, table_of(Flight, flights)), numbers(NOSINGS), 0.1, 0.2,
+        )  # fmt: skip
+        found = nothing(Extreme, 3)
+        written = table(Extreme, found)
+        given = table(Pose, poses_at()), table(Margin, margins)
+        extremes.find_extremes(None, *given, known, leading, Pull(0.7, G), written)
+        written.flush()
         kinds = ([one[1:] for one in asked if one[0] == kind] for kind in ("energy", "rock"))
-        return table, *kinds
+        return found, *kinds
 
     return of
 
@@ -89,7 +93,7 @@ def test_which_poses_count_on_the_way_up(looked_at):
     """Traversing a flat judges by nosings, and poses where it is on no flight; a pose that comes
     back is none that falls, uphill none over the top.
     """
-    table, energy, rock = looked_at()
+    found, energy, rock = looked_at()
     on, lands = [2, 3, 5, 6, 8, 9], [5, 6, 7, 9]
     assert energy == [
         (1.0, [0, 1]), (1.0, [0, 1]), (1.0, on), (1.0, on), (-1.0, [2, 3, 8]),
@@ -97,42 +101,42 @@ def test_which_poses_count_on_the_way_up(looked_at):
     ]  # fmt: skip
     # on one flight stand the third and the ninth; the seventh is judged as it lands
     assert rock == [(1.0, [0, 1]), (1.0, [5, 9]), (-1.0, [3]), (1.0, lands)]
-    assert table[:, at.EXTREME_POSES].tolist() == [2, 6, 4]
-    assert table[:, at.EXTREME_ENERGY].tolist() == [0.002] * 3
-    assert table[:, at.EXTREME_ENERGY_X].tolist() == FRONT[[0, 2, 5]].tolist()
-    assert table[:, at.EXTREME_STEADY].tolist() == [0.0015] * 3
-    assert table[:, at.EXTREME_STEADY_X].tolist() == FRONT[[0, 2, 5]].tolist()
-    assert table[:, at.EXTREME_UPHILL].tolist() == [INF, 0.0005, INF]
-    np.testing.assert_array_equal(table[:, at.EXTREME_UPHILL_X], [NAN, FRONT[2], NAN])
-    assert table[:, at.EXTREME_TILT_DOWNHILL].tolist() == pytest.approx([0.2, 0.2, 0.4])
-    assert table[:, at.EXTREME_TILT_DOWNHILL_X].tolist() == FRONT[[1, 9, 9]].tolist()
-    assert table[:, at.EXTREME_TILT_UPHILL].tolist() == [INF, 0.1, INF]
-    np.testing.assert_array_equal(table[:, at.EXTREME_TILT_UPHILL_X], [NAN, FRONT[3], NAN])
+    assert found["poses"].tolist() == [2, 6, 4]
+    assert found["energy"].tolist() == [0.002] * 3
+    assert found["energy_place"].tolist() == FRONT[[0, 2, 5]].tolist()
+    assert found["steadiness"].tolist() == [0.0015] * 3
+    assert found["steadiness_place"].tolist() == FRONT[[0, 2, 5]].tolist()
+    assert found["uphill"].tolist() == [INF, 0.0005, INF]
+    np.testing.assert_array_equal(found["uphill_place"], [NAN, FRONT[2], NAN])
+    assert found["tilt_downhill"].tolist() == pytest.approx([0.2, 0.2, 0.4])
+    assert found["tilt_downhill_place"].tolist() == FRONT[[1, 9, 9]].tolist()
+    assert found["tilt_uphill"].tolist() == [INF, 0.1, INF]
+    np.testing.assert_array_equal(found["tilt_uphill_place"], [NAN, FRONT[3], NAN])
 
 
 def test_figures_of_the_poses_of_a_phase(looked_at):
     """Only landing the trailing end slides down what it comes off."""
-    table, *_ = looked_at()
-    assert table[:, at.EXTREME_FRICTION].tolist() == [0.9, 0.5, 0.5]
-    assert table[:, at.EXTREME_FRICTION_X].tolist() == FRONT[[1, 6, 6]].tolist()
-    np.testing.assert_array_equal(table[:, at.EXTREME_SLIDES], [NAN, NAN, 0.8])
-    assert table[:, at.EXTREME_TRACTION].tolist() == [1.9, 1.5, 1.5]
-    assert table[:, at.EXTREME_STATIC].tolist() == [0.25, 2.25, 5.25]
-    assert table[:, at.EXTREME_BELLY].tolist() == [0, 1, 1]
-    table, *_ = looked_at(belly=marks(4))
-    assert table[:, at.EXTREME_BELLY].tolist() == [0, 0, 0]
+    found, *_ = looked_at()
+    assert found["friction"].tolist() == [0.9, 0.5, 0.5]
+    assert found["friction_place"].tolist() == FRONT[[1, 6, 6]].tolist()
+    np.testing.assert_array_equal(found["slides_below"], [NAN, NAN, 0.8])
+    assert found["traction"].tolist() == [1.9, 1.5, 1.5]
+    assert found["static_margin"].tolist() == [0.25, 2.25, 5.25]
+    assert found["belly"].tolist() == [0, 1, 1]
+    found, *_ = looked_at(belly=marks(4))
+    assert found["belly"].tolist() == [0, 0, 0]
 
 
 def test_of_figures_alike_the_first_pose_is_told(looked_at):
     friction = [0.1, 0.1, 0.5 - 0.9e-9, 0.3, 9.0, 0.4, 0.5, 0.8, 0.3, 0.4]
-    table, *_ = looked_at(friction=friction)
-    assert table[1, at.EXTREME_FRICTION_X] == FRONT[2]
+    found, *_ = looked_at(friction=friction)
+    assert found["friction_place"][1] == FRONT[2]
     friction[2] = 0.5 - 1.1e-9
-    assert looked_at(friction=friction)[0][1, at.EXTREME_FRICTION_X] == FRONT[6]
+    assert looked_at(friction=friction)[0]["friction_place"][1] == FRONT[6]
     friction[3] = friction[8] = INF
-    table, *_ = looked_at(friction=friction)
-    assert table[1, at.EXTREME_FRICTION] == INF
-    assert table[1, at.EXTREME_FRICTION_X] == FRONT[3]
+    found, *_ = looked_at(friction=friction)
+    assert found["friction"][1] == INF
+    assert found["friction_place"][1] == FRONT[3]
 
 
 def test_where_no_flat_carries_every_pose_is_judged(looked_at):
@@ -150,26 +154,26 @@ def test_which_poses_count_on_the_way_down(looked_at):
     """Over the edge of the landing above it has to rotate; whether the uppermost contact is over
     the top the rear one tells; nothing came down that gravity would return.
     """
-    table, energy, rock = looked_at(descending=True)
+    found, energy, rock = looked_at(descending=True)
     on = [2, 3, 5, 6, 8, 9]
     assert energy[:5] == [(-1.0, [0, 1])] * 2 + [(-1.0, on)] * 2 + [(1.0, on)]
     assert rock == [(-1.0, [5, 9]), (1.0, [3, 5, 9]), (-1.0, [5, 6, 7, 9])]
-    assert table[0, at.EXTREME_TILT_DOWNHILL] == table[0, at.EXTREME_TILT_UPHILL] == INF
-    assert table[:, at.EXTREME_STATIC].tolist() == [0.5, 2.5, 5.5]
+    assert found["tilt_downhill"][0] == found["tilt_uphill"][0] == INF
+    assert found["static_margin"].tolist() == [0.5, 2.5, 5.5]
 
 
 def test_where_no_pose_is_the_least(looked_at):
     """Of energies that are all infinite the first pose is told, of tilts none."""
-    table, *_ = looked_at(least=INF, row=-1)
-    assert table[:, at.EXTREME_ENERGY].tolist() == [INF] * 3
-    assert table[:, at.EXTREME_ENERGY_X].tolist() == FRONT[[0, 2, 5]].tolist()
-    assert np.isnan(table[:, at.EXTREME_TILT_DOWNHILL_X]).all()
+    found, *_ = looked_at(least=INF, row=-1)
+    assert found["energy"].tolist() == [INF] * 3
+    assert found["energy_place"].tolist() == FRONT[[0, 2, 5]].tolist()
+    assert np.isnan(found["tilt_downhill_place"]).all()
 
 
 def of_phases(phase, corner):
-    given = np.array(phase), np.array(corner)
+    known = Known(numbers(phase, int), numbers(corner, bool), *7 * [None])
     return [
-        [row for row in range(len(phase)) if extremes.is_of_phase(*given, row, number)]
+        [k for k in range(len(phase)) if extremes.is_of_phase(known, k, number)]
         for number in range(3)
     ]
 
@@ -184,18 +188,19 @@ def test_between_two_phases_a_pose_is_of_both():
 
 
 def test_a_place_among_others_to_the_last_digit():
-    assert [extremes.is_among(NOSINGS, x) for x in (0.0, 0.3, 0.6)] == [True] * 3
+    places = numbers(NOSINGS)
+    assert [extremes.is_among(places, x) for x in (0.0, 0.3, 0.6)] == [True] * 3
     others = (-1.0, 0.1, np.nextafter(0.3, 1.0), np.nextafter(0.3, 0.0), 0.7)
-    assert not any(extremes.is_among(NOSINGS, x) for x in others)
-    assert not extremes.is_among(NOSINGS[:0], 0.3)
+    assert not any(extremes.is_among(places, x) for x in others)
+    assert not extremes.is_among(places[0:0], 0.3)
 
 
 def test_poses_on_one_flight():
     """Two flights; with a contact on each, or beyond an end, the robot stands on none."""
-    flights = np.array([(0.0, 0.3, NAN), (0.9, 1.2, NAN)])
+    flights = table(Flight, table_of(Flight, [(0.0, 0.3, NAN), (0.9, 1.2, NAN)]))
     ends = [(0.0, 0.3), (-1e-5, 0.2), (0.0, 0.31), (0.1, 0.2), (0.35, 0.8), (0.9, 1.2), (0.2, 1.0)]
-    poses = poses_at(*np.transpose(ends))
-    found = [extremes.is_on_flight(poses, row, flights) for row in range(len(ends))]
+    poses = table(Pose, poses_at(*np.transpose(ends)))
+    found = [extremes.is_on_flight(pose, flights) for pose in poses]
     assert found == [True, False, False, True, False, True, False]
 
 
@@ -213,15 +218,19 @@ def test_a_rise_as_one_about_the_flat():
     where the belt pulls through the centroid: none.
     """
     half = math.sqrt(0.5)
-    poses = np.full((3, at.POSE_COLUMNS), NAN)
-    poses[:, [at.POSE_X, at.POSE_Z]] = 0.0, 0.3
-    poses[:, [at.REAR_X, at.REAR_Z]] = [(-0.2, 0.2), (-0.2, 0.1), (-0.3, 0.0)]
-    poses[:, [at.REAR_N_X, at.REAR_N_Z]] = [(0.0, 1.0), (0.0, 1.0), (-half, half)]
-    poses[:, [at.FRONT_X, at.FRONT_Z]] = [(0.3, 0.2), (0.1, 0.3), (0.2, 0.3 - 0.2 * half)]
-    poses[:, [at.FRONT_N_X, at.FRONT_N_Z]] = [(0.0, 1.0), (-1.0, 0.0), (0.0, 1.0)]
+    rows = nothing(Pose, 3)
+    rows["x"], rows["z"] = 0.0, 0.3
+    touches = {
+        "rear": [(-0.2, 0.2, 0.0, 1.0), (-0.2, 0.1, 0.0, 1.0), (-0.3, 0.0, -half, half)],
+        "front": [(0.3, 0.2, 0.0, 1.0), (0.1, 0.3, -1.0, 0.0), (0.2, 0.3 - 0.2 * half, 0.0, 1.0)],
+    }
+    for end, of in touches.items():
+        for name, values in zip(("x", "z", "n_x", "n_z"), np.transpose(of), strict=True):
+            rows[end][name] = values
+    poses = table(Pose, rows)
 
     def ratios(side):
-        return [extremes.as_on_flat(poses, row, side, 0.1, 0.2, G) for row in range(3)]
+        return [extremes.as_on_flat(pose, side, 0.1, 0.2, G) for pose in poses]
 
     assert ratios(1.0)[:2] == pytest.approx([1.0, 0.4])
     assert ratios(1.0)[2] == pytest.approx(1e6)  # bounded

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from test_closing_pieces import discs, flat_of, random_direction, random_place, table
 
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.kernel.closing import (
     FROM_DISC_1,
     FROM_DISC_2,
@@ -28,9 +28,11 @@ from kaidan.contact.kernel.first_closing import (
     rolling_closing,
     side_of,
     stays_under,
-    swept,
-    turning_about,
+    swept_by,
+    turn_about,
 )
+from kaidan.contact.layout import First, Swept
+from kernel_memory import called, scene, turning
 
 TIMES = 20
 """Random cases of each formula."""
@@ -45,25 +47,34 @@ def random_part(rng):
     return discs(*both), both
 
 
-def pose(c, turn, point=0j):
-    """As the kernel has it: centroid, cosine and sine of the inclination, point of the pivot."""
-    return c.real, c.imag, turn.real, turn.imag, point.real, point.imag
+def pose(c, turn):
+    """As the kernel has it: centroid, cosine and sine of the inclination."""
+    return at.At(c.real, c.imag, turn.real, turn.imag)
 
 
 def test_a_robot_turns_about_a_vertex_or_about_the_centre_of_the_end_that_rolls():
     rng = np.random.default_rng(1)
     for _ in range(TIMES):
         body, both = random_part(rng)
-        rows = np.vstack([discs((0j, 3.0), (9j, 3.0)), body])
+        rows = np.concatenate([discs((0j, 3.0), (9j, 3.0)), body])
         point, up, end = random_place(rng, 3.0), random_direction(rng), rng.uniform(0.1, 1.5)
         ground = table((9j, 1 + 0j, 1.0), (point, -1j * up, 1.0))
-        radii = [radius for _, radius in both]
-        for kind, radius in zip((at.VERTEX, at.DISC_1, at.DISC_2), (0.0, *radii), strict=True):
-            centre = point + radius * up
-            about = turning_about(
-                ground, rows, at.POINT + at.PART + kind, point.real, point.imag, end
+        c, phi = random_place(rng, 3.0), random_direction(rng)
+        for kind in (at.VERTEX, at.DISC_1, at.DISC_2):
+            turn = turn_about(
+                scene(ground, rows), at.POINT + at.PART + kind, pose(c, phi), 1.0, end
             )
-            assert about == pytest.approx((centre.real, centre.imag, radius, radius * end))
+            if kind == at.VERTEX:
+                assert (turn.h_x, turn.h_z, turn.radius) == (point.real, point.imag, 0.0)
+                continue
+            place, radius = both[kind - at.DISC_1]
+            hub = c + place * phi
+            # the point of the pivot is the foot of the centre on the segment's line
+            foot = hub - ((hub - point) * up.conjugate()).real * up
+            assert complex(turn.o_x, turn.o_z) == pytest.approx(foot)
+            about = foot + radius * up
+            assert (turn.h_x, turn.h_z) == pytest.approx((about.real, about.imag))
+            assert turn.radius == radius
 
 
 def test_what_a_disc_sweeps_is_its_chord_with_the_sagitta_of_its_arc():
@@ -77,15 +88,16 @@ def test_what_a_disc_sweeps_is_its_chord_with_the_sagitta_of_its_arc():
         shares = np.linspace(0.0, 1.0, 9)
         turns = np.exp(1j * sense * end * shares)
         finish = pose(about + rolls + (c - about) * turns[-1], phi * turns[-1])
-        centres, ranges = swept(body, 0, pose(c, phi), finish, about.real, about.imag, end)
+        turn = turning(0j, sense, end, 0, pose(c, phi), (finish, 0j), about)
+        found = called(swept_by)(body[0], turn)
         for j, (place, radius) in enumerate(both):
             a = c + place * phi
-            assert complex(*centres[2 * j : 2 * j + 2]) == pytest.approx(a)
+            assert complex(*found[2 * j : 2 * j + 2]) == pytest.approx(a)
             lever = a - about
             over = (about + shares * rolls + lever * turns).real
             chord = sorted([over[0], over[-1]])
             room = end**2 / 8 * (abs(lever.real) + abs(lever.imag)) + radius
-            left, right = ranges[2 * j : 2 * j + 2]
+            left, right = found[4 + 2 * j : 6 + 2 * j]
             assert (left, right) == pytest.approx((chord[0] - room, chord[1] + room))
             assert left <= over.min() - radius
             assert over.max() + radius <= right
@@ -100,11 +112,12 @@ def test_a_side_faces_down_if_it_does_so_before_or_after(piece):
         c, phi, turn = random_place(rng, 3.0), random_direction(rng), random_direction(rng)
         point = random_place(rng, 3.0)
         a = c + both[0][0] * phi
-        down, *normal, level, foot = side_of(
-            body, 0, piece, pose(c, phi, point), a.real, a.imag, turn.real, turn.imag
-        )
+        sense, end = math.copysign(1.0, turn.imag), abs(cmath.phase(turn))
+        given = turning(point, sense, end, 0, pose(c, phi))
+        swept = Swept(a.real, a.imag, *6 * (math.nan,))
+        down, *normal, level, foot = called(side_of)(body[0], piece, given, swept)
         n = complex(*normal)
-        assert n == pytest.approx(complex(*flat_normal(body, 0, piece, phi.real, phi.imag)))
+        assert n == pytest.approx(complex(*called(flat_normal)(body[0], piece, pose(0j, phi))))
         beyond = (point - a) * n.conjugate()
         assert level == pytest.approx(beyond.real - both[0][1])
         leads_back = bool((both[1][0] - both[0][0]).real < 0.0)
@@ -114,6 +127,11 @@ def test_a_side_faces_down_if_it_does_so_before_or_after(piece):
         assert down == (n.imag < 0.0 or (n * turn).imag < 0.0)
         seen.add((n.imag < 0.0, (n * turn).imag < 0.0))
     assert len(seen) == 4
+
+
+def bound_of(piece, place, turn, swept=8 * (math.nan,)):
+    """Bound on the curvature of a piece of the gap of a point."""
+    return called(curvature)(piece, table((place, 1 + 0j, 1.0))[0], turn, swept)
 
 
 def second_derivative(gap, angle):
@@ -130,7 +148,6 @@ def test_a_flat_that_rolls_comes_no_sooner_than_a_parabola_about_a_vertex(piece)
     """
     rng = np.random.default_rng(4)
     for radius in (0.05, 2.5):
-        levers = 0.0, 0.0, 0.0, 0.0
         for far in (0.2, 5.0):
             u, n = random_direction(rng), np.exp(1j * np.linspace(-math.pi, math.pi, 721))
             for v in far * u * np.array([1j, 1.0, *np.exp(1j * rng.uniform(-3.0, 3.0, 3))]):
@@ -140,9 +157,8 @@ def test_a_flat_that_rolls_comes_no_sooner_than_a_parabola_about_a_vertex(piece)
                         return ((v + radius * angle * u) * (n * np.exp(1j * angle)).conj()).real
 
                     hub = random_place(rng, 3.0)
-                    about = hub.real, hub.imag, radius, rolled
-                    g = v + hub
-                    bound = curvature(piece, g.real, g.imag, levers, about)
+                    turn = turning(0j, 1.0, rolled / radius, about=hub, radius=radius)
+                    bound = bound_of(piece, v + hub, turn)
                     bends = abs(second_derivative(gap, rolled / radius)).max()
                     assert bends <= bound + 1e-5
                     if rolled == 0.0 and v == far * u * 1j:
@@ -153,10 +169,12 @@ def test_a_disc_that_another_one_carries_comes_no_sooner_than_its_lever_lets_it(
     rng = np.random.default_rng(5)
     for _ in range(TIMES):
         first, second = random_place(rng, 3.0), random_place(rng, 3.0)
-        levers = first.real, first.imag, second.real, second.imag
+        hub = random_place(rng, 3.0)
+        a, b = hub + first, hub + second
+        swept = Swept(a.real, a.imag, b.real, b.imag, *4 * (math.nan,))
         for pieces, lever in ((TO_ARC_1, FROM_DISC_1), first), ((TO_ARC_2, FROM_DISC_2), second):
             for piece in pieces:
-                bound = curvature(piece, 9.0, 9.0, levers, (9.0, 9.0, 9.0, 9.0))
+                bound = bound_of(piece, 9 + 9j, turning(0j, 1.0, 9.0, about=hub, radius=9.0), swept)
                 assert bound == pytest.approx(abs(lever))
 
 
@@ -165,22 +183,21 @@ class Look:
 
     def __init__(self, length, radius, phi, sense, end):
         self.body = discs((0j, radius), (length + 0j, radius))
-        self.given = sense, end
         hub, turn = 1j * radius, cmath.exp(1j * sense * end)
-        self.start = pose(hub, cmath.exp(1j * phi))
-        rolled = -sense * end * radius
-        self.finish = pose(hub + rolled, cmath.exp(1j * phi) * turn, rolled + 0j)
-        lever = length * cmath.exp(1j * phi)
-        self.levers = 0.0, 0.0, lever.real, lever.imag
-        self.about = 0.0, radius, radius, radius * end
+        start = pose(hub, cmath.exp(1j * phi))
+        rolled = -sense * end * radius + 0j
+        finish = pose(hub + rolled, cmath.exp(1j * phi) * turn)
+        far = hub + length * cmath.exp(1j * phi)
+        pivot = at.POINT + at.DISC_1
+        self.turn = turning(0j, sense, end, pivot, start, (finish, rolled), hub, radius)
+        self.swept = Swept(hub.real, hub.imag, far.real, far.imag, -1e9, 1e9, -1e9, 1e9)
 
     def first(self, ground, down, falls):
         """What the first row of the ground meets: piece's feature, angle."""
-        everywhere = -1e9, 1e9, -1e9, 1e9
+        first = First(self.turn.end, at.NO_FEATURE)
         best, which = rolling_closing(
-            ground, self.body, 0, 0, at.POINT + at.DISC_1, down, falls, self.start, self.finish,
-            *self.given, self.about, self.levers, everywhere, self.given[1], at.NO_FEATURE,
-        )  # fmt: skip
+            scene(ground, self.body), 0, 0, down, falls, self.turn, self.swept, first
+        )
         return which, best
 
 
@@ -207,18 +224,20 @@ def test_sides_that_face_up_all_along_are_left_out_and_the_ends_are_not():
     which, angle = look.first(at_the_nose, False, False)
     assert which == at.VERTEX
     assert look.first(at_the_nose, True, True) == (which, angle)
+    tables = scene(at_the_nose, look.body)
+    there, moved = look_at(look, angle)
     value, _ = separation(
-        at_the_nose, look.body, 0, 0, TO_ARC_2, *look_at(look, angle), look.given[0]
+        tables, 0, tables.body[0], TO_ARC_2, there, moved.real, moved.imag, look.turn.sense
     )
     assert value == pytest.approx(0.0, abs=1e-9)
 
 
 def look_at(look, angle):
     """Pose after part of a turn."""
-    sense, _ = look.given
-    turn = complex(*look.start[2:4]) * cmath.exp(1j * sense * angle)
-    moved = -sense * angle * look.about[2]
-    return pose(complex(*look.start[:2]) + moved, turn, moved + 0j)
+    start, sense = look.turn.start, look.turn.sense
+    turn = complex(start.c, start.s) * cmath.exp(1j * sense * angle)
+    moved = -sense * angle * look.turn.radius + 0j
+    return pose(complex(start.x, start.z) + moved, turn), moved
 
 
 def test_a_point_stays_under_a_line_that_turns_if_it_does_so_before_and_after():
@@ -231,10 +250,10 @@ def test_a_point_stays_under_a_line_that_turns_if_it_does_so_before_and_after():
         if min(abs(looks[[0, -1]] - height)) < 1e-9:
             continue
         place = o + v
-        ground = table((9j, 1 + 0j, 1.0), (place, 1 + 0j, 1.0))
-        under = stays_under(
-            ground, 1, o.real, o.imag, math.cos(turn), math.sin(turn), (n.real, n.imag, height)
-        )
+        ground = table((place, 1 + 0j, 1.0))
+        line = n.real, n.imag, height
+        given = turning(o, math.copysign(1.0, turn), abs(turn), line=line)
+        under = called(stays_under)(ground[0], given)
         assert under == (looks.max() < height)
         found.append(under)
     assert 0.1 < np.mean(found) < 0.9
@@ -249,15 +268,15 @@ def test_half_of_what_is_penetrated_is_under(over, under, sense, height):
     turn = np.exp(1j * sense * 0.7)
     for place in ((level - 1j * sense) * n, (level + 1j * sense) * n * turn):
         ground = table((place, 1 + 0j, 1.0))
-        given = turn.real, turn.imag, (n.real, n.imag, height)
-        assert stays_under(ground, 0, 0.0, 0.0, *given) == under
+        given = turning(0j, sense, 0.7, line=(n.real, n.imag, height))
+        assert called(stays_under)(ground[0], given) == under
 
 
 def test_an_end_that_swings_out_to_a_short_edge_and_back_meets_it():
     """Under an edge of 0.1 m, 1.9 to 2 m ahead; before and after it is 0.15 m short of that."""
     look = Look(2.0, 0.1, -0.5, 1.0, 1.0)
     ground = table((2 + 0.2j, -1 + 0j, 0.1), (0j, 1 + 0j, 1.0))
-    ground[:, at.CONVEX] = 0.0  # the edge itself, and not its corners
+    ground["convex"] = False  # the edge itself, and not its corners
     which, angle = look.first(ground, True, True)
     assert which == at.DISC_2
     assert angle == pytest.approx(0.5, abs=1e-9)

@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 
 from kaidan import contact
-from kaidan.contact import columns as at
 from kaidan.contact.kernel import first_rock as module
-from kaidan.contact.scratch import peak_scratch
+from kaidan.contact.layout import Looked, Margin, Pose, Pull
+from kernel_memory import nothing, numbers, table
 
 PLACE = 1e-6
 INF = math.inf
+PULL = Pull(0.7, 9.8)
 
 
 class Onto(NamedTuple):
@@ -34,10 +35,11 @@ class Way:
     """
 
     def __init__(self, places, *nosings, leg=0.0):
-        self.poses = np.full((len(places), at.POSE_COLUMNS), np.nan)
-        self.poses[:, at.POSE_S] = places
-        self.poses[:, at.POSE_PHI] = -0.1 * self.poses[:, at.POSE_S]
-        self.poses[:, at.POSE_LEG] = leg
+        poses = nothing(Pose, len(places))
+        poses["s"] = places
+        poses["inclination"] = -0.1 * poses["s"]
+        poses["leg"] = leg
+        self.poses, self.margins = table(Pose, poses), table(Margin, nothing(Margin, len(poses)))
         self.looked_at, self.nosings = [], nosings
         self.hidden = ()
         """Rows at which nothing is rocked onto."""
@@ -48,40 +50,39 @@ def kernel(monkeypatch):
     """The way at hand, and poses between two that a search finds."""
     given = {"way": None, "dips": ([], [])}
 
-    def pose_tilt(ground, body, poses, margins, row, side, tolerance, hint):
+    def pose_tilt(scene, pose, margin, side, tolerance):
         assert side == -1.0
-        way, s = given["way"], poses[row, at.POSE_S]
-        assert isinstance(margins, str) == (poses is way.poses)
+        way, s = given["way"], pose.s
+        own = [k for k, each in enumerate(way.poses) if each is pose]
+        assert own == [k for k, each in enumerate(way.margins) if each is margin]
         alone, rocking, tilt = 0.1 + 0.05 * s, 0.0, 0.1 + 0.05 * s
         for each in way.nosings:
             if each.begin <= s <= each.end:
                 alone, rocking, tilt = each.alone, each.rocking, each.tilt
         if tolerance == 0.0:
-            return alone, 0.0, hint
-        if poses is way.poses:
-            way.looked_at.append(row)
+            return alone, 0.0
+        way.looked_at += own
         if rocking > tolerance:
-            return alone, 0.0, hint
-        return tilt, 0.0 if poses is way.poses and row in way.hidden else rocking, hint
+            return alone, 0.0
+        return tilt, 0.0 if set(own) & set(way.hidden) else rocking
 
-    def poses_between(ground, body, poses, rows, shares, count, new):
-        assert count == 1
-        begin, end = poses[rows[0] : rows[0] + 2, at.POSE_S]
-        new[0, at.POSE_S] = begin + shares[0] * (end - begin)
-        new[0, at.POSE_PHI] = -0.1 * new[0, at.POSE_S]
+    def poses_between(scene, poses, rows, shares, new):
+        assert len(new) == 1
+        begin, end = poses[rows[0]].s, poses[rows[0] + 1].s
+        new[0].s = begin + shares[0] * (end - begin)
+        new[0].inclination = -0.1 * new[0].s
 
-    def pose_margins(ground, body, new, count, a, g, touch, margins, contacts):
-        assert (count, a, g, touch) == (1, 0.7, 9.8, 1e-9)
+    def pose_margins(scene, new, pull, margins):
+        assert (len(new), pull) == (1, PULL)
 
-    def find_peaks(ground, body, poses, values, group, narrow, tolerance, side, a, g, touch, *rest):
-        assert (tolerance, side, a, g, touch) == (1e-5, -1.0, 0.7, 9.8, 1e-9)
-        assert not narrow.any()
-        given.update(values=values.tolist(), group=group[: len(poses)].tolist())
+    def find_peaks(scene, poses, figures, groups, tolerance, side, pull, found):
+        assert (groups, tolerance, side, pull) == (1, 1e-5, -1.0, PULL)
+        assert not any(figures.narrow)
+        given.update(values=list(figures.values), group=list(figures.group))
         rows, places = given["dips"]
-        dips, between, _ = rest[-3:]
-        dips[: len(rows)] = rows
-        between[: len(rows), at.POSE_S] = places
-        between[: len(rows), at.POSE_PHI] = -0.1 * np.array(places)
+        for k, (row, place) in enumerate(zip(rows, places, strict=True)):
+            found.rows[k] = row
+            found.poses[k].s, found.poses[k].inclination = place, -0.1 * place
         return len(rows)
 
     for each in (pose_tilt, poses_between, pose_margins, find_peaks):
@@ -96,23 +97,23 @@ REACHED, LEFT = 0.1 + 0.05 * 1.5, 0.1 + 0.05 * 2.25 - 0.02
 """Just before 1.5, and just behind 2.25 less the rocking."""
 
 
+def looked_at(rows, alone):
+    """Poses of the path, and tilts at which each rotates at all."""
+    return Looked(numbers(rows, int), None, None, numbers(alone), None)
+
+
 @pytest.fixture
 def lost(kernel):
     def found(way, rocking, rows, least=0.2, lowest=0.0, whence=-INF):
         kernel["way"] = way
         size = len(way.poses)
-        group, beside = np.full(size, -1), np.full(size, 7)
+        group, beside = np.full(size, -1), numbers(np.full(size, True), bool)
         group[list(rows)] = 0
-        back = np.full(size, whence)
-        may = np.array(rocking, dtype=int), np.full(len(rocking), -INF)
-        module.mark_ways(
-            None, None, way.poses, "margins", *may, len(rocking), -1.0, back, least, group, beside
-        )
-        scratch = peak_scratch(size, 1)
-        return module.lost_between(
-            None, None, way.poses, "margins", beside, -1.0, back, least, lowest, 0.7, 9.8, 1e-9,
-            scratch.places, scratch.shares, scratch.new, scratch.new_margins, scratch.contacts,
-        )  # fmt: skip
+        back = numbers(np.full(size, whence))
+        may = looked_at(rocking, np.full(len(rocking), -INF))
+        of = None, way.poses, way.margins
+        module.mark_ways(*of, may, -1.0, back, least, numbers(group, int), beside)
+        return module.lost_between(*of, beside, -1.0, back, least, lowest, PULL)
 
     return found
 
@@ -122,16 +123,10 @@ def rock(kernel):
     def found(way, rows=None, own=None, whence=None):
         kernel["way"] = way
         size = len(way.poses)
-        rows = np.arange(size) if rows is None else np.array(rows)
-        back = np.full(size, -INF) if whence is None else np.asarray(whence)
-        scratch = peak_scratch(size, 1)
-        group, narrow, of, pose, beside = np.full((5, size + 4), 7)
-        reach, alone, tilt = np.full((3, size + 4), 7.0)
-        return module.first_rock(
-            None, None, way.poses, "margins", rows, size if own is None else own, -1.0, back, 0.7,
-            9.8, 1e-9, np.full(size, 7.0), group, narrow[:size] * 0 + 7, of, pose, reach, alone,
-            tilt, beside, *scratch,
-        )  # fmt: skip
+        rows = numbers(range(size) if rows is None else rows, int)
+        back = numbers(np.full(size, -INF) if whence is None else whence)
+        own = size if own is None else own
+        return module.first_rock(None, way.poses, way.margins, rows, own, -1.0, back, PULL)
 
     return found
 
@@ -168,9 +163,9 @@ def test_a_short_way_is_halved_as_often_as_the_longest(lost, kernel, monkeypatch
     """Of 2 m and 0.2 m, to a millionth of a metre on the long one: 21 looks each, and both ends."""
     looks = []
 
-    def between_tilt(ground, body, poses, row, share, *rest):
+    def between_tilt(scene, poses, row, share, *rest):
         looks.append(row)
-        return between(ground, body, poses, row, share, *rest)
+        return between(scene, poses, row, share, *rest)
 
     between = module.between_tilt
     monkeypatch.setattr(module, "between_tilt", between_tilt)
@@ -344,7 +339,7 @@ def test_what_is_lost_is_told_the_least_of_all(rock, kernel, monkeypatch):
     told = []
 
     def lost_between(*given):
-        told.append(given[7:9])
+        told.append(given[6:8])
         return NOTHING
 
     monkeypatch.setattr(module, "lost_between", lost_between)
@@ -382,23 +377,26 @@ def test_every_pose_that_may_be_the_least_is_looked_at(monkeypatch):
         more = own + rng.choice([0.0, 0.05, 2.0], count)
         looked = []
 
-        def pose_tilt(ground, body, poses, margins, row, side, tolerance, hint, more=more, own=own):
+        def pose_tilt(scene, row, margin, side, tolerance, more=more, own=own):
             if tolerance == 0.0:
-                return own[row], 0.0, hint
+                return own[row], 0.0
             looked.append(row)  # noqa: B023
-            return more[row], 0.0, hint
+            return more[row], 0.0
 
         monkeypatch.setattr(module, "pose_tilt", pose_tilt)
-        alone, tilt = np.full((2, count + 2), 7.0)
-        module.least_tilts(
-            None, None, "poses", "margins", np.arange(-2, count), np.full(count + 2, 0.1), 2,
-            count + 2, -1.0, np.zeros(count, dtype=int), alone, tilt,
-        )  # fmt: skip
-        assert alone[2:].tolist() == own.tolist()
-        assert tilt[:2].tolist() == [7.0, 7.0]
+        alone, tilt = np.full((2, count), 7.0)
+        of = (
+            numbers([], int),
+            numbers(range(count), int),
+            numbers(np.full(count, 0.1)),
+            numbers(alone),
+            numbers(tilt),
+        )
+        module.least_tilts(None, range(count), range(count), -1.0, Looked(*of))
+        assert alone.tolist() == own.tolist()
         assert tilt.min() == more.min()
         assert set(np.flatnonzero(own < more.min() - 2e-9)) <= set(looked)
-        assert np.isinf(np.delete(tilt[2:], looked)).all()
+        assert np.isinf(np.delete(tilt, looked)).all()
         assert len(looked) <= 8 * math.ceil((own < more.min()).sum() / 8 + 1)
 
 
@@ -406,11 +404,8 @@ def test_ways_beside_all_poses_that_rock_are_marked(kernel):
     """In whatever order the poses come, and whether the first of them rocks too late."""
     kernel["way"] = way = Way(METERS, Onto(begin=0.5, end=4.5))
     for rows, late in (([1, 3], 1), ([3, 1], 3)):
-        alone = np.array([9.0 if row == late else 0.1 for row in rows])
-        beside = np.full(6, 7)
-        module.mark_ways(
-            None, None, way.poses, "margins", np.array(rows), alone, 2, -1.0, np.full(6, -INF),
-            0.2, np.zeros(6, dtype=int), beside,
-        )  # fmt: skip
-        marked = {1: [2, 3], 3: [0, 1]}[late]
-        assert np.flatnonzero(beside).tolist() == marked
+        looked = looked_at(rows, [9.0 if each == late else 0.1 for each in rows])
+        beside, back = numbers(np.full(6, True), bool), numbers(np.full(6, -INF))
+        of = None, way.poses, way.margins
+        module.mark_ways(*of, looked, -1.0, back, 0.2, numbers(np.zeros(6), int), beside)
+        assert np.flatnonzero(beside).tolist() == {1: [2, 3], 3: [0, 1]}[late]

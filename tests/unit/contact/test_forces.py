@@ -7,28 +7,23 @@ import pytest
 
 from contact_cases import random_robot, steps
 from kaidan.contact import body_table, ground_table
-from kaidan.contact.columns import (
-    CONTACT_COLUMNS,
-    CONTACT_GAP,
-    CONTACT_KIND,
-    CONTACT_N_X,
-    CONTACT_N_Z,
-    CONTACT_X,
-    CONTACT_Z,
-    CONVEX,
-    PART,
-    POINT,
-)
-from kaidan.contact.kernel.forces import (
-    cone_angle,
-    contacts_at,
-    shared_loads,
-    two_contact_forces,
-)
+from kaidan.contact.door import zeros
+from kaidan.contact.kernel import forces
+from kaidan.contact.kernel.forces import cone_angle, two_contact_forces
 from kaidan.contact.kernel.gaps import gap
 from kaidan.contact.kernel.settling import touching
+from kaidan.contact.layout import PART, POINT, At, Press, Touching
+from kernel_memory import called, scene
 
 G = 10.0
+
+
+contacts_at, shared_loads = called(forces.contacts_at), called(forces.shared_loads)
+
+
+def held_by(*numbers):
+    """Friction and forces of two contacts: point and normal of each, the centroid, the load."""
+    return two_contact_forces(Press(*numbers[:4]), Press(*numbers[4:8]), *numbers[8:])
 
 
 def test_friction_of_one_force():
@@ -56,13 +51,13 @@ def test_one_plane_needs_its_slope_and_shares_by_the_lever():
     # by hand: 3-4-5 slope, contacts at 0 and 1 m, the resultant through 0.3 m up the slope
     angle = math.atan(0.75)
     x, z, *_ = on_slope(angle, 0.3)
-    found = two_contact_forces(*on_slope(angle, 0.0), *on_slope(angle, 1.0), x, z + 0.2, 0.0, G)
+    found = held_by(*on_slope(angle, 0.0), *on_slope(angle, 1.0), x, z + 0.2, 0.0, G)
     expected = (0.75, 0.7 * 8.0, 0.7 * 6.0, 0.3 * 8.0, 0.3 * 6.0)
     assert found == pytest.approx(expected, abs=1e-12)
     # the resultant beside both contacts: one of them would have to pull
     for beside in (-0.2, 1.2):
         x, z, *_ = on_slope(angle, beside)
-        mu, *_ = two_contact_forces(*on_slope(angle, 0.0), *on_slope(angle, 1.0), x, z, 0.0, G)
+        mu, *_ = held_by(*on_slope(angle, 0.0), *on_slope(angle, 1.0), x, z, 0.0, G)
         assert mu > 1.0 or mu == math.inf
 
 
@@ -73,7 +68,7 @@ def test_one_plane_under_a_leaning_weight():
     centroid = start + 0.4 * u + 0.25 * n
     meets = np.linalg.solve(np.stack([u, w], axis=1), centroid - start)[0] / 0.9
     assert 0 < meets < 1
-    found = two_contact_forces(*start, *n, *(start + 0.9 * u), *n, *centroid, *w)
+    found = held_by(*start, *n, *(start + 0.9 * u), *n, *centroid, *w)
     normal, tangential = w @ n, w @ u
     expected = [tangential / normal]
     for share in (1 - meets, meets):
@@ -87,14 +82,14 @@ def test_jammed_between_two_faces(sense):
     # by hand: only an ever growing inner force along the line of the contacts, 1 in 5, holds it
     walls = [(0.0, 0.0, 1.0, 0.0), (0.5, 0.1 * sense, -1.0, 0.0)]
     for first, second in (walls, walls[::-1]):
-        mu, *forces = two_contact_forces(*first, *second, 0.25, 0.3, 0.0, G)
+        mu, *forces = held_by(*first, *second, 0.25, 0.3, 0.0, G)
         assert mu == pytest.approx(0.2, abs=1e-12)
         assert all(map(math.isnan, forces))
     # a fin held from both sides is the same; two faces that look the same way hold nothing
     fin = [(0.0, 0.0, -1.0, 0.0), (0.5, 0.1 * sense, 1.0, 0.0)]
-    assert two_contact_forces(*fin[0], *fin[1], 0.25, 0.3, 0.0, G)[0] == pytest.approx(0.2)
+    assert held_by(*fin[0], *fin[1], 0.25, 0.3, 0.0, G)[0] == pytest.approx(0.2)
     same = [(0.0, 0.0, 1.0, 0.0), (0.0, 0.1 * sense, 1.0, 0.0)]
-    assert two_contact_forces(*same[0], *same[1], 0.25, 0.3, 0.0, G)[0] == math.inf
+    assert held_by(*same[0], *same[1], 0.25, 0.3, 0.0, G)[0] == math.inf
 
 
 def test_a_ladder_against_a_wall():
@@ -102,7 +97,7 @@ def test_a_ladder_against_a_wall():
     # where tan(60) = (1 - mu^2)/(2 mu), mu = tan(15 degrees)
     x, z = 0.5 * math.cos(math.pi / 3), 0.5 * math.sin(math.pi / 3)
     floor, wall = (0.0, 0.0, 0.0, 1.0), (2 * x, 2 * z, -1.0, 0.0)
-    mu, n_1, t_1, n_2, t_2 = two_contact_forces(*floor, *wall, x, z, 0.0, G)
+    mu, n_1, t_1, n_2, t_2 = held_by(*floor, *wall, x, z, 0.0, G)
     assert mu == pytest.approx(math.tan(math.pi / 12), rel=1e-12)
     assert abs(t_1) / n_1 == pytest.approx(abs(t_2) / n_2, rel=1e-9)  # both are used up
     # forces: horizontal and vertical sums, moments about the foot
@@ -111,7 +106,7 @@ def test_a_ladder_against_a_wall():
 
 
 def test_no_friction_holds_a_ball_on_one_point():
-    found = two_contact_forces(0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.1, 0.0, G)
+    found = held_by(0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.1, 0.0, G)
     assert found[0] == math.inf
     assert all(map(math.isnan, found[1:]))
 
@@ -119,7 +114,7 @@ def test_no_friction_holds_a_ball_on_one_point():
 def test_a_wedge_without_friction():
     # by hand: a valley of 45 degrees both ways, the centroid over its bottom: normals alone carry
     s = math.sqrt(0.5)
-    found = two_contact_forces(-1.0, 1.0, s, s, 1.0, 1.0, -s, s, 0.0, 1.5, 0.0, G)
+    found = held_by(-1.0, 1.0, s, s, 1.0, 1.0, -s, s, 0.0, 1.5, 0.0, G)
     assert found == pytest.approx((0.0, G * s, 0.0, G * s, 0.0), abs=1e-9)
 
 
@@ -144,9 +139,7 @@ def test_least_friction_of_two_contacts(seed):
     normals = np.stack([np.sin(leans), np.cos(leans)], axis=1)
     centroid = np.array([rng.uniform(-0.25, 0.25), rng.uniform(0.1, 0.4)])
     w = np.array([rng.uniform(-2, 2), G])
-    mu, *forces = two_contact_forces(
-        *points[0], *normals[0], *points[1], *normals[1], *centroid, *w
-    )
+    mu, *forces = held_by(*points[0], *normals[0], *points[1], *normals[1], *centroid, *w)
     grid = np.concatenate([-np.geomspace(1e4, 1e-4, 4000), [0.0], np.geomspace(1e-4, 1e4, 4000)])
     (n_1, t_1), (n_2, t_2) = held(points, normals, centroid, w, grid)
     holds = (n_1 > 0) & (n_2 > 0)
@@ -175,7 +168,7 @@ def test_least_friction_of_two_contacts(seed):
 def test_a_pull_of_less_than_a_share_of_the_weight_is_none():
     """The centroid beside the outer of two contacts on the level, by so much of their distance."""
     for beside, expected in ((0.5e-7, 0.0), (2e-7, math.inf)):
-        mu, *_ = two_contact_forces(0, 0, 0, 1, 1, 0, 0, 1, -beside, 0.3, 0, G)
+        mu, *_ = held_by(0, 0, 0, 1, 1, 0, 0, 1, -beside, 0.3, 0, G)
         assert mu == expected
 
 
@@ -185,7 +178,7 @@ def test_a_face_and_the_floor_at_one_level(side, swapped):
     """By hand: a fifth of the weight hangs on the face, which the floor's friction presses."""
     face, floor = (0.0, 0.0, side, 0.0), (side, 0.0, 0.0, 1.0)
     both = (floor, face) if swapped else (face, floor)
-    mu, *forces = two_contact_forces(*both[0], *both[1], 0.8 * side, 0.5, 0.0, G)
+    mu, *forces = held_by(*both[0], *both[1], 0.8 * side, 0.5, 0.0, G)
     assert mu == pytest.approx(0.5, rel=1e-12)
     expected = [(0.4 * G, -side * 0.2 * G), (0.8 * G, -side * 0.4 * G)]
     assert forces == pytest.approx(sum(expected[:: -1 if swapped else 1], ()), rel=1e-12)
@@ -193,7 +186,7 @@ def test_a_face_and_the_floor_at_one_level(side, swapped):
 
 def test_one_contact_above_the_other_needs_no_friction():
     """Whatever the share of either."""
-    mu, n_1, t_1, n_2, t_2 = two_contact_forces(0, 0, 0, 1, 0, 1, 0, 1, 0, 0.5, 0, G)
+    mu, n_1, t_1, n_2, t_2 = held_by(0, 0, 0, 1, 0, 1, 0, 1, 0, 0.5, 0, G)
     assert (mu, t_1, t_2, n_1 + n_2) == (0.0, 0.0, 0.0, G)
 
 
@@ -203,7 +196,7 @@ def test_the_friction_is_that_of_any_weight():
         points, leans = rng.uniform(-0.5, 0.5, (2, 2)), rng.uniform(-1.4, 1.4, 2)
         normals = np.stack([np.sin(leans), np.cos(leans)], axis=1)
         given = *points[0], *normals[0], *points[1], *normals[1], *rng.uniform(-0.3, 0.3, 2)
-        light, heavy = (two_contact_forces(*given, 0.0, w)[0] for w in (1e-3, 10.0))
+        light, heavy = (held_by(*given, 0.0, w)[0] for w in (1e-3, 10.0))
         assert light == pytest.approx(heavy, rel=1e-9)
 
 
@@ -219,9 +212,7 @@ def test_least_friction_where_directions_are_alike():
         leans = rng.integers(-2, 3, 2) * math.pi / 4
         normals = np.round(np.stack([np.sin(leans), np.cos(leans)], axis=1), 15)
         centroid = rng.integers(-3, 4, 2) / 4
-        mu, *_ = two_contact_forces(
-            *points[0], *normals[0], *points[1], *normals[1], *centroid, 0.0, G
-        )
+        mu, *_ = held_by(*points[0], *normals[0], *points[1], *normals[1], *centroid, 0.0, G)
         (n_1, t_1), (n_2, t_2) = held(points, normals, centroid, np.array([0.0, G]), grid)
         tried = [
             max(abs(t_1[i]) / n_1[i], abs(t_2[i]) / n_2[i])
@@ -244,14 +235,14 @@ def test_the_centroid_over_one_contact(lean):
     other = (0.5 * math.cos(line), 0.5 * math.sin(line))
     second = (-math.cos(line + off), -math.sin(line + off))
     for pair in ((*one, *first, *other, *second), (*other, *second, *one, *first)):
-        mu, *_ = two_contact_forces(*pair, 0.0, 0.3, 0.0, G)
+        mu, *_ = held_by(*pair, 0.0, 0.3, 0.0, G)
         assert mu == pytest.approx(math.tan(off), abs=1e-12)
 
 
 def table(*places):
-    found = np.zeros((8, CONTACT_COLUMNS))
+    found = zeros(Touching, len(places))
     for row, (x, z) in enumerate(places):
-        found[row, [CONTACT_X, CONTACT_Z]] = x, z
+        found["x"][row], found["z"][row] = x, z
     return found
 
 
@@ -259,7 +250,7 @@ def test_shares_of_equal_springs():
     # by hand: at -0.4, 0 and 0.2 m of the centroid: mean -1/15, 1/3 + mean (mean - x) / sum
     loads = np.zeros(8)
     places = np.array([-0.4, 0.0, 0.2])
-    assert shared_loads(table(*((1.0 + x, 0.0) for x in places)), 3, 1.0, 0.5, 0.0, G, loads) == 3
+    assert shared_loads(table(*((1.0 + x, 0.0) for x in places)), 1.0, 0.5, 0.0, G, loads) == 3
     mean = places.mean()
     expected = G * (1 / 3 - mean * (places - mean) / ((places - mean) ** 2).sum())
     np.testing.assert_allclose(loads[:3], expected, rtol=1e-12)
@@ -269,11 +260,11 @@ def test_shares_of_equal_springs():
 def test_a_spring_that_would_pull_is_dropped():
     # by hand: the third is far from the centroid and would pull; the others share by the lever
     loads = np.zeros(8)
-    count = shared_loads(table((0.0, 0), (0.1, 0), (1.0, 0)), 3, 0.03, 0.5, 0.0, G, loads)
+    count = shared_loads(table((0.0, 0), (0.1, 0), (1.0, 0)), 0.03, 0.5, 0.0, G, loads)
     assert count == 2
     np.testing.assert_allclose(loads[:3], [0.7 * G, 0.3 * G, 0.0], atol=1e-12)
     # gravity that leans: by kappa = 0.2 a height of 0.5 m counts as 0.1 m ahead
-    count = shared_loads(table((0.0, 0), (0.2, 0)), 2, 0.2, 0.5, 0.2, G, loads)
+    count = shared_loads(table((0.0, 0), (0.2, 0)), 0.2, 0.5, 0.2, G, loads)
     np.testing.assert_allclose(loads[:2], [G / 2, G / 2], atol=1e-12)
     assert count == 2
 
@@ -281,10 +272,10 @@ def test_a_spring_that_would_pull_is_dropped():
 def test_shares_of_one_place():
     # by hand: two contacts at one place of the gravity line carry half each
     loads = np.zeros(8)
-    assert shared_loads(table((0.3, 0), (0.3, 0)), 2, 0.3, 0.5, 0.0, G, loads) == 2
+    assert shared_loads(table((0.3, 0), (0.3, 0)), 0.3, 0.5, 0.0, G, loads) == 2
     np.testing.assert_allclose(loads[:2], [G / 2, G / 2], rtol=1e-12)
-    assert shared_loads(table(), 0, 0.0, 0.5, 0.0, G, loads) == 0
-    assert shared_loads(table((0.3, 0)), 1, 0.1, 0.5, 0.0, G, loads) == 1
+    assert shared_loads(table(), 0.0, 0.5, 0.0, G, loads) == 0
+    assert shared_loads(table((0.3, 0)), 0.1, 0.5, 0.0, G, loads) == 1
     assert loads[0] == G
 
 
@@ -305,7 +296,7 @@ def test_shares_against_springs_that_are_dropped_one_by_one(seed):
             break
         left[shares.argmin()] = False
     loads = np.zeros(8)
-    assert shared_loads(table(*places), count, x, z, kappa, G, loads) == left.sum()
+    assert shared_loads(table(*places), x, z, kappa, G, loads) == left.sum()
     np.testing.assert_allclose(loads[:count], G * shares, atol=1e-12)
 
 
@@ -330,42 +321,41 @@ def test_contacts_of_a_robot_on_a_flight(back, nosings):
     ground = ground_table(steps(0.15, 0.2, 9))
     body = body_table(ROBOT, [0, 2])
     x, z = on_the_flight(back)
-    found = np.zeros((32, CONTACT_COLUMNS))
-    for hint in (0, 5, 99):
-        count, after = contacts_at(ground, body, x, z, ANGLE, 1e-9, found, hint)
-        assert 0 < after < len(ground)
+    found = zeros(Touching, 32)
+    for _ in range(1):
+        count = contacts_at((ground, body), x, z, ANGLE, 1e-9, found)
         u = np.array([0.8, 0.6])
-        along = (found[:count, [CONTACT_X, CONTACT_Z]] - (x, z)) @ u
+        along = (found["x"][:count] - x) * u[0] + (found["z"][:count] - z) * u[1]
         assert sorted(along) == pytest.approx(nosings, abs=1e-12)
-        np.testing.assert_allclose(found[:count, CONTACT_N_X], -0.6, atol=1e-12)
-        np.testing.assert_allclose(found[:count, CONTACT_N_Z], 0.8, atol=1e-12)
-        np.testing.assert_allclose(found[:count, CONTACT_GAP], 0.0, atol=1e-12)
-        assert (found[:count, CONTACT_KIND] == 0).all()  # the track's, not the belly's again
+        np.testing.assert_allclose(found["n_x"][:count], -0.6, atol=1e-12)
+        np.testing.assert_allclose(found["n_z"][:count], 0.8, atol=1e-12)
+        np.testing.assert_allclose(found["gap"][:count], 0.0, atol=1e-12)
+        assert (found["kind"][:count] == 0).all()  # the track's, not the belly's again
     # 1 mm above the nosings nothing touches within less, all within more
     x, z = on_the_flight(back, lift=1e-3)
-    assert contacts_at(ground, body, x, z, ANGLE, 0.9e-3, found, 0)[0] == 0
-    assert contacts_at(ground, body, x, z, ANGLE, 1.1e-3, found, 0)[0] == len(nosings)
-    np.testing.assert_allclose(found[: len(nosings), CONTACT_GAP], 1e-3, atol=1e-12)
+    assert contacts_at((ground, body), x, z, ANGLE, 0.9e-3, found) == 0
+    assert contacts_at((ground, body), x, z, ANGLE, 1.1e-3, found) == len(nosings)
+    np.testing.assert_allclose(found["gap"][: len(nosings)], 1e-3, atol=1e-12)
     # and 1 mm below them
     x, z = on_the_flight(back, lift=-1e-3)
-    assert contacts_at(ground, body, x, z, ANGLE, 0.9e-3, found, 0)[0] == 0
-    assert contacts_at(ground, body, x, z, ANGLE, 1.1e-3, found, 0)[0] == len(nosings)
+    assert contacts_at((ground, body), x, z, ANGLE, 0.9e-3, found) == 0
+    assert contacts_at((ground, body), x, z, ANGLE, 1.1e-3, found) == len(nosings)
     # a table that is full takes no more
     x, z = on_the_flight(back)
-    assert contacts_at(ground, body, x, z, ANGLE, 1e-9, found[:2], 0)[0] == 2
+    assert contacts_at((ground, body), x, z, ANGLE, 1e-9, found[:2]) == 2
 
 
 def test_contacts_of_a_robot_at_a_riser():
     """By hand: level on the floor, its front disc against the face of a riser."""
     ground = ground_table([(-2, 0), (0, 0), (0, 0.5), (2, 0.5)])
     body = body_table([[-0.4, -0.02, 0.08, 0.3, -0.02, 0.08], [-0.3, 0.1, 0.01, 0.2, 0.1, 0.01]])
-    found = np.zeros((32, CONTACT_COLUMNS))
-    count, _ = contacts_at(ground, body, -0.38, 0.1, 0.0, 1e-9, found, 0)
-    rows = sorted(found[:count, [CONTACT_X, CONTACT_Z, CONTACT_N_X, CONTACT_N_Z]].tolist())
+    found = zeros(Touching, 32)
+    count = contacts_at((ground, body), -0.38, 0.1, 0.0, 1e-9, found)
+    rows = sorted(found[["x", "z", "n_x", "n_z"]][:count].tolist())
     assert rows == [
-        pytest.approx([-0.78, 0.0, 0.0, 1.0], abs=1e-12),  # under the rear disc
-        pytest.approx([-0.08, 0.0, 0.0, 1.0], abs=1e-12),  # under the front disc
-        pytest.approx([0.0, 0.08, -1.0, 0.0], abs=1e-12),  # at the face
+        pytest.approx((-0.78, 0.0, 0.0, 1.0), abs=1e-12),  # under the rear disc
+        pytest.approx((-0.08, 0.0, 0.0, 1.0), abs=1e-12),  # under the front disc
+        pytest.approx((0.0, 0.08, -1.0, 0.0), abs=1e-12),  # at the face
     ]
 
 
@@ -374,10 +364,10 @@ def test_a_nosing_under_the_middle_of_a_raised_flipper():
     body = body_table([[0.0, 0.0, 0.05, 0.4, 0.3, 0.05]])
     x, z = 0.3 * 0.8 + 0.05 * 0.6, 0.3 * 0.6 - 0.05 * 0.8
     fin = ground_table([(-9, -1), (x, -1), (x, z), (x + 1e-3, -1), (9, -1)])
-    found = np.zeros((32, CONTACT_COLUMNS))
-    count, _ = contacts_at(fin, body, 0.0, 0.0, 0.0, 1e-9, found, 0)
+    found = zeros(Touching, 32)
+    count = contacts_at((fin, body), 0.0, 0.0, 0.0, 1e-9, found)
     assert count == 1
-    assert found[0, [CONTACT_N_X, CONTACT_N_Z]] == pytest.approx([-0.6, 0.8])
+    assert found[["n_x", "n_z"]][0].item() == pytest.approx((-0.6, 0.8))
 
 
 @pytest.mark.parametrize("swapped", [False, True])
@@ -388,22 +378,22 @@ def test_two_ends_at_one_face_are_two_contacts(side, swapped):
     ends = [[0.02 * side, each, 0.02, 0.4 * side, each, 0.02] for each in (0.1, 0.3)]
     if swapped:
         ends = [each[3:] + each[:3] for each in ends]
-    found = np.zeros((32, CONTACT_COLUMNS))
-    count, _ = contacts_at(ground, body_table(ends), 0.0, 0.0, 0.0, 1e-9, found, 0)
-    assert sorted(found[:count, CONTACT_Z]) == pytest.approx([0.1, 0.3])
+    found = zeros(Touching, 32)
+    count = contacts_at((ground, body_table(ends)), 0.0, 0.0, 0.0, 1e-9, found)
+    assert sorted(found["z"][:count]) == pytest.approx([0.1, 0.3])
 
 
 def test_what_lies_behind_a_wall_is_not_touched():
     """A disc that stands beyond a thin fin by its radius touches the side it is on alone."""
     fin = ground_table([(-1, 0), (0, 0), (0, 0.5), (0.001, 0.5), (0.001, 0), (1, 0)])
     body = body_table([[0.0, 0.0, 0.1, 0.0, 0.0, 0.1]])
-    found = np.zeros((32, CONTACT_COLUMNS))
-    count, _ = contacts_at(fin, body, -0.1, 0.3, 0.0, 1e-9, found, 0)
+    found = zeros(Touching, 32)
+    count = contacts_at((fin, body), -0.1, 0.3, 0.0, 1e-9, found)
     assert count == 1
-    assert found[0, CONTACT_N_X] == pytest.approx(-1.0)
-    count, _ = contacts_at(fin, body, 0.101, 0.3, 0.0, 1e-9, found, 0)
+    assert found["n_x"][0] == pytest.approx(-1.0)
+    count = contacts_at((fin, body), 0.101, 0.3, 0.0, 1e-9, found)
     assert count == 1
-    assert found[0, CONTACT_N_X] == pytest.approx(1.0)
+    assert found["n_x"][0] == pytest.approx(1.0)
 
 
 def closed(ground, body, x, z, phi, touch):
@@ -414,9 +404,10 @@ def closed(ground, body, x, z, phi, touch):
         for k in range(len(ground) - 1):
             for kind in range(3):
                 feature = POINT * k + PART * part + kind
-                found, _, _, *point = gap(ground, body, feature, x, z, c, s)
-                foot = (point - ground[k, :2]) @ ground[k, 2:4]
-                exists = 0 <= foot <= ground[k, 4] if kind else ground[k, CONVEX] == 1.0
+                found, _, _, *point = gap(scene(ground, body), feature, At(x, z, c, s))
+                g_x, g_z, u_x, u_z, length, _ = ground[k].item()
+                foot = (point[0] - g_x) * u_x + (point[1] - g_z) * u_z
+                exists = 0 <= foot <= length if kind else ground["convex"][k]
                 if exists and abs(found) <= touch:
                     points += [point] if all(math.dist(point, p) > 3e-6 for p in points) else []
     return sorted(points)
@@ -431,12 +422,12 @@ def test_contacts_are_all_features_that_are_closed(seed):
     line = np.stack([x, 0.7 + np.cumsum(rng.normal(0, 0.03, 30))], 1)  # nowhere level
     ground, body = ground_table(line), body_table(parts, kinds)
     place, phi = rng.uniform(-0.2, 0.6), rng.uniform(-0.4, 0.4)
-    z, _ = touching(ground, body, place, math.cos(phi), math.sin(phi))
-    found = np.zeros((32, CONTACT_COLUMNS))
+    z, _ = touching(scene(ground, body), place, math.cos(phi), math.sin(phi))
+    found = zeros(Touching, 32)
     for lift, touch in ((0.0, 1e-9), (0.002, 0.02), (0.0, 0.01)):
-        count, _ = contacts_at(ground, body, place, z + lift, phi, touch, found, 3)
-        seen = sorted(found[:count, [CONTACT_X, CONTACT_Z]].tolist())
+        count = contacts_at((ground, body), place, z + lift, phi, touch, found)
+        seen = sorted(found[["x", "z"]][:count].tolist())
         assert seen == [
-            pytest.approx(each) for each in closed(ground, body, place, z + lift, phi, touch)
+            pytest.approx(tuple(each)) for each in closed(ground, body, place, z + lift, phi, touch)
         ]
         assert count > 0

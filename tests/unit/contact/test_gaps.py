@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from kaidan.contact import body_table, ground_table
-from kaidan.contact.columns import CONVEX, FLAT, PART, POINT, SIDE
 from kaidan.contact.kernel.gaps import gap, on_flat, relabelled
 from kaidan.contact.kernel.nearest_feature import first_index, height_of_ground, nearest
 from kaidan.contact.kernel.settling import lever, touching
+from kaidan.contact.layout import PART, POINT, At
+from kernel_memory import posed, scene
 
 ROUNDING = 1e-12  # m: coordinates of some metres
 PARTS = [
@@ -69,11 +70,11 @@ def test_vertex_at_a_known_distance_from_the_outline(part, at):
         if (turn @ n)[1] > -0.1 and distance < 0:
             continue  # the ground reaches down from a vertex: from above it is no penetration
         ground = vertex_at(vertex)
-        (k,) = np.flatnonzero(ground[:, CONVEX] == 1.0)
+        (k,) = np.flatnonzero(ground["convex"])
         feature = POINT * k + THIRD
-        found = gap(ground, body, feature, x, z, math.cos(phi), math.sin(phi))
+        found = gap(scene(ground, body), feature, posed(x, z, phi))
         assert found == pytest.approx((distance, *(-turn @ n), *vertex), abs=ROUNDING)
-        delta = lever(ground, body, feature, x, z, math.cos(phi), math.sin(phi), 0.3)
+        delta = lever(scene(ground, body), feature, posed(x, z, phi), 0.3)
         # hand: ahead of the gravity line, which leans by 0.3 of the height
         assert delta == pytest.approx(vertex[0] - x + 0.3 * (z - vertex[1]), abs=ROUNDING)
 
@@ -98,12 +99,12 @@ THIN = [-0.25, 0.0, 0.002, 0.25, 0.0, 0.002]
 def test_vertex_above_a_thin_part(place, distance, flipped):
     part = [-THIN[0], *THIN[1:3], -THIN[3], *THIN[4:]] if flipped else THIN
     ground, body = vertex_at(place), third(part)
-    (k,) = np.flatnonzero(ground[:, CONVEX] == 1.0)
-    found, n_x, n_z, *_ = gap(ground, body, POINT * k + THIRD, 0.0, 0.0, 1.0, 0.0)
+    (k,) = np.flatnonzero(ground["convex"])
+    found, n_x, n_z, *_ = gap(scene(ground, body), POINT * k + THIRD, At(0.0, 0.0, 1.0, 0.0))
     assert found == pytest.approx(distance, abs=ROUNDING)
     # the normal points from the ground into the robot: away from it the vertex is farther off
     away = vertex_at((place[0] - 1e-4 * n_x, place[1] - 1e-4 * n_z))
-    farther, *_ = gap(away, body, POINT * k + THIRD, 0.0, 0.0, 1.0, 0.0)
+    farther, *_ = gap(scene(away, body), POINT * k + THIRD, At(0.0, 0.0, 1.0, 0.0))
     assert farther == pytest.approx(found + 1e-4, abs=ROUNDING)
 
 
@@ -125,23 +126,21 @@ def test_vertex_beside_a_thin_part_that_hangs_down(x, beside, lean, mirrored, sw
     discs = [[*(rotated(-phi) @ (flip * c_1)), r_1], [*(rotated(-phi) @ (flip * c_2)), r_2]]
     body_frame = [*discs[1], *discs[0]] if swapped else [*discs[0], *discs[1]]
     ground = vertex_at((at_x, at_z) + flip * vertex)
-    (k,) = np.flatnonzero(ground[:, CONVEX] == 1.0)
-    found, *_ = gap(
-        ground, third(body_frame), POINT * k + THIRD, at_x, at_z, math.cos(phi), math.sin(phi)
-    )
+    (k,) = np.flatnonzero(ground["convex"])
+    found, *_ = gap(scene(ground, third(body_frame)), POINT * k + THIRD, posed(at_x, at_z, phi))
     assert found == pytest.approx(expected, abs=ROUNDING)
 
 
 def test_a_part_counts_as_thin_by_its_smaller_radius():
     # by hand: 4 mm above the axis of a part of 2 and 30 mm, where it is 3 mm thick: gone through it
     ground = vertex_at((-0.24, 0.004))
-    (k,) = np.flatnonzero(ground[:, CONVEX] == 1.0)
+    (k,) = np.flatnonzero(ground["convex"])
     body = third([-0.25, 0.0, 0.002, 0.25, 0.0, 0.03])
-    assert gap(ground, body, POINT * k + THIRD, 0.0, 0.0, 1.0, 0.0)[0] < 0.0
+    assert gap(scene(ground, body), POINT * k + THIRD, At(0.0, 0.0, 1.0, 0.0))[0] < 0.0
 
 
 def test_parts_whose_second_disc_lies_behind_look_down_on_the_other_side():
-    assert body_table(PARTS)[:, SIDE].tolist() == [1.0, 1.0, -1.0, 1.0]
+    assert body_table(PARTS)["side"].tolist() == [1.0, 1.0, -1.0, 1.0]
 
 
 @pytest.mark.parametrize("disc", [0, 1])
@@ -156,9 +155,9 @@ def test_disc_above_a_segment(disc, slope):
     radius, own = part[3 * disc + 2], np.array(part[3 * disc : 3 * disc + 2])
     foot = np.array([0.0, 1.0]) + 0.3 * u
     x, z = foot + (radius + 0.02) * m - rotated(phi) @ own
-    k = int(np.flatnonzero(ground[:, 0] == 0.0)[0])
+    k = int(np.flatnonzero(ground["x"] == 0.0)[0])
     feature = POINT * k + THIRD + disc + 1
-    found = gap(ground, body, feature, x, z, math.cos(phi), math.sin(phi))
+    found = gap(scene(ground, body), feature, posed(x, z, phi))
     assert found == pytest.approx((0.02, *m, *foot), abs=ROUNDING)
 
 
@@ -170,18 +169,23 @@ PLATEAU = [(-1.5, -0.5), (0.5, 0.5), (1.5, 0.5), (3.5, -0.5)]
 """Two convex vertices: up, level, down."""
 
 
+def unit(ground, k):
+    """Unit vector along a segment."""
+    return np.array([ground["u_x"][k], ground["u_z"][k]])
+
+
 def label(feature, foot, z=0.5625, turn=0.0):
     """Label of the third part's feature; as of a first part. The plateau is 1 m long from 0 on."""
     ground = ground_table(np.array(PLATEAU) @ rotated(turn).T)
     x, z = rotated(turn) @ (0.5 + foot, z)
     where = (x, z, math.cos(turn), math.sin(turn))
-    return relabelled(ground, third(WHEEL), feature + THIRD, *where) - THIRD
+    return relabelled(scene(ground, third(WHEEL)), feature + THIRD, At(*where)) - THIRD
 
 
 @pytest.mark.parametrize("disc", [1, 2])
 def test_label_of_a_disc_that_leaves_its_segment(disc):
     ground = ground_table(PLATEAU)
-    left, right = np.flatnonzero(ground[:, CONVEX] == 1.0)
+    left, right = np.flatnonzero(ground["convex"])
     offset = 0.25 if disc == 1 else -0.25  # centroid less disc
     on_plateau = POINT * left + disc
     # on the segment, both ends included; beyond them the vertex
@@ -210,7 +214,7 @@ def test_label_of_a_disc_that_leaves_its_segment(disc):
 @pytest.mark.parametrize("turn", [0.4, -0.3])
 def test_labels_do_not_depend_on_the_slope_of_it_all(disc, turn):
     """Robot and ground turned together: as on the level."""
-    left, right = np.flatnonzero(ground_table(PLATEAU)[:, CONVEX] == 1.0)
+    left, right = np.flatnonzero(ground_table(PLATEAU)["convex"])
     features = (POINT * left + disc, POINT * left, POINT * right, POINT * (left - 1) + disc)
     offset = 0.25 if disc == 1 else -0.25  # centroid less disc
     for feature in features:
@@ -222,12 +226,12 @@ def test_labels_do_not_depend_on_the_slope_of_it_all(disc, turn):
 @pytest.mark.parametrize("phi", [0.5, -0.7])
 def test_label_of_an_inclined_disc(disc, phi):
     ground, part = ground_table(PLATEAU), [-0.25, 0.03, 0.1, 0.2, -0.04, 0.08]
-    left, right = np.flatnonzero(ground[:, CONVEX] == 1.0)
+    left, right = np.flatnonzero(ground["convex"])
     x, z = -(rotated(phi) @ part[3 * disc - 3 : 3 * disc - 1])  # puts the disc over the origin
 
     def after(feature, foot):
         where = (0.5 + foot + x, 0.6 + z, math.cos(phi), math.sin(phi))
-        return relabelled(ground, third(part), feature, *where)
+        return relabelled(scene(ground, third(part)), feature, At(*where))
 
     on_plateau = POINT * left + THIRD + disc
     assert [after(on_plateau, foot) for foot in (-0.001, 0.001, 0.999, 1.001)] == [
@@ -236,17 +240,17 @@ def test_label_of_an_inclined_disc(disc, phi):
 
 
 def test_label_of_a_vertex_under_the_flat_stays():
-    (left, _) = np.flatnonzero(ground_table(PLATEAU)[:, CONVEX] == 1.0)
+    (left, _) = np.flatnonzero(ground_table(PLATEAU)["convex"])
     for foot in (-0.2, 0.0, 0.2):
         assert label(POINT * left, -foot) == POINT * left
 
 
 def test_label_of_a_disc_in_a_corner_stays():
     ground = ground_table([(-1.0, 1.0), (0.0, 0.0), (1.0, 1.0)])  # a valley: no convex vertex
-    assert not (ground[:, CONVEX] == 1.0).any()
+    assert not ground["convex"].any()
     body = third(WHEEL)
     for feature in (POINT * 0 + THIRD + 1, POINT * 1 + THIRD + 2):
-        assert relabelled(ground, body, feature, 0.0, 0.5, 1.0, 0.0) == feature
+        assert relabelled(scene(ground, body), feature, At(0.0, 0.5, 1.0, 0.0)) == feature
 
 
 @pytest.mark.parametrize("part", PARTS)
@@ -266,17 +270,17 @@ def test_label_of_a_vertex_around_a_tapered_part(part, phi):
         for place in (point + 0.01 * n, above):
             vertex = turn @ place
             ground = vertex_at(vertex + np.array([1.3, 0.7]))
-            (k,) = np.flatnonzero(ground[:, CONVEX] == 1.0)
+            (k,) = np.flatnonzero(ground["convex"])
             stays = POINT * k + THIRD
-            found = relabelled(ground, body, stays, 1.3, 0.7, math.cos(phi), math.sin(phi))
+            found = relabelled(scene(ground, body), stays, posed(1.3, 0.7, phi))
             if 0 < at < 1:
                 assert found == stays
                 continue
             disc = 1 if at < 0 else 2
             to = turn @ np.array(part[3 * disc - 3 : 3 * disc - 1]) - vertex
-            if to @ ground[k, 2:4] > 0:
+            if to @ unit(ground, k) > 0:
                 assert found == stays + disc
-            elif to @ ground[k - 1, 2:4] < 0:
+            elif to @ unit(ground, k - 1) < 0:
                 assert found == stays - POINT + disc
             else:
                 assert found == stays
@@ -287,10 +291,10 @@ def test_label_of_a_vertex_around_a_tapered_part(part, phi):
 )
 def test_under_the_flat_both_ends_included(x, under):
     ground, body = vertex_at((1.5, 0.5)), third(WHEEL)
-    (k,) = np.flatnonzero(ground[:, CONVEX] == 1.0)
-    assert body[2, FLAT] == 0.5
-    assert on_flat(ground, body, POINT * k + THIRD, 1.5 + x, 0.5625, 1.0, 0.0) is under
-    assert not on_flat(ground, body, POINT * k + THIRD + 1, 1.5, 0.5625, 1.0, 0.0)
+    (k,) = np.flatnonzero(ground["convex"])
+    assert body["flat"][2] == 0.5
+    assert on_flat(scene(ground, body), POINT * k + THIRD, At(1.5 + x, 0.5625, 1.0, 0.0)) is under
+    assert not on_flat(scene(ground, body), POINT * k + THIRD + 1, At(1.5, 0.5625, 1.0, 0.0))
 
 
 @pytest.mark.parametrize("part", PARTS)
@@ -300,8 +304,8 @@ def test_under_a_tapered_flat(part, phi):
     for at in (-0.3, -0.02, 0.002, 0.5, 0.998, 1.02, 1.3):
         point, n = outline(part, at)
         ground = vertex_at(turn @ (point + 0.01 * n) + (1.3, 0.7))
-        (k,) = np.flatnonzero(ground[:, CONVEX] == 1.0)
-        found = on_flat(ground, body, POINT * k + THIRD, 1.3, 0.7, math.cos(phi), math.sin(phi))
+        (k,) = np.flatnonzero(ground["convex"])
+        found = on_flat(scene(ground, body), POINT * k + THIRD, posed(1.3, 0.7, phi))
         assert found is (0 < at < 1)
 
 
@@ -315,16 +319,18 @@ def test_height_of_the_ground():
     # hand: on treads and slopes; at a riser the upper end; beyond the ends level
     at = {-5.0: 0.0, -1.0: 0.0, 0.0: 0.15, 0.1: 0.15, 0.3: 0.3, 0.5: 0.25, 0.85: 0.3, 9.0: 0.4}
     for x, z in at.items():
-        assert height_of_ground(ground, x) == pytest.approx(z, abs=ROUNDING)
+        assert height_of_ground(scene(ground, body_table(PARTS)).ground, x) == pytest.approx(
+            z, abs=ROUNDING
+        )
 
 
 def test_index_of_the_last_point_left_of_a_place_from_any_hint():
     ground = ground_table(STEPS)
     for x in (-40.0, -1.0, 0.0, 0.1, 0.3, 0.5, 1.0, 9.0, 99.0):
-        left = np.flatnonzero(ground[:, 0] < x)
+        left = np.flatnonzero(ground["x"] < x)
         expected = min(max([0, *left]), len(ground) - 2)
         for hint in (-3, 0, 4, len(ground) + 5):
-            assert first_index(ground, x, hint) == expected
+            assert first_index(scene(ground, body_table(PARTS), hint), x) == expected
 
 
 def test_index_among_many_points_some_above_one_another():
@@ -332,10 +338,12 @@ def test_index_among_many_points_some_above_one_another():
     x = np.round(np.sort(rng.uniform(0, 3, 400)), 2)
     ground = ground_table(np.stack([x, rng.uniform(0, 1, 400)], 1))
     for place in rng.choice(np.arange(-0.1, 3.1, 0.005), 200):
-        left = np.flatnonzero(ground[:, 0] < place)
+        left = np.flatnonzero(ground["x"] < place)
         expected = min(max([0, *left]), len(ground) - 2)
         for hint in rng.integers(-2, len(ground) + 3, 8):
-            assert first_index(ground, float(place), int(hint)) == expected
+            assert (
+                first_index(scene(ground, body_table(PARTS), int(hint)), float(place)) == expected
+            )
 
 
 def every_gap(ground, body, x, z, c, s):
@@ -346,12 +354,12 @@ def every_gap(ground, body, x, z, c, s):
     for part in range(len(body)):
         for k in range(len(ground) - 1):
             vertex = POINT * k + PART * part
-            if ground[k, CONVEX] == 1.0:
-                yield vertex, gap(ground, body, vertex, x, z, c, s)[0]
+            if ground["convex"][k]:
+                yield vertex, gap(scene(ground, body), vertex, At(x, z, c, s))[0]
             for disc in (1, 2):
-                found, _, _, p_x, p_z = gap(ground, body, vertex + disc, x, z, c, s)
-                u, start = ground[k, 2:4], ground[k, :2]
-                if 0 <= ((p_x, p_z) - start) @ u <= ground[k, 4] and found > -0.02:
+                found, _, _, p_x, p_z = gap(scene(ground, body), vertex + disc, At(x, z, c, s))
+                u, start = unit(ground, k), np.array([ground["x"][k], ground["z"][k]])
+                if 0 <= ((p_x, p_z) - start) @ u <= ground["length"][k] and found > -0.02:
                     yield vertex + disc, found
 
 
@@ -362,21 +370,20 @@ def test_the_nearest_is_the_smallest_of_all_gaps(seed, parts):
     ground, body = ground_table(STEPS), body_table(parts)
     x, phi = rng.uniform(-0.8, 1.2), rng.uniform(-0.6, 0.6)
     c, s = math.cos(phi), math.sin(phi)
-    z, touched = touching(ground, body, x, c, s)
+    z, touched = touching(scene(ground, body), x, c, s)
     for lift, reach in ((0.0, 0.5), (rng.uniform(0, 0.2), 0.5), (-0.004, 0.5), (0.002, 0.01)):
         gaps = dict(every_gap(ground, body, x, z + lift, c, s))
         first, second = sorted(gaps, key=gaps.get)[:2]
         for skip in ((-1, -1), (first, -1), (-1, first), (first, second)):
             left = {key: value for key, value in gaps.items() if key not in skip}
-            which, found, hint = nearest(ground, body, x, z + lift, c, s, *skip, reach, 3)
+            which, found = nearest(scene(ground, body, 3), At(x, z + lift, c, s), *skip, reach)
             if min(left.values()) > reach:
                 assert (which, found) == (-1, 1e9)
                 continue
             assert found == pytest.approx(min(left.values()), abs=ROUNDING)
             assert left[which] == pytest.approx(found, abs=ROUNDING)
-            assert 0 <= hint < len(ground)
-            which, found, _ = nearest(ground, body, x, z + lift, c, s, *skip, found - 1e-9, 0)
+            which, found = nearest(scene(ground, body), At(x, z + lift, c, s), *skip, found - 1e-9)
             assert (which, found) == (-1, 1e9)
     # let down at a fixed inclination, it rests on one feature and sinks into none
-    assert gap(ground, body, touched, x, z, c, s)[0] == pytest.approx(0.0, abs=ROUNDING)
+    assert gap(scene(ground, body), touched, At(x, z, c, s))[0] == pytest.approx(0.0, abs=ROUNDING)
     assert min(dict(every_gap(ground, body, x, z, c, s)).values()) > -ROUNDING

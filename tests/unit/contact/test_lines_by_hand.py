@@ -12,10 +12,13 @@ import pytest
 from contact_cases import flight, random_robot, stadium
 from kaidan import contact
 from kaidan.contact import Feature, FeatureKind, body_table, ground_table
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
+from kaidan.contact.door import zeros
 from kaidan.contact.kernel.continuation import ARM, corrected, stepped, tangent
 from kaidan.contact.kernel.gaps import gap, on_flat, relabelled
 from kaidan.contact.kernel.renaming import name_room, poses_between
+from kaidan.contact.layout import At, Held, Pose
+from kernel_memory import called, pair_of, place_of, posed, scene
 
 ROUGH = [(-3, -0.2), (-0.5, 0.0), (-0.2, 0.15), (0.1, -0.1), (0.3, 0.2), (0.6, 0.1), (3, 0.6)]
 
@@ -43,7 +46,7 @@ def slopes(ground, body, pair, pose):
             values = []
             for sign in (1.0, -1.0):
                 x, z, phi = (v + (sign * step if i == column else 0.0) for i, v in enumerate(pose))
-                values.append(gap(ground, body, feature, x, z, math.cos(phi), math.sin(phi))[0])
+                values.append(gap(scene(ground, body), feature, posed(x, z, phi))[0])
             found[k, column] = (values[0] - values[1]) / 2e-6
     return found
 
@@ -52,10 +55,10 @@ def test_the_way_of_a_line_is_that_along_which_neither_gap_changes():
     senses = []
     for ground, body, pair, pose in rough_cases(1, 120):
         x, z, phi = pose
-        place = (x, z, math.cos(phi), math.sin(phi))
+        place = posed(x, z, phi)
         rates = slopes(ground, body, pair, pose)
         way = np.cross(*rates)
-        *found, size = tangent(ground, body, *pair, *place)
+        *found, size = tangent(scene(ground, body), *pair, place)
         assert size == pytest.approx(np.linalg.norm(way), abs=1e-7)
         if size < 1e-3:
             continue
@@ -63,7 +66,7 @@ def test_the_way_of_a_line_is_that_along_which_neither_gap_changes():
         # how fast the belt runs ahead, along the ground, over each contact
         runs = 0.0
         for feature in pair:
-            _, n_x, n_z, p_x, p_z = gap(ground, body, feature, *place)
+            _, n_x, n_z, p_x, p_z = gap(scene(ground, body), feature, place)
             moves = complex(way[0], way[1]) + way[2] / ARM * 1j * complex(p_x - x, p_z - z)
             runs += (moves * (-1j * complex(n_x, n_z)).conjugate()).real
         senses.append(runs > 0.0)
@@ -76,23 +79,25 @@ def test_the_nearest_pose_on_which_both_touch():
     """From where they touch a micrometre off it is that square to the way, to first order."""
     counts = 0
     for ground, body, pair, pose in rough_cases(2, 900):
-        good, *on, c, s, _, _, _ = corrected(ground, body, *pair, *pose)
+        good, there, _ = corrected(scene(ground, body), *pair, *pose)
         if not good:
             continue
+        on = there[:3]
         rates = slopes(ground, body, pair, on)
         if np.linalg.svd(rates)[1].min() < 0.1:
             continue
         off = np.random.default_rng(counts).normal(size=3) * 1e-6
         beside = np.array([on[0] + off[0], on[1] + off[1], on[2] + off[2] / ARM])
-        good, *again, c, s, u_x, u_z, u_w = corrected(ground, body, *pair, *beside.tolist())
+        good, there, where = corrected(scene(ground, body), *pair, *beside.tolist())
         assert good
-        assert (c, s) == (math.cos(again[2]), math.sin(again[2]))
+        again = there[:3]
+        assert where == pytest.approx(posed(*again), abs=1e-15)
         way = np.cross(*rates)
         way /= np.linalg.norm(way)
         moved = (np.array(again) - on) * [1.0, 1.0, ARM]
         # square of the way off over the radius, 30 mm
         assert moved == pytest.approx(way * (way @ off), abs=1e-9)
-        assert abs(np.dot((u_x, u_z, u_w), way)) == pytest.approx(1.0, abs=1e-6)
+        assert abs(np.dot((there.t_x, there.t_z, there.t_w), way)) == pytest.approx(1.0, abs=1e-6)
         counts += 1
     assert counts > 20
 
@@ -104,12 +109,12 @@ def test_no_pose_touches_two_points_farther_apart_than_the_robot_is_long(x, z):
     body = body_table(stadium(0.3, 0.15, 0.08, 0.08))
     ground = ground_table([(-4, -3), (-0.236, -3), (-0.235, 0), (-0.234, -3),
                            (0.234, -3), (0.235, 0), (0.236, -3), (4, -3)])  # fmt: skip
-    pair = [at.POINT * k for k in np.flatnonzero(ground[:, 1] == 0.0)]
+    pair = [at.POINT * k for k in np.flatnonzero(ground["z"] == 0.0)]
     assert len(pair) == 2
     for phi in np.linspace(-0.3, 0.3, 13):
-        good, *_, u_x, u_z, u_w = corrected(ground, body, *pair, x, z, float(phi))
+        good, there, _ = corrected(scene(ground, body), *pair, x, z, float(phi))
         assert not good
-        assert (u_x, u_z, u_w) == (1.0, 0.0, 0.0)
+        assert (there.t_x, there.t_z, there.t_w) == (1.0, 0.0, 0.0)
 
 
 def down_a_hill(count):
@@ -122,30 +127,30 @@ def down_a_hill(count):
     there = contact.settle(line, robot, x, -0.05)
     assert there.found
     z, phi, pair = there.z, there.inclination, (there.rear, there.front)
-    *way, _ = tangent(ground, body, *pair, x, z, math.cos(phi), math.sin(phi))
-    return ground, body, pair, (x, z, phi), way
+    *way, _ = tangent(scene(ground, body), *pair, posed(x, z, phi))
+    return scene(ground, body), Held(x, z, phi, *way, *pair)
 
 
 def test_a_step_in_which_a_contact_takes_too_many_names_is_too_long():
     """Points 58 um apart, two names each; the end that passes them moves by half of a step."""
-    ground, body, pair, pose, way = down_a_hill(6001)
+    tables, here = down_a_hill(6001)
     passed = {}
     for ds in (1e-3, 4e-3):
-        good, *_, rear, _ = stepped(ground, body, *pair, *pose, *way, ds)
-        passed[good] = (rear >> at.POINT_BITS) - (pair[0] >> at.POINT_BITS)
+        good, there, _ = stepped(tables, here, ds)
+        passed[good] = (there.rear >> at.POINT_BITS) - (here.rear >> at.POINT_BITS)
     assert 5 < passed[True] < 20 <= passed[False] <= 21
 
 
 def test_an_end_passes_many_points_in_one_step():
     """Points 0.6 mm apart."""
-    ground, body, pair, (x, z, phi), way = down_a_hill(601)
-    good, x1, z1, _, c, s, *_, rear, front = stepped(ground, body, *pair, x, z, phi, *way, 0.01)
+    tables, here = down_a_hill(601)
+    good, there, where = stepped(tables, here, 0.01)
     assert good
-    assert front == pair[1]
-    assert (rear >> at.POINT_BITS) - (pair[0] >> at.POINT_BITS) > 5
-    assert relabelled(ground, body, rear, x1, z1, c, s) == rear
-    for feature in (rear, front):
-        assert abs(gap(ground, body, feature, x1, z1, c, s)[0]) < 1e-12
+    assert there.front == here.front
+    assert (there.rear >> at.POINT_BITS) - (here.rear >> at.POINT_BITS) > 5
+    assert relabelled(tables, there.rear, where) == there.rear
+    for feature in (there.rear, there.front):
+        assert abs(gap(tables, feature, where)[0]) < 1e-12
 
 
 def test_a_contact_has_room_as_long_as_it_keeps_its_name():
@@ -153,12 +158,12 @@ def test_a_contact_has_room_as_long_as_it_keeps_its_name():
     for ground, body, pair, (x, z, phi) in rough_cases(3, 400):
         c, s = math.cos(phi), math.sin(phi)
         for feature in pair:
-            distance = gap(ground, body, feature, x, z, c, s)[0]
+            distance = gap(scene(ground, body), feature, At(x, z, c, s))[0]
             if distance < -0.02:
                 continue  # its normal is no more that of the side on which it came
-            flat = on_flat(ground, body, feature, x, z, c, s)
-            same = relabelled(ground, body, feature, x, z, c, s) == feature
-            assert (name_room(ground, body, feature, flat, x, z, c, s) >= 0.0) == same
+            flat = on_flat(scene(ground, body), feature, At(x, z, c, s))
+            same = relabelled(scene(ground, body), feature, At(x, z, c, s)) == feature
+            assert (name_room(scene(ground, body), feature, flat, At(x, z, c, s)) >= 0.0) == same
             kept, lost = kept + same, lost + (not same)
     assert min(kept, lost) > 50
 
@@ -171,19 +176,20 @@ def test_room_by_hand(x, z):
     ahead, behind = (x - z) / math.sqrt(2.0), (x + z) / math.sqrt(2.0)  # feet, from the top on
     pose = (x, z, 1.0, 0.0)
     rear = [Feature(k, 0, FeatureKind.DISC_1).code for k in (0, 1)]
-    length = ground[:2, at.LENGTH]
-    assert name_room(ground, body, rear[1], False, *pose) == pytest.approx(ahead)
-    assert name_room(ground, body, rear[0], False, *pose) == pytest.approx(-behind)
-    assert ground[0, at.CONVEX] == ground[2, at.CONVEX] == 0.0
+    length = ground["length"][:2]
+    assert name_room(scene(ground, body), rear[1], False, At(*pose)) == pytest.approx(ahead)
+    assert name_room(scene(ground, body), rear[0], False, At(*pose)) == pytest.approx(-behind)
+    assert not ground["convex"][0]
+    assert not ground["convex"][2]
     assert length[0] > 3.0
     # on the top: until the normal leans as that of either slope
     size = math.hypot(x, z)
     top = Feature(1, 0, FeatureKind.VERTEX).code
     along = (complex(-x, -z) * complex(0.3, 1.0).conjugate()).real / abs(complex(0.3, 1.0))
     room = min(behind / size, -ahead / size, -along)
-    assert name_room(ground, body, top, False, *pose) == pytest.approx(room)
+    assert name_room(scene(ground, body), top, False, At(*pose)) == pytest.approx(room)
     # under the flat: as far as it is from its rear end
-    assert name_room(ground, body, top, True, *pose) == pytest.approx(along)
+    assert name_room(scene(ground, body), top, True, At(*pose)) == pytest.approx(along)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.3, 0.8, 1.0])
@@ -199,36 +205,31 @@ def test_poses_between_two_of_a_path(share, every, back, off):
     ground, body, poses = path.ground.table, path.body.table, path.poses.table[::every].copy()
     if back:
         poses = poses[::-1].copy()
-        poses[:, at.POSE_S] = poses[0, at.POSE_S] - poses[:, at.POSE_S]
-    s, leg = poses[:, at.POSE_S], poses[:, at.POSE_LEG]
+        poses["s"] = poses["s"][0] - poses["s"]
+    s, leg = poses["s"], poses["leg"]
     same = (np.diff(leg) == 0) & (np.diff(s) > 1e-3)
     rows = np.flatnonzero(same)[::3].copy()
-    between = np.full((len(rows), at.POSE_COLUMNS), math.nan)
-    poses_between(ground, body, poses, rows, np.full(len(rows), share), len(rows), between)
-    counts = 0
+    between = zeros(Pose, len(rows))
+    called(poses_between)((ground, body), poses, rows, np.full(len(rows), share), between)
+    counts, tables = 0, scene(ground, body)
     for row, found in zip(rows, between, strict=True):
-        x, z, phi = poses[row, [at.POSE_X, at.POSE_Z, at.POSE_PHI]]
-        pair = [int(poses[row, k]) for k in (at.POSE_REAR, at.POSE_FRONT)]
-        then = poses[row + 1, [at.POSE_X, at.POSE_Z, at.POSE_PHI]]
-        way = (then - [x, z, phi]) * [1.0, 1.0, ARM]
-        *t, _ = tangent(ground, body, *pair, x, z, math.cos(phi), math.sin(phi))
-        t = np.array(t) * math.copysign(1.0, np.dot(t, way))
+        here, then = (np.array(place_of(poses[k])) for k in (row, row + 1))
+        pair = pair_of(poses[row])
+        *t, _ = tangent(tables, *pair, posed(*here.tolist()))
+        t = np.array(t) * math.copysign(1.0, np.dot(t, (then - here) * [1.0, 1.0, ARM]))
         ds = share * (s[row + 1] - s[row])
+        held = Held(*here.tolist(), *t.tolist(), *pair)
         for _ in range(50):
-            good, x, z, phi, _, _, *t, rear, front = stepped(
-                ground, body, *pair, x, z, phi, *t, ds / 50
-            )
+            good, held, _ = stepped(tables, held, ds / 50)
             if not good:
                 break
-            pair = [rear, front]
-        if not good or [rear, front] != [int(found[k]) for k in (at.POSE_REAR, at.POSE_FRONT)]:
+        if not good or held[6:] != pair_of(found):
             continue
         counts += 1
-        placed = found[[at.POSE_X, at.POSE_Z, at.POSE_PHI]]
-        assert placed == pytest.approx([x, z, phi], abs=off)
-        assert found[at.POSE_S] == pytest.approx(s[row] + ds, abs=off)
-        assert found[at.POSE_LEG] == leg[row]
-        for feature in (at.POSE_REAR, at.POSE_FRONT):
-            pose = (placed[0], placed[1], math.cos(placed[2]), math.sin(placed[2]))
-            assert abs(gap(ground, body, int(found[feature]), *pose)[0]) < 1e-12
+        placed = place_of(found)
+        assert placed == pytest.approx(held[:3], abs=off)
+        assert found["s"] == pytest.approx(s[row] + ds, abs=off)
+        assert found["leg"] == leg[row]
+        for feature in pair_of(found):
+            assert abs(gap(tables, feature, posed(*placed))[0]) < 1e-12
     assert counts > 20 / every

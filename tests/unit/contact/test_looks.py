@@ -20,6 +20,8 @@ from kaidan.contact.kernel.event_location import (
     next_look,
     quantity,
 )
+from kaidan.contact.layout import Held, Pull
+from kernel_memory import posed, scene
 
 
 @pytest.mark.parametrize(
@@ -90,35 +92,31 @@ def code(point, kind):
 
 def placed(ground, x, phi=0.0):
     """The robot let down at x: its pose with the way on, rear and front."""
-    good, at = contact_changes.settled(ground, BODY, x, phi, 0.0)
+    good, at = contact_changes.settled(scene(ground, BODY), x, phi, 0.0)
     assert good
     return at
 
 
 def searched(ground, what, at, ds, a=0.0, kappa_g=0.0):
     """What `closing_time` finds on a step that is good, from the figures at its ends."""
-    x, z, phi, *way, rear, front = at
-    good, x1, z1, phi1, _, _, u_x, u_z, _, r1, f1 = stepped(
-        ground, BODY, rear, front, x, z, phi, *way, ds
-    )
+    tables, pull = scene(ground, BODY), Pull(a, G, kappa_g)
+    good, there, _ = stepped(tables, at, ds)
     assert good
     ends = [
-        quantity(ground, BODY, what, *pair, *place, tilt(a, G, kappa_g, *direction))
-        for pair, place, direction in (
-            ((rear, front), (x, z, phi), way[:2]), ((r1, f1), (x1, z1, phi1), (u_x, u_z))
-        )
-    ]  # fmt: skip
+        quantity(tables, what, each, posed(*each[:3]), tilt(pull, each.t_x, each.t_z))
+        for each in (at, there)
+    ]
     assert ends[0] > 0.0 >= ends[1]
-    return closing_time(ground, BODY, what, rear, front, x, z, phi, *way, ds, *ends, a, G, kappa_g)
+    return closing_time(tables, what, at, ds, *ends, pull)
 
 
 def test_what_stays_positive_as_long_as_nothing_happens():
     """On a floor 0.1 m below the centroid, the feet 0.32 m behind and 0.28 m ahead of it."""
     ground = ground_table([(-4, 0), (1, 0), (1, 0.1), (4, 0.1)])
-    *place, _, _, _, rear, front = placed(ground, 0.3)
-    at_pose = (rear, front, *place[:3])
+    held = placed(ground, 0.3)
+    rear, front = held.rear, held.front
     for kappa in (0.0, 0.3, -0.3):
-        asked = (*at_pose, kappa)
+        asked = held, posed(*held[:3]), kappa
         lean = 0.1 * kappa
         expected = {
             Advance.OVER_REAR: L - C_L - lean, Advance.OVER_FRONT: C_L + lean,
@@ -129,7 +127,7 @@ def test_what_stays_positive_as_long_as_nothing_happens():
             code(2, FeatureKind.DISC_1): math.hypot(1 - 0.3 + L - C_L, 0.02) - R + HALF_DEEP,
         }  # fmt: skip
         for what, value in expected.items():
-            assert quantity(ground, BODY, what, *asked) == pytest.approx(value, abs=1e-15)
+            assert quantity(scene(ground, BODY), what, *asked) == pytest.approx(value, abs=1e-15)
 
 
 @pytest.mark.parametrize("ds", [0.02, 0.03])
@@ -154,12 +152,14 @@ def test_where_the_centroid_comes_over_an_edge(a, kappa_g, up):
     for p in edges:
         line += [(p.real - 1e-3, -2), (p.real, p.imag), (p.real + 1e-3, -2)]
     ground = ground_table([*line, (4, -2)])
-    rear, front = (int(np.argmin(abs(ground[:, 0] + 1j * ground[:, 1] - p))) for p in edges[:2])
+    rear, front = (int(np.argmin(abs(ground["x"] + 1j * ground["z"] - p))) for p in edges[:2])
     # gravity from the centroid meets the flat so far ahead of the foot of its height above it
-    over = C_N * math.tan(phi + math.atan(tilt(a, G, kappa_g, turn.real, turn.imag)))
+    over = C_N * math.tan(phi + math.atan(tilt(Pull(a, G, kappa_g), turn.real, turn.imag)))
     start = (over - 0.006 + 1j * C_N) * turn
-    at = (start.real, start.imag, phi, turn.real, turn.imag, 0.0,
-          code(rear, FeatureKind.VERTEX), code(front, FeatureKind.VERTEX))  # fmt: skip
+    at = Held(
+        start.real, start.imag, phi, turn.real, turn.imag, 0.0,
+        code(rear, FeatureKind.VERTEX), code(front, FeatureKind.VERTEX),
+    )  # fmt: skip
     found, place = searched(ground, Advance.OVER_FRONT, at, 0.01, a, kappa_g)
     assert found == 1
     assert place >= 0.006 - 1e-12
@@ -171,27 +171,24 @@ def test_a_name_that_a_contact_takes_on_the_way_is_no_event():
     ground = ground_table([(-4, 0), (0, 0), (0.1, -1e-3), (4, -0.04)])
     at = placed(ground, 0.3)
     what = code(1, FeatureKind.DISC_1)
-    found, _ = closing_time(ground, BODY, what, *at[6:], *at[:6], 0.05, 1e-3, -1e-3, 0.0, G, 0.0)
+    found, _ = closing_time(scene(ground, BODY), what, at, 0.05, 1e-3, -1e-3, Pull(0.0, G))
     assert found == 2
 
 
 def test_no_place_where_the_corrector_fails():
     """37 degrees off the line of poses it does."""
     ground = ground_table([(-4, 0), (4, 0)])
-    x, z, phi, *_, rear, front = placed(ground, 0.3)
-    found, at = closing_time(
-        ground, BODY, Advance.OVER_REAR, rear, front, x, z, phi, 0.8, 0.0, 0.6, 0.01, 1e-3, -1e-3,
-        0.0, G, 0.0,
-    )  # fmt: skip
-    assert (found, at) == (0, 0.0)
+    held = placed(ground, 0.3)._replace(t_x=0.8, t_z=0.0, t_w=0.6)
+    given = scene(ground, BODY), Advance.OVER_REAR, held, 0.01, 1e-3, -1e-3, Pull(0.0, G)
+    assert closing_time(*given) == (0, 0.0)
 
 
 def test_no_place_where_a_gap_jumps():
     """A plate that is 30 mm deep in the flat all the way has not closed within a step."""
     ground = ground_table([(-4, 0), (0.3, 0), (0.3, 0.05), (0.301, 0), (4, 0)])
-    what = code(int(np.argmax(ground[:, 1])), FeatureKind.VERTEX)
-    k = int(np.flatnonzero(ground[:, 0] < 0.3)[-1])
+    what = code(int(np.argmax(ground["z"])), FeatureKind.VERTEX)
+    k = int(np.flatnonzero(ground["x"] < 0.3)[-1])
     rear, front = code(k, FeatureKind.DISC_1), code(len(ground) - 2, FeatureKind.DISC_2)
-    at = (0.3, C_N, 0.0, 1.0, 0.0, 0.0)
-    found = closing_time(ground, BODY, what, rear, front, *at, 0.01, 1e-3, -0.03, 0.0, G, 0.0)
+    held = Held(0.3, C_N, 0.0, 1.0, 0.0, 0.0, rear, front)
+    found = closing_time(scene(ground, BODY), what, held, 0.01, 1e-3, -0.03, Pull(0.0, G))
     assert found == (0, 0.0)

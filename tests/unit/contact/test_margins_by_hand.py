@@ -9,6 +9,7 @@
 
 import cmath
 import math
+from dataclasses import astuple
 from itertools import combinations
 
 import numpy as np
@@ -16,8 +17,8 @@ import pytest
 
 from kaidan import Question, Robot, Stairs
 from kaidan.contact import body_table, ground_table
-from kaidan.contact import columns as at
 from kaidan.contact.codes import BELLY, TRACK
+from kaidan.contact.door import table_of, zeros
 from kaidan.contact.kernel.forces import two_contact_forces
 from kaidan.contact.kernel.margins import (
     forces_over_one,
@@ -26,8 +27,21 @@ from kaidan.contact.kernel.margins import (
     margins_without,
     pose_margins,
 )
+from kaidan.contact.layout import (
+    DISC_2,
+    NO_FEATURE,
+    POINT,
+    Margin,
+    Outer,
+    Press,
+    Pull,
+    Touch,
+    Touching,
+)
+from kaidan.contact.layout import Pose as Placed
 from kaidan.models.quasi_static import traverse_of
 from kaidan.robot import Track
+from kernel_memory import nothing, numbers, scene, table
 
 GRAVITY = 9.7
 EXACT = 1e-12
@@ -45,25 +59,25 @@ class Pose:
         self.c, self.rear, self.front, self.found, self.psi = c, rear, front, found, psi
 
     def margins(self, acceleration=0.0, kinds=()):
-        poses = np.full((2, at.POSE_COLUMNS), np.nan)
-        row = poses[1]
-        row[[at.POSE_X, at.POSE_Z, at.POSE_PSI]] = self.c.real, self.c.imag, self.psi
-        row[at.POSE_REAR], p, n = self.rear
-        row[[at.REAR_X, at.REAR_Z, at.REAR_N_X, at.REAR_N_Z]] = p.real, p.imag, n.real, n.imag
-        row[at.POSE_FRONT], p, n = self.front
-        row[[at.FRONT_X, at.FRONT_Z, at.FRONT_N_X, at.FRONT_N_Z]] = p.real, p.imag, n.real, n.imag
-        table = np.full((8, at.CONTACT_COLUMNS), np.nan)
-        for k, (feature, p, n) in enumerate(self.found):
-            kind = kinds[k] if kinds else TRACK
-            table[k] = feature, p.real, p.imag, n.real, n.imag, 0.0, kind
-        margins = np.full((2, at.MARGIN_COLUMNS), np.nan)
-        margins_at(poses, 1, acceleration, GRAVITY, table, len(self.found), margins)
-        assert np.isnan(margins[0]).all()
-        return margins[1]
+        pose = Placed(
+            math.nan, self.c.real, self.c.imag, math.nan, touch(*self.rear), touch(*self.front),
+            self.psi, 0, math.nan,
+        )  # fmt: skip
+        found = [
+            Touching(feature, p.real, p.imag, n.real, n.imag, 0.0, kinds[k] if kinds else TRACK)
+            for k, (feature, p, n) in enumerate(self.found)
+        ]
+        margin = table(Margin, nothing(Margin, 1))[0]
+        margins_at(pose, Pull(acceleration, GRAVITY), found, margin)
+        return margin
+
+
+def touch(feature, p, n):
+    return Touch(feature, p.real, p.imag, n.real, n.imag)
 
 
 def expected(pose, acceleration):
-    """Columns of the margins, by definition."""
+    """Fields of the margins, by definition."""
     w = GRAVITY * 1j + acceleration * cmath.exp(1j * pose.psi)
     u = w / abs(w)
     e = -1j * u
@@ -92,22 +106,23 @@ def expected(pose, acceleration):
         loads = [load, traction, 0.0, 0.0]
         best = (needed, *(loads[2:] + loads[:2] if front < back else loads))
     return {
-        at.FRICTION: best[0], at.REAR_N: best[1], at.REAR_T: best[2], at.FRONT_N: best[3],
-        at.FRONT_T: best[4], at.TRACTION: GRAVITY * math.sin(pose.psi) + acceleration,
-        at.BACK: back, at.FRONT: front, at.BACK_RISE: math.copysign(rises[0], back),
-        at.FRONT_RISE: math.copysign(rises[1], front), at.FORCE_ANGLE: min(angles),
-        at.ZMP: back / (back + front) if back + front > 0.0 else math.nan,
-        at.CONTACTS: max(len(pose.found), 2), at.BELLY_TOUCHES: 0.0,
-        at.STEEPEST: max(math.atan2(abs(n.real), n.imag) for _, _, n in every),
-        at.TILT: w.real / w.imag, at.OUTER_REAR: r[0], at.OUTER_FRONT: f[0],
-        at.BOUNDED: 0.0, at.WITHOUT: at.NO_FEATURE,
+        "required_friction": best[0], "rear_load": best[1], "rear_traction": best[2],
+        "front_load": best[3], "front_traction": best[4],
+        "traction": GRAVITY * math.sin(pose.psi) + acceleration, "back": back, "front": front,
+        "back_rise": math.copysign(rises[0], back), "front_rise": math.copysign(rises[1], front),
+        "force_angle": min(angles),
+        "zmp": back / (back + front) if back + front > 0.0 else math.nan,
+        "contacts": max(len(pose.found), 2), "belly_touches": False,
+        "steepest_face": max(math.atan2(abs(n.real), n.imag) for _, _, n in every),
+        "tilt": w.real / w.imag, "outer_rear": r[0], "outer_front": f[0], "bounded": False,
+        "without": NO_FEATURE,
     }  # fmt: skip
 
 
 def least(pose, one, other, w):
     """Friction and forces of two contacts; test_forces has their definition."""
-    args = [part for _, p, n in (one, other) for part in (p.real, p.imag, n.real, n.imag)]
-    return two_contact_forces(*args, pose.c.real, pose.c.imag, w.real, w.imag)
+    pair = (Press(p.real, p.imag, n.real, n.imag) for _, p, n in (one, other))
+    return two_contact_forces(*pair, pose.c.real, pose.c.imag, w.real, w.imag)
 
 
 PLANES = ("none", "all", "of the two that are followed", "of all but the front one")
@@ -142,9 +157,10 @@ def test_margins_by_definition(plane, many, acceleration):
     for _ in range(12):
         pose = random_pose(rng, many, plane)
         found = pose.margins(acceleration)
-        for column, value in expected(pose, acceleration).items():
-            assert found[column] == pytest.approx(value, abs=1e-9, nan_ok=True), column  # rounding
-        assert np.isnan(found[[at.ENERGY, at.ENERGY_SIDE]]).all()
+        for name, value in expected(pose, acceleration).items():
+            told = getattr(found, name)
+            assert told == pytest.approx(value, abs=1e-9, nan_ok=True), name  # rounding
+        assert np.isnan([found.energy, found.energy_side]).all()
 
 
 @pytest.mark.parametrize("order", [(0, 1, 2), (2, 1, 0), (1, 2, 0)])
@@ -153,7 +169,8 @@ def test_on_level_ground_and_against_a_face_two_contacts_need_no_friction(order)
     rear, middle, front = (64, 0j, 1j), (128, 1 + 0j, 1j), (192, 1.5 + 0.1j, -1 + 0j)
     contacts = [rear, middle, front]
     found = Pose(0.25 + 0.3j, rear, front, [contacts[k] for k in order]).margins()
-    forces = found[[at.FRICTION, at.REAR_N, at.REAR_T, at.FRONT_N, at.FRONT_T]].tolist()
+    forces = [found.required_friction, found.rear_load, found.rear_traction, found.front_load,
+              found.front_traction]  # fmt: skip
     assert forces == pytest.approx([0.0, 0.75 * GRAVITY, 0.0, 0.25 * GRAVITY, 0.0], abs=EXACT)
 
 
@@ -162,7 +179,7 @@ def test_the_outermost_contact_is_known_by_its_place():
     rear, front = (64, 0j, 1j), (128, 1 + 0j, 1j)
     others = [(192 + 64 * k, p, 1j) for k, p in enumerate((0.1j, 1 + 0.1j, 0.5 + 0j))]
     found = Pose(0.4 + 0.3j, rear, front, [rear, front, *others]).margins()
-    assert found[[at.OUTER_REAR, at.OUTER_FRONT]].tolist() == [64, 128]
+    assert (found.outer_rear, found.outer_front) == (64, 128)
 
 
 def test_two_that_are_found_beside_two_that_are_followed_count_for_nothing():
@@ -170,7 +187,8 @@ def test_two_that_are_found_beside_two_that_are_followed_count_for_nothing():
     others = [(192, -1 + 0j, cmath.exp(2j)), (256, 2 + 0j, cmath.exp(1j))]
     c = 0.5 + 0.3j
     alone = Pose(c, rear, front).margins()
-    np.testing.assert_array_equal(Pose(c, rear, front, others).margins(), alone)
+    found = Pose(c, rear, front, others).margins()
+    np.testing.assert_array_equal(astuple(found), astuple(alone))
 
 
 @pytest.mark.parametrize("belly", [0, 1, 2])
@@ -178,8 +196,8 @@ def test_a_belly_that_touches_is_flagged(belly):
     contacts = [(64, 0j, 1j), (128, 0.5 + 0j, 1j), (192, 1 + 0j, 1j)]
     kinds = [BELLY if k == belly else TRACK for k in range(3)]
     pose = Pose(0.6 + 0.3j, contacts[0], contacts[2], contacts)
-    assert pose.margins(kinds=kinds)[at.BELLY_TOUCHES] == 1.0
-    assert pose.margins()[at.BELLY_TOUCHES] == 0.0
+    assert pose.margins(kinds=kinds).belly_touches
+    assert not pose.margins().belly_touches
 
 
 @pytest.mark.parametrize("beyond", [-0.1, 1.1])
@@ -188,14 +206,14 @@ def test_beyond_a_contact_the_rise_is_negative(beyond):
     pose = Pose(complex(beyond, 0.3), (64, 0j, 1j), (128, 1 + 0j, 1j))
     found = pose.margins()
     back, front = beyond, 1.0 - beyond
-    assert found[[at.BACK, at.FRONT]].tolist() == pytest.approx([back, front], abs=EXACT)
+    assert (found.back, found.front) == pytest.approx((back, front), abs=EXACT)
     rises = [math.copysign(math.hypot(d, 0.3) - 0.3, d) for d in (back, front)]
-    assert found[[at.BACK_RISE, at.FRONT_RISE]].tolist() == pytest.approx(rises, abs=EXACT)
-    assert found[at.ZMP] == pytest.approx(back, abs=EXACT)
+    assert [found.back_rise, found.front_rise] == pytest.approx(rises, abs=EXACT)
+    assert found.zmp == pytest.approx(back, abs=EXACT)
 
 
 def test_contacts_in_the_wrong_order_have_no_point_of_zero_moment():
-    assert math.isnan(Pose(0.5 + 0.3j, (64, 1 + 0j, 1j), (128, 0j, 1j)).margins()[at.ZMP])
+    assert math.isnan(Pose(0.5 + 0.3j, (64, 1 + 0j, 1j), (128, 0j, 1j)).margins().zmp)
 
 
 HALF, ABOVE, RADIUS, SLOPE = 0.3, 0.1, 0.05, 0.4
@@ -218,22 +236,29 @@ def stand(*, ahead, edges=(0, 2)):
     ground = ground_table(line)
     found = []
     for k in edges:
-        apart = np.hypot(ground[:, 0] - EDGES[k].real, ground[:, 1] - EDGES[k].imag)
-        found.append(at.POINT * int(np.argmin(apart)))
+        apart = np.hypot(ground["x"] - EDGES[k].real, ground["z"] - EDGES[k].imag)
+        found.append(POINT * int(np.argmin(apart)))
     return ground, body_table(PARTS), found
+
+
+def called(function, ground, body, poses, *without):
+    """Margins of poses that are worked out so."""
+    margins = zeros(Margin, len(poses))
+    filled = table(Margin, margins)
+    of = scene(ground, body), table(Placed, poses), *without, Pull(0.0, GRAVITY)
+    function(*of, filled)
+    filled.flush()
+    return margins
 
 
 def rows_of(stood, places):
     """Poses that all stand there, at some arclengths."""
     _, _, edges = stood
-    poses = np.zeros((len(places), at.POSE_COLUMNS))
+    poses = zeros(Placed, len(places))
     n = 1j * ALONG
-    poses[:, at.POSE_S], poses[:, at.POSE_PHI] = places, SLOPE
-    poses[:, [at.POSE_REAR, at.POSE_FRONT]] = edges[0], edges[-1]
-    poses[:, [at.REAR_X, at.REAR_Z]] = EDGES[0].real, EDGES[0].imag
-    poses[:, [at.FRONT_X, at.FRONT_Z]] = EDGES[2].real, EDGES[2].imag
-    for column in (at.REAR_N_X, at.FRONT_N_X):
-        poses[:, [column, column + 1]] = n.real, n.imag
+    poses["s"], poses["inclination"] = places, SLOPE
+    for end, feature, p in (("rear", edges[0], EDGES[0]), ("front", edges[-1], EDGES[2])):
+        poses[end] = (feature, p.real, p.imag, n.real, n.imag)
     return poses
 
 
@@ -259,47 +284,40 @@ def test_where_a_contact_is_exchanged_those_before_and_after_count(places, count
     if not ahead:
         places, counts = [-s for s in reversed(places)], counts[::-1]
     poses = rows_of(stood, places)
-    margins = np.zeros((len(places), at.MARGIN_COLUMNS))
-    found = np.zeros((8, at.CONTACT_COLUMNS))
-    pose_margins(
-        stood[0], stood[1], poses, len(places), 0.0, GRAVITY, 1e-9, margins, found
-    )  # fmt: skip
-    assert margins[:, at.CONTACTS].tolist() == counts
+    margins = called(pose_margins, *stood[:2], poses)
+    assert margins["contacts"].tolist() == counts
     # one more face makes the outermost contact another
-    outer, own = (at.FRONT, EDGES[2].real) if ahead else (at.BACK, -EDGES[0].real)
+    outer, own = ("front", EDGES[2].real) if ahead else ("back", -EDGES[0].real)
     face = AHEAD if ahead else -BEHIND
     far = [face if count == ALL else own for count in counts]
-    assert margins[:, outer].tolist() == pytest.approx(far, abs=1e-9)  # m: within the touch
+    assert margins[outer].tolist() == pytest.approx(far, abs=1e-9)  # m: within the touch
 
 
 @pytest.mark.parametrize("order", [(0, 1, 2), (2, 0, 1), (0, 2, 1)])
 def test_contacts_that_stay_are_moved_to_the_head_as_they_are(order):
     ground, body, edges = stand(ahead=True)
-    face = at.POINT * int(np.flatnonzero(np.isclose(ground[:, 0], AHEAD))[0]) + at.DISC_2
+    face = POINT * int(np.flatnonzero(np.isclose(ground["x"], AHEAD))[0]) + DISC_2
     features = [edges[0], edges[1], face]
-    table = np.arange(3.0 * at.CONTACT_COLUMNS).reshape(3, -1) + 0.5
-    table[:, at.CONTACT_FEATURE] = [features[k] for k in order]
-    poses = rows_of((ground, body, edges), [0.0, 0.0])
-    back = table.copy()
-    assert lasting(ground, body, poses, 1, -1.0, back, 3) == 2
-    rest = [k for k in range(at.CONTACT_COLUMNS) if k != at.CONTACT_GAP]
-    kept = [k for k in range(3) if order[k] != 2]
-    np.testing.assert_array_equal(back[:2][:, rest], table[kept][:, rest])
-    assert lasting(ground, body, poses, 1, 1.0, table, 3) == 3
+    given = [(features[order[k]], *(6.0 * k + j for j in range(5)), 7 + k) for k in range(3)]
+    pose = table(Placed, rows_of((ground, body, edges), [0.0]))[0]
+    there = scene(ground, body)
+    back = table(Touching, table_of(Touching, given))
+    assert lasting(there, pose, -1.0, back) == 2
+    kept = [(*given[k][:5], given[k][6]) for k in range(3) if order[k] != 2]
+    assert [(*astuple(each)[:5], each.kind) for each in back[0:2]] == kept
+    assert lasting(there, pose, 1.0, table(Touching, table_of(Touching, given))) == 3
 
 
 @pytest.mark.parametrize("k", [0, 1, 2])
 def test_margins_as_if_an_edge_were_not_there(k):
     """The edge between counts for nothing anyway; the others leave the margins to it."""
     ground, body, edges = stood = stand(ahead=True, edges=(0, 1, 2))
-    ground = ground[ground[:, 0] < AHEAD - 1e-6]
+    ground = ground[ground["x"] < AHEAD - 1e-6]
     poses = rows_of(stood, [0.0, 1.0])
-    margins = np.zeros((2, at.MARGIN_COLUMNS))
-    found = np.zeros((8, at.CONTACT_COLUMNS))
-    points = np.array([edges[k] // at.POINT, 0])
-    margins_without(ground, body, poses, points, 2, 0.0, GRAVITY, 1e-9, margins, found)
-    assert margins[:, at.CONTACTS].tolist() == [2, 3]
-    assert margins[:, at.WITHOUT].tolist() == points.tolist()
+    points = [edges[k] // POINT, 0]
+    margins = called(margins_without, ground, body, poses, numbers(points, int))
+    assert margins["contacts"].tolist() == [2, 3]
+    assert margins["without"].tolist() == points
 
 
 def test_of_edges_on_one_level_one_alone_is_not_there():
@@ -307,15 +325,14 @@ def test_of_edges_on_one_level_one_alone_is_not_there():
     for x in (-0.2, 0.0, 0.1, 0.2):
         line += [(x, -2), (x, -ABOVE), (x + 1e-3, -2)]
     ground, body = ground_table([*line, (3, -2)]), body_table(PARTS)
-    edges = np.flatnonzero(ground[:, at.Z] == -ABOVE)
-    poses = rows_of((ground, body, edges[[0, 3]] * at.POINT), [0.0])
-    poses[:, at.POSE_PHI] = 0.0
-    poses[:, [at.REAR_X, at.REAR_Z, at.FRONT_X, at.FRONT_Z]] = -0.2, -ABOVE, 0.2, -ABOVE
-    margins = np.zeros((1, at.MARGIN_COLUMNS))
-    found = np.zeros((8, at.CONTACT_COLUMNS))
-    margins_without(ground, body, poses, edges[[1]], 1, 0.0, GRAVITY, 1e-9, margins, found)
-    assert margins[0, at.CONTACTS] == 3
-    assert margins[0, [at.BACK, at.FRONT]].tolist() == pytest.approx([0.2, 0.2], abs=EXACT)
+    edges = np.flatnonzero(ground["z"] == -ABOVE)
+    poses = rows_of((ground, body, edges[[0, 3]] * POINT), [0.0])
+    poses["inclination"] = 0.0
+    for end, x in (("rear", -0.2), ("front", 0.2)):
+        poses[end]["x"], poses[end]["z"] = x, -ABOVE
+    (margin,) = called(margins_without, ground, body, poses, numbers(edges[[1]], int))
+    assert margin["contacts"] == 3
+    assert margin[["back", "front"]].item() == pytest.approx((0.2, 0.2), abs=EXACT)
 
 
 def test_braking_down_over_nosings_that_differ_takes_the_friction_of_the_plane():
@@ -342,10 +359,12 @@ def test_braking_down_over_nosings_that_differ_takes_the_friction_of_the_plane()
 @pytest.mark.parametrize("ahead", [True, False])
 def test_forces_over_one_contact_are_those_along_its_own_normal(ahead):
     """Others at its height or under it do not count; half a newton a kilogram is a force."""
-    poses, found = np.zeros((1, at.POSE_COLUMNS)), np.zeros((3, at.CONTACT_COLUMNS))
     rows = (0.1, 0.2, 0.6, 0.8), (0.1, 0.5, 0.0, 1.0), (0.7, 0.2, 0.0, 1.0)
-    found[:, [at.CONTACT_X, at.CONTACT_Z, at.CONTACT_N_X, at.CONTACT_N_Z]] = rows
-    mu, *forces = forces_over_one(poses, 0, found, 3, 0.1, 0.2, ahead, 0.0, 0.5)
+    found = [Touching(0, *row, 0.0, TRACK) for row in rows]
+    pose = table(Placed, 1)[0]
+    # the one that counts is the outer contact at the side that is passed
+    outer = Outer(*((0.1, -0.1) if ahead else (-0.1, 0.1)), 0.1, 0.2, 0.1, 0.2)
+    mu, *forces = forces_over_one(pose, found, outer, 0.0, 0.5)
     normal, tangential = 0.4, -0.3
     assert mu == pytest.approx(0.75)
     on_one = (0.0, 0.0, normal, tangential) if ahead else (normal, tangential, 0.0, 0.0)

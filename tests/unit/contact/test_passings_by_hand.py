@@ -1,13 +1,14 @@
 """On which pieces of a path nosings pass a flat's end, and which of them count; by hand."""
 
 import itertools
+from dataclasses import astuple
 
 import numpy as np
 import pytest
 
 from contact_cases import stadium
 from kaidan.contact import body_table, ground_table
-from kaidan.contact import columns as at
+from kaidan.contact.door import table_of
 from kaidan.contact.kernel import passings
 from kaidan.contact.kernel.passings import (
     along_flat,
@@ -17,42 +18,54 @@ from kaidan.contact.kernel.passings import (
     put_passings_in_order,
     without_twins,
 )
+from kaidan.contact.layout import Margin, Passed, Pose
+from kernel_memory import nothing, posed, scene, table
 
 
 def poses():
     """Ten poses: a turn after the third, two lines of poses, two poses at one place."""
-    found = np.full((10, at.POSE_COLUMNS), np.nan)
-    found[:, at.POSE_LEG] = [0] * 8 + [1] * 2
-    found[:, at.POSE_PHI] = np.where(np.arange(10) < 3, 0.0, 1.1e-9)
-    found[:, at.POSE_S] = [0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0, 5.5, 6.0, 7.0]
+    found = nothing(Pose, 10)
+    found["leg"] = [0] * 8 + [1] * 2
+    found["inclination"] = np.where(np.arange(10) < 3, 0.0, 1.1e-9)
+    found["s"] = [0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0, 5.5, 6.0, 7.0]
     return found
 
 
 def margins():
     """Contacts change after the third pose, the front one after the seventh, the rear before."""
-    found = np.full((10, at.MARGIN_COLUMNS), np.nan)
-    found[:, at.CONTACTS] = [2] * 3 + [3] * 7
-    found[:, at.OUTER_REAR] = 1
-    found[:, at.OUTER_FRONT] = [4] * 7 + [5] * 3
+    found = nothing(Margin, 10)
+    found["contacts"] = [2] * 3 + [3] * 7
+    found["outer_rear"] = 1
+    found["outer_front"] = [4] * 7 + [5] * 3
     return found
 
 
 def test_pieces_that_lead_straight_on():
     found = poses()
-    assert [row for row in range(9) if leads_straight(found, row)] == [0, 1, 3, 5, 6, 8]
-    found[:, at.POSE_PHI] *= 0.9 / 1.1
-    assert leads_straight(found, 2)
-    found[:, at.POSE_PHI] *= -1.2
-    assert not leads_straight(found, 2)
+
+    def straight():
+        rows = table(Pose, found)
+        return [row for row in range(9) if leads_straight(rows[row], rows[row + 1])]
+
+    assert straight() == [0, 1, 3, 5, 6, 8]
+    found["inclination"] *= 0.9 / 1.1
+    assert 2 in straight()
+    found["inclination"] *= -1.2
+    assert 2 not in straight()
 
 
 def test_where_contacts_change():
     found = margins()
-    assert [row for row in range(-1, 10) if contacts_change(found, row)] == [2, 6]
-    found[4, at.OUTER_REAR] = 7
-    assert [row for row in range(-1, 10) if contacts_change(found, row)] == [2, 3, 4, 6]
-    found[[0, 9], at.CONTACTS] = 1
-    assert [row for row in range(-1, 10) if contacts_change(found, row)] == [0, 2, 3, 4, 6, 8]
+
+    def changes():
+        rows = table(Margin, found)
+        return [row for row in range(-1, 10) if contacts_change(rows, row)]
+
+    assert changes() == [2, 6]
+    found["outer_rear"][4] = 7
+    assert changes() == [2, 3, 4, 6]
+    found["contacts"][[0, 9]] = 1
+    assert changes() == [0, 2, 3, 4, 6, 8]
 
 
 @pytest.mark.parametrize("radii", [(0.08, 0.08), (0.05, 0.1), (0.12, 0.06)])
@@ -61,12 +74,10 @@ def test_place_along_the_flat(radii, phi):
     """The flat of a track lies C_N below the centroid, however large its ends are."""
     body = body_table(stadium(0.6, 0.28, 0.1, *radii))
     ground = ground_table([(-4, -3), (0.3, 0.2), (4, -3)])
-    point = int(np.argmax(ground[:, 1]))
+    point, there = int(np.argmax(ground["z"])), scene(ground, body)
     for along, gap in ((0.1, 0.0), (0.5, 0.02), (-0.1, -0.01)):
         com = (0.3 + 0.2j) - complex(along - 0.32, -0.1 - gap) * np.exp(1j * phi)
-        poses = np.zeros((2, at.POSE_COLUMNS))
-        poses[1, [at.POSE_X, at.POSE_Z, at.POSE_PHI]] = com.real, com.imag, phi
-        found = along_flat(ground, body, poses, 1, 0, point)
+        found = along_flat(there.body[0], there.ground[point], posed(com.real, com.imag, phi))
         assert found == pytest.approx((along, gap), abs=1e-12)
 
 
@@ -74,18 +85,18 @@ def test_place_along_the_flat(radii, phi):
 def test_pieces_are_straight_and_beside_a_change_of_contacts(known, expected, monkeypatch):
     looked = []
 
-    def nosings_passed(ground, body, poses, events, rows, touch, reach, passed):
-        looked.extend(rows.tolist())
-        assert (ground, body, events, touch, reach) == ("ground", "body", "events", 1e-7, 0.4)
-        passed[:2, at.PASSED_S] = 3.0, 2.0
+    def nosings_passed(scene, poses, events, rows, touch, reach, passed):
+        looked.extend(rows)
+        assert (scene, events, touch, reach) == ("scene", "events", 1e-7, 0.4)
+        passed[0].s, passed[1].s = 3.0, 2.0
         return count
 
     monkeypatch.setattr(passings, "nosings_passed", nosings_passed)
 
     def found(room):
-        passed = np.full((room, at.PASSED_COLUMNS), 7.0)
-        given = poses(), margins(), known, "events", 1e-7, 0.4, np.zeros(10, dtype=np.int64)
-        return find_passings("ground", "body", *given, passed), passed[:, at.PASSED_S].tolist()
+        passed = [Passed(7.0, True, 7, 7, 7, 7.0) for _ in range(room)]
+        given = table(Pose, poses()), table(Margin, margins() if known else 0), "events", 1e-7, 0.4
+        return find_passings("scene", *given, passed), [each.s for each in passed]
 
     count = 2
     assert found(3) == (2, [2.0, 3.0, 7.0])
@@ -97,26 +108,27 @@ def test_pieces_are_straight_and_beside_a_change_of_contacts(known, expected, mo
 
 @pytest.mark.parametrize("seed", range(6))
 def test_passings_in_their_order(seed):
-    """By their columns one after the other, against Python's own sorting."""
+    """By their fields one after the other, against Python's own sorting."""
     rng = np.random.default_rng(seed)
-    made = rng.integers(0, 2, (20, at.PASSED_COLUMNS)).astype(float)
-    expected = sorted(made[:17].tolist()) + made[17:].tolist()
-    put_passings_in_order(made, 17)
-    assert made.tolist() == expected
-    for columns in itertools.pairwise(range(at.PASSED_COLUMNS)):
-        two = np.zeros((2, at.PASSED_COLUMNS))
-        two[0, columns[0]], two[1, columns[1]] = 1.0, 1.0
-        swapped = two[::-1].copy()
-        put_passings_in_order(two, 2)
-        assert two.tolist() == swapped.tolist()
+    names = Passed.__slots__
+
+    def ordered(rows):
+        made = [Passed(**dict(zip(names, row, strict=True))) for row in rows]
+        put_passings_in_order(made)
+        return [astuple(each) for each in made]
+
+    rows = [tuple(row) for row in rng.integers(0, 2, (17, len(names))).tolist()]
+    assert ordered(rows) == sorted(rows)
+    for one, other in itertools.pairwise(range(len(names))):
+        two = [tuple(int(k == field) for k in range(len(names))) for field in (one, other)]
+        assert ordered(two) == two[::-1]
 
 
 def kept(*some):
-    passed = np.full((len(some), at.PASSED_COLUMNS), 7.0)
-    passed[:, [at.PASSED_S, at.PASSED_REACHED, at.PASSED_POINT]] = some
-    passed[:, at.PASSED_ROW] = range(len(some))
-    count = without_twins(passed, len(some))
-    return [(row[at.PASSED_S], int(row[at.PASSED_POINT])) for row in passed[:count]]
+    rows = [(s, reached, point, 7, k, 7.0) for k, (s, reached, point) in enumerate(some)]
+    passed = table(Passed, table_of(Passed, rows))
+    count = without_twins(passed)
+    return [(each.s, each.point) for each in passed[0:count]]
 
 
 def test_from_one_part_to_the_next_in_line_a_nosing_neither_comes_nor_goes():

@@ -65,12 +65,13 @@ class Case:
         point, which, kind = Feature.of(code)
         part, c, turn = self.parts[which], self.c[row], np.exp(1j * self.phi[row])
         if kind is FeatureKind.VERTEX:
-            at = complex(*self.ground[point, :2])
+            at = complex(self.ground["x"][point], self.ground["z"][point])
             return float(outline_distance(part, np.array([(at - c) / turn]))[0])
         x, z, r = part[:3] if kind is FeatureKind.DISC_1 else part[3:]
-        start, u = complex(*self.ground[point, :2]), complex(*self.ground[point, 2:4])
+        begin = self.ground[point]
+        start, u = complex(begin["x"], begin["z"]), complex(begin["u_x"], begin["u_z"])
         off = (c + complex(x, z) * turn - start) * u.conjugate()
-        along = min(max(off.real, 0.0), self.ground[point, 4])
+        along = min(max(off.real, 0.0), begin["length"])
         return abs(off - along) - r
 
     def lever(self, code_point, row):
@@ -129,13 +130,15 @@ def assert_on_the_ground(case, deepest):
         for row, (code, (x, z)) in enumerate(zip(codes.tolist(), points.tolist(), strict=True)):
             assert abs(case.gap(code, row)) < deepest
             point, which, kind = Feature.of(code)
-            start = complex(*case.ground[point, :2])
-            along = (complex(x, z) - start) * complex(*case.ground[point, 2:4]).conjugate()
+            segment = case.ground[point]
+            start = complex(segment["x"], segment["z"])
+            u = complex(segment["u_x"], segment["u_z"])
+            along = (complex(x, z) - start) * u.conjugate()
             if kind is FeatureKind.VERTEX:
                 assert abs(complex(x, z) - start) < CLOSED
             else:
                 assert abs(along.imag) < CLOSED
-                assert -CLOSED < along.real < case.ground[point, 4] + CLOSED
+                assert -CLOSED < along.real < segment["length"] + CLOSED
             place = (complex(x, z) - case.c[row]) * np.exp(-1j * case.phi[row])
             assert abs(outline_distance(case.parts[which], np.array([place]))[0]) < CLOSED
 

@@ -7,16 +7,20 @@ import numpy as np
 import pytest
 
 from kaidan.contact import Poses, phases_by_zones, using_kernel, without_native
-from kaidan.contact import columns as at
+from kaidan.contact.door import table_of, zeros
 from kaidan.contact.kernel import phases
+from kaidan.contact.layout import Pose, Zone
+from kernel_memory import called
 
 UP = math.inf
+in_zone = called(phases.in_zone)
 KERNELS = ["plain"] if without_native() else ["plain", "native"]
 
 
 def named(rear, front, enters, lands, kernel="plain"):
-    table = np.full((len(rear), at.POSE_COLUMNS), np.nan)
-    table[:, [at.REAR_X, at.REAR_Z]], table[:, [at.FRONT_X, at.FRONT_Z]] = rear, front
+    table = zeros(Pose, len(rear))
+    for name, places in (("rear", rear), ("front", front)):
+        table[name]["x"], table[name]["z"] = np.array(places).T
     with using_kernel(kernel):
         return phases_by_zones(SimpleNamespace(poses=Poses(table)), enters, lands).tolist()
 
@@ -37,9 +41,9 @@ def test_phases_by_zones(kernel):
 
 
 def test_places_in_zones():
-    zones = np.array([(0.0, 1.0, 2.0, 3.0), (4.0, 5.0, 6.0, 7.0)])
+    zones = table_of(Zone, [(0.0, 1.0, 2.0, 3.0), (4.0, 5.0, 6.0, 7.0)])
     places = [(0.0, 2.0), (1.0, 3.0), (4.5, 6.5)]
-    assert all(phases.in_zone(zones, *each) for each in places)
+    assert all(in_zone(zones, *each) for each in places)
     others = [(-0.1, 2.5), (1.1, 2.5), (0.5, 1.9), (0.5, 3.1), (0.5, 6.5), (4.5, 2.5)]
-    assert not any(phases.in_zone(zones, *each) for each in others)
-    assert not phases.in_zone(zones[:0], 0.5, 2.5)
+    assert not any(in_zone(zones, *each) for each in others)
+    assert not in_zone(zones[:0], 0.5, 2.5)

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from kaidan.contact import body_table, ground_table
-from kaidan.contact.columns import PART, POINT
 from kaidan.contact.kernel.gaps import YIELD, gap, pressed_normal
+from kaidan.contact.layout import PART, POINT, At
+from kernel_memory import posed, scene
 
 L, R = 0.5, 0.1
 TRACK = [-0.2, 0.05, R, 0.3, 0.05, R]
@@ -23,9 +24,9 @@ def vertex_under_arc(angle, end, parts=(TRACK,), lean=0.0):
     ground = ground_table([(x - 2.0, z - 1.0), (x, z), (x + 2.0, z - 1.0)])
     body = body_table(list(parts))
     feature = POINT * 1 + PART * 0
-    distance, n_x, n_z, _, _ = gap(ground, body, feature, 0.0, 0.0, c, s)
+    distance, n_x, n_z, _, _ = gap(scene(ground, body), feature, At(0.0, 0.0, c, s))
     assert abs(distance) < 1e-12
-    p_x, p_z = pressed_normal(ground, body, feature, 0.0, 0.0, c, s, n_x, n_z)
+    p_x, p_z = pressed_normal(scene(ground, body), feature, At(0.0, 0.0, c, s), n_x, n_z)
     assert math.hypot(p_x, p_z) == pytest.approx(1.0, abs=1e-12)
     return math.atan2(n_x, n_z), math.atan2(p_x, p_z)
 
@@ -47,7 +48,9 @@ def vertex_under_arc(angle, end, parts=(TRACK,), lean=0.0):
 def test_it_turns_from_that_of_the_flat_to_that_of_the_arc(share, of_arc, end):
     if share < 0:  # on the flat
         ground = ground_table([(-2.0, -1.05), (0.0, -0.05), (2.0, -1.05)])
-        found = pressed_normal(ground, body_table([TRACK]), POINT, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0)
+        found = pressed_normal(
+            scene(ground, body_table([TRACK])), POINT, At(0.0, 0.0, 1.0, 0.0), 0.0, 1.0
+        )
         assert found == (0.0, 1.0)
         return
     rigid, pressed = vertex_under_arc(share * FIRST, end)
@@ -77,13 +80,17 @@ def test_a_small_end_is_an_edge():
     x, z = 0.3 + 0.005 * math.sin(angle), 0.005 - 0.005 * math.cos(angle)
     ground = ground_table([(x - 2.0, z - 1.0), (x, z), (x + 2.0, z - 1.0)])
     normal = (-math.sin(angle), math.cos(angle))
-    assert pressed_normal(ground, body_table([small]), POINT, 0, 0, 1, 0, *normal) == normal
+    assert (
+        pressed_normal(scene(ground, body_table([small])), POINT, At(0, 0, 1, 0), *normal) == normal
+    )
 
 
 def test_what_stands_on_a_tread_has_its_normal():
     ground = ground_table([(-2.0, 0.0), (2.0, 0.0)])
     disc = POINT * 0 + PART * 0 + 2
-    found = pressed_normal(ground, body_table([TRACK]), disc, 0.0, 0.05, 1.0, 0.0, 0.0, 1.0)
+    found = pressed_normal(
+        scene(ground, body_table([TRACK])), disc, At(0.0, 0.05, 1.0, 0.0), 0.0, 1.0
+    )
     assert found == (0.0, 1.0)
 
 
@@ -122,13 +129,12 @@ def test_under_any_end_of_any_part_in_any_pose(part, end, phi):
         ground = ground_table(
             [(p.real - 2, p.imag - 9), (p.real, p.imag), (p.real + 2, p.imag - 9)]
         )
-        (k,) = np.flatnonzero(np.abs(ground[:, 0] - p.real) < 1e-9)
+        (k,) = np.flatnonzero(np.abs(ground["x"] - p.real) < 1e-9)
         rigid = -outward * turn
         up = (-n * turn).imag
         pressed = rigid if rigid.imag >= up else -n * np.exp(1j * sense * of_arc * first) * turn
         for parts, row in (([part], 0), ([*ELSEWHERE, part], 6), ([part, *ELSEWHERE], 0)):
-            found = pressed_normal(
-                ground, body_table(parts), POINT * k + PART * row, at.real, at.imag,
-                math.cos(phi), math.sin(phi), rigid.real, rigid.imag,
-            )  # fmt: skip
+            there, where = scene(ground, body_table(parts)), posed(at.real, at.imag, phi)
+            feature = POINT * k + PART * row
+            found = pressed_normal(there, feature, where, rigid.real, rigid.imag)
             assert found == pytest.approx((pressed.real, pressed.imag), abs=1e-9)

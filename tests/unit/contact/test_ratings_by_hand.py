@@ -7,73 +7,88 @@ import pytest
 
 from contact_cases import stadium
 from kaidan.contact import Job, PartKind, RotationOutcome, body_table, ground_table, rate_many
-from kaidan.contact import columns as at
+from kaidan.contact.door import table_of
 from kaidan.contact.kernel import rating
-from kaidan.contact.tables import margin_tables
+from kaidan.contact.layout import Course, Edge, Flight, Pose, Pull, Rating, RotationRow, Zone
+from kernel_memory import made, nothing, scene, table
 
 L, C_N = 0.6, 0.1
 LEVEL = ground_table([(-4, 0), (4, 0)])
 BODY = body_table(stadium(L, 0.28, C_N, 0.08))
 G = 10.0
-FALLS = {at.OUTCOME: RotationOutcome.PAST_VERTICAL}
-
-
-def table(width, rows):
-    made = np.zeros((len(rows), width))
-    for k, row in enumerate(rows):
-        for column, value in row.items():
-            made[k, column] = value
-    return made
+FALLS = {"outcome": RotationOutcome.PAST_VERTICAL}
 
 
 def poses_of(*rows):
-    return table(at.POSE_COLUMNS, rows)
+    return table(Pose, made(Pose, *rows))
 
 
-LANDS = {at.POSE_PSI: -0.4, at.POSE_PHI: -0.3, at.REAR_LEAN: 0.5, at.FRONT_X: 1.0, at.FRONT_Z: 0.2}
+def rotations_of(*rows):
+    return table(RotationRow, made(RotationRow, *rows))
+
+
+def flights_of(*rows):
+    return table(Flight, made(Flight, *rows))
+
+
+def zones_of(*rows):
+    return table(Zone, table_of(Zone, rows))
+
+
+def course_of(edges=(), tilts=(0.0, 0.0), rough=0.01):
+    return Course(0.02, zones_of(), table(Edge, table_of(Edge, edges)), rough, *tilts)
+
+
+LANDS = {
+    "path_direction": -0.4,
+    "inclination": -0.3,
+    "rear_lean": 0.5,
+    "front.x": 1.0,
+    "front.z": 0.2,
+}
 ZONE = (0.9, 1.1, 0.1, 0.3)
 
 
 @pytest.mark.parametrize("change", [
-    {}, {at.FRONT_X: 0.9}, {at.FRONT_X: 1.1}, {at.FRONT_Z: 0.1}, {at.FRONT_Z: 0.3},
-    {at.REAR_LEAN: 0.3001}, {at.POSE_PHI: 0.3, at.REAR_LEAN: 0.2}, {at.POSE_PSI: -3.0},
+    {}, {"front.x": 0.9}, {"front.x": 1.1}, {"front.z": 0.1}, {"front.z": 0.3},
+    {"rear_lean": 0.3001}, {"inclination": 0.3, "rear_lean": 0.2}, {"path_direction": -3.0},
 ])  # fmt: skip
 def test_the_trailing_end_leaves_an_edge_as_it_lands(change):
     elsewhere = (-9.0, -8.0, -9.0, -8.0)
     poses = poses_of({}, LANDS | change)
-    assert rating.comes_off(poses, 1, np.array([elsewhere, ZONE]))
-    assert not rating.comes_off(poses, 1, np.array([elsewhere]))
-    assert not rating.comes_off(poses, 0, np.array([elsewhere, ZONE]))
+    assert rating.comes_off(poses[1], zones_of(elsewhere, ZONE))
+    assert not rating.comes_off(poses[1], zones_of(elsewhere))
+    assert not rating.comes_off(poses[0], zones_of(elsewhere, ZONE))
 
 
 @pytest.mark.parametrize("change", [
-    {at.FRONT_X: 0.89}, {at.FRONT_X: 1.11}, {at.FRONT_Z: 0.09}, {at.FRONT_Z: 0.31},
-    {at.REAR_LEAN: 0.3}, {at.REAR_LEAN: 0.2}, {at.POSE_PSI: 0.0}, {at.POSE_PSI: 0.4},
-    {at.POSE_PHI: 0.3, at.REAR_LEAN: 0.0},
+    {"front.x": 0.89}, {"front.x": 1.11}, {"front.z": 0.09}, {"front.z": 0.31},
+    {"rear_lean": 0.3}, {"rear_lean": 0.2}, {"path_direction": 0.0}, {"path_direction": 0.4},
+    {"inclination": 0.3, "rear_lean": 0.0},
 ])  # fmt: skip
 def test_no_trailing_end_leaves_an_edge(change):
-    assert not rating.comes_off(poses_of(LANDS | change), 0, np.array([ZONE]))
+    assert not rating.comes_off(poses_of(LANDS | change)[0], zones_of(ZONE))
 
 
 def test_of_several_poses_at_an_arclength_the_first_line_ends_there():
-    s, leg = at.POSE_S, at.POSE_LEG
+    s, leg = "s", "leg"
     poses = poses_of(
         {s: 0.0, leg: 0}, {s: 0.1, leg: 0}, {s: 0.2, leg: 1}, {s: 0.2, leg: 0}, {s: 0.2, leg: 0},
         {s: 0.2, leg: 2}, {s: 0.3, leg: 0}, {s: 0.2, leg: 0},
     )  # fmt: skip
-    assert rating.row_before(poses, 8, 0.2) == 4
-    assert rating.row_before(poses, 3, 0.2) == 2
-    assert rating.row_before(poses, 8, 0.2 + 9e-10) == 4  # rounding
-    assert rating.row_before(poses, 8, 0.2 - 9e-10) == 4
-    assert rating.row_before(poses, 8, 0.15) == 1  # none there: the last one before
-    assert rating.row_before(poses, 8, 0.25) == 5
-    assert rating.row_before(poses, 8, 9.0) == 7
-    assert rating.row_before(poses, 8, 0.0) == 0
-    assert rating.row_before(poses, 8, -1.0) == 0
-    assert rating.row_before(poses[4:], 2, 0.2) == 0
+    assert rating.row_before(poses, 0.2) == 4
+    assert rating.row_before(poses[0:3], 0.2) == 2
+    assert rating.row_before(poses, 0.2 + 9e-10) == 4  # rounding
+    assert rating.row_before(poses, 0.2 - 9e-10) == 4
+    assert rating.row_before(poses, 0.15) == 1  # none there: the last one before
+    assert rating.row_before(poses, 0.25) == 5
+    assert rating.row_before(poses, 9.0) == 7
+    assert rating.row_before(poses, 0.0) == 0
+    assert rating.row_before(poses, -1.0) == 0
+    assert rating.row_before(poses[4:6], 0.2) == 0
 
 
-COMES_DOWN = {at.PIVOT_X: 1.0, at.PIVOT_Z: 2.0, at.START_PHI: 0.6, at.END_PHI: -0.95}
+COMES_DOWN = {"pivot_x": 1.0, "pivot_z": 2.0, "start.inclination": 0.6, "end.inclination": -0.95}
 
 
 @pytest.mark.parametrize(("ahead", "up", "below"), [
@@ -84,17 +99,17 @@ COMES_DOWN = {at.PIVOT_X: 1.0, at.PIVOT_Z: 2.0, at.START_PHI: 0.6, at.END_PHI: -
     (0.01, 0.0, 0.0), (0.011, 0.0, 0.95), (-0.3, 0.0, 0.0),  # not ahead
 ])  # fmt: skip
 def test_a_rotation_beyond_the_line_to_the_next_edge(ahead, up, below):
-    rotations = table(at.ROTATION_COLUMNS, [{}, COMES_DOWN])
-    edges = np.array([(1.0 + ahead, 2.0 + up)])
+    row = rotations_of(COMES_DOWN)[0]
+    edge = (1.0 + ahead, 2.0 + up)
     length = L + 1e-12  # the edge at the very end of the flat counts
-    found = rating.beyond_the_edge(rotations, 1, edges, length, 0.01 + 1e-12)
+    found = rating.beyond_the_edge(row, course_of([edge], rough=0.01 + 1e-12), length)
     assert found == pytest.approx(below, abs=1e-9)
-    more = np.array([(1.5, 1.75), *edges, (1.3, 1.7)])
+    more = course_of([(1.5, 1.75), edge, (1.3, 1.7)], rough=0.01 + 1e-12)
     lines = [math.atan2(-0.25, 0.5), math.atan2(-0.3, 0.3)]
     least = [0.95 + each for each in lines]
-    found = rating.beyond_the_edge(rotations, 1, more, length, 0.01 + 1e-12)
+    found = rating.beyond_the_edge(row, more, length)
     assert found == pytest.approx(max(below, *least), abs=1e-9)
-    assert rating.beyond_the_edge(rotations, 1, edges[:0], length, 0.01) == 0.0
+    assert rating.beyond_the_edge(row, course_of(), length) == 0.0
 
 
 @pytest.mark.parametrize(("rear", "front", "flight"), [
@@ -104,11 +119,9 @@ def test_a_rotation_beyond_the_line_to_the_next_edge(ahead, up, below):
 ])  # fmt: skip
 def test_flight_on_which_both_contacts_stand(rear, front, flight):
     """Before and after the rotation."""
-    rows = [{at.REAR_X: r, at.FRONT_X: f} for r, f in zip(rear, front, strict=True)]
-    flights = table(at.FLIGHT_COLUMNS, [
-        {at.FLIGHT_BEGIN: 0.0, at.FLIGHT_END: 1.0}, {at.FLIGHT_BEGIN: 2.0, at.FLIGHT_END: 3.0},
-    ])  # fmt: skip
-    far = {at.REAR_X: -9.0, at.FRONT_X: 9.0}
+    rows = [{"rear.x": r, "front.x": f} for r, f in zip(rear, front, strict=True)]
+    flights = flights_of({"begin": 0.0, "end": 1.0}, {"begin": 2.0, "end": 3.0})
+    far = {"rear.x": -9.0, "front.x": 9.0}
     assert rating.flight_at(poses_of(far, *rows, far), 1, flights) == flight
 
 
@@ -119,36 +132,31 @@ def test_rocking_is_from_the_slope_of_the_flight(turn, before, after, slope, roc
     assert rating.rocking(turn, before, after, slope) == pytest.approx(rocks)
 
 
-def rated(rows, poses=None, *, count=None, a=0.0, tilts=(0.0, 0.0), edges=(), flights=()):
-    """Angle, rocking, speed of impact, rise to spare; the rows beside it are left alone."""
-    poses = poses_of({}, {}) if poses is None else poses
-    found = margin_tables(len(poses))[1]
-    ratings = np.full((3, at.RATING_COLUMNS), math.nan)
+def rated(rows, poses=None, *, a=0.0, tilts=(0.0, 0.0), edges=(), flights=()):
+    """Angle, rocking, speed of impact, rise to spare."""
+    poses = poses_of({}, {"s": 1.0}) if poses is None else poses
+    found = table(Rating, nothing(Rating, 1))[0]
     rating.rate_rotations(
-        LEVEL, BODY, poses, len(poses) - 1, table(at.ROTATION_COLUMNS, rows),
-        len(rows) if count is None else count, a, G, L, 0.01, *tilts,
-        np.array(edges, dtype=float).reshape(-1, 2),
-        table(at.FLIGHT_COLUMNS, flights), found, ratings, 1,
+        scene(LEVEL, BODY), poses, rotations_of(*rows), Pull(a, G), L,
+        course_of(edges, tilts), flights_of(*flights), found,
     )  # fmt: skip
-    assert np.isnan(ratings[[0, 2]]).all()
-    columns = [at.RATED_ANGLE, at.RATED_ROCKING, at.RATED_IMPACT, at.RATED_SPARE]
-    return tuple(ratings[1, columns].tolist())
+    return found.largest_rotation, found.rocking, found.impact_speed, found.spare
 
 
 def test_nothing_turns():
-    assert rated([{}], count=0) == (0.0, 0.0, 0.0, math.inf)
+    assert rated([]) == (0.0, 0.0, 0.0, math.inf)
 
 
 def turn(angle, begin, end, sense=1.0, **more):
     """A rotation from one place (x, z, inclination) to another."""
     names = {
-        "barrier": at.BARRIER, "across": at.BARRIER_ACROSS, "s": at.ROTATION_S,
-        "rate": at.RATE_BEFORE, "outcome": at.OUTCOME, "pivot_x": at.PIVOT_X,
-        "pivot_z": at.PIVOT_Z,
+        "barrier": "barrier", "across": "barrier_across", "s": "s",
+        "rate": "rate_before", "outcome": "outcome", "pivot_x": "pivot_x",
+        "pivot_z": "pivot_z",
     }  # fmt: skip
-    row = {at.ROTATION_ANGLE: angle, at.ROTATION_SENSE: sense}
-    row |= dict(zip((at.START_X, at.START_Z, at.START_PHI), begin, strict=True))
-    row |= dict(zip((at.END_X, at.END_Z, at.END_PHI), end, strict=True))
+    row = {"angle": angle, "sense": sense}
+    row |= dict(zip(("start.x", "start.z", "start.inclination"), begin, strict=True))
+    row |= dict(zip(("end.x", "end.z", "end.inclination"), end, strict=True))
     return FALLS | row | {names[name]: value for name, value in more.items()}
 
 
@@ -173,7 +181,7 @@ def test_rise_to_spare_is_along_gravity_and_acceleration():
     a = 3.0
     slopes = (0.3, 0.5)
     poses = poses_of(
-        {at.POSE_S: 0.1, at.POSE_PSI: slopes[0]}, {at.POSE_S: 0.4, at.POSE_PSI: slopes[1]}, {}
+        {"s": 0.1, "path_direction": slopes[0]}, {"s": 0.4, "path_direction": slopes[1]}, {"s": 1.0}
     )
     first = turn(0.2, (0.5, 1.0, 0.0), (0.4, 0.93, 0.0), s=0.1, barrier=0.7)
     second = turn(0.2, (0.4, 0.93, 0.0), (0.37, 0.95, 0.0), s=0.4, barrier=0.8)
@@ -188,7 +196,7 @@ def test_rise_to_spare_is_along_gravity_and_acceleration():
         spares.append(barrier / abs(load) - fallen)
     assert rated([first], poses, a=a)[3] == pytest.approx(spares[0])
     assert rated([first, second], poses, a=a)[3] == pytest.approx(min(spares))
-    first[at.BARRIER] = 9.0
+    first["barrier"] = 9.0
     assert rated([first, second], poses, a=a)[3] == pytest.approx(spares[1])
 
 
@@ -216,7 +224,7 @@ def test_tilted_gravity_takes_from_the_rise_what_lies_on_the_way(sense, a):
         (second, complex(ahead * 0.049, -0.01)),
     ):
         moved += step
-        rise = row[at.BARRIER] / abs(load) * up + row[at.BARRIER_ACROSS] * (up / 1j)
+        rise = row["barrier"] / abs(load) * up + row["barrier_across"] * (up / 1j)
         spares.append(of(moved + rise, tilted))
     assert rated([first, second], a=a, tilts=tilts)[3] == pytest.approx(min(spares))
     # of one that does not follow at once its own way alone counts
@@ -234,20 +242,20 @@ def test_of_what_comes_down_only_what_is_beyond_the_next_edge_may_be_avoided():
     beyond = 0.2 - math.atan2(0.05, 0.5)
     assert rated([down], edges=edges)[:2] == pytest.approx((0.5, beyond))
     assert rated([down, up], edges=edges)[:2] == pytest.approx((0.6, beyond + 0.1))
-    level = down | {at.ROTATION_SENSE: 0.0}
+    level = down | {"sense": 0.0}
     assert rated([level], edges=edges)[:2] == pytest.approx((0.5, 0.5))
 
 
 FLIGHTS = [
-    {at.FLIGHT_BEGIN: -9.0, at.FLIGHT_END: -3.0, at.FLIGHT_SLOPE: 0.5},
-    {at.FLIGHT_BEGIN: 0.0, at.FLIGHT_END: 2.0, at.FLIGHT_SLOPE: 0.5},
-    {at.FLIGHT_BEGIN: 4.0, at.FLIGHT_END: 6.0, at.FLIGHT_SLOPE: 0.4},
+    {"begin": -9.0, "end": -3.0, "slope": 0.5},
+    {"begin": 0.0, "end": 2.0, "slope": 0.5},
+    {"begin": 4.0, "end": 6.0, "slope": 0.4},
 ]
 STANDS = poses_of(
-    {at.POSE_S: 0.1, at.REAR_X: 0.5, at.FRONT_X: 1.0},
-    {at.POSE_S: 0.2, at.REAR_X: 0.5, at.FRONT_X: 1.0},
-    {at.POSE_S: 0.3, at.REAR_X: 4.5, at.FRONT_X: 5.0},
-    {at.POSE_S: 0.4, at.REAR_X: 4.5, at.FRONT_X: 5.0},
+    {"s": 0.1, "rear.x": 0.5, "front.x": 1.0},
+    {"s": 0.2, "rear.x": 0.5, "front.x": 1.0},
+    {"s": 0.3, "rear.x": 4.5, "front.x": 5.0},
+    {"s": 0.4, "rear.x": 4.5, "front.x": 5.0},
 )
 
 
@@ -321,11 +329,15 @@ def test_after_an_end_that_leaves_an_edge_friction_counts_again():
     assert one == first > both + 0.05
 
 
+NUMBERS = ("required_friction", "largest_rotation", "rocking", "impact_speed", "spare")
+
+
 def test_a_job_that_does_not_arrive_is_left_out():
     terrain = [(-4, 0), (0, 0), (0, 0.1), (2, 0.1), (2, 1.5), (4, 1.5)]
     ends = (3.0, 1.0)
     found = of_jobs(terrain, [HIGH, HIGH], [[], []], ends=ends)
     assert found.status[0] != 0
-    assert np.isnan(found.table[0, 1:]).all()
-    assert np.isfinite(found.table[1, :-2]).all()
+    not_arrived, arrived = ([row[name] for name in NUMBERS] for row in found.table)
+    assert np.isnan(not_arrived).all()
+    assert np.isfinite(arrived).all()
     assert found.held[1] == found.held_at_best[1] == np.inf  # nobody asks

@@ -8,47 +8,50 @@ import numpy as np
 import pytest
 
 from kaidan import contact
-from kaidan.contact import columns as at
 from kaidan.contact import heights, rating, scratch, steepest, supports, traversing
 from kaidan.contact.codes import (
-    Feature,
-    FeatureKind,
-    FeatureTable,
     PartKind,
     RotationOutcome,
     Status,
 )
 from kaidan.contact.contacts import contacts_of
-from kaidan.contact.margin_records import Margins, Summaries
+from kaidan.contact.features import Feature, FeatureKind, FeatureTable
+from kaidan.contact.layout import Grousers, Margin, Pose, RotationRow, Summary, Support
 from kaidan.contact.path import Path
-from kaidan.contact.records import ONE_PLACE, Body, Events, Ground, Poses, Rotations
+from kaidan.contact.records import (
+    ONE_PLACE,
+    Body,
+    Events,
+    Ground,
+    Margins,
+    Poses,
+    Rotations,
+    Summaries,
+)
 from kaidan.contact.rest import resting_height, settle
 from kaidan.contact.tables import body_table, ground_table
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.traversal.nosing_events import nosing_events
+from kernel_memory import made
 
 KERB = [(-4, 0), (0, 0), (0, 0.1), (4, 0.1)]
 ROBOT = [[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]]
 BOTH = [*ROBOT, [0.196, -0.011, 0.06, 0.45, 0.05, 0.03]]
 
 
-def table(columns, rows, **given):
-    """A table of zeros but for some columns."""
-    found = np.zeros((rows, columns))
-    for name, values in given.items():
-        found[:, getattr(at, name)] = values
-    return found
+def table(kind, rows, **given):
+    """A table of noughts but for some fields."""
+    columns = {name: np.broadcast_to(values, rows) for name, values in given.items()}
+    each = ({name: values[k] for name, values in columns.items()} for k in range(rows))
+    return made(kind, *each)
 
 
 def path_of(*, status=Status.OK, s=(0.0, 1.0), rotations=(), margins=None, parts=BOTH, bodies=None,
-            kinds=(0, 1), **poses):  # fmt: skip
-    names = {"ROTATION_ANGLE": 1, "OUTCOME": 2, "TOPPLES": 3, "END_PHI": 4}
-    turns = table(
-        at.ROTATION_COLUMNS, len(rotations),
-        **{name: [row[k - 1] for row in rotations] for name, k in names.items()},
-    )  # fmt: skip
+            kinds=(0, 1), poses=None):  # fmt: skip
+    names = "angle", "outcome", "topples_with_momentum", "end.inclination"
+    turns = made(RotationRow, *(dict(zip(names, row, strict=True)) for row in rotations))
     return Path(
-        status, Poses(table(at.POSE_COLUMNS, len(s), POSE_S=s, **poses)), Events.of([]),
+        status, Poses(table(Pose, len(s), s=s, **(poses or {}))), Events.of([]),
         Rotations(turns), margins, Ground(ground_table(KERB)), Body(body_table(parts, kinds)),
         bodies,
     )  # fmt: skip
@@ -69,21 +72,21 @@ def test_features_of_a_table_are_those_of_each_code():
     assert [Feature.of(one.code) for one in each] == each
 
 
-def test_pairs_of_columns_are_pairs():
+def test_pairs_of_fields_are_pairs():
     path = path_of()
     poses, body = path.poses, path.body
     for each in (poses.rear_point, poses.front_point, poses.rear_normal, poses.front_normal):
         assert each.shape == (2, 2)
     assert body.discs.tolist() == np.array(BOTH).tolist()
-    margins = Margins(table(at.MARGIN_COLUMNS, 3, OUTER_REAR=(64, 65, 66), OUTER_FRONT=128))
+    margins = Margins(table(Margin, 3, outer_rear=(64, 65, 66), outer_front=128))
     assert margins.outermost.tolist() == [[64, 128], [65, 128], [66, 128]]
 
 
 def test_poses_lead_on_along_one_line_and_not_at_one_place():
     poses = Poses(
         table(
-            at.POSE_COLUMNS, 6, POSE_S=(1.0, 1.2, 1.2 + 0.5 * ONE_PLACE, 1.2 + 2 * ONE_PLACE,
-                                        1.3, 1.4), POSE_LEG=(0, 0, 0, 0, 1, 1),
+            Pose, 6, s=(1.0, 1.2, 1.2 + 0.5 * ONE_PLACE, 1.2 + 2 * ONE_PLACE, 1.3, 1.4),
+            leg=(0, 0, 0, 0, 1, 1),
         )
     )  # fmt: skip
     assert poses.leads_on.tolist() == [True, False, True, False, True]
@@ -92,15 +95,13 @@ def test_poses_lead_on_along_one_line_and_not_at_one_place():
 def test_flags_are_those_that_are_set():
     rotations = Rotations(
         table(
-            at.ROTATION_COLUMNS, len(RotationOutcome), TOPPLES=(0, 1, 0, 1, 0),
-            OUTCOME=[float(each) for each in RotationOutcome],
+            RotationRow, len(RotationOutcome), topples_with_momentum=(0, 1, 0, 1, 0),
+            outcome=list(RotationOutcome),
         )
     )  # fmt: skip
     assert rotations.arrested.tolist() == [True, False, False, False, False]
     assert rotations.topples_with_momentum.tolist() == [False, True, False, True, False]
-    summaries = Summaries(
-        table(at.SUMMARY_COLUMNS, 2, SUMMARY_TOPPLES=(0, 1), SUMMARY_BELLY=(1, 0))
-    )
+    summaries = Summaries(table(Summary, 2, topples_with_momentum=(0, 1), belly_touches=(1, 0)))
     assert summaries.topples_with_momentum.tolist() == [False, True]
     assert summaries.belly_touches.tolist() == [True, False]
 
@@ -118,9 +119,11 @@ def test_grades_of_a_path():
     assert path_of(rotations=turns).arrives_with_momentum
     assert not path_of(rotations=topples).arrives_with_momentum
     assert not path_of(status=Status.STUCK).arrives_with_momentum
-    assert path_of(rotations=turns, POSE_PHI=(0.5, 0.4)).largest_inclination() == 1.2
-    assert path_of(rotations=turns[:2], POSE_PHI=(0.4, 0.5)).largest_inclination() == 0.5
-    assert path_of(POSE_PHI=(-0.4, -0.5)).largest_inclination() == -0.4
+    assert path_of(rotations=turns, poses={"inclination": (0.5, 0.4)}).largest_inclination() == 1.2
+    assert (
+        path_of(rotations=turns[:2], poses={"inclination": (0.4, 0.5)}).largest_inclination() == 0.5
+    )
+    assert path_of(poses={"inclination": (-0.4, -0.5)}).largest_inclination() == -0.4
 
 
 def test_nothing_of_the_robot_is_farther_away_than_its_reach():
@@ -132,12 +135,12 @@ def test_nothing_of_the_robot_is_farther_away_than_its_reach():
 
 def test_the_row_before_an_arclength():
     """Two lines of poses meet at 0.2 m, where it rotates: before it the last one of the first."""
-    path = path_of(s=(0.0, 0.1, 0.2, 0.2, 0.3), POSE_LEG=(0, 0, 0, 1, 1))
+    path = path_of(s=(0.0, 0.1, 0.2, 0.2, 0.3), poses={"leg": (0, 0, 0, 1, 1)})
     for s, row in ((0.2, 2), (0.2 + 5e-10, 2), (0.2 - 5e-10, 2), (0.15, 1), (0.25, 3), (0.1, 1),
                    (0.3, 4), (-1.0, 0), (0.05, 0), (9.0, 4)):  # fmt: skip
         assert path.row_before(s) == row
     # two rotations at one place, and several poses of the first line there
-    path = path_of(s=(0.0, 0.2, 0.2, 0.2, 0.2), POSE_LEG=(0, 0, 0, 1, 2))
+    path = path_of(s=(0.0, 0.2, 0.2, 0.2, 0.2), poses={"leg": (0, 0, 0, 1, 2)})
     assert path.row_before(0.2) == 2
 
 
@@ -155,10 +158,10 @@ def test_the_first_pose_alone_and_the_first_that_slips():
 
 
 def test_the_parts_that_carry():
-    path = path_of(
-        POSE_REAR=Feature(1, 0, FeatureKind.VERTEX).code,
-        POSE_FRONT=Feature(2, 1, FeatureKind.DISC_1).code, REAR_X=(0.1, 0.2), FRONT_N_Z=1.0,
-    )  # fmt: skip
+    path = path_of(poses={
+        "rear.feature": Feature(1, 0, FeatureKind.VERTEX).code, "rear.x": (0.1, 0.2),
+        "front.feature": Feature(2, 1, FeatureKind.DISC_1).code, "front.n_z": 1.0,
+    })  # fmt: skip
     rear, front = path.carrying(1)
     assert (rear.kind, front.kind) == (PartKind.TRACK, PartKind.FLIPPER)
     assert (rear.point, front.normal, rear.gap, front.gap) == ((0.2, 0.0), (0.0, 1.0), 0.0, 0.0)
@@ -268,8 +271,8 @@ def test_touching_heights_over_a_map_are_those_of_each_place(phi):
             assert found.z[row, 4] == pytest.approx(lowest(ground, parts, x[4], angle), abs=1e-4)
             for k, one in enumerate(x):
                 place = contact.Placement(one, found.z[row, k], angle)
-                points = [c.point for c in contacts_of(table.table, path.body.table, *place,
-                                                               1e-9)]  # fmt: skip
+                both = table.table, path.body.table
+                points = [c.point for c in contacts_of(both, *place, 1e-9)]
                 at_ = found.contact_x[row, k], found.contact_z[row, k]
                 assert min(math.dist(at_, point) for point in points) < 1e-6
 
@@ -283,16 +286,16 @@ def test_a_nosing_under_the_flat_and_one_under_an_end(slope):
     for x, z in edges:
         ground += [(x, z), (x + 0.02, z)] if slope < 0 else [(x - 0.02, z), (x, z)]
         ground.append((ground[-1][0] + 0.01, z - 0.05))
-    path = path_of(parts=ROBOT, kinds=[0], POSE_PHI=slope)
+    path = path_of(parts=ROBOT, kinds=[0], poses={"inclination": slope})
     path = Path(path.status, path.poses, path.events, path.rotations, None,
                 Ground(ground_table(sorted(ground))), path.body)  # fmt: skip
     table = path.ground.table
-    point = int(np.argmin(np.hypot(table[:, 0] - edges[1][0], table[:, 1] - edges[1][1])))
+    point = int(np.argmin(np.hypot(table["x"] - edges[1][0], table["z"] - edges[1][1])))
     for along, on in ((-0.2, True), (0.2, True), (-0.3, False), (0.26, False)):
         # the centroid so far from the middle edge along the flat, 0.071 m above it
         x = edges[1][0] - along * c - 0.071 * s
         z = edges[1][1] - along * s + 0.071 * c
-        path.poses.table[0, [at.POSE_X, at.POSE_Z]] = x, z
+        path.poses.table["x"][0], path.poses.table["z"][0] = x, z
         on_flat = path.is_on_flat(Feature(point, 0, FeatureKind.VERTEX).code, 0)
         assert on_flat is (on and -0.274 <= along <= 0.196)
 
@@ -307,7 +310,7 @@ def driven(monkeypatch):
 
     def drive(*arguments):
         given.append(arguments)
-        return [(Status.STUCK if arguments[8] else Status.OK), 0, 0, 0]
+        return [(Status.STUCK if arguments[2].tilt else Status.OK), 0, 0, 0]
 
     monkeypatch.setattr(traversing, "kernel", lambda: SimpleNamespace(drive=drive))
     monkeypatch.setattr(
@@ -327,9 +330,10 @@ def test_tilted_gravity_and_the_room_for_a_way(tilt, driven):
         found = drive(KERB, ROBOT, -0.6, 0.5, tilt=tilt)
         way, arguments = driven
         assert way == pytest.approx(1.1)
-        assert arguments[7] == pytest.approx(gravity * math.cos(tilt))
-        assert arguments[8] == pytest.approx(math.tan(tilt))
-        assert arguments[10] is (drive is not contact.arrives)  # whether poses are kept
+        _, _, pull, (*_, keeps) = arguments
+        assert pull.g == pytest.approx(gravity * math.cos(tilt))
+        assert pull.tilt == pytest.approx(math.tan(tilt))
+        assert keeps is (drive is not contact.arrives)
         if gravity > 3.0:
             assert found is (tilt == 0.0)
 
@@ -356,8 +360,9 @@ def test_grousers_stand_uphill_of_a_nosing(climbs, monkeypatch):
         supports, "kernel", lambda: SimpleNamespace(standing_margins=standing_margins)
     )
     found = object.__new__(supports.Supports)
-    vars(found).update(_table=np.zeros((6, 4)), _slots=2, _loads=None, _like=None, _climbs=climbs)
-    grousers = (0.01, 0.04, 0.005, 0.002, True)
+    table = made(Support, *6 * [{}])
+    vars(found).update(_table=table, _slots=2, _loads=None, _like=None, _climbs=climbs)
+    grousers = Grousers(0.01, 0.04, 0.005, 0.002, True)
     assert found.standing_margins((0.1, 0.2, 0.3), grousers).tolist() == [[0, 1], [2, 3], [4, 5]]
     assert signs == [1.0 if climbs else -1.0]
 

@@ -15,9 +15,12 @@ import numpy as np
 import pytest
 
 from kaidan.contact import body_table, ground_table, mirror
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
+from kaidan.contact.door import zeros
 from kaidan.contact.kernel.energy_margins import flow_energy, pose_tilt
 from kaidan.contact.kernel.reserves import AS_IT_COMES_OVER, barrier, carrying_tilt, lean
+from kaidan.contact.layout import Release
+from kernel_memory import called, posed, scene
 
 HALF, ABOVE, RADIUS = 0.3, 0.1, 0.05
 PARTS = [[-HALF, RADIUS - ABOVE, RADIUS, HALF, RADIUS - ABOVE, RADIUS]]
@@ -64,7 +67,7 @@ class Case:
         self.ground, self.body = ground_table(line), body_table(parts)
 
     def point(self, p):
-        apart = np.hypot(self.ground[:, 0] - self.sign * p.real, self.ground[:, 1] - p.imag)
+        apart = np.hypot(self.ground["x"] - self.sign * p.real, self.ground["z"] - p.imag)
         return int(np.argmin(apart))
 
     def edge(self, p, part=0):
@@ -83,23 +86,23 @@ class Case:
         """The same with cosine and sine."""
         return self.sign * c.real, c.imag, math.cos(phi), self.sign * math.sin(phi)
 
+    def scene(self):
+        return scene(self.ground, self.body)
+
+    def release(self, c, phi, kappa):
+        return Release(*self.pose(c, phi), self.sign, self.sign * kappa)
+
     def barrier(self, pivot, kappa=0.0, tolerance=0.0, c=C, phi=0.0):
         """Rise as the nose goes up, and whether it is bounded."""
         return self.barrier_and_way(pivot, kappa, tolerance, c, phi)[:2]
 
     def barrier_and_way(self, pivot, kappa=0.0, tolerance=0.0, c=C, phi=0.0):
         """The same, and the way across effective gravity, towards the nose."""
-        bounded, rise, across, _ = barrier(
-            self.ground, self.body, pivot, *self.pose(c, phi), self.sign, self.sign * kappa,
-            tolerance, 0,
-        )  # fmt: skip
+        bounded, rise, across = barrier(self.scene(), pivot, self.release(c, phi, kappa), tolerance)
         return bounded, rise, self.sign * across
 
     def tilt(self, pivot, tolerance, kappa=0.0, without=-1, c=C, phi=0.0):
-        return carrying_tilt(
-            self.ground, self.body, pivot, *self.pose(c, phi), self.sign, self.sign * kappa,
-            tolerance, without, 0,
-        )[:2]  # fmt: skip
+        return carrying_tilt(self.scene(), pivot, self.release(c, phi, kappa), tolerance, without)
 
 
 def near(value):
@@ -216,7 +219,7 @@ def test_rise_while_the_end_rolls_on_level_ground(kappa, mirrored):
     last = math.acos(kappa * RADIUS / (far * math.hypot(1.0, kappa))) - math.atan(kappa)
     end = complex(-HALF - RADIUS * (last - first), RADIUS) + cmath.rect(far, last)
     # the continuation of the line by 30 m lies on it
-    ends = (case.ground[0, 0] * case.sign + 0j, case.ground[-1, 0] * case.sign + 0j)
+    ends = (case.ground["x"][0] * case.sign + 0j, case.ground["x"][-1] * case.sign + 0j)
     rise = height(end - C, kappa)
     assert case.barrier(case.rear_disc(ends), kappa) == (True, near(rise))
 
@@ -240,7 +243,7 @@ def test_rise_over_the_end_of_the_segment_on_which_it_rolls(kappa, mirrored):
 def test_lean_is_the_angle_from_gravity_to_the_edge(kappa, mirrored):
     case = Case(plates(A), mirrored)
     found = lean(
-        case.ground, case.body, case.edge(A), *case.pose(C, 0.0), case.sign, case.sign * kappa
+        case.scene(), case.edge(A), posed(*case.pose(C, 0.0)), case.sign, case.sign * kappa
     )
     assert found == near(leaning(A, C, kappa))
 
@@ -398,17 +401,16 @@ def test_what_remains_of_the_tolerance_is_less_by_the_rotation_onto_another_end(
 
 def table_of(case, rear, front, kappa):
     """Tables of a pose that stands on two edges."""
-    poses, margins = np.zeros((3, at.POSE_COLUMNS)), np.full((3, at.MARGIN_COLUMNS), np.nan)
-    contacts = [(rear, at.BACK_RISE, at.OUTER_REAR), (front, at.FRONT_RISE, at.OUTER_FRONT)]
+    poses, margins = zeros(at.Pose, 3), zeros(at.Margin, 3)
+    for name in ("energy", "energy_side", "back_rise", "front_rise"):
+        margins[name] = np.nan
     if case.sign < 0.0:
-        contacts = [
-            (front, at.BACK_RISE, at.OUTER_REAR), (rear, at.FRONT_RISE, at.OUTER_FRONT)
-        ]  # fmt: skip
-    poses[1, [at.POSE_X, at.POSE_Z, at.POSE_PHI]] = case.pose(C, 0.0)
-    margins[1, [at.TILT, at.WITHOUT]] = case.sign * kappa, at.NO_FEATURE
-    for edge, rise, outer in contacts:
-        margins[1, rise] = abs(C - edge) - height(C - edge, kappa)
-        margins[1, outer] = case.edge(edge)
+        rear, front = front, rear
+    poses["x"][1], poses["z"][1], poses["inclination"][1] = case.pose(C, 0.0)
+    margins["tilt"][1], margins["without"][1] = case.sign * kappa, at.NO_FEATURE
+    for edge, side in ((rear, "back"), (front, "front")):
+        margins[f"{side}_rise"][1] = abs(C - edge) - height(C - edge, kappa)
+    margins["outer_rear"][1], margins["outer_front"][1] = case.edge(rear), case.edge(front)
     return poses, margins
 
 
@@ -427,10 +429,10 @@ def test_the_lesser_rise_of_both_sides(kappa, behind, mirrored):
     front = abs(C - B) - height(C - B, kappa)
     # back, +1, is nose up
     side = case.sign if rear < front else -case.sign
-    flow_energy(case.ground, case.body, poses, margins, np.array([1]))
-    found = margins[1, [at.ENERGY, at.ENERGY_SIDE, at.BOUNDED]].tolist()
-    assert found == [near(min(rear, front)), side, 1.0]
-    assert np.isnan(margins[[0, 2]]).all()
+    called(flow_energy)((case.ground, case.body), poses, margins, np.array([1]))
+    found = margins[["energy", "energy_side", "bounded"]][1].tolist()
+    assert found == (near(min(rear, front)), side, True)
+    assert np.isnan(margins["energy"][[0, 2]]).all()
 
 
 @MIRRORED
@@ -438,11 +440,12 @@ def test_a_side_whose_circle_rises_more_is_not_looked_at(mirrored):
     """Nor is it said to be bounded then: within 90 degrees there is no rest to the rear."""
     case = Case(plates(A, B), mirrored)
     poses, margins = table_of(case, A, B, -2.0)
-    margins[1, [at.BACK_RISE, at.FRONT_RISE]] = (0.0, 10.0)[:: int(case.sign)]
-    flow_energy(case.ground, case.body, poses, margins, np.array([1]))
+    back, front = (0.0, 10.0)[:: int(case.sign)]
+    margins["back_rise"][1], margins["front_rise"][1] = back, front
+    called(flow_energy)((case.ground, case.body), poses, margins, np.array([1]))
     rise = height(A + (C - A) * 1j - C, -2.0)
-    found = margins[1, [at.ENERGY, at.ENERGY_SIDE, at.BOUNDED]].tolist()
-    assert found == [near(rise), case.sign, 0.0]
+    found = margins[["energy", "energy_side", "bounded"]][1].tolist()
+    assert found == (near(rise), case.sign, False)
 
 
 @MIRRORED
@@ -452,12 +455,12 @@ def test_tilts_of_some_poses_each_with_its_tolerance(mirrored):
 
     def found(side):
         return [
-            pose_tilt(case.ground, case.body, poses, margins, 1, side, tolerance, 0)[:2]
+            called(pose_tilt)((case.ground, case.body), poses[1], margins[1], side, tolerance)
             for tolerance in (1.1 * ONTO_D, 0.0)
         ]
 
     rear, front = (near(leaning(A, C, 0.0)), 0.0), (near(-leaning(B, C, 0.0)), 0.0)
     assert found(case.sign) == [(near(leaning(D, ON_D, 0.0)), near(ONTO_D)), rear]
     assert found(-case.sign) == [front, front]
-    margins[1, at.WITHOUT] = case.point(D)
+    margins["without"][1] = case.point(D)
     assert found(case.sign) == [rear, rear]

@@ -7,19 +7,6 @@ import numpy as np
 import pytest
 
 from kaidan.contact import body_table, ground_table
-from kaidan.contact.columns import (
-    LENGTH,
-    PART,
-    POINT,
-    POSE_COLUMNS,
-    POSE_PHI,
-    POSE_X,
-    POSE_Z,
-    X1,
-    X2,
-    Z1,
-    Z2,
-)
 from kaidan.contact.kernel.closing import (
     FROM_DISC_1,
     FROM_DISC_2,
@@ -43,6 +30,8 @@ from kaidan.contact.kernel.rotation import (
     turned,
 )
 from kaidan.contact.kernel.settling import lever
+from kaidan.contact.layout import PART, POINT, At
+from kernel_memory import posed, scene, turning
 
 ROUNDING = 1e-12  # m, rad: coordinates of some metres
 BODY = body_table(
@@ -50,16 +39,17 @@ BODY = body_table(
 )  # the second is looked at, tapered and off the centroid's axis
 GROUND = ground_table([(-2, 0.8), (0.3, 0.4), (1.8, 1.3), (2.0, 1.35), (3.3, 0.6), (4.3, 1.3)])
 """A valley, a slope up, a flatter one, an edge, a slope down, a valley."""
-SLOPE = int(np.flatnonzero(GROUND[:, 0] == 0.3)[0])
+SLOPE = int(np.flatnonzero(GROUND["x"] == 0.3)[0])
 """From (0.3, 0.4) to (1.8, 1.3)."""
 LEVEL = 1.0, 0.0
 """Cosine and sine of no inclination."""
-EDGE = int(np.flatnonzero(GROUND[:, 0] == 2.0)[0])
+EDGE = int(np.flatnonzero(GROUND["x"] == 2.0)[0])
 
 
 def disc(k, x, z, phi, part=1):
     """Centre of disc 1 or 2 as a complex number."""
-    own = BODY[part, X1] + 1j * BODY[part, Z1] if k == 1 else BODY[part, X2] + 1j * BODY[part, Z2]
+    own_x, own_z, _ = BODY["one" if k == 1 else "two"][part].item()
+    own = complex(own_x, own_z)
     return x + 1j * z + own * cmath.exp(1j * phi)
 
 
@@ -68,8 +58,8 @@ RADIUS = {1: 0.08, 2: 0.05}
 
 def on_slope(k, along, phi, segment=SLOPE):
     """Centroid with disc k touching a segment so far along it."""
-    u = complex(*GROUND[segment, 2:4])
-    centre = complex(*GROUND[segment, :2]) + along * u + RADIUS[k] * 1j * u
+    u = complex(*GROUND[["u_x", "u_z"]][segment].item())
+    centre = complex(*GROUND[["x", "z"]][segment].item()) + along * u + RADIUS[k] * 1j * u
     place = centre - disc(k, 0.0, 0.0, phi)
     return place.real, place.imag
 
@@ -77,8 +67,8 @@ def on_slope(k, along, phi, segment=SLOPE):
 @pytest.mark.parametrize("angle", [0.3, -0.8, 0.0])
 def test_about_a_vertex_the_body_rotates_rigidly(angle):
     x, z = 1.9, 1.6
-    found = complex(*turned(GROUND, BODY, POINT * EDGE + PART, x, z, 0.4, angle))
-    edge = complex(*GROUND[EDGE, :2])
+    found = complex(*turned(scene(GROUND, BODY), POINT * EDGE + PART, x, z, 0.4, angle))
+    edge = complex(*GROUND[["x", "z"]][EDGE].item())
     assert found == pytest.approx(edge + (x + 1j * z - edge) * cmath.exp(1j * angle), abs=ROUNDING)
 
 
@@ -89,11 +79,11 @@ def test_on_a_segment_the_disc_rolls(k, phi, angle):
     # hand: the centre moves back along the segment by radius times angle, nose up positive
     x, z = on_slope(k, 0.6, phi)
     pivot = POINT * SLOPE + PART + k
-    after = turned(GROUND, BODY, pivot, x, z, phi, angle)
-    u = complex(*GROUND[SLOPE, 2:4])
+    after = turned(scene(GROUND, BODY), pivot, x, z, phi, angle)
+    u = complex(*GROUND[["u_x", "u_z"]][SLOPE].item())
     moved = disc(k, *after, phi + angle) - disc(k, x, z, phi)
     assert moved == pytest.approx(-RADIUS[k] * angle * u, abs=ROUNDING)
-    found, *_ = gap(GROUND, BODY, pivot, *after, math.cos(phi + angle), math.sin(phi + angle))
+    found, *_ = gap(scene(GROUND, BODY), pivot, posed(*after, phi + angle))
     assert found == pytest.approx(0.0, abs=ROUNDING)
 
 
@@ -102,23 +92,23 @@ def test_on_a_segment_the_disc_rolls(k, phi, angle):
 def test_a_disc_rolls_to_the_end_of_its_segment(k, sense):
     # hand: nose up it rolls back over 0.6 m, nose down ahead over the rest
     x, z = on_slope(k, 0.6, 0.4)
-    room = 0.6 if sense > 0 else GROUND[SLOPE, LENGTH] - 0.6
+    room = 0.6 if sense > 0 else GROUND["length"][SLOPE] - 0.6
     pivot, turn = POINT * SLOPE + PART + k, (math.cos(0.4), math.sin(0.4))
-    found = foot_limit(GROUND, BODY, pivot, x, z, *turn, sense)
+    found = foot_limit(scene(GROUND, BODY), pivot, At(x, z, *turn), sense)
     assert found == pytest.approx(room / RADIUS[k], abs=ROUNDING / 0.05)
-    beyond = on_slope(k, -0.1 if sense > 0 else GROUND[SLOPE, LENGTH] + 0.1, 0.4)
-    assert foot_limit(GROUND, BODY, pivot, *beyond, *turn, sense) == 0.0
-    assert foot_limit(GROUND, BODY, POINT * EDGE + PART, x, z, *turn, sense) == NEVER
+    beyond = on_slope(k, -0.1 if sense > 0 else GROUND["length"][SLOPE] + 0.1, 0.4)
+    assert foot_limit(scene(GROUND, BODY), pivot, At(*beyond, *turn), sense) == 0.0
+    assert foot_limit(scene(GROUND, BODY), POINT * EDGE + PART, At(x, z, *turn), sense) == NEVER
 
 
 def test_what_a_disc_rolls_on_next():
     def after(segment, sense, k=2):
         # of the third part of three, told as of the second
         pivot = POINT * segment + 2 * PART + k
-        return next_pivot(GROUND, BODY, pivot, 0.0, 0.0, 0.0, sense) - PART
+        return next_pivot(scene(GROUND, BODY), pivot, sense) - PART
 
     last = len(GROUND) - 2
-    convex = GROUND[:, 5] == 1.0
+    convex = GROUND["convex"]
     assert convex[EDGE]
     assert not convex[SLOPE]
     assert after(EDGE, 1.0) == POINT * EDGE + PART  # back over its start, a convex point
@@ -140,14 +130,17 @@ def test_what_a_disc_rolls_on_next():
 def test_angle_until_the_centroid_stands_over_a_vertex(kappa, sense):
     pivot, phi, turn = POINT * EDGE + PART, 0.3, (math.cos(0.3), math.sin(0.3))
     for x, z in ((1.9, 1.6), (2.1, 1.6), (2.05, 1.7)):
-        angle = angle_until_over(GROUND, BODY, pivot, x, z, *turn, sense, kappa, False)
+        angle = angle_until_over(scene(GROUND, BODY), pivot, At(x, z, *turn), sense, kappa, False)
         assert 0.0 <= angle < 2 * math.pi
-        after = turned(GROUND, BODY, pivot, x, z, phi, sense * angle)
-        assert after[1] > GROUND[EDGE, 1]  # over it, not under it
+        after = turned(scene(GROUND, BODY), pivot, x, z, phi, sense * angle)
+        assert after[1] > GROUND["z"][EDGE]  # over it, not under it
         at = phi + sense * angle
-        delta = lever(GROUND, BODY, pivot, *after, math.cos(at), math.sin(at), kappa)
+        delta = lever(scene(GROUND, BODY), pivot, posed(*after, at), kappa)
         assert delta == pytest.approx(0.0, abs=ROUNDING)
-        assert angle_until_over(GROUND, BODY, pivot, x, z, *turn, sense, kappa, True) == NEVER
+        assert (
+            angle_until_over(scene(GROUND, BODY), pivot, At(x, z, *turn), sense, kappa, True)
+            == NEVER
+        )
 
 
 @pytest.mark.parametrize("kappa", [0.0, 0.2, -0.3])
@@ -162,8 +155,8 @@ def test_angle_until_the_centroid_stands_over_a_rolling_disc(k, sense, kappa, be
 
     def delta(angle):
         at = phi + sense * angle
-        after = turned(GROUND, BODY, pivot, x, z, phi, sense * angle)
-        return lever(GROUND, BODY, pivot, *after, math.cos(at), math.sin(at), kappa)
+        after = turned(scene(GROUND, BODY), pivot, x, z, phi, sense * angle)
+        return lever(scene(GROUND, BODY), pivot, posed(*after, at), kappa)
 
     grid = np.linspace(0.0, 2 * math.pi, 4001)
     values = np.array([delta(angle) for angle in grid])
@@ -171,7 +164,7 @@ def test_angle_until_the_centroid_stands_over_a_rolling_disc(k, sense, kappa, be
     rate = sense * np.diff(values)
     (roots,) = np.nonzero(falls & ((rate < 0) if below else (rate > 0)))
     turn = math.cos(phi), math.sin(phi)
-    found = angle_until_over(GROUND, BODY, pivot, x, z, *turn, sense, kappa, below)
+    found = angle_until_over(scene(GROUND, BODY), pivot, At(x, z, *turn), sense, kappa, below)
     assert grid[roots[0]] - 1e-9 <= found <= grid[roots[0] + 1] + 1e-9
     assert delta(found) == pytest.approx(0.0, abs=ROUNDING)
 
@@ -180,10 +173,10 @@ def test_a_disc_wider_than_the_lever_of_its_centroid_never_stands_under_it():
     # hand: on a slope of 45 degrees a wheel of 0.1 whose centroid lies 0.02 off its middle
     ground = ground_table([(0, 0), (2, 2)])
     body = body_table([[-0.02, 0.0, 0.1, -0.02, 0.0, 0.1]])
-    assert angle_until_over(ground, body, 1, 1.0, 1.2, *LEVEL, 1.0, 0.0, False) == NEVER
+    assert angle_until_over(scene(ground, body), 1, At(1.0, 1.2, *LEVEL), 1.0, 0.0, False) == NEVER
     # just wide enough: 0.1 sin 45 = 0.0707
     wide = body_table([[-0.0708, 0.0, 0.1, -0.0708, 0.0, 0.1]])
-    assert angle_until_over(ground, wide, 1, 1.0, 1.2, *LEVEL, 1.0, 0.0, False) < 7.0
+    assert angle_until_over(scene(ground, wide), 1, At(1.0, 1.2, *LEVEL), 1.0, 0.0, False) < 7.0
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
@@ -192,14 +185,15 @@ def test_a_piece_of_a_gap_and_its_rate(piece, sense):
     x, z, phi, step = 1.8, 1.7, 0.3, 1e-6
     about = complex(1.5, 1.2)
     k = SLOPE if piece >= FROM_DISC_1 else EDGE
-    point, u = complex(*GROUND[k, :2]), complex(*GROUND[k, 2:4])
+    point, u = complex(*GROUND[["x", "z"]][k].item()), complex(*GROUND[["u_x", "u_z"]][k].item())
 
     def at(angle):
         place = about + (x + 1j * z - about) * cmath.exp(1j * sense * angle)
         turn = phi + sense * angle
-        where = (GROUND, BODY, k, 1, piece, place.real, place.imag)
+        tables = scene(GROUND, BODY)
+        there = posed(place.real, place.imag, turn)
         value, rate = separation(
-            *where, math.cos(turn), math.sin(turn), about.real, about.imag, sense
+            tables, k, tables.body[1], piece, there, about.real, about.imag, sense
         )
         return value, rate, place, turn
 
@@ -275,39 +269,37 @@ def test_where_a_piece_of_a_gap_closes_while_a_disc_rolls(seed):
     at = EDGE if piece < FROM_DISC_1 else int(rng.integers(0, len(GROUND) - 1))
     if POINT * at + PART + piece - FROM_DISC_1 + 1 == pivot:
         return
-    _, _, _, o_x, o_z = gap(GROUND, BODY, pivot, x, z, math.cos(phi), math.sin(phi))
-    u = GROUND[SLOPE, 2:4]
+    _, _, _, o_x, o_z = gap(scene(GROUND, BODY), pivot, posed(x, z, phi))
+    u = np.array(GROUND[["u_x", "u_z"]][SLOPE].item())
+    tables = scene(GROUND, BODY)
 
     def piece_at(angle):
-        after = turned(GROUND, BODY, pivot, x, z, phi, sense * angle)
-        turn = phi + sense * angle
-        foot = (o_x, o_z) - sense * RADIUS[k] * angle * u
-        return separation(
-            GROUND, BODY, at, 1, piece, *after, math.cos(turn), math.sin(turn), *foot, sense
-        )
+        there, foot = pose(angle)
+        return separation(tables, at, tables.body[1], piece, there, *foot, sense)
 
     def pose(angle):
-        turn = phi + sense * angle
         foot = (o_x, o_z) - sense * RADIUS[k] * angle * u
-        after = turned(GROUND, BODY, pivot, x, z, phi, sense * angle)
-        return (*after, math.cos(turn), math.sin(turn), *foot)
+        after = turned(tables, pivot, x, z, phi, sense * angle)
+        return posed(*after, phi + sense * angle), foot
 
     near, far = piece_at(0.0), piece_at(end)
     if near[0] <= 1e-6:
         return
     # hand: no centre and no point is farther than this from the disc that rolls
     bend = 4.0 + 2.0 * RADIUS[k]
-    found = closing_angle(
-        GROUND, BODY, at, 1, piece, pivot, pose(0.0), pose(end), sense, end, end, *near, *far, bend
+    start, finish = pose(0.0), pose(end)
+    turn = turning(
+        complex(*start[1]), sense, end, pivot, start[0], (finish[0], complex(*finish[1]))
     )
+    found = closing_angle(tables, at, 1, piece, turn, end, *near, *far, bend)
     grid = np.linspace(0.0, end, 2001)
     values = np.array([piece_at(angle)[0] for angle in grid])
     closes = np.flatnonzero((values[1:] < -PENETRATED) & (values[:-1] >= -PENETRATED)) + 1
     # of those the first with its foot on the piece
     closes = [
         i for i in closes
-        if on_piece(GROUND, BODY, at, 1, piece, *pose(grid[i])[:4])
-        or on_piece(GROUND, BODY, at, 1, piece, *pose(grid[i - 1])[:4])
+        if on_piece(tables, at, 1, piece, pose(grid[i])[0])
+        or on_piece(tables, at, 1, piece, pose(grid[i - 1])[0])
     ]  # fmt: skip
     if not closes:
         assert found == NEVER or values.min() < 1e-6  # between two of the grid
@@ -328,18 +320,21 @@ def test_a_gap_that_grows_falls_and_grows_again_closes_in_between():
     floor, face = 3, 1
 
     def pose(angle):
-        tau = angle - 0.75
-        return -1.2 - 0.1 * angle, 0.6, math.cos(tau), math.sin(tau), -1.2 - 0.1 * angle, 0.5
+        return posed(-1.2 - 0.1 * angle, 0.6, angle - 0.75), -1.2 - 0.1 * angle, 0.5
 
-    where = (ground, body, face, 0, FROM_DISC_2)
+    tables = scene(ground, body)
+    where = (tables, face, tables.body[0], FROM_DISC_2)
     near, far = (separation(*where, *pose(angle), 1.0) for angle in (0.0, 1.5))
     assert near[0] > 0.0
     assert near[1] > 0.0
     assert far[0] > 0.0
     assert far[1] > 0.0
-    found = closing_angle(
-        *where, POINT * floor + 1, pose(0.0), pose(1.5), 1.0, 1.5, 1.5, *near, *far, 0.125
-    )
+    start, finish = pose(0.0), pose(1.5)
+    turn = turning(
+        complex(*start[1:]), 1.0, 1.5, POINT * floor + 1, start[0],
+        (finish[0], complex(*finish[1:])),
+    )  # fmt: skip
+    found = closing_angle(tables, face, 0, FROM_DISC_2, turn, 1.5, *near, *far, 0.125)
     tau = found - 0.75
     assert lowest + 0.1 * found - 0.125 * math.sin(tau) == pytest.approx(0.0, abs=2 * PENETRATED)
     assert tau < 0.6435
@@ -353,19 +348,18 @@ def test_place_of_a_point_along_a_tapered_flat(off, place):
     lean = math.asin((RADIUS[1] - RADIUS[2]) / abs(b - a))
     normal = -1j * (b - a) / abs(b - a) * cmath.exp(1j * lean)  # out of the underside
     begin = a + RADIUS[1] * normal
-    c = complex(*GROUND[EDGE, :2]) - (begin + place * 1j * normal + off * normal)
-    poses = np.zeros((2, POSE_COLUMNS))
-    poses[1, [POSE_X, POSE_Z, POSE_PHI]] = c.real, c.imag, phi
-    found = along_flat(GROUND, BODY, poses, 1, 1, EDGE)
+    c = complex(*GROUND[["x", "z"]][EDGE].item()) - (begin + place * 1j * normal + off * normal)
+    tables = scene(GROUND, BODY)
+    found = along_flat(tables.body[1], tables.ground[EDGE], posed(c.real, c.imag, phi))
     assert found == (pytest.approx(place, abs=ROUNDING), pytest.approx(off, abs=ROUNDING))
 
 
 def test_a_foot_beyond_the_flat_or_the_segment_is_none():
     def here(piece, along, k=1):
         x, z = on_slope(k, along, 0.4)
-        return on_piece(GROUND, BODY, SLOPE, 1, piece, x, z, math.cos(0.4), math.sin(0.4))
+        return on_piece(scene(GROUND, BODY), SLOPE, 1, piece, posed(x, z, 0.4))
 
-    length = GROUND[SLOPE, LENGTH]
+    length = GROUND["length"][SLOPE]
     for k, piece in ((1, FROM_DISC_1), (2, FROM_DISC_2)):
         assert [here(piece, along, k) for along in (-1e-6, 1e-6, length - 1e-6, length + 1e-6)] == [
             False, True, True, False,
@@ -380,6 +374,6 @@ def test_over_the_pivot_it_is_there_already(sense):
     """On an edge, and on a disc whose centre lies straight below the centroid: no turn of 360."""
     ground = ground_table([(-3, -1), (0, 0), (3, -1)])
     body = body_table([[0.0, -0.1, 0.05, 0.4, -0.1, 0.05]])
-    assert angle_until_over(ground, body, 64, 0.0, 0.2, *LEVEL, sense, 0.0, False) == 0.0
+    assert angle_until_over(scene(ground, body), 64, At(0.0, 0.2, *LEVEL), sense, 0.0, False) == 0.0
     level = ground_table([(-3, 0), (3, 0)])
-    assert angle_until_over(level, body, 1, 0.3, 0.15, *LEVEL, sense, 0.0, False) == 0.0
+    assert angle_until_over(scene(level, body), 1, At(0.3, 0.15, *LEVEL), sense, 0.0, False) == 0.0

@@ -6,38 +6,39 @@ import numpy as np
 import pytest
 
 from kaidan.contact import Feature, FeatureKind
-from kaidan.contact import columns as at
+from kaidan.contact.door import table_of, zeros
 from kaidan.contact.kernel import sampling
 from kaidan.contact.kernel.peak_search import leads_on
-from kaidan.contact.scratch import peak_scratch, sample_scratch
+from kaidan.contact.layout import POINT_BITS, Margin, Passed, Pose, Pull, Samples
+from kernel_memory import nothing, numbers, table
 
 HALF = math.pi / 2
+LEVEL, LEANS = (0.0, 1.0), (math.sin(0.3), math.cos(0.3))
 VERTEX, DISC = FeatureKind.VERTEX, FeatureKind.DISC_1
 
 
 def path(count, **columns):
     """Level poses a metre apart on discs, but for what is given."""
-    found = np.full((count, at.POSE_COLUMNS), np.nan)
-    usual = {
-        "s": np.arange(count, dtype=float), "leg": 0, "phi": 0, "psi": 0, "lean": 0,
-        "rear": Feature(1, 0, DISC).code, "front": Feature(1, 0, DISC).code,
-        "rear_n": [(0.0, 1.0)], "front_n": [(0.0, 1.0)],
-    }  # fmt: skip
-    to = {
-        "s": at.POSE_S, "leg": at.POSE_LEG, "phi": at.POSE_PHI, "psi": at.POSE_PSI,
-        "lean": at.REAR_LEAN, "rear": at.POSE_REAR, "front": at.POSE_FRONT,
-        "rear_n": [at.REAR_N_X, at.REAR_N_Z], "front_n": [at.FRONT_N_X, at.FRONT_N_Z],
-    }  # fmt: skip
-    for name, value in (usual | columns).items():
-        found[:, to[name]] = value
+    found = nothing(Pose, count)
+    given = {"s": np.arange(count), "leg": 0, "phi": 0, "psi": 0, "lean": 0} | columns
+    names = {"phi": "inclination", "psi": "path_direction", "lean": "rear_lean"}
+    for name in ("s", "leg", "phi", "psi", "lean"):
+        found[names.get(name, name)] = given[name]
+    for end in ("rear", "front"):
+        found[end]["feature"] = given.get(end, Feature(1, 0, DISC).code)
+        found[end]["n_x"], found[end]["n_z"] = np.transpose(given.get(f"{end}_n", [LEVEL] * count))
     return found
 
 
+def poses_of(count, **columns):
+    return table(Pose, path(count, **columns))
+
+
 def test_the_path_leads_on_over_a_distance_along_one_line_of_poses():
-    found = path(5, s=[0.0, 1.0, 1.0 + 0.9e-8, 1.0 + 2.1e-8, 2.0], leg=[0, 0, 0, 0, 1])
+    found = poses_of(5, s=[0.0, 1.0, 1.0 + 0.9e-8, 1.0 + 2.1e-8, 2.0], leg=[0, 0, 0, 0, 1])
     assert [leads_on(found, row) for row in range(4)] == [True, False, True, False]
-    assert not leads_on(path(2, s=[1.0, 0.0]), 0)
-    assert leads_on(path(2, s=[-1.0, 1.0]), 0)
+    assert not leads_on(poses_of(2, s=[1.0, 0.0]), 0)
+    assert leads_on(poses_of(2, s=[-1.0, 1.0]), 0)
 
 
 def test_the_trailing_end_leaves_an_edge():
@@ -45,14 +46,11 @@ def test_the_trailing_end_leaves_an_edge():
     leans = [0.3, 0.3, 0.3, -0.3, 0.3, 0.0, 0.9e-9, 1.1e-9]
     phi = [0.0, -0.2, -0.4, 0.0, 0.5, 0.0, 0.0, 0.0]
     expected = [True, True, False, False, True, False, False, True]
-    found = path(8, lean=leans, phi=phi, psi=-0.1)
-    assert [sampling.leaves_edge(found, row) for row in range(8)] == expected
+    found = poses_of(8, lean=leans, phi=phi, psi=-0.1)
+    assert [sampling.leaves_edge(pose) for pose in found] == expected
     for direction in (0.1, 0.0, math.pi - 0.1):
-        found = path(8, lean=leans, phi=phi, psi=direction)
-        assert not any(sampling.leaves_edge(found, row) for row in range(8))
-
-
-LEVEL, LEANS = (0.0, 1.0), (math.sin(0.3), math.cos(0.3))
+        found = poses_of(8, lean=leans, phi=phi, psi=direction)
+        assert not any(sampling.leaves_edge(pose) for pose in found)
 
 
 @pytest.mark.parametrize("end", ["rear", "front"])
@@ -62,18 +60,18 @@ def test_where_a_nosing_moves_along_an_end(end):
 
     def moves(kinds, normals, phi=(0.0, 0.0), leg=(0, 0)):
         given = {end: [codes[each] for each in kinds], f"{end}_n": normals}
-        return sampling.moves_along_end(path(2, phi=phi, leg=leg, **given), 0)
+        return sampling.moves_along_end(poses_of(2, phi=phi, leg=leg, **given), 0)
 
     assert moves((VERTEX, VERTEX), (LEVEL, LEANS))
     # of three poses the second and the third count
     later = [codes[VERTEX]] * 2 + [codes[DISC]]
     for normals, does in (((LEVEL, LEVEL, LEANS), True), ((LEANS, LEVEL, LEVEL), False)):
-        found = path(3, **{end: later, f"{end}_n": normals})
+        found = poses_of(3, **{end: later, f"{end}_n": normals})
         assert sampling.moves_along_end(found, 1) == does
     discs = [codes[VERTEX], codes[DISC], codes[DISC]]
-    found = path(3, **{end: discs, f"{end}_n": (LEVEL, LEVEL, LEANS)})
+    found = poses_of(3, **{end: discs, f"{end}_n": (LEVEL, LEVEL, LEANS)})
     assert not sampling.moves_along_end(found, 1)
-    found = path(3, phi=[0.3, 0.0, 0.0], **{end: later, f"{end}_n": [LEVEL] * 3})
+    found = poses_of(3, phi=[0.3, 0.0, 0.0], **{end: later, f"{end}_n": [LEVEL] * 3})
     assert not sampling.moves_along_end(found, 1)
     assert not moves((VERTEX, VERTEX), (LEVEL, LEANS), (0.0, -0.3))  # the body turns with it
     assert moves((VERTEX, DISC), (LEVEL, LEANS))
@@ -94,7 +92,7 @@ def test_where_a_nosing_moves_along_an_end(end):
         ((VERTEX, VERTEX, VERTEX), (LEVEL, LEVEL, LEVEL), (0.3, 0.0, 0.0), False),
     ):
         given = {end: [codes[each] for each in kinds], f"{end}_n": normals}
-        assert sampling.moves_along_end(path(3, phi=phi, **given), 1) is expected
+        assert sampling.moves_along_end(poses_of(3, phi=phi, **given), 1) is expected
 
 
 @pytest.mark.parametrize(("one", "other", "turn"), [
@@ -106,7 +104,7 @@ def test_from_one_direction_to_another(one, other, turn):
 
 def upright(*psi, **more):
     """Rows and shares, up and down."""
-    found = path(len(psi), psi=psi, **more)
+    found = poses_of(len(psi), psi=psi, **more)
     both = [
         [sampling.upright_at(found, row, way) for row in range(len(psi) - 1)]
         for way in (HALF, -HALF)
@@ -147,7 +145,7 @@ def test_where_the_path_stands_upright():
     (3.1, -3.1, -3.0, True),  # over 180 degrees
 ])  # fmt: skip
 def test_whether_the_path_turns_steadily(one, middle, other, steady):
-    assert sampling.turns_steadily(path(4, psi=[9.0, one, other, 9.0]), 1, middle) is steady
+    assert sampling.turns_steadily(*poses_of(2, psi=[one, other]), middle) is steady
 
 
 @pytest.fixture
@@ -155,29 +153,33 @@ def sampled(monkeypatch):
     """Samples of a path; of the kernel nothing runs that works out poses or margins."""
     asked = {}
 
-    def poses_between(ground, body, of, rows, parts, count, new):
-        assert len(rows) == len(new) == count
-        asked.setdefault("parts", []).append(parts[:count].tolist())
-        new[:, at.POSE_S] = of[rows, at.POSE_S] + parts[:count]
-        new[:, at.POSE_PSI] = asked["directions"][:count]
+    def poses_between(scene, of, rows, parts, new):
+        assert len(rows) == len(new)
+        asked.setdefault("parts", []).append([parts[k] for k in range(len(new))])
+        for k, pose in enumerate(new):
+            pose.s = of[rows[k]].s + parts[k]
+            pose.path_direction = asked["directions"][k]
 
-    def margins_without(ground, body, poses, points, count, a, g, touch, margins, contacts):
-        assert (a, g, touch, len(poses), len(margins)) == (asked["a"], 9.8, 1e-9, count, count)
-        asked["points"] = points[:count].tolist()
-        margins[:, at.TRACTION] = 100.0
+    def margins_without(scene, poses, points, pull, margins):
+        assert pull == Pull(asked["a"], 9.8)
+        assert len(poses) == len(margins)
+        asked["points"] = list(points)
+        for margin in margins:
+            margin.traction = 100.0
 
-    def pose_margins(ground, body, poses, count, a, g, touch, margins, contacts):
-        assert (a, g, touch, len(poses), len(margins)) == (asked["a"], 9.8, 1e-9, count, count)
-        margins[:, at.TRACTION] = 300.0
+    def pose_margins(scene, poses, pull, margins):
+        assert pull == Pull(asked["a"], 9.8)
+        assert len(poses) == len(margins)
+        for margin in margins:
+            margin.traction = 300.0
 
-    def find_peaks(ground, body, poses, values, group, narrow, tolerance, side, a, g, touch, *rest):
-        assert (tolerance, side, a, g, touch) == (1e-4, 0.0, asked["a"], 9.8, 1e-9)
-        asked.update(
-            values=values.tolist(), group=group.tolist(), narrow=narrow.tolist(), room=len(rest[-1])
-        )
-        rows, between, margins = rest[-3:]
+    def find_peaks(scene, poses, figures, groups, tolerance, side, pull, found):
+        assert (groups, tolerance, side, pull) == (4, 1e-4, 0.0, Pull(asked["a"], 9.8))
+        rows, between, margins = found
+        values, group, narrow = map(list, (figures.values, figures.group, figures.narrow))
+        asked.update(values=values, group=group, narrow=narrow, room=len(rows))
         assert len(rows) == len(between) == len(margins)
-        rows[0], between[0, at.POSE_S], margins[0, at.TRACTION] = 1, 1.5, 200.0
+        rows[0], between[0].s, margins[0].traction = 1, 1.5, 200.0
         return 1
 
     for each in (poses_between, margins_without, pose_margins, find_peaks):
@@ -186,20 +188,20 @@ def sampled(monkeypatch):
     def of(poses, phase, passed=(), friction=0.5, directions=(), a=0.0):
         asked.update(directions=np.array(directions), a=a)
         count = len(poses)
-        margins = np.full((count, at.MARGIN_COLUMNS), 7.0)
-        margins[:, at.FRICTION] = friction
-        table = np.full((len(passed), at.PASSED_COLUMNS), np.nan)
-        table[:, [at.PASSED_ROW, at.PASSED_S, at.PASSED_POINT]] = np.reshape(passed, (-1, 3))
-        *scratch, _, _, _ = peak_scratch(count, 4)
-        room = 4 * count
-        found = [each[: count + room] for each in sample_scratch(count + room)]
+        margins = zeros(Margin, count)
+        margins["required_friction"] = friction
+        rows = [(s, True, point, 0, row, math.nan) for row, s, point in passed]
+        room = 5 * count
+        found = np.full(room, 9), nothing(Pose, room), nothing(Margin, room)
+        samples = Samples(numbers(found[0], int), table(Pose, found[1]), table(Margin, found[2]))
         total = sampling.find_samples(
-            None, None, poses, margins, np.array(phase), table, len(passed), a, 9.8, 1e-9,
-            np.empty(count), *np.full((2, count), 9), np.empty(room, dtype=np.int64),
-            np.empty(room), *scratch, *found,
+            None, table(Pose, poses), table(Margin, margins), numbers(phase, int),
+            table(Passed, table_of(Passed, rows)), Pull(a, 9.8), samples,
         )  # fmt: skip
-        np.testing.assert_array_equal(found[1][:count], poses)
-        np.testing.assert_array_equal(found[2][:count], margins)
+        samples.poses.flush()
+        samples.margins.flush()
+        assert repr(found[1][:count].tolist()) == repr(poses.tolist())
+        assert repr(found[2][:count].tolist()) == repr(margins.tolist())
         return [each[:total] for each in found], asked
 
     return of
@@ -211,12 +213,12 @@ def test_samples_are_poses_nosings_peaks_and_places_upright(sampled):
     passed = [(0, 0.25, 8), (2, 2.5, 6)]
     (rows, found, margins), asked = sampled(poses, [0] * 4, passed, directions=[HALF, 0.0])
     assert rows.tolist() == [0, 1, 2, 3, 0, 2, 1, 1]
-    assert found[:, at.POSE_S].tolist() == pytest.approx([0, 1, 2, 3, 0.25, 2.5, 1.5, 1.25])
+    assert found["s"].tolist() == pytest.approx([0, 1, 2, 3, 0.25, 2.5, 1.5, 1.25])
     assert asked["parts"] == [pytest.approx([0.25, 0.5]), pytest.approx([0.25])]
     assert asked["points"] == [8, 6]
-    assert margins[4:, at.TRACTION].tolist() == [100.0, 100.0, 200.0, 9.8]
+    assert margins["traction"][4:].tolist() == [100.0, 100.0, 200.0, 9.8]
     assert asked["room"] == 16 + 4 - 6
-    wide = path(4, s=[0.0, 2.0, 4.0, 6.0], psi=poses[:, at.POSE_PSI])
+    wide = path(4, s=[0.0, 2.0, 4.0, 6.0], psi=poses["path_direction"])
     _, asked = sampled(wide, [0] * 4, [(0, 0.5, 8), (2, 5.0, 6)], directions=[HALF, 0.0])
     assert asked["parts"][2] == pytest.approx([0.25, 0.5])
 
@@ -229,11 +231,11 @@ def test_groups_of_friction(sampled):
     _, asked = sampled(found, [0, 1, 2, 2], friction=friction)
     assert asked["values"] == [0.4, math.inf, math.inf, 0.6]
     assert asked["group"] == [0, 1, 3, 2]
-    assert asked["narrow"] == [0] * 4
-    corner = path(3, rear=[1 << at.POINT_BITS] * 3, rear_n=[LEVEL, LEANS, LEANS])
-    assert sampled(corner, [0] * 3)[1]["narrow"] == [1, 0, 0]
-    corner = path(3, rear=[1 << at.POINT_BITS] * 3, rear_n=[LEVEL, LEVEL, LEANS])
-    assert sampled(corner, [0] * 3)[1]["narrow"] == [0, 1, 0]
+    assert asked["narrow"] == [False] * 4
+    corner = path(3, rear=[1 << POINT_BITS] * 3, rear_n=[LEVEL, LEANS, LEANS])
+    assert sampled(corner, [0] * 3)[1]["narrow"] == [True, False, False]
+    corner = path(3, rear=[1 << POINT_BITS] * 3, rear_n=[LEVEL, LEVEL, LEANS])
+    assert sampled(corner, [0] * 3)[1]["narrow"] == [False, True, False]
 
 
 def test_the_share_at_which_a_nosing_passes(sampled):
@@ -248,19 +250,11 @@ def test_the_traction_of_an_upright_path_is_that_of_all_its_weight(a, sampled):
     poses = path(3, psi=[HALF - 0.1, HALF + 0.2, HALF - 0.1])
     (rows, _, margins), _ = sampled(poses, [0] * 3, directions=[HALF, 1.0], a=a)
     assert rows.tolist() == [0, 1, 2, 1, 0, 1]
-    assert margins[-2:, at.TRACTION].tolist() == pytest.approx([9.8 + a, 300.0])
+    assert margins["traction"][-2:].tolist() == pytest.approx([9.8 + a, 300.0])
     poses = path(2, psi=[-HALF - 0.1, -HALF + 0.2])
     (_, _, margins), _ = sampled(poses, [0] * 2, directions=[-HALF], a=a)
-    assert margins[-1, at.TRACTION] == pytest.approx(-9.8 + a)
+    assert margins["traction"][-1] == pytest.approx(-9.8 + a)
     # up before down
     poses = path(4, psi=[-HALF - 0.1, -HALF + 0.2, HALF - 0.1, HALF + 0.1])
     (rows, _, _), _ = sampled(poses, [0] * 4, directions=[HALF, -HALF], a=a)
     assert rows[-2:].tolist() == [2, 0]
-
-
-def test_tables_of_samples_stay_with_the_thread():
-    one = sample_scratch(50)
-    assert all(len(each) >= 50 for each in one)
-    assert sample_scratch(20) is one
-    more = sample_scratch(len(one[0]) + 1)
-    assert {len(each) for each in more} == {len(one[0]) + 1}

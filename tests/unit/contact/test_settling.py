@@ -11,7 +11,6 @@ from kaidan.contact import (
     Feature,
     FeatureKind,
     body_table,
-    columns,
     ground_table,
     mirror,
     using_kernel,
@@ -19,14 +18,16 @@ from kaidan.contact import (
 )
 from kaidan.contact.kernel.gaps import gap
 from kaidan.contact.kernel.settling import lever, settle, touching
+from kaidan.contact.layout import At
 from kaidan.contact.switch import kernel as entries
+from kernel_memory import posed, scene
 
 
 def delta_at(ground, body, x, phi, kappa):
     """Lever of what touches at an inclination [m]."""
     c, s = math.cos(phi), math.sin(phi)
-    z, feature = touching(ground, body, x, c, s)
-    return lever(ground, body, feature, x, z, c, s, kappa)
+    z, feature = touching(scene(ground, body), x, c, s)
+    return lever(scene(ground, body), feature, At(x, z, c, s), kappa)
 
 
 @pytest.mark.parametrize("kappa", [0.0, 0.15, -0.1])
@@ -37,7 +38,7 @@ def test_two_contacts_hold_it_and_none_does_before(seed, kappa):
     parts, kinds = random_robot(rng, least_radius=0.01)
     ground, body = ground_table(random_terrain(rng)), body_table(parts, kinds)
     x, start = rng.uniform(0.0, 1.0), rng.uniform(-0.4, 0.4)
-    found, z, phi, rear, front = settle(ground, body, x, start, kappa)
+    found, z, phi, rear, front = settle(scene(ground, body), x, start, kappa)
     up = delta_at(ground, body, x, start, kappa) > 0
     cell = 5e-3
     grid = np.arange(start, 0.5 * math.pi if up else -0.5 * math.pi, cell if up else -cell)
@@ -50,10 +51,12 @@ def test_two_contacts_hold_it_and_none_does_before(seed, kappa):
         assert (phi - grid[changes[0]]) * (1 if up else -1) <= 1e-9
     assert (signs[np.abs(grid - start) < abs(phi - start) - cell] == up).all()
     c, s = math.cos(phi), math.sin(phi)
-    assert touching(ground, body, x, c, s)[0] == pytest.approx(z, abs=1e-9)
-    assert gap(ground, body, rear, x, z, c, s)[0] == pytest.approx(0.0, abs=1e-9)
-    assert gap(ground, body, front, x, z, c, s)[0] == pytest.approx(0.0, abs=1e-9)
-    at_rear, at_front = (lever(ground, body, each, x, z, c, s, kappa) for each in (rear, front))
+    assert touching(scene(ground, body), x, c, s)[0] == pytest.approx(z, abs=1e-9)
+    assert gap(scene(ground, body), rear, At(x, z, c, s))[0] == pytest.approx(0.0, abs=1e-9)
+    assert gap(scene(ground, body), front, At(x, z, c, s))[0] == pytest.approx(0.0, abs=1e-9)
+    at_rear, at_front = (
+        lever(scene(ground, body), each, At(x, z, c, s), kappa) for each in (rear, front)
+    )
     assert at_rear <= 1e-9 <= 1e-8 + at_front
 
 
@@ -63,20 +66,20 @@ def test_it_rotates_from_where_it_is_let_go():
     body = body_table(stadium(0.5, 0.25, 0.25, 0.05))
     # the centroid stands over the rear foot at tan = (L - C_L)/(C_N - R) = 0.25/0.2
     edge = math.atan2(0.25, 0.2)
-    found, z, phi, _, _ = settle(ground, body, 2.0, edge - 0.01, 0.0)
+    found, z, phi, _, _ = settle(scene(ground, body), 2.0, edge - 0.01, 0.0)
     assert found
     assert (z, phi) == pytest.approx((0.25, 0.0), abs=1e-12)
-    found, *_, front = settle(ground, body, 2.0, edge + 0.01, 0.0)
+    found, *_, front = settle(scene(ground, body), 2.0, edge + 0.01, 0.0)
     assert (found, front) == (False, -1)
     # and forward; gravity that leans back by kappa moves the edge by its angle
-    found, _, phi, _, _ = settle(ground, body, 2.0, -edge + 0.01, 0.0)
+    found, _, phi, _, _ = settle(scene(ground, body), 2.0, -edge + 0.01, 0.0)
     assert found
     assert phi == pytest.approx(0.0, abs=1e-12)
-    assert not settle(ground, body, 2.0, -edge - 0.01, 0.0)[0]
+    assert not settle(scene(ground, body), 2.0, -edge - 0.01, 0.0)[0]
     kappa = 0.1
     lean = math.atan(kappa)
-    assert settle(ground, body, 2.0, _edge_leaning(kappa) - 0.01, kappa)[0]
-    assert not settle(ground, body, 2.0, _edge_leaning(kappa) + 0.01, kappa)[0]
+    assert settle(scene(ground, body), 2.0, _edge_leaning(kappa) - 0.01, kappa)[0]
+    assert not settle(scene(ground, body), 2.0, _edge_leaning(kappa) + 0.01, kappa)[0]
     assert _edge_leaning(kappa) < edge - 0.5 * lean
 
 
@@ -101,21 +104,21 @@ def test_touching_by_hand():
     ground = ground_table(steps(0.2, 0.3, 2))
     body = body_table(stadium(0.5, 0.2, 0.1, 0.06))
     # level over the first tread: the flat lies on the second edge, at (0.3, 0.4)
-    z, feature = touching(ground, body, 0.25, 1.0, 0.0)
+    z, feature = touching(scene(ground, body), 0.25, 1.0, 0.0)
     assert z == pytest.approx(0.4 + 0.1, abs=1e-12)
-    assert ground[feature >> 6, :2].tolist() == [0.3, 0.4]
+    assert ground[["x", "z"]][feature >> 6].tolist() == (0.3, 0.4)
     # level, the front disc's arc over the first edge: its centre sqrt(0.06^2 - 0.03^2) above it
     down = math.sqrt(0.06**2 - 0.03**2)
-    z, feature = touching(ground, body, -0.2 - 0.03, 1.0, 0.0)
+    z, feature = touching(scene(ground, body), -0.2 - 0.03, 1.0, 0.0)
     assert z == pytest.approx(0.2 + down + (0.1 - 0.06), abs=1e-12)
-    assert ground[feature >> 6, :2].tolist() == [0.0, 0.2]
+    assert ground[["x", "z"]][feature >> 6].tolist() == (0.0, 0.2)
     # nose up: the tail's disc on the floor, its centre 0.3 back and 0.04 below the centroid
     c, s = math.cos(0.9), math.sin(0.9)
-    z, feature = touching(ground, body, -1.0, c, s)
+    z, feature = touching(scene(ground, body), -1.0, c, s)
     assert z == pytest.approx(0.06 + 0.3 * s + 0.04 * c, abs=1e-12)
     assert feature & 3 == 1
     # nose down: the front disc on the floor
-    z, feature = touching(ground, body, -1.0, c, -s)
+    z, feature = touching(scene(ground, body), -1.0, c, -s)
     assert z == pytest.approx(0.06 + 0.2 * s + 0.04 * c, abs=1e-12)
     assert feature & 3 == 2
 
@@ -151,7 +154,7 @@ def test_it_touches_where_the_ground_is_highest_under_its_outline(seed, which):
         part = part[3:] + part[:3]
     x, (c, s) = rng.uniform(-0.3, 0.4), (math.cos(phi), math.sin(phi))
     body = body_table([part])
-    z, feature = touching(ground_table(line), body, x, c, s)
+    z, feature = touching(scene(ground_table(line), body), x, c, s)
     turned = [
         c * part[0] - s * part[1], s * part[0] + c * part[1], part[2],
         c * part[3] - s * part[4], s * part[3] + c * part[4], part[5],
@@ -165,7 +168,9 @@ def test_it_touches_where_the_ground_is_highest_under_its_outline(seed, which):
     expected = (places[:, 1] - underside(turned, places[:, 0] - x)).max()
     # m: an arc of 30 mm seen every half a millimetre, from discs every 4 mm at most
     assert z == pytest.approx(expected, abs=2e-4)
-    assert gap(ground_table(line), body, feature, x, z, c, s)[0] == pytest.approx(0.0, abs=1e-9)
+    assert gap(scene(ground_table(line), body), feature, At(x, z, c, s))[0] == pytest.approx(
+        0.0, abs=1e-9
+    )
 
 
 @pytest.mark.parametrize("off", [-0.03, -0.01, 0.02, 0.1])
@@ -175,7 +180,7 @@ def test_of_nosings_in_line_the_outermost_two_hold_it(x, angle, off):
     """By hand: a flat of 1 m over nosings 200 mm apart."""
     terrain = flight(angle, 0.2)
     body = body_table(stadium(1.0, 0.45, 0.15, 0.05))
-    found, z, phi, rear, front = settle(ground_table(terrain), body, x, angle + off, 0.0)
+    found, z, phi, rear, front = settle(scene(ground_table(terrain), body), x, angle + off, 0.0)
     assert found
     assert phi == pytest.approx(angle, abs=1e-12)
     # the flat's line goes through (0, rise): the centroid is 0.15 above it
@@ -185,7 +190,7 @@ def test_of_nosings_in_line_the_outermost_two_hold_it(x, angle, off):
     nosings = terrain[2:-1:2]
     along = (nosings[:, 0] - foot) / math.cos(angle)
     under = nosings[(along >= -0.55) & (along <= 0.45)]
-    seen = [ground_table(terrain)[each >> 6, :2].tolist() for each in (rear, front)]
+    seen = [list(ground_table(terrain)[["x", "z"]][each >> 6].tolist()) for each in (rear, front)]
     assert seen == [pytest.approx(under[0]), pytest.approx(under[-1])]
 
 
@@ -199,7 +204,7 @@ def test_a_wheel_with_a_low_centroid_rocks_to_rest_on_one_contact(slope, start):
     ground = ground_table([(-4, -4 * math.tan(slope)), (4, 4 * math.tan(slope))])
     body = body_table([[0.0, 0.05, 0.1, 0.0, 0.05, 0.1]])
     x = 0.3
-    found, z, phi, rear, front = settle(ground, body, x, start, 0.0)
+    found, z, phi, rear, front = settle(scene(ground, body), x, start, 0.0)
     assert (found, rear) == (True, front)
     # rad: within 2e-6 its height is the least to 1e-13 m, which is what it is solved to
     assert phi == pytest.approx(math.asin(0.1 * math.sin(slope) / 0.05), abs=2e-6)
@@ -223,17 +228,19 @@ def test_an_edge_under_the_outer_half_of_an_end(side, order):
     one, other = [[-0.27, 0.0, 0.06], [0.27, 0.0, 0.06]][order]
     above = [-0.1, 0.5, 0.02, 0.1, 0.5, 0.02]
     ground, body = ground_table(line), body_table([above, one + other])
-    z, feature = touching(ground, body, 0.0, 1.0, 0.0)
+    z, feature = touching(scene(ground, body), 0.0, 1.0, 0.0)
     assert z == pytest.approx(math.sqrt(0.06**2 - 0.03**2), abs=1e-12)
     assert feature & 3 == 0
-    assert gap(ground, body, feature, 0.0, z, 1.0, 0.0)[0] == pytest.approx(0.0, abs=1e-12)
+    assert gap(scene(ground, body), feature, At(0.0, z, 1.0, 0.0))[0] == pytest.approx(
+        0.0, abs=1e-12
+    )
 
 
 @pytest.mark.parametrize("start", [0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 1.0, 1.1])
 def test_no_pose_that_holds_is_stepped_over(start):
     """By hand: it holds from its tail at atan(0.4/0.2) down to its nose at atan(0.02/0.2)."""
     ground, body = ground_table([(0, 0), (4, 0)]), body_table(stadium(0.42, 0.02, 0.25, 0.05))
-    found, z, phi, _, _ = settle(ground, body, 2.0, start, 0.0)
+    found, z, phi, _, _ = settle(scene(ground, body), 2.0, start, 0.0)
     assert found
     assert (z, phi) == pytest.approx((0.25, 0.0), abs=1e-12)
 
@@ -246,10 +253,10 @@ def test_both_contacts_touch_where_the_look_for_both_leaves_its_bracket(seed):
     terrain = random_terrain(rng)
     ground, body = ground_table(terrain), body_table(parts, kinds)
     for x in rng.uniform(terrain[0, 0] + 3.0, terrain[-1, 0] - 3.0, 2):
-        found, z, phi, *contacts = settle(ground, body, x, rng.uniform(-0.3, 0.3), 0.0)
+        found, z, phi, *contacts = settle(scene(ground, body), x, rng.uniform(-0.3, 0.3), 0.0)
         assert found
         for each in contacts:
-            distance = gap(ground, body, each, x, z, math.cos(phi), math.sin(phi))[0]
+            distance = gap(scene(ground, body), each, posed(x, z, phi))[0]
             assert distance == pytest.approx(0.0, abs=1e-12)
 
 
@@ -267,14 +274,14 @@ def test_an_end_comes_down_against_a_face(ahead, off):
     x = -(0.3 * math.cos(0.6) + 0.05) + off
     for kernel in ("plain", *([] if without_native() else ["native"])):
         with using_kernel(kernel):
-            found = entries().settle(ground, body, side * x, side * 1.0, 0.0)
+            found = entries().settle((ground, body), side * x, side * 1.0, 0.0)
         good, z, phi, *features = found
         phi_off = off / (0.3 * math.sin(0.6))  # nearer to the face it stands steeper
         assert good
         assert phi == pytest.approx(side * (0.6 + phi_off), abs=1e-9)
         assert z == pytest.approx(0.1 + 0.3 * math.sin(abs(phi)), abs=1e-12)
         rear, front = (Feature.of(each) for each in features[:: 1 if ahead else -1])
-        points = ground[:, [columns.X, columns.Z]].tolist()
+        points = ground[["x", "z"]].tolist()
         floor, face = points[rear.point : rear.point + 2], points[front.point : front.point + 2]
         assert {each[1] for each in floor} == {0.0}
         assert {each[0] for each in face} == {0.0}

@@ -3,8 +3,12 @@
 import numpy as np
 import pytest
 
-from kaidan.contact.columns import POSE_COLUMNS, POSE_LEG, POSE_S
-from kaidan.contact.kernel.slipping import held_while_slipping
+from kaidan.contact.door import zeros
+from kaidan.contact.kernel import slipping
+from kaidan.contact.layout import Pose
+from kernel_memory import called
+
+held_while_slipping = called(slipping.held_while_slipping)
 
 SLOTS = 2
 
@@ -44,8 +48,8 @@ def test_the_best_contact_by_its_worst_pose(sense):
         standing = rng.integers(-3, 5, (count, SLOTS)).astype(float)
         friction = rng.integers(-4, 3, count).astype(float)
         way = float(rng.integers(1, 6))
-        poses = np.zeros((count, POSE_COLUMNS))
-        poses[:, POSE_S], poses[:, POSE_LEG] = s, legs
+        poses = zeros(Pose, count)
+        poses["s"], poses["leg"] = s, legs
         found = np.full(count, np.nan)
         held_while_slipping(
             poses, points.ravel(), standing.ravel(), friction, SLOTS, sense, way, 0.0, found
@@ -58,8 +62,8 @@ def test_the_best_contact_by_its_worst_pose(sense):
 )
 def test_nothing_holds_beyond_a_beginning_with_one_end_on_a_floor(begins, held):
     """Of five poses on one nosing, 10 mm apart; 25 mm back from the first three are before it."""
-    poses = np.zeros((5, POSE_COLUMNS))
-    poses[:, POSE_S] = 0.01 * np.arange(5)
+    poses = zeros(Pose, 5)
+    poses["s"] = 0.01 * np.arange(5)
     points = np.tile([-1, 4], (5, 1))
     points[0] = begins
     standing = np.where(points == 4, 0.3, -np.inf)
@@ -75,8 +79,8 @@ def test_nothing_holds_beyond_a_beginning_with_one_end_on_a_floor(begins, held):
 @pytest.mark.parametrize("sense", [1, -1])
 def test_towards_the_end_it_passes_over_what_nothing_holds(sense):
     """Up to poses, in the same leg and less than so far ahead, that one nosing holds all along."""
-    poses = np.zeros((7, POSE_COLUMNS))
-    poses[:, POSE_S], poses[:, POSE_LEG] = 0.01 * np.arange(7), [0, 0, 0, 0, 0, 1, 1]
+    poses = zeros(Pose, 7)
+    poses["s"], poses["leg"] = 0.01 * np.arange(7), [0, 0, 0, 0, 0, 1, 1]
     friction = np.array([-0.3, -0.3, 0.2, -0.3, -0.3, -0.3, -0.3])
     standing = np.full((7, SLOTS), -np.inf)
     standing[:, 0] = [-0.1, -0.3, 0.1, 0.1, -0.2, 0.4, -0.3]

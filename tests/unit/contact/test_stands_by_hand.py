@@ -8,24 +8,32 @@ import pytest
 
 from contact_cases import stadium
 from kaidan.contact import PartKind, body_table, ground_table
-from kaidan.contact import columns as at
+from kaidan.contact.door import table_of, zeros
 from kaidan.contact.kernel.impact import impact_speed
 from kaidan.contact.kernel.passings import is_reported, nosings_passed
 from kaidan.contact.kernel.supports import describe, find_supports, is_same, stand_alike
 from kaidan.contact.kernel.toppling import AT_ONCE
-from kaidan.contact.tables import margin_tables
+from kaidan.contact.layout import (
+    FACE,
+    NOSING,
+    NOWHERE,
+    PART,
+    POINT,
+    TREAD,
+    VERTEX,
+    EventRow,
+    Load,
+    Passed,
+    Pose,
+    RotationRow,
+    Stance,
+    Support,
+)
+from kernel_memory import made, numbers, posed, scene, table
 
 ROUNDING = 1e-12
 TOUCH = 1e-7
 STEEP = math.radians(60.0)
-
-
-def table(width, *rows):
-    made = np.zeros((len(rows), width))
-    for k, row in enumerate(rows):
-        for column, value in row.items():
-            made[k, column] = value
-    return made
 
 
 def flat(part):
@@ -46,7 +54,7 @@ def spikes(*places):
     ends = [points[0] - 2 - 2j, points[-1] + 2 - 2j]
     every = sorted([*points, *between, *ends], key=lambda p: p.real)
     ground = ground_table([(p.real, p.imag) for p in every])
-    return ground, [int(np.argmin(np.abs(ground[:, 0] - p.real))) for p in places]
+    return ground, [int(np.argmin(np.abs(ground["x"] - p.real))) for p in places]
 
 
 # --- supports -----------------------------------------------------------------------------------
@@ -69,19 +77,23 @@ def carried(part, *shares):
 
 
 def find(ground, points, parts, *, part, slots=5, treads=None, kinds=None, postures=(None,)):
-    bodies = np.vstack([body_table(own or parts, kinds) for own in postures])
-    rear, front = (at.POINT * k + at.PART * part + at.VERTEX for k in points[:2])
+    bodies = np.concatenate([body_table(own or parts, kinds) for own in postures])
+    rear, front = (POINT * k + PART * part + VERTEX for k in points[:2])
     pose = {
-        at.POSE_X: X, at.POSE_Z: Z, at.POSE_PHI: PHI, at.POSE_REAR: rear, at.POSE_FRONT: front,
-        at.REAR_X: 1.1, at.REAR_Z: 0.4, at.FRONT_X: 1.7, at.FRONT_Z: 0.6,
-        at.REAR_N_X: -0.6, at.REAR_N_Z: 0.8, at.FRONT_N_X: 0.28, at.FRONT_N_Z: 0.96,
+        "x": X, "z": Z, "inclination": PHI, "rear.feature": rear, "front.feature": front,
+        "rear.x": 1.1, "rear.z": 0.4, "front.x": 1.7, "front.z": 0.6,
+        "rear.n_x": -0.6, "rear.n_z": 0.8, "front.n_x": 0.28, "front.n_z": 0.96,
     }  # fmt: skip
-    poses = table(at.POSE_COLUMNS, *[pose] * len(postures))
-    supports = np.full((slots * len(poses), at.SUPPORT_COLUMNS), 7.0)
+    poses = made(Pose, *[pose] * len(postures))
+    found = zeros(Support, slots * len(poses))
+    supports = table(Support, found)
     treads = 0.01 * np.arange(len(ground)) if treads is None else treads
-    most = find_supports(ground, bodies, len(parts), len(postures) > 1, poses, treads, True, STEEP,
-                         TOUCH, 0.6, supports, slots)  # fmt: skip
-    return most, supports.reshape(len(poses), slots, -1)
+    most = find_supports(
+        scene(ground, bodies), len(parts), table(Pose, poses), numbers(treads),
+        Stance(True, STEEP, TOUCH, 0.6), supports, slots,
+    )  # fmt: skip
+    supports.flush()
+    return most, found.reshape(len(poses), slots)
 
 
 @pytest.mark.parametrize("part", [TAPERED, BACKWARD])
@@ -89,17 +101,22 @@ def test_a_pose_stands_on_what_carries_it_and_on_nosings_between(part):
     ground, points, normal = carried(part, 0.2, 0.9, 0.5, 0.7)
     most, (found,) = find(ground, points, [RAISED, part], part=1)
     assert most == 4
-    assert found[:, at.SUPPORT_IS_ONE].tolist() == [1.0, 1.0, 1.0, 1.0, 0.0]
+    assert found["is_one"].tolist() == [True] * 4 + [False]
     between = sorted(points[2:])
-    assert found[:, at.SUPPORT_POINT].tolist() == [*points[:2], *between, at.NOWHERE]
-    assert found[:4, at.SUPPORT_PLACE].tolist() == [at.NOSING] * 4
-    assert found[:4, at.SUPPORT_CURVATURE].tolist() == [0.0] * 4
-    assert found[:4, at.SUPPORT_TREAD] == pytest.approx(0.01 * found[:4, at.SUPPORT_POINT])
-    assert np.isnan(found[:4, at.SUPPORT_LIFT]).all()
-    places = [(1.1 - X, 0.4 - Z), (1.7 - X, 0.6 - Z), *(ground[k, :2] - (X, Z) for k in between)]
-    np.testing.assert_allclose(found[:4, [at.SUPPORT_X, at.SUPPORT_Z]], places, atol=ROUNDING)
+    assert found["point"].tolist() == [*points[:2], *between, NOWHERE]
+    assert found["place"][:4].tolist() == [NOSING] * 4
+    assert found["curvature"][:4].tolist() == [0.0] * 4
+    assert found["tread"][:4] == pytest.approx(0.01 * found["point"][:4])
+    assert np.isnan(found["lift"][:4]).all()
+    places = [
+        (1.1 - X, 0.4 - Z),
+        (1.7 - X, 0.6 - Z),
+        *((ground["x"][k] - X, ground["z"][k] - Z) for k in between),
+    ]
+    stands = np.transpose([found["x"][:4], found["z"][:4]])
+    np.testing.assert_allclose(stands, places, atol=ROUNDING)
     tilts = [math.atan2(-0.6, 0.8), math.atan2(0.28, 0.96), *[np.pi / 2 - np.angle(normal)] * 2]
-    np.testing.assert_allclose(found[:4, at.SUPPORT_NORMAL], tilts, atol=ROUNDING)
+    np.testing.assert_allclose(found["normal"][:4], tilts, atol=ROUNDING)
 
 
 def test_supports_beyond_the_room_are_counted_and_left_out():
@@ -108,7 +125,7 @@ def test_supports_beyond_the_room_are_counted_and_left_out():
         most, (found,) = find(ground, points, [TAPERED], part=0, slots=slots)
         assert most == 4
         inner = sorted(points[2:])
-        assert found[:, at.SUPPORT_POINT].tolist() == [*points[:2], *inner][:slots]
+        assert found["point"].tolist() == [*points[:2], *inner][:slots]
 
 
 def test_a_nosing_without_a_tread_is_nowhere():
@@ -116,7 +133,7 @@ def test_a_nosing_without_a_tread_is_nowhere():
     treads = 0.01 * np.arange(len(ground))
     treads[points[1:]] = math.nan
     _, (found,) = find(ground, points, [TAPERED], part=0, treads=treads)
-    assert found[:3, at.SUPPORT_POINT].tolist() == [points[0], at.NOWHERE, at.NOWHERE]
+    assert found["point"][:3].tolist() == [points[0], NOWHERE, NOWHERE]
 
 
 def test_a_belly_carries_no_grouser_and_each_pose_has_its_own_posture():
@@ -126,7 +143,7 @@ def test_a_belly_carries_no_grouser_and_each_pose_has_its_own_posture():
     two = [[RAISED, RAISED], [RAISED, TAPERED]]
     most, found = find(ground, points, two[0], part=1, postures=two)
     assert most == 3
-    assert found[:, 2, at.SUPPORT_IS_ONE].tolist() == [0.0, 1.0]
+    assert found["is_one"][:, 2].tolist() == [False, True]
 
 
 @pytest.mark.parametrize("gap", [0.003, -0.004])
@@ -142,16 +159,35 @@ def test_a_belt_beside_passes_a_nosing_another_way(disc, gap):
     ground, points, _ = carried(TAPERED, 0.2, 0.9)
     how = {"part": 0, "kinds": [PartKind.TRACK, PartKind.FLIPPER]}
     _, (found,) = find(ground, points, [TAPERED, flipper], **how)
-    assert found[0, at.SUPPORT_BESIDE] == pytest.approx(abs(gap), abs=1e-9)
-    assert found[1, at.SUPPORT_BESIDE] > 0.1
+    assert found["beside"][0] == pytest.approx(abs(gap), abs=1e-9)
+    assert found["beside"][1] > 0.1
     _, (found,) = find(ground, points, [TAPERED, flipper], **how | {"part": 1})
-    assert found[0, at.SUPPORT_BESIDE] == pytest.approx(0.0, abs=1e-9)
+    assert found["beside"][0] == pytest.approx(0.0, abs=1e-9)
     for kinds in ([PartKind.TRACK] * 2, [PartKind.TRACK, PartKind.BELLY]):  # one belt, or none
         _, (found,) = find(ground, points, [TAPERED, flipper], part=0, kinds=kinds)
-        assert found[0, at.SUPPORT_BESIDE] == math.inf
+        assert found["beside"][0] == math.inf
     # another flat passes it the same way
     _, (found,) = find(ground, points, [TAPERED, TAPERED], **how)
-    assert found[:2, at.SUPPORT_BESIDE].tolist() == [math.inf] * 2
+    assert found["beside"][:2].tolist() == [math.inf] * 2
+
+
+def described(ground, parts, feature, climbs):
+    """Support at a contact of the pose; what is not written of it is -9."""
+    pose = table(Pose, made(Pose, {
+        "x": X, "z": Z, "inclination": PHI, "rear.feature": feature, "rear.x": X - 9.0,
+    }))[0]  # fmt: skip
+    names = ("x", "z", "tread", "curvature", "lift", "beyond", "flat", "beside", "point", "place")
+    found = table(Support, made(Support, dict.fromkeys(names, -9)))[0]
+    place = posed(X, Z, PHI)
+    describe(
+        scene(ground, body_table(parts)),
+        pose,
+        pose.rear,
+        place,
+        Stance(climbs, STEEP, TOUCH, 0.6),
+        found,
+    )
+    return found
 
 
 @pytest.mark.parametrize("beyond", [0.02, -0.02])
@@ -161,14 +197,11 @@ def test_a_nosing_under_an_arc_has_the_curvature_of_its_disc(part, beyond):
     along = (other - one) / abs(other - one)
     place = other + beyond * along if beyond > 0 else one + beyond * along
     ground, (k,) = spikes(at_pose(place))
-    poses = table(at.POSE_COLUMNS, {at.POSE_X: X, at.POSE_Z: Z, at.POSE_PHI: PHI})
-    found = np.zeros((1, at.SUPPORT_COLUMNS))
-    describe(ground, body_table([RAISED, part]), 0, 2, poses, 0, at.POINT * k + at.PART, True,
-             STEEP, found, 0)  # fmt: skip
+    found = described(ground, [RAISED, part], POINT * k + PART, True)
     radius = part[5] if beyond > 0 else part[2]
-    assert found[0, at.SUPPORT_CURVATURE] == pytest.approx(1.0 / radius, abs=ROUNDING)
-    assert found[0, at.SUPPORT_PLACE] == at.NOSING
-    assert found[0, at.SUPPORT_POINT] == k
+    assert found.curvature == pytest.approx(1.0 / radius, abs=ROUNDING)
+    assert found.place == NOSING
+    assert found.point == k
 
 
 ZIGZAG = ground_table([(-3, 0.0), (0, 0.0), (0.1, 0.4), (1.0, 0.5), (1.1, 0.1), (4, 0.1)])
@@ -179,34 +212,29 @@ ZIGZAG = ground_table([(-3, 0.0), (0, 0.0), (0.1, 0.4), (1.0, 0.5), (1.1, 0.1), 
 @pytest.mark.parametrize("disc", [1, 2])
 @pytest.mark.parametrize("x", [-1.0, 0.05, 0.5, 1.05])
 def test_an_end_stands_on_a_tread_or_a_face_below_its_edge(x, disc, climbs):
-    k = int(np.flatnonzero(ZIGZAG[:, 0] <= x)[-1])
-    parts = [RAISED, TAPERED]
-    poses = table(at.POSE_COLUMNS, {}, {at.POSE_X: X, at.POSE_Z: Z, at.POSE_PHI: PHI})
-    found = np.full((2, at.SUPPORT_COLUMNS), -9.0)
-    feature = at.POINT * k + disc  # of the first part of a posture that begins in the second row
-    describe(ZIGZAG, body_table(parts), 1, 1, poses, 1, feature, climbs, STEEP, found, 1)
-    assert found[0].tolist() == [-9.0] * at.SUPPORT_COLUMNS
+    k = int(np.flatnonzero(ZIGZAG["x"] <= x)[-1])
+    found = described(ZIGZAG, [RAISED, TAPERED], POINT * k + PART + disc, climbs)
     own = TAPERED[3 * disc - 3 : 3 * disc]
-    assert found[1, at.SUPPORT_CURVATURE] == pytest.approx(1.0 / own[2], abs=ROUNDING)
-    level = found[1, at.SUPPORT_FLAT]
+    assert found.curvature == pytest.approx(1.0 / own[2], abs=ROUNDING)
+    level = found.flat
     if disc == 1:  # farther back it comes onto the flat
         normal = -flat(TAPERED)[2] * np.exp(1j * PHI)
         assert level == pytest.approx(math.atan2(normal.real, normal.imag), abs=ROUNDING)
     else:
-        assert level == -9.0  # as it was
+        assert math.isnan(level)
     face = x in (0.05, 1.05)
-    assert found[1, at.SUPPORT_PLACE] == (at.FACE if face else at.TREAD)
+    assert found.place == (FACE if face else TREAD)
     if climbs and x == 0.05:
         axle = at_pose(complex(*own[:2])).imag
-        assert found[1, at.SUPPORT_POINT] == k + 1
-        assert found[1, at.SUPPORT_LIFT] == pytest.approx(0.4 - axle, abs=ROUNDING)
+        assert found.point == k + 1
+        assert found.lift == pytest.approx(0.4 - axle, abs=ROUNDING)
         return
     behind = climbs and x == 0.5  # a tread behind its nosing
-    assert found[1, at.SUPPORT_POINT] == (k if behind else -9.0)  # else as it was
-    assert math.isnan(found[1, at.SUPPORT_LIFT])
+    assert found.point == (k if behind else -9)  # else as it was
+    assert math.isnan(found.lift)
     if behind:
-        beyond = X - 9.0 - ZIGZAG[k, 0]  # what was written of its place from the centroid
-        assert found[1, at.SUPPORT_BEYOND] == pytest.approx(beyond, abs=ROUNDING)
+        beyond = X - 9.0 - ZIGZAG["x"][k]
+        assert found.beyond == pytest.approx(beyond, abs=ROUNDING)
 
 
 def test_what_is_the_same_to_a_tenth_of_a_micrometre():
@@ -222,92 +250,104 @@ def test_what_is_the_same_to_a_tenth_of_a_micrometre():
     assert is_same(-math.inf, -math.inf)
 
 
-@pytest.mark.parametrize("column", range(at.SUPPORT_COLUMNS))
+@pytest.mark.parametrize("name", Support.__slots__)
 @pytest.mark.parametrize("slot", [0, 2])
-def test_poses_stand_alike_if_all_but_the_point_is_alike(column, slot):
+def test_poses_stand_alike_if_all_but_the_point_is_alike(name, slot):
     """Three slots of which the second is empty, so what stands there counts for nothing."""
-    supports = np.vstack([np.arange(at.SUPPORT_COLUMNS, dtype=float) + 2.0] * 6)
-    supports[:, at.SUPPORT_IS_ONE] = [1.0, 0.0, 1.0] * 2
-    loads = np.ones((2, at.LOAD_COLUMNS))
-    supports[4, at.SUPPORT_X] = 9.0
+    one = dict(zip(Support.__slots__, range(2, 14), strict=True))
+    loads = [Load(1.0, 1.0, 1.0)] * 2
+
+    def rows():
+        return [Support(**one | {"is_one": k % 3 != 1}) for k in range(6)]
+
+    supports = rows()
+    supports[4].x = 9.0
     assert stand_alike(supports, 3, loads, 0, 1)
-    supports[3 + slot, column] += 0.5 if column != at.SUPPORT_IS_ONE else -1.0
-    assert stand_alike(supports, 3, loads, 0, 1) == (column == at.SUPPORT_POINT)
-    supports[:] = supports[0]
-    supports[3 + slot, at.SUPPORT_POINT] = at.NOWHERE
+    changed = supports[3 + slot]
+    setattr(changed, name, False if name == "is_one" else getattr(changed, name) + 1)
+    assert stand_alike(supports, 3, loads, 0, 1) == (name == "point")
+    supports = rows()
+    supports[3 + slot].point = NOWHERE
     assert not stand_alike(supports, 3, loads, 0, 1)
 
 
-@pytest.mark.parametrize("column", range(at.LOAD_COLUMNS))
-def test_poses_under_other_loads_do_not_stand_alike(column):
-    loads = np.ones((2, at.LOAD_COLUMNS))
-    loads[1, column] += 0.5
-    assert not stand_alike(np.ones((2, at.SUPPORT_COLUMNS)), 1, loads, 0, 1)
+@pytest.mark.parametrize("name", Load.__slots__)
+def test_poses_under_other_loads_do_not_stand_alike(name):
+    loads = [Load(1.0, 1.0, 1.0), Load(1.0, 1.0, 1.0)]
+    supports = table(Support, 2)
+    assert stand_alike(supports, 1, loads, 0, 1)
+    setattr(loads[1], name, 1.5)
+    assert not stand_alike(supports, 1, loads, 0, 1)
 
 
 # --- nosings that pass --------------------------------------------------------------------------
 
+NO_PASSING = (-9.0, False, -9, -9, -9, -9.0)
 FLAT = [-0.25, 0.1, 0.1, 0.25, 0.1, 0.1]  # the centroid on the flat's line
 
 
 def passed(places, events=(), *, parts=(FLAT,), kinds=None, rows=20):
     ground, points = spikes(*(complex(x, 0.0) for x in places))
-    poses = table(at.POSE_COLUMNS, {at.POSE_S: 5.0}, {at.POSE_S: 7.0, at.POSE_X: 1.0})
-    made = np.full((20, at.PASSED_COLUMNS), -9.0)
-    told = table(at.EVENT_COLUMNS, *events)
-    count = nosings_passed(ground, body_table(list(parts), kinds), poses, told, np.array([0]),
-                           TOUCH, 0.35, made[:rows])  # fmt: skip
-    return points, count, made
+    poses = table(Pose, made(Pose, {"s": 5.0}, {"s": 7.0, "x": 1.0}))
+    found = table_of(Passed, [NO_PASSING] * rows)
+    passing = table(Passed, found)
+    count = nosings_passed(
+        scene(ground, body_table(list(parts), kinds)), poses,
+        table(EventRow, made(EventRow, *events)), numbers([0], int), TOUCH, 0.35, passing,
+    )  # fmt: skip
+    passing.flush()
+    return points, count, found
 
 
 def test_nosings_reached_and_left_in_a_drive_of_a_metre():
     """Along the flat they lie 0.25 m ahead of where they lie from the centroid."""
-    points, count, made = passed([-0.2, 0.2, 0.5, 0.9, 1.2])
+    points, count, found = passed([-0.2, 0.2, 0.5, 0.9, 1.2])
     assert count == 4  # that at half a metre lies under neither pose
     share = [0.05, 0.45, 0.65, 0.95]
-    np.testing.assert_allclose(made[:4, at.PASSED_SHARE], share, atol=ROUNDING)
-    np.testing.assert_allclose(made[:4, at.PASSED_S], [5.1, 5.9, 6.3, 6.9], atol=ROUNDING)
-    assert made[:4, at.PASSED_REACHED].tolist() == [0.0, 0.0, 1.0, 1.0]
-    assert made[:4, at.PASSED_POINT].tolist() == [points[k] for k in (0, 1, 3, 4)]
-    assert (made[4:] == -9.0).all()
+    np.testing.assert_allclose(found["share"][:4], share, atol=ROUNDING)
+    np.testing.assert_allclose(found["s"][:4], [5.1, 5.9, 6.3, 6.9], atol=ROUNDING)
+    assert found["reached"][:4].tolist() == [False, False, True, True]
+    assert found["point"][:4].tolist() == [points[k] for k in (0, 1, 3, 4)]
+    assert set(found[4:].tolist()) == {NO_PASSING}
 
 
 def test_passings_beyond_the_room_are_counted_and_left_out():
-    _, count, made = passed([-0.2, 0.2, 0.9, 1.2], rows=3)
+    _, count, found = passed([-0.2, 0.2, 0.9, 1.2], rows=3)
     assert count == 4
-    assert (made[3:] == -9.0).all()
+    assert NO_PASSING not in found.tolist()
 
 
 def test_a_belly_and_a_part_elsewhere_do_not_keep_the_next_part_from_passing():
     high = [-0.25, 0.4, 0.1, 0.25, 0.4, 0.1]
     kinds = [PartKind.BELLY, PartKind.TRACK, PartKind.TRACK]
-    _, count, made = passed([0.9], parts=(FLAT, high, FLAT), kinds=kinds)
+    _, count, found = passed([0.9], parts=(FLAT, high, FLAT), kinds=kinds)
     assert count == 1
-    assert made[0, at.PASSED_PART] == 2
+    assert found["part"][0] == 2
 
 
-@pytest.mark.parametrize("column", [at.EVENT_FEATURE, at.EVENT_OTHER])
+@pytest.mark.parametrize("name", ["feature", "other"])
 @pytest.mark.parametrize("s", [4.0, 5.0, 6.0, 7.0, 8.0])
-def test_an_event_of_the_nosing_between_the_poses_tells_of_it(s, column):
+def test_an_event_of_the_nosing_between_the_poses_tells_of_it(s, name):
     points, _, _ = passed([0.2, 0.9])
-    both = {at.EVENT_FEATURE: -1, at.EVENT_OTHER: -1, at.EVENT_S: s}
-    before = both | {at.EVENT_S: 3.0}
-    tells = both | {column: at.POINT * points[1] + at.PART * 3}
+    both = {"feature": -1, "other": -1, "s": s}
+    before = both | {"s": 3.0}
+    tells = both | {name: POINT * points[1] + PART * 3}
     for told in ([before, tells], [before, before, tells]):
         _, count, _ = passed([0.2, 0.9], told)
         assert count == (1 if 5.0 <= s <= 7.0 else 2)
 
 
-@pytest.mark.parametrize("column", [at.EVENT_FEATURE, at.EVENT_OTHER])
-def test_an_event_of_something_else_tells_nothing(column):
-    for feature in (at.POINT * 3 + 1, at.POINT * 3 + 2, at.POINT * 2, at.POINT * 4, 0, -1):
-        events = table(at.EVENT_COLUMNS, {at.EVENT_FEATURE: -1, at.EVENT_OTHER: -1} | {
-            column: feature})  # fmt: skip
-        assert not is_reported(events, 0, 1.0, 3)
-    events[0, column] = at.POINT * 3
-    assert is_reported(events, 0, 1.0, 3)
-    events[0, column] = 0  # the first point under the first part
-    assert is_reported(events, 0, 1.0, 0)
+def told(name, feature):
+    """Events of one row."""
+    return table(EventRow, made(EventRow, {"feature": -1, "other": -1, name: feature}))
+
+
+@pytest.mark.parametrize("name", ["feature", "other"])
+def test_an_event_of_something_else_tells_nothing(name):
+    for feature in (POINT * 3 + 1, POINT * 3 + 2, POINT * 2, POINT * 4, 0, -1):
+        assert not is_reported(told(name, feature), 0, 1.0, 3)
+    assert is_reported(told(name, POINT * 3), 0, 1.0, 3)
+    assert is_reported(told(name, 0), 0, 1.0, 0)  # the first point under the first part
 
 
 # --- what comes down at once --------------------------------------------------------------------
@@ -323,11 +363,9 @@ def speed(slope, *more, parts=None, lift=0.0, turned=0.0):
     parts = parts or [stadium(L, 0.3, C_N, R)[0], *more]
     rear = complex(*parts[0][:2])  # about which it is turned
     centre = (0.7 + 1j * (parts[0][2] + lift) - rear * np.exp(1j * turned)) * turn
-    end = {at.END_X: centre.real, at.END_Z: centre.imag, at.END_PHI: slope + turned}
-    rows = table(at.ROTATION_COLUMNS, {}, end | {at.RATE_BEFORE: RATE})
-    scratch = margin_tables(2)[1]
-    scratch[:] = math.nan
-    return impact_speed(ground, body_table(parts), rows, 1, scratch)
+    end = {"end.x": centre.real, "end.z": centre.imag, "end.inclination": slope + turned}
+    rows = table(RotationRow, made(RotationRow, {}, end | {"rate_before": RATE}))
+    return impact_speed(scene(ground, body_table(parts)), rows, 1)
 
 
 def tip(reach, gap, radius=0.05):

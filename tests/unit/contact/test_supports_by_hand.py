@@ -8,30 +8,14 @@ import pytest
 from contact_cases import flight, stadium
 from formulas import grousers, grousers_at_edges
 from kaidan.contact import Grousers, Supports, traverse, using_kernel
-from kaidan.contact.columns import (
-    FACE,
-    LOAD_COLUMNS,
-    LOAD_COULOMB,
-    LOAD_X,
-    LOAD_Z,
-    NOSING,
-    SUPPORT_BESIDE,
-    SUPPORT_COLUMNS,
-    SUPPORT_CURVATURE,
-    SUPPORT_IS_ONE,
-    SUPPORT_LIFT,
-    SUPPORT_NORMAL,
-    SUPPORT_PLACE,
-    SUPPORT_POINT,
-    SUPPORT_TREAD,
-    SUPPORT_X,
-    SUPPORT_Z,
-)
+from kaidan.contact.door import zeros
 from kaidan.contact.kernel import grousers as kernel
 from kaidan.contact.kernel.grip import belt_margins, standing_margins
 from kaidan.contact.kernel.supports import find_alike
+from kaidan.contact.layout import FACE, NOSING, NOWHERE, Friction, Load, Support
 from kaidan.mechanics import grousers_in_turn
 from kaidan.mechanics.grousers import standing_run
+from kernel_memory import numbers, table
 
 G = 9.8
 HALVED = 1e-5
@@ -98,32 +82,36 @@ def on_slope(*along, **other):
     Two rows of room are left.
     """
     slots = len(along) + 2
-    table = np.zeros((slots, SUPPORT_COLUMNS))
-    table[:, [SUPPORT_POINT, SUPPORT_TREAD, SUPPORT_LIFT]] = -1.0, math.nan, math.nan
-    table[:, SUPPORT_BESIDE] = math.inf
-    for k, u in enumerate(along):
-        table[k, SUPPORT_IS_ONE] = 1.0
-        table[k, SUPPORT_X] = u * math.cos(SLOPE) + HEIGHT * math.sin(SLOPE)
-        table[k, SUPPORT_Z] = u * math.sin(SLOPE) - HEIGHT * math.cos(SLOPE)
-        table[k, SUPPORT_NORMAL], table[k, SUPPORT_PLACE] = -SLOPE, NOSING
-        table[k, SUPPORT_POINT], table[k, SUPPORT_TREAD] = k, 0.0
-    for column, value in other.items():
-        table[: len(along), {"curvature": SUPPORT_CURVATURE, "place": SUPPORT_PLACE}[column]] = (
-            value
-        )
-    return table, slots
+    found = zeros(Support, slots)
+    found["point"], found["tread"], found["lift"] = NOWHERE, math.nan, math.nan
+    found["beside"] = math.inf
+    own = found[: len(along)]
+    u = np.array(along)
+    own["is_one"], own["point"], own["tread"] = True, range(len(along)), 0.0
+    own["x"] = u * math.cos(SLOPE) + HEIGHT * math.sin(SLOPE)
+    own["z"] = u * math.sin(SLOPE) - HEIGHT * math.cos(SLOPE)
+    own["normal"], own["place"] = -SLOPE, NOSING
+    for name, value in other.items():
+        own[name] = value
+    return found, slots
 
 
 def loads(count=1):
-    table = np.zeros((count, LOAD_COLUMNS))
-    table[:, [LOAD_X, LOAD_Z, LOAD_COULOMB]] = 0.0, G, SLOPE
-    return table
+    return [Load(0.0, G, SLOPE) for _ in range(count)]
 
 
-def standing(table, slots, phi, one, count=1, like=(0,)):
-    found = np.empty(len(table))
-    standing_margins(table, slots, loads(count), np.array(like), phi, phi, phi, *one, 1.0, found)
+def standing(supports, slots, phi, one, count=1, like=(0,)):
+    found = np.empty(len(supports))
+    of, friction = table(Support, supports), Friction(phi, phi, phi)
+    standing_margins(of, slots, loads(count), like, friction, one, 1.0, found)
     return found.reshape(-1, slots)
+
+
+def held(supports, slots, friction, height):
+    found = [math.nan]
+    of = table(Support, supports)
+    belt_margins(of, slots, loads(), [0], Friction(*friction), height, found)
+    return found[0]
 
 
 def lever(here, there):
@@ -140,10 +128,10 @@ def test_two_nosings_hold_by_the_share_of_the_one_on_which_a_grouser_stands():
 
 
 def test_no_grouser_stands_where_there_is_no_tread_or_no_grouser():
-    table, slots = on_slope(-0.2, 0.3)
-    assert (standing(table, slots, 0.5, SOFT._replace(height=0.0))[0, :2] == -math.inf).all()
-    table[1, SUPPORT_POINT] = -1.0
-    found = standing(table, slots, 0.5, SOFT)
+    supports, slots = on_slope(-0.2, 0.3)
+    assert (standing(supports, slots, 0.5, SOFT._replace(height=0.0))[0, :2] == -math.inf).all()
+    supports["point"][1] = NOWHERE
+    found = standing(supports, slots, 0.5, SOFT)
     assert found[0, 0] > -math.inf
     assert found[0, 1] == -math.inf
 
@@ -175,30 +163,26 @@ def test_of_rigid_grousers_the_mean_over_the_phases_bounds(more, many):
 
 
 def test_poses_that_stand_alike_have_the_margins_of_the_first():
-    table, slots = on_slope(-0.2, 0.3)
-    three = np.vstack([table] * 3)
-    three[slots, SUPPORT_X] += 1e-3
-    three[2 * slots, SUPPORT_POINT] = 7.0  # which nosing it is plays no part
-    like, scratch = np.empty((2, 3), dtype=np.int64)
-    find_alike(three, slots, loads(3), scratch, like)
+    supports, slots = on_slope(-0.2, 0.3)
+    three = np.concatenate([supports] * 3)
+    three["x"][slots] += 1e-3
+    three["point"][2 * slots] = 7  # which nosing it is plays no part
+    like = np.empty(3, dtype=np.int64)
+    find_alike(table(Support, three), slots, loads(3), numbers(like, int))
     assert like.tolist() == [0, 1, 0]
     found = standing(three, slots, 0.5, SOFT, 3, like)
     assert found[2].tolist() == found[0].tolist() != found[1].tolist()
 
 
 def test_belts_hold_by_friction_less_slope_and_rigid_grousers_by_less_at_a_face():
-    table, slots = on_slope(-0.2, 0.3)
-    found = np.empty(1)
-    belt_margins(table, slots, loads(), np.array([0]), 0.7, 0.2, 0.2, 0.0, found)
-    assert found[0] == pytest.approx(0.7 - SLOPE, abs=HALVED)
-    table, slots = on_slope(-0.2, 0.3, place=FACE, curvature=10.0)
+    stands = on_slope(-0.2, 0.3)
+    assert held(*stands, (0.7, 0.2, 0.2), 0.0) == pytest.approx(0.7 - SLOPE, abs=HALVED)
+    stands = on_slope(-0.2, 0.3, place=FACE, curvature=10.0)
     for height in (0.0, 0.01):
         left = math.atan(math.tan(0.7) / (1.0 + 10.0 * height) ** 2)
-        belt_margins(table, slots, loads(), np.array([0]), 0.1, 0.1, 0.7, height, found)
-        assert found[0] == pytest.approx(left - SLOPE, abs=HALVED)
+        assert held(*stands, (0.1, 0.1, 0.7), height) == pytest.approx(left - SLOPE, abs=HALVED)
         # one friction everywhere: no more than smooth belts hold
-        belt_margins(table, slots, loads(), np.array([0]), 0.7, 0.7, 0.7, height, found)
-        assert found[0] == pytest.approx(left - SLOPE, abs=HALVED)
+        assert held(*stands, (0.7, 0.7, 0.7), height) == pytest.approx(left - SLOPE, abs=HALVED)
 
 
 ROBOT = stadium(0.470, 0.196, 0.071, 0.06)

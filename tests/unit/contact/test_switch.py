@@ -6,7 +6,6 @@ import subprocess
 import sys
 from types import SimpleNamespace
 
-import numpy as np
 import pytest
 
 from kaidan import contact
@@ -14,12 +13,6 @@ from kaidan.contact import switch
 from kaidan.errors import InputError
 
 FLAT, ROBOT = [[0, 0], [4, 0]], [[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]]
-
-
-def _zones(end):
-    """A zone, and an end of zones that may lie beyond it."""
-    return np.zeros((1, 4)), np.array([end])
-
 
 needs_native = pytest.mark.skipif(bool(contact.without_native()), reason="built pure")
 
@@ -114,32 +107,3 @@ def test_machine_code_of_another_source_is_not_used(monkeypatch):
     assert contact.without_native() == (
         "the native kernel was built from another source: install kaidan again"
     )
-
-
-@needs_native
-@pytest.mark.parametrize("entry", ["drive", "pose_margins", "settle"])
-def test_tables_of_the_wrong_shape_are_refused(entry):
-    native = switch.kernel()
-    ground, body = contact.ground_table(FLAT), contact.body_table(ROBOT)
-    arguments = {
-        "drive": (ground[:, :5].copy(), body, *(0.0,) * 8, True, *(body,) * 3),
-        "pose_margins": (ground, ground, ground, 1, 0.0, 9.8, 1e-9, ground, ground),
-        "settle": (body, body, 0.0, 0.0, 0.0),
-    }[entry]
-    with pytest.raises(ValueError, match=r"a table of \d+ columns"):
-        getattr(native, entry)(*arguments)
-
-
-@needs_native
-@pytest.mark.parametrize(
-    ("entry", "given"),
-    [
-        ("row_before", (np.zeros((3, 17)), 50, 1.0)),
-        ("gap", (np.zeros((3, 6)), np.ones((1, 14)), -64, 0.0, 0.0, 1.0, 0.0)),
-        ("name_phases", (np.zeros((3, 17)), *_zones(2), np.zeros((1, 4)), np.zeros(3, np.int64))),
-    ],
-)
-def test_a_row_beyond_its_table_is_an_error(entry, given):
-    """A count of rows, a feature, and the end of a slice: none reads past a table."""
-    with pytest.raises(IndexError, match=f"^{entry}: a row that its table does not have$"):
-        getattr(switch.kernel(), entry)(*given)

@@ -19,6 +19,8 @@ import pytest
 from kaidan.contact import RotationOutcome, body_table, ground_table, mirror
 from kaidan.contact.kernel.gaps import contact_point
 from kaidan.contact.kernel.toppling import fall, rates, same_place
+from kaidan.contact.layout import Release
+from kernel_memory import posed, scene
 
 HALF, ABOVE, RADIUS = 0.3, 0.1, 0.05
 GYRATION, GRAVITY = 0.15, 9.7
@@ -48,18 +50,15 @@ def fallen_over(line, beyond, phi, kappa, mirrored):
         line, parts = mirror(line, parts)
         sign = -1.0
     ground, body = ground_table(line), body_table(parts)
-    edge = int(
-        np.flatnonzero(np.hypot(ground[:, 0] - sign * A.real, ground[:, 1] - A.imag) == 0)[0]
-    )
+    edge = int(np.flatnonzero(np.hypot(ground["x"] - sign * A.real, ground["z"] - A.imag) == 0)[0])
     place = A + (beyond + 1j * ABOVE) * cmath.exp(1j * phi)
-    outcome, rear, front, x, z, end, before, after, turned, _ = fall(
-        ground, body, 64 * edge, sign * place.real, place.imag, sign * phi, -sign, sign * kappa,
-        GYRATION, GRAVITY, 0,
-    )  # fmt: skip
+    release = Release(sign * place.real, place.imag, sign * phi, -sign, sign * kappa)
+    found = fall(scene(ground, body), 64 * edge, release, GYRATION, GRAVITY)
+    outcome, rear, front, x, z, end, before, after, turned = found
     points = []
     for feature in (rear, front)[:: int(sign)]:
         if feature >= 0:
-            p_x, p_z = contact_point(ground, body, feature, x, z, math.cos(end), math.sin(end))
+            p_x, p_z = contact_point(scene(ground, body), feature, posed(x, z, end))
             points.append(complex(sign * p_x, p_z))
     return outcome, points, complex(sign * x, z), sign * end, before, after, turned
 
@@ -194,9 +193,9 @@ def test_contacts_are_one_where_their_points_are(off):
     """An edge, the end that stands on it, and another edge 3 um farther or lower."""
     ground = ground_table([(-2, 0.5), (1, 0.5), (1 + off[0], 0.5 + off[1]), (5, -1)])
     body = body_table(PARTS)
-    pose = (1 + HALF, 0.5 + ABOVE, 0.0)  # its rear end on the edge
-    assert same_place(ground, body, 64, 1, *pose)
-    assert not same_place(ground, body, 64, 128, *pose)
+    pose = posed(1 + HALF, 0.5 + ABOVE, 0.0)  # its rear end on the edge
+    assert same_place(scene(ground, body), 64, 1, pose)
+    assert not same_place(scene(ground, body), 64, 128, pose)
 
 
 def test_rates_of_an_impact():
@@ -207,9 +206,9 @@ def test_rates_of_an_impact():
     square = GYRATION**2 + abs(complex(x, z)) ** 2
     for energy in (0.5, 1e-3, 0.0, -0.1):
         before = math.sqrt(2.0 * max(energy, 0.0) / square)
-        found = rates(ground, body, point, -1, x, z, 0.0, GYRATION**2, energy)
+        found = rates(scene(ground, body), point, -1, posed(x, z, 0.0), GYRATION**2, energy)
         assert found == (near(before), 0.0, 0.0)
-        found = rates(ground, body, point, 128, x, z, 0.0, GYRATION**2, energy)
+        found = rates(scene(ground, body), point, 128, posed(x, z, 0.0), GYRATION**2, energy)
         _, after, left = speed_and_impact(
             max(energy, 0.0), complex(x, z), complex(x - 0.3, z + 0.4)
         )
@@ -227,10 +226,14 @@ def test_it_rolls_on_one_end_until_the_centroid_hangs_below(phi, spacing):
     body = body_table([[0.0, 0.2, 0.5, 0.1, 0.6, 0.1]])
     centre = 0.5j  # at x = 0
     start = centre + 5e-6j * (spacing < 1.0) - 0.2j * cmath.exp(1j * phi)
-    k = int(np.flatnonzero(ground[:, 0] <= 0.0)[-1])
+    k = int(np.flatnonzero(ground["x"] <= 0.0)[-1])
     sense = -math.copysign(1.0, phi)
-    outcome, _, _, x, z, end, before, after, turned, _ = fall(
-        ground, body, 64 * k + 1, start.real, start.imag, phi, sense, 0.0, GYRATION, GRAVITY, 0
+    outcome, _, _, x, z, end, before, after, turned = fall(
+        scene(ground, body),
+        64 * k + 1,
+        Release(start.real, start.imag, phi, sense, 0.0),
+        GYRATION,
+        GRAVITY,
     )
     assert outcome == RotationOutcome.ROCKING
     about = [pytest.approx(each, abs=1e-4) for each in (0.5 * phi, 0.3, 0.0, abs(phi))]

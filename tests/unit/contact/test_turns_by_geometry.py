@@ -13,8 +13,9 @@ from amounts import few_of
 from contact_cases import random_robot, steps
 from contact_geometry import room
 from kaidan.contact import body_table, ground_table
-from kaidan.contact import columns as at
+from kaidan.contact import layout as at
 from kaidan.contact.kernel.first_closing import first_closing
+from kernel_memory import posed, scene
 
 OPEN = -1e-9  # m: gaps are closed to 1e-12, coordinates of some metres are rounded
 TRIED = 300  # poses tried on each terrain
@@ -29,15 +30,15 @@ def stands(rng, ground, parts):
         end = int(rng.integers(2))
         x, z, r = parts[which][3 * end : 3 * end + 3]
         k = int(rng.integers(len(ground) - 1))
-        u = complex(*ground[k, 2:4])
-        foot = complex(*ground[k, :2])
+        u = complex(ground["u_x"][k], ground["u_z"][k])
+        foot = complex(ground["x"][k], ground["z"][k])
         if rng.random() < 0.5:
             # of the long ones before and behind all steps what is near these
-            share = rng.uniform(0.0, min(ground[k, at.LENGTH], 2.0))
-            foot += u * (share if k > 0 else ground[k, at.LENGTH] - share)
+            share = rng.uniform(0.0, min(ground["length"][k], 2.0))
+            foot += u * (share if k > 0 else ground["length"][k] - share)
             centre, roll = foot + 1j * r * u, -r * u
             code = at.POINT * k + at.PART * which + at.DISC_1 + end
-        elif k > 0 and ground[k, at.CONVEX] == 1.0:
+        elif k > 0 and ground["convex"][k]:
             centre, roll = foot + r * cmath.exp(1j * rng.uniform(0.3, 2.8)), 0.0
             code = at.POINT * k + at.PART * which
         else:
@@ -77,13 +78,12 @@ def test_nothing_sinks_in_before_and_something_does_behind(seed, terrain):
             sense, end = rng.choice([-1.0, 1.0]), rng.uniform(0.05, math.pi / 2)
             if roll != 0.0:
                 k = code >> at.POINT_BITS
-                behind = abs(foot - complex(*ground[k, :2]))
-                left = behind if sense > 0.0 else ground[k, at.LENGTH] - behind
+                behind = abs(foot - complex(ground["x"][k], ground["z"][k]))
+                left = behind if sense > 0.0 else ground["length"][k] - behind
                 end = min(end, left / abs(roll))
-            tables = memoryview(ground), memoryview(body)
-            turn = math.cos(phi_i), math.sin(phi_i)
-            given = *tables, code, c_i.real, c_i.imag, *turn, sense, end
-            closed, angle, _ = first_closing(*given, int(i) % len(ground))
+            tables = scene(ground, body, int(i) % len(ground))
+            start = posed(c_i.real, c_i.imag, phi_i)
+            angle, closed = first_closing(tables, code, start, sense, end)
             looks = np.append(sense * angle * LOOKS, sense * (angle + 1e-3))
             gaps = room(ground, parts, *turned(every[i], looks))
             assert gaps[:-1].min() > OPEN, (every[i], sense, angle)

@@ -3,13 +3,20 @@
 import numpy as np
 import pytest
 
-from kaidan.contact import columns as at
-from kaidan.contact.kernel.way_order import is_before, order_of, put_in_order, rounded
+from kaidan.contact.door import zeros
+from kaidan.contact.kernel import way_order
+from kaidan.contact.kernel.way_order import rounded
+from kaidan.contact.layout import Way
+from kernel_memory import called
+
+is_before, order_of, put_in_order = (
+    called(each) for each in (way_order.is_before, way_order.order_of, way_order.put_in_order)
+)
 
 
 def ways_of(*rows):
-    table = np.zeros((len(rows), at.WAY_COLUMNS))
-    table[:, [at.WAY_GROUP, at.WAY_PROMISE, at.WAY_BEGIN, at.WAY_END]] = rows
+    table = zeros(Way, len(rows))
+    table["group"], table["promise"], table["begin"], table["end"] = np.array(rows).T
     return table
 
 
@@ -24,16 +31,16 @@ def test_group_comes_before_promise_and_promise_before_the_ends(column):
     for rest in (-5.0, 5.0):
         more[column + 1 :] = [rest] * (3 - column)
         ways = ways_of(least, more)
-        assert order_of(ways, 0, 1) == -1
-        assert order_of(ways, 1, 0) == 1
+        assert order_of(ways[0], ways[1]) == -1
+        assert order_of(ways[1], ways[0]) == 1
         assert is_before(ways, 0, 1, False)
         assert not is_before(ways, 1, 0, False)
-    assert order_of(ways, 1, 1) == 0
+    assert order_of(ways[1], ways[1]) == 0
 
 
 def test_ways_alike_to_the_ninth_digit_come_as_they_stand():
     ways = ways_of((0, 2.0, 1.0, 3.0), (0, 2.0 + 1e-10, 1.0 - 1e-10, 3.0 + 1e-10))
-    assert order_of(ways, 0, 1) == order_of(ways, 1, 0) == 0
+    assert order_of(ways[0], ways[1]) == order_of(ways[1], ways[0]) == 0
     assert is_before(ways, 0, 1, False)
     assert not is_before(ways, 1, 0, False)
     assert not is_before(ways, 0, 0, False)
@@ -54,15 +61,15 @@ def test_figures_count_in_billionths():
 @pytest.mark.parametrize("by_promise", [False, True])
 def test_any_number_of_ways_in_order(count, by_promise):
     rng = np.random.default_rng(count)
-    ways = ways_of(*rng.integers(0, 3, (count, 4))) if count else np.zeros((0, at.WAY_COLUMNS))
+    ways = ways_of(*rng.integers(0, 3, (count, 4))) if count else zeros(Way, 0)
     order = np.full(count + 2, -7)
     order[:count] = rng.permutation(count)
     put_in_order(ways, order, count, by_promise)
 
     def key(k):
-        promise = ways[k, at.WAY_PROMISE]
-        rest = [ways[k, column] for column in (at.WAY_GROUP, at.WAY_PROMISE, at.WAY_BEGIN)]
-        return (-promise if by_promise else 0.0, *rest, ways[k, at.WAY_END], k)
+        promise = ways["promise"][k]
+        rest = [ways[column][k] for column in ("group", "promise", "begin")]
+        return (-promise if by_promise else 0.0, *rest, ways["end"][k], k)
 
     assert order[:count].tolist() == sorted(range(count), key=key)
     assert order[count:].tolist() == [-7, -7]

@@ -5,29 +5,24 @@ from __future__ import annotations
 import math
 
 from kaidan.contact.codes import Advance
-from kaidan.contact.columns import (
-    DISC,
-    DISC_1,
-    DISC_X,
-    DISC_Z,
-    KIND_MASK,
-    NO_FEATURE,
-    PART_BITS,
-    PART_MASK,
-    POINT_BITS,
-    R1,
-    R2,
-    U_X,
-    U_Z,
-    VERTEX,
-)
-from kaidan.contact.entries import entry
 from kaidan.contact.kernel.continuation import ARM, stepped, tilt
 from kaidan.contact.kernel.event_location import PENETRATED, closing_time, quantity
-from kaidan.contact.kernel.gaps import beyond_segment, contact_point, relabelled
+from kaidan.contact.kernel.gaps import beyond_segment, contact_point, disc_of, part_of, relabelled
 from kaidan.contact.kernel.nearest_feature import nearest
 from kaidan.contact.kernel.settling import lever
-from kaidan.contact.tables import BodyTable, GroundTable, Held
+from kaidan.contact.kernel.trigonometry import placed
+from kaidan.contact.layout import (
+    KIND_MASK,
+    NO_FEATURE,
+    POINT_BITS,
+    VERTEX,
+    At,
+    Held,
+    Part,
+    Pull,
+    Scene,
+)
+from kaidan.contact.memory import Table
 
 #: Features that close within this of one another [m] close together.
 TOGETHER = 5e-10
@@ -42,127 +37,102 @@ SHORTER = 0.4
 TRIES = 8
 
 
-def shallow(body: BodyTable, feature: int, distance: float) -> bool:
+def shallow(scene: Scene, feature: int, distance: float) -> bool:
     """Whether a penetration is shallow enough to tell which feature is hit.
 
     A disc that has gone in by less than half its radius still has its centre outside; a thin part
     that has gone in farther may be nearer to a face it never met.
     """
-    part = (feature >> PART_BITS) & PART_MASK
-    return bool(distance > -0.5 * min(body[part, R1], body[part, R2]))
+    part = part_of(scene, feature)
+    return distance > -0.5 * min(part.one.r, part.two.r)
 
 
-def lever_rate(
-    ground: GroundTable,
-    body: BodyTable,
-    feature: int,
-    x: float,
-    z: float,
-    phi: float,
-    t_x: float,
-    t_z: float,
-    t_w: float,
-) -> float:
+def lever_rate(scene: Scene, feature: int, held: Held, at: At) -> float:
     """Change of a contact's Delta with arclength (tilt of gravity held)."""
-    kind = feature & KIND_MASK
-    if kind == VERTEX:
-        return -t_x
-    part = (feature >> PART_BITS) & PART_MASK
-    k = feature >> POINT_BITS
-    j = DISC * (kind - DISC_1)
-    o_x = math.cos(phi) * body[part, j + DISC_X] - math.sin(phi) * body[part, j + DISC_Z]
-    o_z = math.sin(phi) * body[part, j + DISC_X] + math.cos(phi) * body[part, j + DISC_Z]
-    turn = t_w / ARM
-    along = (t_x - turn * o_z) * ground[k, U_X] + (t_z + turn * o_x) * ground[k, U_Z]
-    return float(along * ground[k, U_X] - t_x)
+    if feature & KIND_MASK == VERTEX:
+        return -held.t_x
+    disc = disc_of(scene, feature)
+    point = scene.ground[feature >> POINT_BITS]
+    o_x = at.c * disc.x - at.s * disc.z
+    o_z = at.s * disc.x + at.c * disc.z
+    turn = held.t_w / ARM
+    along = (held.t_x - turn * o_z) * point.u_x + (held.t_z + turn * o_x) * point.u_z
+    return along * point.u_x - held.t_x
 
 
 def may_graze(
-    ground: GroundTable, body: BodyTable, one: int, other: int, sign: float,
-    kappa: float, kappa1: float,
-    x0: float, z0: float, phi0: float, t_x: float, t_z: float, t_w: float,
-    x1: float, z1: float, phi1: float, u_x: float, u_z: float, u_w: float, ds: float,
-) -> bool:  # fmt: skip
+    scene: Scene, held: Held, there: Held, ahead: bool, kappa: float, kappa1: float, ds: float
+) -> bool:
     """Whether the centroid may pass a contact and come back within one step.
 
-    ``sign`` +1 for the front contact, -1 for the rear one, ``one`` and ``other`` its names at both
-    ends, ``kappa`` and ``kappa1`` the tilt of effective gravity there: where the course bends back,
-    the tilt at its end hides what was passed. The tangents at both ends meet below the true course
-    if that is convex.
+    Parameters
+    ----------
+    held, there
+        Pose at both ends of the step.
+    ahead
+        Whether it is the front contact, or the rear one.
+    kappa, kappa1
+        Tilt of effective gravity there: where the course bends back, the tilt at its end hides what
+        was passed. The tangents at both ends meet below the true course if that is convex.
     """
-    v1 = sign * lever(ground, body, other, x1, z1, math.cos(phi1), math.sin(phi1), kappa)
+    sign = 1.0 if ahead else -1.0
+    one = held.front if ahead else held.rear
+    other = there.front if ahead else there.rear
+    at1 = placed(there.x, there.z, there.phi)
+    v1 = sign * lever(scene, other, at1, kappa)
     if v1 > 3.0 * ds:
         return False
-    if (
-        v1
-        <= 0.0
-        < sign * lever(ground, body, other, x1, z1, math.cos(phi1), math.sin(phi1), kappa1)
-    ):
+    if v1 <= 0.0 and sign * lever(scene, other, at1, kappa1) > 0.0:
         return True
-    rate1 = sign * lever_rate(ground, body, other, x1, z1, phi1, u_x, u_z, u_w)
-    rate0 = sign * lever_rate(ground, body, one, x0, z0, phi0, t_x, t_z, t_w)
+    at0 = placed(held.x, held.z, held.phi)
+    rate1 = sign * lever_rate(scene, other, there, at1)
+    rate0 = sign * lever_rate(scene, one, held, at0)
     if rate0 >= 0.0 or rate1 <= 0.0:
         return False
-    v0 = sign * lever(ground, body, one, x0, z0, math.cos(phi0), math.sin(phi0), kappa)
+    v0 = sign * lever(scene, one, at0, kappa)
     meet = (v1 - v0 - rate1 * ds) / (rate0 - rate1)
     return v0 + rate0 * meet <= 0.0
 
 
-@entry
-def thinnest_radius(body: BodyTable) -> float:
+def thinnest_radius(body: Table[Part]) -> float:
     """Smallest end radius of all parts [m]."""
     thinnest = math.inf
-    for part in range(body.shape[0]):
-        thinnest = min(thinnest, body[part, R1], body[part, R2])
+    for k in range(len(body)):
+        thinnest = min(thinnest, body[k].one.r, body[k].two.r)
     return thinnest
 
 
-def careful(
-    ground: GroundTable,
-    body: BodyTable,
-    rear: int,
-    front: int,
-    x: float,
-    z: float,
-    phi: float,
-    ds: float,
-    thinnest: float,
-    hint: int,
-) -> float:
+def careful(scene: Scene, held: Held, ds: float, thinnest: float) -> float:
     """Choose a step that jumps neither round an arc nor through a spike.
 
     The line of poses bends with the arcs that carry: a step is at most a share of their radius.
     Other thin parts move no farther than they are clear.
     """
-    one = (rear >> PART_BITS) & PART_MASK
-    two = (front >> PART_BITS) & PART_MASK
-    carrying = min(body[one, R1], body[one, R2], body[two, R1], body[two, R2])
+    one = part_of(scene, held.rear)
+    two = part_of(scene, held.front)
+    carrying = min(one.one.r, one.two.r, two.one.r, two.two.r)
     ds = min(ds, OF_RADIUS * carrying)
     if thinnest >= ds:
         return ds
-    _, clear, _ = nearest(
-        ground, body, x, z, math.cos(phi), math.sin(phi), rear, front, 2.0 * ds, hint
-    )
+    at = placed(held.x, held.z, held.phi)
+    _, clear = nearest(scene, at, held.rear, held.front, 2.0 * ds)
     return min(ds, max(0.4 * clear, thinnest, 0.1 * ds))
 
 
-def runs_past(
-    ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
-) -> bool:
+def runs_past(scene: Scene, feature: int, at: At) -> bool:
     """Whether a disc's foot has run past the end of its segment, where the ground turns up.
 
     A vertex lies at the begin of its own.
     """
     if feature & KIND_MASK == VERTEX:
         return False
-    p_x, p_z = contact_point(ground, body, feature, x, z, c, s)
-    return beyond_segment(ground, feature >> POINT_BITS, p_x, p_z) > PAST
+    p_x, p_z = contact_point(scene, feature, at)
+    return beyond_segment(scene.ground, feature >> POINT_BITS, p_x, p_z) > PAST
 
 
 def clear_step(
-    ground: GroundTable, body: BodyTable, at: Held, ds: float, a: float, g: float, kappa_g: float,
-    hint: int,
-) -> tuple[bool, Held, int, float, float, float, int, float]:  # fmt: skip
+    scene: Scene, held: Held, ds: float, pull: Pull
+) -> tuple[bool, Held, int, float, float, float, float]:
     """Shorten a step until the corrector finds its end and nothing may have happened on the way.
 
     Returns
@@ -174,51 +144,40 @@ def clear_step(
         The nearest there.
     behind, ahead
         How far the contacts lie from effective gravity's line there [m].
-    hint, ds
+    ds
     """
-    x, z, phi, t_x, t_z, t_w, rear, front = at
-    kappa0 = tilt(a, g, kappa_g, t_x, t_z)
+    kappa0 = tilt(pull, held.t_x, held.t_z)
     for _ in range(60):
-        good, x1, z1, phi1, c, s, u_x, u_z, u_w, r1, f1 = stepped(
-            ground, body, rear, front, x, z, phi, t_x, t_z, t_w, ds
-        )
-        past = False
+        good, there, at = stepped(scene, held, ds)
         if good and ds > CORNER:
-            past = runs_past(ground, body, r1, x1, z1, c, s)
-            past = past or runs_past(ground, body, f1, x1, z1, c, s)
-        if good and not past:
-            third, distance, hint = nearest(ground, body, x1, z1, c, s, r1, f1, 0.0, hint)
-            if third < 0 or ds < 1e-8 or shallow(body, third, distance):
-                kappa = tilt(a, g, kappa_g, u_x, u_z)
-                behind = -lever(ground, body, r1, x1, z1, c, s, kappa)
-                ahead = lever(ground, body, f1, x1, z1, c, s, kappa)
+            good = not (runs_past(scene, there.rear, at) or runs_past(scene, there.front, at))
+        if good:
+            third, distance = nearest(scene, at, there.rear, there.front, 0.0)
+            if third < 0 or ds < 1e-8 or shallow(scene, third, distance):
+                kappa = tilt(pull, there.t_x, there.t_z)
+                behind = -lever(scene, there.rear, at, kappa)
+                ahead = lever(scene, there.front, at, kappa)
                 behind0 = behind
                 ahead0 = ahead
                 if kappa0 != kappa:
-                    behind0 = -lever(ground, body, r1, x1, z1, c, s, kappa0)
-                    ahead0 = lever(ground, body, f1, x1, z1, c, s, kappa0)
+                    behind0 = -lever(scene, there.rear, at, kappa0)
+                    ahead0 = lever(scene, there.front, at, kappa0)
+                reach = 3.0 * ds
                 if ds < 2e-5 or not (
                     (
-                        min(ahead, ahead0) <= 3.0 * ds
-                        and may_graze(
-                            ground, body, front, f1, 1.0, kappa0, kappa,
-                            x, z, phi, t_x, t_z, t_w, x1, z1, phi1, u_x, u_z, u_w, ds,
-                        )
+                        min(ahead, ahead0) <= reach
+                        and may_graze(scene, held, there, True, kappa0, kappa, ds)
                     )
                     or (
-                        min(behind, behind0) <= 3.0 * ds
-                        and may_graze(
-                            ground, body, rear, r1, -1.0, kappa0, kappa,
-                            x, z, phi, t_x, t_z, t_w, x1, z1, phi1, u_x, u_z, u_w, ds,
-                        )
+                        min(behind, behind0) <= reach
+                        and may_graze(scene, held, there, False, kappa0, kappa, ds)
                     )
-                ):  # fmt: skip
-                    there = (x1, z1, phi1, u_x, u_z, u_w, r1, f1)
-                    return True, there, third, distance, behind, ahead, hint, ds
+                ):
+                    return True, there, third, distance, behind, ahead, ds
         ds *= 0.4
         if ds < 1e-9:
             break
-    return False, at, NO_FEATURE, 0.0, 0.0, 0.0, hint, ds
+    return False, held, NO_FEATURE, 0.0, 0.0, 0.0, ds
 
 
 def happened(third: int, distance: float, deep: float, behind: float, ahead: float) -> int:
@@ -232,70 +191,49 @@ def happened(third: int, distance: float, deep: float, behind: float, ahead: flo
     return Advance.NOTHING
 
 
-def named(ground: GroundTable, body: BodyTable, what: int, at: Held) -> int:
+def named(scene: Scene, what: int, held: Held) -> int:
     """Return what has happened; a feature by the name that holds at a pose."""
-    if what < 0:
-        return what
-    return relabelled(ground, body, what, at[0], at[1], math.cos(at[2]), math.sin(at[2]))
+    return what if what < 0 else relabelled(scene, what, placed(held.x, held.z, held.phi))
 
 
-def cut_at_event(
-    ground: GroundTable, body: BodyTable, at: Held, ds: float, a: float, g: float, kappa_g: float,
-    hint: int,
-) -> tuple[int, Held, int, float]:  # fmt: skip
+def cut_at_event(scene: Scene, held: Held, ds: float, pull: Pull) -> tuple[int, Held, float]:
     """A step, cut short at the first event: as `advance`, which says what is returned."""
-    x, z, phi, t_x, t_z, t_w, rear, front = at
-    good, there, third, distance, behind, ahead, hint, ds = clear_step(
-        ground, body, at, ds, a, g, kappa_g, hint
-    )  # fmt: skip
+    good, there, third, distance, behind, ahead, ds = clear_step(scene, held, ds, pull)
     if not good:
-        return Advance.NOT_CONVERGED, at, hint, ds
+        return Advance.NOT_CONVERGED, held, ds
+    at0 = placed(held.x, held.z, held.phi)
+    at = placed(there.x, there.z, there.phi)
     what: int = Advance.NOTHING
     deep = PENETRATED
     for _ in range(24):
-        x1, z1, phi1, u_x, u_z, u_w, r1, f1 = there
         new = happened(third, distance, deep, behind, ahead)
         if new == Advance.NOTHING or new == what:
-            return named(ground, body, what, there), there, hint, ds
+            return named(scene, what, there), there, ds
         what = new
         deep = TOGETHER
-        value0 = quantity(ground, body, what, rear, front, x, z, phi, tilt(a, g, kappa_g, t_x, t_z))
-        value1 = quantity(ground, body, what, r1, f1, x1, z1, phi1, tilt(a, g, kappa_g, u_x, u_z))
+        value0 = quantity(scene, what, held, at0, tilt(pull, held.t_x, held.t_z))
+        value1 = quantity(scene, what, there, at, tilt(pull, there.t_x, there.t_z))
         if value0 <= 0.0:
-            return named(ground, body, what, at), at, hint, 0.0
-        found, ds = closing_time(
-            ground, body, what, rear, front, x, z, phi, t_x, t_z, t_w, ds, value0, value1,
-            a, g, kappa_g,
-        )  # fmt: skip
+            return named(scene, what, held), held, 0.0
+        found, ds = closing_time(scene, what, held, ds, value0, value1, pull)
         if found == 2:
             what = Advance.NOTHING
             deep = PENETRATED
         if found == 0 or ds <= 0.0:
             break
-        good, x1, z1, phi1, c, s, u_x, u_z, u_w, r1, f1 = stepped(
-            ground, body, rear, front, x, z, phi, t_x, t_z, t_w, ds
-        )
+        good, there, at = stepped(scene, held, ds)
         if not good:
             break
-        there = (x1, z1, phi1, u_x, u_z, u_w, r1, f1)
-        kappa = tilt(a, g, kappa_g, u_x, u_z)
-        behind = -lever(ground, body, r1, x1, z1, c, s, kappa)
-        ahead = lever(ground, body, f1, x1, z1, c, s, kappa)
-        third, distance, hint = nearest(ground, body, x1, z1, c, s, r1, f1, 0.0, hint)
-    return Advance.NOT_CONVERGED, at, hint, ds
+        kappa = tilt(pull, there.t_x, there.t_z)
+        behind = -lever(scene, there.rear, at, kappa)
+        ahead = lever(scene, there.front, at, kappa)
+        third, distance = nearest(scene, at, there.rear, there.front, 0.0)
+    return Advance.NOT_CONVERGED, held, ds
 
 
 def advance(
-    ground: GroundTable,
-    body: BodyTable,
-    at: Held,
-    ds: float,
-    thinnest: float,
-    a: float,
-    g: float,
-    kappa_g: float,
-    hint: int,
-) -> tuple[int, Held, int, float]:
+    scene: Scene, held: Held, ds: float, thinnest: float, pull: Pull
+) -> tuple[int, Held, float]:
     """One step along the line of poses, cut short at the first event.
 
     Returns
@@ -304,15 +242,14 @@ def advance(
         An `Advance`, or the feature that has closed.
     pose
         Reached, with its tangent and contacts.
-    hint, ds
-        For the scan; the step actually taken [m].
+    ds
+        The step actually taken [m].
     """
-    x, z, phi, _, _, _, rear, front = at
     if OF_RADIUS * thinnest < ds:
-        ds = careful(ground, body, rear, front, x, z, phi, ds, thinnest, hint)
+        ds = careful(scene, held, ds, thinnest)
     for _ in range(TRIES):
-        what, there, hint, taken = cut_at_event(ground, body, at, ds, a, g, kappa_g, hint)
+        what, there, taken = cut_at_event(scene, held, ds, pull)
         if what != Advance.NOT_CONVERGED:
-            return what, there, hint, taken
+            return what, there, taken
         ds *= SHORTER
-    return Advance.NOT_CONVERGED, at, hint, ds
+    return Advance.NOT_CONVERGED, held, ds

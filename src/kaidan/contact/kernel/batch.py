@@ -4,192 +4,106 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.columns import (
-    BACK,
-    BELLY_TOUCHES,
-    END_PHI,
-    ENERGY,
-    FRICTION,
-    FRONT,
-    JOB_ACCELERATION,
-    JOB_END,
-    JOB_GYRATION,
-    JOB_PHI,
-    JOB_REFERENCE,
-    JOB_ROBOT,
-    JOB_START,
-    JOB_TERRAIN,
-    POSE_PHI,
-    POSE_X,
-    ROTATION_ANGLE,
-    SETTLED_FOUND,
-    SETTLED_FRONT,
-    SETTLED_PHI,
-    SETTLED_REAR,
-    SETTLED_Z,
-    SUMMARY_ANGLE,
-    SUMMARY_BELLY,
-    SUMMARY_ENERGY,
-    SUMMARY_EVENTS,
-    SUMMARY_EXTRA,
-    SUMMARY_FRICTION,
-    SUMMARY_HIGHEST,
-    SUMMARY_LOWEST,
-    SUMMARY_POSES,
-    SUMMARY_REACHED,
-    SUMMARY_ROTATIONS,
-    SUMMARY_STABILITY,
-    SUMMARY_STATUS,
-    SUMMARY_TOPPLES,
-    TOPPLES,
-)
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.driver import drive
-from kaidan.contact.kernel.energy_margins import flow_energy
+from kaidan.contact.kernel.energy_margins import work_out_energy
 from kaidan.contact.kernel.margins import pose_margins
-from kaidan.contact.kernel.settling import settle
-from kaidan.contact.tables import (
-    BodyTable,
-    ContactTable,
-    EventTable,
-    FloatRow,
-    GroundTable,
-    IntArray,
-    JobTable,
-    MarginTable,
-    PoseTable,
-    RotationTable,
-    SettledTable,
-    SummaryTable,
+from kaidan.contact.layout import (
+    EventRow,
+    Job,
+    Journey,
+    Log,
+    Margin,
+    Pose,
+    Pull,
+    RotationRow,
+    Scene,
+    Summary,
 )
+from kaidan.contact.memory import Row, Table, empty
 
 
-def extremes(
-    poses: PoseTable, n_pose: int, rotations: RotationTable, n_rotation: int
-) -> tuple[float, float, float, float]:
-    """Largest and smallest inclination, largest rotation [rad], any that topples with momentum."""
+def sum_up(poses: Table[Pose], rotations: Table[RotationRow], summary: Summary) -> None:
+    """Write the extremes of inclinations and rotations."""
     top = -math.inf
     low = math.inf
-    for row in range(n_pose):
-        top = max(top, poses[row, POSE_PHI])
-        low = min(low, poses[row, POSE_PHI])
+    for k in range(len(poses)):
+        top = max(top, poses[k].inclination)
+        low = min(low, poses[k].inclination)
     angle = 0.0
-    momentum = 0.0
-    for row in range(n_rotation):
-        top = max(top, rotations[row, END_PHI])
-        low = min(low, rotations[row, END_PHI])
-        angle = max(angle, rotations[row, ROTATION_ANGLE])
-        momentum = max(momentum, rotations[row, TOPPLES])
-    return top, low, angle, momentum
+    topples = False
+    for k in range(len(rotations)):
+        top = max(top, rotations[k].end.inclination)
+        low = min(low, rotations[k].end.inclination)
+        angle = max(angle, rotations[k].angle)
+        topples = topples or rotations[k].topples_with_momentum
+    summary.largest_inclination = top
+    summary.smallest_inclination = low
+    summary.largest_rotation = angle
+    summary.topples_with_momentum = topples
+    summary.x = poses[len(poses) - 1].x
 
 
-def worst_margins(margins: MarginTable, count: int) -> tuple[float, float, float, float]:
-    """Largest required friction, smallest static stability and energy margin [m], belly (0, 1)."""
+def sum_up_margins(scene: Scene, poses: Table[Pose], pull: Pull, summary: Summary) -> None:
+    """Write the largest friction, the smallest margins, and whether the belly touches."""
+    margins = empty(Margin, len(poses))
+    pose_margins(scene, poses, pull, margins)
     mu = 0.0
     stable = math.inf
     energy = math.inf
-    belly = 0.0
-    for row in range(count):
-        mu = max(mu, margins[row, FRICTION])
-        stable = min(stable, margins[row, BACK], margins[row, FRONT])
-        energy = min(energy, margins[row, ENERGY])
-        belly = max(belly, margins[row, BELLY_TOUCHES])
-    return mu, stable, energy, belly
+    belly = False
+    for k in range(len(poses)):
+        work_out_energy(scene, poses[k], margins[k])
+        mu = max(mu, margins[k].required_friction)
+        stable = min(stable, margins[k].back, margins[k].front)
+        energy = min(energy, margins[k].energy)
+        belly = belly or margins[k].belly_touches
+    summary.required_friction = mu
+    summary.static_margin = stable
+    summary.energy = energy
+    summary.belly_touches = belly
 
 
 @entry
 def traverse_many(
-    grounds: GroundTable,
-    ground_ends: IntArray,
-    bodies: BodyTable,
-    body_ends: IntArray,
-    jobs: JobTable,
-    step: float,
-    g: float,
-    touch: float,
-    with_margins: bool,
-    poses: PoseTable,
-    events: EventTable,
-    rotations: RotationTable,
-    margins: MarginTable,
-    found: ContactTable,
-    rows: IntArray,
-    summaries: SummaryTable,
-) -> None:
+    scene: Scene, ground_ends: Row[int], body_ends: Row[int], jobs: Table[Job], step: float,
+    g: float, size: int, with_margins: bool, summaries: Table[Summary],
+) -> None:  # fmt: skip
     """Drive a list of jobs, each a terrain, a robot, a start and an end.
 
     Parameters
     ----------
-    grounds, ground_ends
-        Ground tables one below the other, and the row after the end of each.
-    bodies, body_ends
-        Body tables likewise.
-    jobs
-        (n, 8): number of the terrain, of the robot, x_start, x_end, phi_start, a, radius of
-        gyration, reference inclination [rad].
-    step, g, touch
-        Arclength between poses [m], gravity [m/s^2], gap of a contact [m].
+    scene, ground_ends, body_ends
+        Terrains and robots one below the other, and the row after the end of each.
+    step, g, size
+        Arclength between poses [m], gravity [m/s^2], poses at most.
     with_margins
         Whether to work out every margin at every pose.
-    poses, events, rotations, margins, found, rows
-        Scratch, see :func:`kaidan.contact.kernel.driver.drive` and
-        :func:`kaidan.contact.kernel.margins.pose_margins`; ``rows`` counts the poses from 0.
     summaries
-        To be filled, a row a job: status, poses, events, rotations, largest and smallest
-        inclination [rad], largest inclination above the reference [rad], largest rotation [rad],
-        any rotation that topples with momentum (0, 1), x reached [m], then (untouched without
-        margins) largest required friction, smallest static stability margin [m], smallest energy
-        margin along the flow [m], belly touches.
+        To be filled, a row a job; without margins the last four stay as they are.
     """
-    for job in range(jobs.shape[0]):
-        terrain = int(jobs[job, JOB_TERRAIN])
-        robot = int(jobs[job, JOB_ROBOT])
-        first = 0
-        if terrain > 0:
-            first = ground_ends[terrain - 1]
-        ground = grounds[first : ground_ends[terrain]]
-        first = 0
-        if robot > 0:
-            first = body_ends[robot - 1]
-        body = bodies[first : body_ends[robot]]
-        a = jobs[job, JOB_ACCELERATION]
-        status, n_pose, n_event, n_rotation = drive(
-            ground, body, jobs[job, JOB_START], jobs[job, JOB_END], jobs[job, JOB_PHI], step, a, g,
-            0.0, jobs[job, JOB_GYRATION], True, poses, events, rotations,
-        )  # fmt: skip
-        summaries[job, SUMMARY_STATUS] = status
-        summaries[job, SUMMARY_POSES] = n_pose
-        summaries[job, SUMMARY_EVENTS] = n_event
-        summaries[job, SUMMARY_ROTATIONS] = n_rotation
-        if n_pose == 0:
-            continue
-        top, low, angle, momentum = extremes(poses, n_pose, rotations, n_rotation)
-        summaries[job, SUMMARY_HIGHEST] = top
-        summaries[job, SUMMARY_LOWEST] = low
-        summaries[job, SUMMARY_EXTRA] = top - jobs[job, JOB_REFERENCE]
-        summaries[job, SUMMARY_ANGLE] = angle
-        summaries[job, SUMMARY_TOPPLES] = momentum
-        summaries[job, SUMMARY_REACHED] = poses[n_pose - 1, POSE_X]
-        if with_margins:
-            pose_margins(ground, body, poses, n_pose, a, g, touch, margins, found)
-            flow_energy(ground, body, poses, margins, rows[0:n_pose])
-            mu, stable, energy, belly = worst_margins(margins, n_pose)
-            summaries[job, SUMMARY_FRICTION] = mu
-            summaries[job, SUMMARY_STABILITY] = stable
-            summaries[job, SUMMARY_ENERGY] = energy
-            summaries[job, SUMMARY_BELLY] = belly
-
-
-@entry
-def settle_many(
-    ground: GroundTable, body: BodyTable, x: FloatRow, phi: FloatRow, kappa: float,
-    settled: SettledTable,
-) -> None:  # fmt: skip
-    """Settled poses at many x from given inclinations: a row each, found, z, phi, rear, front."""
-    for row in range(x.shape[0]):
-        found, z, angle, rear, front = settle(ground, body, x[row], phi[row], kappa)
-        settled[row, SETTLED_FOUND] = 1.0 if found else 0.0
-        settled[row, SETTLED_Z] = z
-        settled[row, SETTLED_PHI] = angle
-        settled[row, SETTLED_REAR] = rear
-        settled[row, SETTLED_FRONT] = front
+    poses = empty(Pose, size)
+    events = empty(EventRow, size)
+    rotations = empty(RotationRow, size // 8 + 16)
+    grounds = scene.ground
+    bodies = scene.body
+    for k in range(len(jobs)):
+        job = jobs[k]
+        summary = summaries[k]
+        first = ground_ends[job.terrain - 1] if job.terrain > 0 else 0
+        scene.ground = grounds[first : ground_ends[job.terrain]]
+        first = body_ends[job.robot - 1] if job.robot > 0 else 0
+        scene.body = bodies[first : body_ends[job.robot]]
+        pull = Pull(job.acceleration, g)
+        journey = Journey(job.x_start, job.x_end, job.inclination, step, job.gyration)
+        log = Log(poses, events, rotations, True)
+        status, n_pose, n_event, n_rotation = drive(scene, journey, pull, log)
+        summary.status = status
+        summary.poses = n_pose
+        summary.events = n_event
+        summary.rotations = n_rotation
+        if n_pose > 0:
+            sum_up(poses[0:n_pose], rotations[0:n_rotation], summary)
+            summary.extra = summary.largest_inclination - job.reference
+            if with_margins:
+                sum_up_margins(scene, poses[0:n_pose], pull, summary)

@@ -10,31 +10,11 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.columns import (
-    COSINE,
-    DISC,
-    DISC_R,
-    DISC_X,
-    DISC_Z,
-    E_X,
-    E_Z,
-    LENGTH,
-    PART,
-    POINT,
-    R1,
-    SIDE,
-    SINE,
-    U_X,
-    U_Z,
-    X1,
-    Z1,
-    X,
-    Z,
-)
 from kaidan.contact.kernel.event_location import PENETRATED
-from kaidan.contact.kernel.gaps import is_above, on_flat
-from kaidan.contact.kernel.rotation import NEVER, carried
-from kaidan.contact.tables import BodyTable, GroundTable, Pose
+from kaidan.contact.kernel.gaps import centre_of, is_above, on_flat
+from kaidan.contact.kernel.rotation import NEVER, turned_on
+from kaidan.contact.kernel.trigonometry import acos, atan2
+from kaidan.contact.layout import PART, POINT, At, Part, Scene, Turn
 
 #: A gap that falls by less than this per radian [m] is one contact under two names, at rest.
 RESTING = 1e-9
@@ -49,72 +29,50 @@ FINEST = 1e-6
 TO_FLAT, TO_TOP, TO_ARC_1, TO_ARC_2, FROM_DISC_1, FROM_DISC_2 = range(6)
 
 
-def turning_side(body: BodyTable, part: int, piece: int) -> float:
+def turning_side(part: Part, piece: int) -> float:
     """+1 if a flat's normal, turned nose up, leads along it from its first end; -1: to it."""
-    return float(-body[part, SIDE] if piece == TO_TOP else body[part, SIDE])
+    return -part.side if piece == TO_TOP else part.side
 
 
-def flat_normal(body: BodyTable, part: int, piece: int, c: float, s: float) -> tuple[float, float]:
+def flat_normal(part: Part, piece: int, at: At) -> tuple[float, float]:
     """Outward normal of a part's flat, or of its mirror image (`TO_TOP`)."""
-    side = turning_side(body, part, piece)
-    e_x = body[part, E_X]
-    e_z = body[part, E_Z] * side
-    b_x = body[part, SINE] * e_x + body[part, COSINE] * e_z
-    b_z = body[part, SINE] * body[part, E_Z] - body[part, COSINE] * e_x * side
-    return c * b_x - s * b_z, s * b_x + c * b_z
+    side = turning_side(part, piece)
+    e_z = part.e_z * side
+    b_x = part.sine * part.e_x + part.cosine * e_z
+    b_z = part.sine * part.e_z - part.cosine * part.e_x * side
+    return at.c * b_x - at.s * b_z, at.s * b_x + at.c * b_z
 
 
 def separation(
-    ground: GroundTable,
-    body: BodyTable,
-    k: int,
-    part: int,
-    piece: int,
-    x: float,
-    z: float,
-    c: float,
-    s: float,
-    o_x: float,
-    o_z: float,
-    sense: float,
+    scene: Scene, k: int, part: Part, piece: int, at: At, o_x: float, o_z: float, sense: float
 ) -> tuple[float, float]:
     """One smooth piece of a gap, and its change with the angle turned about (o_x, o_z).
 
     ``piece``: vertex k to the line of the flat or to an end disc, end disc to the line of segment
     k. Positive outside; 1 rad in the given sense.
     """
-    g_x = ground[k, X]
-    g_z = ground[k, Z]
+    point = scene.ground[k]
     if piece <= TO_TOP:
-        n_x, n_z = flat_normal(body, part, piece, c, s)
-        d_x = body[part, X1]
-        d_z = body[part, Z1]
-        v_x = g_x - x - c * d_x + s * d_z
-        v_z = g_z - z - s * d_x - c * d_z
+        n_x, n_z = flat_normal(part, piece, at)
+        v_x = point.x - at.x - at.c * part.one.x + at.s * part.one.z
+        v_z = point.z - at.z - at.s * part.one.x - at.c * part.one.z
         return (
-            v_x * n_x + v_z * n_z - body[part, R1],
-            sense * ((g_z - o_z) * n_x - (g_x - o_x) * n_z),
+            v_x * n_x + v_z * n_z - part.one.r,
+            sense * ((point.z - o_z) * n_x - (point.x - o_x) * n_z),
         )
-    j = DISC
-    if piece == TO_ARC_1 or piece == FROM_DISC_1:  # noqa: SIM109
-        j = 0
-    d_x = body[part, j + DISC_X]
-    d_z = body[part, j + DISC_Z]
-    r_x = x + c * d_x - s * d_z
-    r_z = z + s * d_x + c * d_z
+    disc = part.one if piece == TO_ARC_1 or piece == FROM_DISC_1 else part.two
+    r_x, r_z = centre_of(disc, at)
     if piece >= FROM_DISC_1:
-        u_x = ground[k, U_X]
-        u_z = ground[k, U_Z]
         return (
-            u_x * (r_z - g_z) - u_z * (r_x - g_x) - body[part, j + DISC_R],
-            sense * ((r_x - o_x) * u_x + (r_z - o_z) * u_z),
+            point.u_x * (r_z - point.z) - point.u_z * (r_x - point.x) - disc.r,
+            sense * ((r_x - o_x) * point.u_x + (r_z - o_z) * point.u_z),
         )
-    r_x -= g_x
-    r_z -= g_z
+    r_x -= point.x
+    r_z -= point.z
     rho = math.sqrt(r_x * r_x + r_z * r_z)
     return (
-        rho - body[part, j + DISC_R],
-        sense * ((g_x - o_x) * r_z - (g_z - o_z) * r_x) / max(rho, 1e-15),
+        rho - disc.r,
+        sense * ((point.x - o_x) * r_z - (point.z - o_z) * r_x) / max(rho, 1e-15),
     )
 
 
@@ -139,7 +97,7 @@ def crossing_angle(
     rho = math.sqrt(even * even + rate * rate)
     if level <= -rho:  # never positive; a feature through the pivot itself is one of these
         return NEVER
-    angle = math.atan2(-rate, -even) - math.acos(max(-1.0, min(1.0, level / rho)))
+    angle = atan2(-rate, -even) - acos(max(-1.0, min(1.0, level / rho)))
     if angle < -1e-6:
         angle += 2.0 * math.pi
     return max(angle, 0.0)
@@ -174,8 +132,7 @@ def crossing_angle_on(
 
 
 def closing_angle(
-    ground: GroundTable, body: BodyTable, k: int, part: int, piece: int, pivot: int,
-    start: Pose, finish: Pose, sense: float, end: float, before: float,
+    scene: Scene, k: int, number: int, piece: int, turn: Turn, before: float,
     value: float, rate: float, far: float, far_rate: float, bend: float,
 ) -> float:  # fmt: skip
     """First angle before another at which a piece of a gap closes, 1e9 if it does not.
@@ -188,35 +145,33 @@ def closing_angle(
 
     Parameters
     ----------
-    start, finish
-        x, z, cosine and sine of the inclination, and the point of the pivot, at both ends of the
-        rotation by ``end``.
+    number
+        Of the part.
     before
         Angle at which something else closes [rad].
     value, rate, far, far_rate
-        Gap [m] and its change [m/rad] at both ends.
+        Gap [m] and its change [m/rad] at both ends of the rotation.
     bend
         K [m/rad^2]; for an arc, from below only.
     """
-    x, z, c0, s0, o_x, o_z = start
-    _, _, _, _, f_x, f_z = finish
+    part = scene.body[number]
     outside = value > -BESIDE
-    y_x, y_z, c, s = x, z, c0, s0
-    at = 0.0
+    at = turn.start
+    angle = 0.0
     while True:
         if value > -0.5 * PENETRATED:
             outside = True
         elif outside and rate < -RESTING:
-            if on_piece(ground, body, k, part, piece, y_x, y_z, c, s):
-                return at
+            if on_piece(scene, k, number, piece, at):
+                return angle
             outside = False
         room = max(value + 0.75 * PENETRATED if outside else -value, 0.25 * PENETRATED)
         slope = rate if outside else -rate
-        left = before - at
+        left = before - angle
         if room + left * (slope - 0.5 * bend * left) > 0.0:
             return NEVER
         if outside and far >= -PENETRATED:
-            left = end - at
+            left = turn.end - angle
             meet = far - value - left * (far_rate + 0.5 * bend * left)
             apart = rate - far_rate - bend * left
             if meet <= left * apart or meet >= 0.0:
@@ -228,37 +183,29 @@ def closing_angle(
         step = 2.0 * room / (root - slope) if slope < 0.0 else (slope + root) / bend
         if slope * FINEST > -0.25 * PENETRATED:
             step = max(step, FINEST)
-        at += step
-        if at >= before:
+        angle += step
+        if angle >= before:
             return NEVER
-        c = math.cos(at)
-        s = sense * math.sin(at)
-        y_x, y_z = carried(ground, body, pivot, x, z, c0, s0, sense * at, c, s)
-        left = at / end
-        c, s = c0 * c - s0 * s, s0 * c + c0 * s
-        value, rate = separation(
-            ground, body, k, part, piece, y_x, y_z, c, s,
-            o_x + left * (f_x - o_x), o_z + left * (f_z - o_z), sense,
-        )  # fmt: skip
+        at = turned_on(scene, turn.pivot, turn.start, turn.sense, angle)
+        left = angle / turn.end
+        o_x = turn.o_x + left * (turn.f_x - turn.o_x)
+        o_z = turn.o_z + left * (turn.f_z - turn.o_z)
+        value, rate = separation(scene, k, part, piece, at, o_x, o_z, turn.sense)
 
 
-def foot_on(
-    ground: GroundTable, body: BodyTable, k: int, part: int, piece: int,
-    x: float, z: float, c: float, s: float,
-) -> float:  # fmt: skip
+def foot_on(scene: Scene, k: int, part: Part, piece: int, at: At) -> float:
     """Where along a flat from its first end, or along segment k, a piece of a gap has its foot [m].
 
     Of a flat that of vertex k, of a segment that of the centre of an end disc.
     """
+    point = scene.ground[k]
     if piece <= TO_TOP:
-        n_x, n_z = flat_normal(body, part, piece, c, s)
-        v_x = ground[k, X] - x - c * body[part, X1] + s * body[part, Z1]
-        v_z = ground[k, Z] - z - s * body[part, X1] - c * body[part, Z1]
-        return float(turning_side(body, part, piece) * (v_z * n_x - v_x * n_z))
-    j = DISC * (piece - FROM_DISC_1)
-    r_x = x + c * body[part, j + DISC_X] - s * body[part, j + DISC_Z] - ground[k, X]
-    r_z = z + s * body[part, j + DISC_X] + c * body[part, j + DISC_Z] - ground[k, Z]
-    return float(r_x * ground[k, U_X] + r_z * ground[k, U_Z])
+        n_x, n_z = flat_normal(part, piece, at)
+        v_x = point.x - at.x - at.c * part.one.x + at.s * part.one.z
+        v_z = point.z - at.z - at.s * part.one.x - at.c * part.one.z
+        return turning_side(part, piece) * (v_z * n_x - v_x * n_z)
+    r_x, r_z = centre_of(part.one if piece == FROM_DISC_1 else part.two, at)
+    return (r_x - point.x) * point.u_x + (r_z - point.z) * point.u_z
 
 
 def stays_beside(foot: float, later: float, sagitta: float, length: float) -> bool:
@@ -269,22 +216,15 @@ def stays_beside(foot: float, later: float, sagitta: float, length: float) -> bo
     return min(foot, later) - sagitta > length or max(foot, later) + sagitta < 0.0
 
 
-def on_piece(
-    ground: GroundTable,
-    body: BodyTable,
-    k: int,
-    part: int,
-    piece: int,
-    x: float,
-    z: float,
-    c: float,
-    s: float,
-) -> bool:
-    """Whether the foot lies on the flat or the segment, not beyond."""
+def on_piece(scene: Scene, k: int, number: int, piece: int, at: At) -> bool:
+    """Whether the foot lies on the flat or the segment, not beyond; ``number``: of the part."""
+    part = scene.body[number]
+    point = scene.ground[k]
     if piece <= TO_TOP:
-        if piece == TO_TOP and not is_above(ground, body, part, k, x, c, s, -body[part, R1]):
+        if piece == TO_TOP and not is_above(part, point.x, at, -part.one.r):
             return False
-        return on_flat(ground, body, POINT * k + PART * part, x, z, c, s)
+        return on_flat(scene, POINT * k + PART * number, at)
     if piece < FROM_DISC_1:
         return True
-    return bool(0.0 <= foot_on(ground, body, k, part, piece, x, z, c, s) <= ground[k, LENGTH])
+    foot = foot_on(scene, k, part, piece, at)
+    return foot >= 0.0 and foot <= point.length

@@ -13,8 +13,8 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.entries import entry
-from kaidan.contact.tables import Four
+from kaidan.contact.kernel.trigonometry import atan2, cos, sin, tan
+from kaidan.contact.layout import Bound, Cone
 
 #: Angle below a place where two bounds meet at which none of them is lost to rounding [rad].
 BELOW = 1e-8
@@ -30,11 +30,11 @@ LEVEL = 1e-12
 
 def edge(
     f_x: float, f_z: float, g_x: float, g_z: float, angle: float, side: float, size: float
-) -> Four:
+) -> Bound:
     """Edge of a cone as a bound on the inner force: a, b, c, d."""
-    u_x = math.sin(angle)
-    u_z = math.cos(angle)
-    return (
+    u_x = sin(angle)
+    u_z = cos(angle)
+    return Bound(
         side * (u_x * f_z - u_z * f_x) + size,
         u_z * f_z + u_x * f_x,
         side * (u_x * g_z - u_z * g_x),
@@ -42,10 +42,10 @@ def edge(
     )
 
 
-def narrowed(bound: Four, t: float, least: float, most: float) -> tuple[float, float]:
+def narrowed(bound: Bound, t: float, least: float, most: float) -> tuple[float, float]:
     """Interval of the inner force that an edge leaves of another; an empty one has no end."""
-    constant = bound[0] - bound[1] * t
-    slope = bound[2] - bound[3] * t
+    constant = bound.a - bound.b * t
+    slope = bound.c - bound.d * t
     if abs(slope) < LEVEL:
         if constant >= 0.0:
             return least, most
@@ -69,25 +69,25 @@ def root_below(a: float, b: float, c: float, t: float) -> float:
     return root
 
 
-def level_below(bound: Four, t: float) -> float:
+def level_below(bound: Bound, t: float) -> float:
     """Where an edge is level, if that is below t; minus infinity: it is not."""
-    if bound[3] != 0.0 and bound[2] / bound[3] < t:
-        return bound[2] / bound[3]
+    if bound.d != 0.0 and bound.c / bound.d < t:
+        return bound.c / bound.d
     return -math.inf
 
 
-def meet_below(low: Four, high: Four, t: float) -> float:
+def meet_below(low: Bound, high: Bound, t: float) -> float:
     """Largest number below t at which a lower and an upper bound meet, or one turns round."""
     meet = root_below(
-        high[1] * low[3] - low[1] * high[3],
-        low[0] * high[3] + low[1] * high[2] - high[0] * low[3] - high[1] * low[2],
-        high[0] * low[2] - low[0] * high[2],
+        high.b * low.d - low.b * high.d,
+        low.a * high.d + low.b * high.c - high.a * low.d - high.b * low.c,
+        high.a * low.c - low.a * high.c,
         t,
     )
     return max(meet, level_below(low, t), level_below(high, t))
 
 
-def held_below(one: Four, two: Four, three: Four, four: Four, t: float) -> float:
+def held_below(one: Bound, two: Bound, three: Bound, four: Bound, t: float) -> float:
     """t, if some inner force keeps both forces within cones narrower by arctan(t).
 
     Else a smaller number, above which none does; minus infinity: none does at all.
@@ -117,19 +117,11 @@ def held_below(one: Four, two: Four, three: Four, four: Four, t: float) -> float
     return meet - BELOW * (1.0 + meet * meet)
 
 
-@entry
-def cone_margin(
-    x_1: float, z_1: float, alpha_1: float, phi_1: float,
-    x_2: float, z_2: float, alpha_2: float, phi_2: float, w_x: float, w_z: float,
-) -> float:  # fmt: skip
+def cone_margin(one: Cone, two: Cone, w_x: float, w_z: float) -> float:
     """Angle by which the cones of two contacts may shrink while they hold the robot [rad].
 
     Parameters
     ----------
-    x_1, z_1, x_2, z_2
-        Places of the contacts from the centroid [m].
-    alpha_1, phi_1, alpha_2, phi_2
-        Tilt of the normal and angle of friction of each [rad].
     w_x, w_z
         Sum of their forces [N/kg].
 
@@ -138,14 +130,14 @@ def cone_margin(
     float
         Minus infinity where no friction is enough, NaN for contacts at one place.
     """
-    d_x = x_2 - x_1
-    d_z = z_2 - z_1
+    d_x = two.x - one.x
+    d_z = two.z - one.z
     d = math.sqrt(d_x * d_x + d_z * d_z)
     if d == 0.0:
         return math.nan
     e_x = d_x / d
     e_z = d_z / d
-    across_2 = -(x_1 * w_z - z_1 * w_x) / d
+    across_2 = -(one.x * w_z - one.z * w_x) / d
     across_1 = -w_x * e_z + w_z * e_x - across_2
     along = w_x * e_x + w_z * e_z
     size = NO_FORCE * math.sqrt(w_x * w_x + w_z * w_z)
@@ -153,17 +145,17 @@ def cone_margin(
     f_z = across_1 * e_x
     h_x = along * e_x - across_2 * e_z
     h_z = along * e_z + across_2 * e_x
-    one = edge(f_x, f_z, e_x, e_z, alpha_1 + phi_1, 1.0, size)
-    two = edge(f_x, f_z, e_x, e_z, alpha_1 - phi_1, -1.0, size)
-    three = edge(h_x, h_z, -e_x, -e_z, alpha_2 + phi_2, 1.0, size)
-    four = edge(h_x, h_z, -e_x, -e_z, alpha_2 - phi_2, -1.0, size)
-    t = math.tan(min(phi_1, phi_2) - NARROW)
-    if held_below(one, two, three, four, t) == t:
-        t = math.tan(min(phi_1, phi_2) - NARROWEST)
-    bottom = math.tan(max(phi_1, phi_2) - 0.5 * math.pi + 1e-3)
+    first = edge(f_x, f_z, e_x, e_z, one.alpha + one.phi, 1.0, size)
+    second = edge(f_x, f_z, e_x, e_z, one.alpha - one.phi, -1.0, size)
+    third = edge(h_x, h_z, -e_x, -e_z, two.alpha + two.phi, 1.0, size)
+    fourth = edge(h_x, h_z, -e_x, -e_z, two.alpha - two.phi, -1.0, size)
+    t = tan(min(one.phi, two.phi) - NARROW)
+    if held_below(first, second, third, fourth, t) == t:
+        t = tan(min(one.phi, two.phi) - NARROWEST)
+    bottom = tan(max(one.phi, two.phi) - 0.5 * math.pi + 1e-3)
     while t >= bottom:
-        below = held_below(one, two, three, four, t)
+        below = held_below(first, second, third, fourth, t)
         if below == t:
-            return math.atan2(t, 1.0)
+            return atan2(t, 1.0)
         t = below
     return -math.inf

@@ -11,28 +11,25 @@ from kaidan.contact.kernel.recording import write_momentum, write_rotation
 from kaidan.contact.kernel.reserves import barrier
 from kaidan.contact.kernel.settling import lever, settle
 from kaidan.contact.kernel.toppling import fall
-from kaidan.contact.tables import BodyTable, GroundTable, Held, RotationTable
+from kaidan.contact.kernel.trigonometry import placed
+from kaidan.contact.layout import Fallen, Held, Log, Pull, Release, Scene
 
 
-def settled(
-    ground: GroundTable, body: BodyTable, x: float, phi: float, kappa: float
-) -> tuple[bool, Held]:
+def settled(scene: Scene, x: float, phi: float, kappa: float) -> tuple[bool, Held]:
     """Settle the robot from an inclination, on two contacts.
 
     Returns
     -------
     found, and the pose
     """
-    found, z, phi, rear, front = settle(ground, body, x, phi, kappa)
+    found, z, phi, rear, front = settle(scene, x, phi, kappa)
     if not found or rear == front:
-        return False, (x, z, phi, 0.0, 0.0, 0.0, rear, front)
-    t_x, t_z, t_w, size = tangent(ground, body, rear, front, x, z, math.cos(phi), math.sin(phi))
-    return size > 0.0, (x, z, phi, t_x, t_z, t_w, rear, front)
+        return False, Held(x, z, phi, 0.0, 0.0, 0.0, rear, front)
+    t_x, t_z, t_w, size = tangent(scene, rear, front, placed(x, z, phi))
+    return size > 0.0, Held(x, z, phi, t_x, t_z, t_w, rear, front)
 
 
-def settled_again(
-    ground: GroundTable, body: BodyTable, at: Held, kappa: float
-) -> tuple[bool, float, Held]:
+def settled_again(scene: Scene, held: Held, kappa: float) -> tuple[bool, float, Held]:
     """Settle the robot a little farther on, where the corrector has failed.
 
     Returns
@@ -43,24 +40,21 @@ def settled_again(
         How far farther on [m].
     pose
     """
-    x, z, phi, t_x, t_z, t_w, _, _ = at
-    for k in range(4):
-        nudge = math.copysign(1e-5 * 10.0**k, t_x)
-        found, there = settled(ground, body, x + nudge, phi, kappa)
-        _, z1, phi1, u_x, u_z, u_w, _, _ = there
+    nudge = math.copysign(1e-5, held.t_x)
+    for _ in range(4):
+        found, there = settled(scene, held.x + nudge, held.phi, kappa)
         if (
             found
-            and abs(z1 - z) < 5e-3
-            and abs(phi1 - phi) < 0.02
-            and u_x * t_x + u_z * t_z + u_w * t_w > 0.0
+            and abs(there.z - held.z) < 5e-3
+            and abs(there.phi - held.phi) < 0.02
+            and there.t_x * held.t_x + there.t_z * held.t_z + there.t_w * held.t_w > 0.0
         ):
             return True, nudge, there
-    return False, 0.0, at
+        nudge *= 10.0
+    return False, 0.0, held
 
 
-def exchanged(
-    ground: GroundTable, body: BodyTable, made: int, at: Held, kappa: float
-) -> tuple[bool, int, Held]:
+def exchanged(scene: Scene, made: int, held: Held, kappa: float) -> tuple[bool, int, Held]:
     """Replace the contact on the side of the centroid on which another has closed.
 
     Returns
@@ -72,45 +66,45 @@ def exchanged(
     pose
         With the tangent along which the lost contact opens.
     """
-    x, z, phi, t_x, t_z, t_w, rear, front = at
-    c = math.cos(phi)
-    s = math.sin(phi)
+    x, z, phi, t_x, t_z, t_w, rear, front = held
+    at = placed(x, z, phi)
     lost = front
-    if lever(ground, body, made, x, z, c, s, kappa) < 0.0:
+    if lever(scene, made, at, kappa) < 0.0:
         lost = rear
         rear = made
     else:
         front = made
-    good, x1, z1, phi1, c1, s1, _, _, _ = corrected(ground, body, rear, front, x, z, phi)
-    if good and abs(x1 - x) + abs(z1 - z) + abs(phi1 - phi) < 1e-8:
-        x, z, phi, c, s = x1, z1, phi1, c1, s1
-    u_x, u_z, u_w, size = tangent(ground, body, rear, front, x, z, c, s)
+    good, there, where = corrected(scene, rear, front, x, z, phi)
+    if good and abs(there.x - x) + abs(there.z - z) + abs(there.phi - phi) < 1e-8:
+        x = there.x
+        z = there.z
+        phi = there.phi
+        at = where
+    u_x, u_z, u_w, size = tangent(scene, rear, front, at)
     if size == 0.0:
-        return False, lost, at
-    opening = gap_rate(ground, body, lost, x, z, c, s, u_x, u_z, u_w)
+        return False, lost, held
+    opening = gap_rate(scene, lost, at, u_x, u_z, u_w)
     if abs(opening) < 1e-4:
         opening = u_x * t_x + u_z * t_z + u_w * t_w
     if opening < 0.0:
-        u_x = -u_x
-        u_z = -u_z
-        u_w = -u_w
-    return True, lost, (x, z, phi, u_x, u_z, u_w, rear, front)
+        u_x, u_z, u_w = -u_x, -u_z, -u_w
+    return True, lost, Held(x, z, phi, u_x, u_z, u_w, rear, front)
 
 
-def onset(ground: GroundTable, body: BodyTable, at: Held, kappa: float) -> float:
+def onset(scene: Scene, held: Held, kappa: float) -> float:
     """Sense in which the robot rotates: +1 nose up, -1 nose down, 0 while the contacts hold."""
-    x, z, phi, _, _, _, rear, front = at
-    c = math.cos(phi)
-    s = math.sin(phi)
-    if lever(ground, body, rear, x, z, c, s, kappa) > 0.0:
+    at = placed(held.x, held.z, held.phi)
+    if lever(scene, held.rear, at, kappa) > 0.0:
         return 1.0
-    if lever(ground, body, front, x, z, c, s, kappa) < 0.0:
+    if lever(scene, held.front, at, kappa) < 0.0:
         return -1.0
     return 0.0
 
 
-def effective_gravity(a: float, g: float, t_x: float, t_z: float) -> float:
-    """Effective gravity for acceleration ``a`` along the path of the centroid [m/s^2]."""
+def effective_gravity(pull: Pull, t_x: float, t_z: float) -> float:
+    """Effective gravity for an acceleration along the path of the centroid [m/s^2]."""
+    a = pull.a
+    g = pull.g
     speed = math.sqrt(t_x * t_x + t_z * t_z)
     sin_psi = 0.0
     if speed > 1e-12:
@@ -119,56 +113,31 @@ def effective_gravity(a: float, g: float, t_x: float, t_z: float) -> float:
 
 
 def rotate(
-    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float,
-    sense: float, kappa: float, gyration: float, gravity: float, kept: bool, path: float,
-    rotations: RotationTable, count: int, hint: int,
-) -> tuple[int, int, int, float, float, float, float, int, int]:  # fmt: skip
+    scene: Scene, pivot: int, release: Release, gyration: float, gravity: float, log: Log
+) -> Fallen:
     """Rotate about a contact until two hold the robot again, or it falls; and write that down.
 
-    Parameters
-    ----------
-    kept
-        Whether it is written down too what its momentum can still do.
-    path
-        Arclength [m].
-    rotations, count
-        Table to be written to and rows that it has.
-
-    Returns
-    -------
-    outcome
-        A `RotationOutcome`.
-    rear, front
-        The two contacts that arrest it, if it is arrested.
-    x, z, phi, angle
-        The pose at the end, and how far it rotated [rad].
-    count
-        One more, unless it was arrested at once.
-    hint
+    Nothing is written where it is arrested at once.
     """
-    p_x, p_z = contact_point(ground, body, pivot, x, z, math.cos(phi), math.sin(phi))
-    outcome, rear, front, x1, z1, phi1, before, after, angle, hint = fall(
-        ground, body, pivot, x, z, phi, sense, kappa, gyration, gravity, hint
-    )
-    if angle <= 1e-7 and outcome == RotationOutcome.ARRESTED:
-        return outcome, rear, front, x1, z1, phi1, angle, count, hint
-    write_rotation(
-        rotations, count, sense, path, pivot, p_x, p_z, x, z, phi, x1, z1, phi1,
-        angle, before, after, outcome,
-    )  # fmt: skip
-    if kept and outcome == RotationOutcome.ARRESTED:
+    p_x, p_z = contact_point(scene, pivot, placed(release.x, release.z, release.phi))
+    fallen = fall(scene, pivot, release, gyration, gravity)
+    if fallen.angle <= 1e-7 and fallen.outcome == RotationOutcome.ARRESTED:
+        return fallen
+    row = log.rotations[log.n_rotation]
+    log.n_rotation += 1
+    write_rotation(row, log.s, pivot, p_x, p_z, release, fallen)
+    if log.keeps and fallen.outcome == RotationOutcome.ARRESTED:
         # momentum: what is left after the impact against what is still to climb
-        last = rear if sense >= 0.0 else front
-        c1 = math.cos(phi1)
-        s1 = math.sin(phi1)
-        p_x, p_z = contact_point(ground, body, last, x1, z1, c1, s1)
-        arm = (x1 - p_x) * (x1 - p_x) + (z1 - p_z) * (z1 - p_z) + gyration * gyration
-        kinetic = 0.5 * arm * after * after
-        bounded, rise, across, hint = barrier(
-            ground, body, last, x1, z1, phi1, sense, kappa, ROCKING, hint
+        x, z, phi = fallen.x, fallen.z, fallen.phi
+        last = fallen.rear if release.sense >= 0.0 else fallen.front
+        p_x, p_z = contact_point(scene, last, placed(x, z, phi))
+        arm = (x - p_x) * (x - p_x) + (z - p_z) * (z - p_z) + gyration * gyration
+        kinetic = 0.5 * arm * fallen.after * fallen.after
+        bounded, rise, across = barrier(
+            scene, last, Release(x, z, phi, release.sense, release.kappa), ROCKING
         )
         needed = gravity * rise
-        write_momentum(rotations, count, kinetic, needed, across, kinetic > needed and bounded)
+        write_momentum(row, kinetic, needed, across, kinetic > needed and bounded)
     else:
-        write_momentum(rotations, count, 0.0, 0.0, 0.0, True)
-    return outcome, rear, front, x1, z1, phi1, angle, count + 1, hint
+        write_momentum(row, 0.0, 0.0, 0.0, True)
+    return fallen

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 from kaidan.contact.codes import Advance, Event, RotationOutcome, Status
-from kaidan.contact.columns import DISC_1, KIND_MASK, NO_FEATURE, POSE_S
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.advance import advance, thinnest_radius
 from kaidan.contact.kernel.contact_changes import (
@@ -18,16 +17,20 @@ from kaidan.contact.kernel.contact_changes import (
 )
 from kaidan.contact.kernel.continuation import tangent, tilt
 from kaidan.contact.kernel.gaps import relabelled
-from kaidan.contact.kernel.recording import record_pose, repeats, write_event
+from kaidan.contact.kernel.recording import keep_pose, record_pose, repeats, write_event
 from kaidan.contact.kernel.renaming import record_renamings
 from kaidan.contact.kernel.toppling import same_place
-from kaidan.contact.tables import (
-    BodyTable,
-    EventTable,
-    GroundTable,
+from kaidan.contact.kernel.trigonometry import cos, placed, sin
+from kaidan.contact.layout import (
+    DISC_1,
+    KIND_MASK,
+    NO_FEATURE,
     Held,
-    PoseTable,
-    RotationTable,
+    Journey,
+    Log,
+    Pull,
+    Release,
+    Scene,
 )
 
 #: Steps that lead nowhere before the robot counts as stuck.
@@ -53,255 +56,170 @@ def end_of_fall(outcome: int, sense: float) -> tuple[int, int]:
 
 
 def step_on(
-    ground: GroundTable, body: BodyTable, at: Held, x_end: float, step: float, thinnest: float,
-    a: float, g: float, kappa_g: float, hint: int,
-) -> tuple[int, Held, int, float, bool]:  # fmt: skip
+    scene: Scene, held: Held, x_end: float, step: float, thinnest: float, pull: Pull
+) -> tuple[int, Held, float, bool]:
     """One step, cut where the robot arrives or is driven upright: linear in the step.
 
     Returns
     -------
-    outcome, pose, hint, step taken [m]
+    outcome, pose, step taken [m]
         As :func:`kaidan.contact.kernel.advance.advance`.
     ends
         Whether it comes to ``x_end``.
     """
-    what, there, hint, ds = advance(ground, body, at, step, thinnest, a, g, kappa_g, hint)
-    ends = there[0] >= x_end and at[0] < x_end
+    what, there, ds = advance(scene, held, step, thinnest, pull)
+    ends = there.x >= x_end and held.x < x_end
     if ends and ds > 1e-9:
-        part = (x_end - at[0]) / (there[0] - at[0])
+        part = (x_end - held.x) / (there.x - held.x)
         if part < 1.0:
-            what, there, hint, ds = advance(
-                ground, body, at, ds * part, thinnest, a, g, kappa_g, hint
-            )
-    if abs(there[2]) > UPRIGHT > abs(at[2]):
-        part = (UPRIGHT - abs(at[2])) / (abs(there[2]) - abs(at[2]))
-        what, there, hint, ds = advance(ground, body, at, ds * part, thinnest, a, g, kappa_g, hint)
-        ends = there[0] >= x_end and at[0] < x_end
-    return what, there, hint, ds, ends
+            what, there, ds = advance(scene, held, ds * part, thinnest, pull)
+    if abs(there.phi) > UPRIGHT and abs(held.phi) < UPRIGHT:
+        part = (UPRIGHT - abs(held.phi)) / (abs(there.phi) - abs(held.phi))
+        what, there, ds = advance(scene, held, ds * part, thinnest, pull)
+        ends = there.x >= x_end and held.x < x_end
+    return what, there, ds, ends
 
 
-def kept_pose(
-    ground: GroundTable, body: BodyTable, poses: PoseTable, n_pose: int, path: float, at: Held,
-    leg: int, kept: bool,
-) -> int:  # fmt: skip
-    """Write a pose behind others, where poses are kept; number of poses written."""
-    if not kept:
-        return n_pose
-    record_pose(ground, body, poses, n_pose, path, at, leg)
-    return n_pose + 1
-
-
-def exchange(
-    ground: GroundTable, body: BodyTable, made: int, at: Held, kappa: float, kept: bool,
-    path: float, leg: int, poses: PoseTable, n_pose: int, events: EventTable, n_event: int,
-) -> tuple[bool, Held, int, int]:  # fmt: skip
+def exchange(scene: Scene, made: int, held: Held, kappa: float, log: Log) -> tuple[bool, Held]:
     """Exchange a contact for another that has closed, and write that down.
-
-    Parameters
-    ----------
-    kept
-        As for `drive`.
 
     Returns
     -------
-    good, pose, poses written, events written
+    good, pose
     """
-    good, lost, at = exchanged(ground, body, made, at, kappa)
+    good, lost, then = exchanged(scene, made, held, kappa)
     if not good:
-        return False, at, n_pose, n_event
-    x, z, phi, t_x, t_z, t_w, rear, _ = at
-    if same_place(ground, body, made, lost, x, z, phi):
+        return False, then
+    if same_place(scene, made, lost, placed(then.x, then.z, then.phi)):
         # one contact by the name of the part that carries from here on
-        kept_pose(ground, body, poses, n_pose - 1, path, at, leg, kept)
-        return True, at, n_pose, n_event
+        if log.keeps:
+            record_pose(scene, log.poses[log.n_pose - 1], log.s, then, log.leg)
+        return True, then
     # the same pose with its new contacts: the forces jump here
-    now = kept_pose(ground, body, poses, n_pose, path, at, leg, kept)
-    code = Event.TAIL_RESTS if made & KIND_MASK == DISC_1 and made == rear else Event.MADE
-    write_event(events, n_event, code, path, (x, z, phi, t_x, t_z, t_w, made, lost), n_pose)
-    write_event(
-        events, n_event + 1, Event.LOST, path, (x, z, phi, t_x, t_z, t_w, lost, made), n_pose
-    )
-    return True, at, now, n_event + 2
+    now = log.n_pose
+    keep_pose(scene, log, then)
+    kind = Event.TAIL_RESTS if made & KIND_MASK == DISC_1 and made == then.rear else Event.MADE
+    write_event(log, kind, then, made, lost, now)
+    write_event(log, Event.LOST, then, lost, made, now)
+    return True, then
 
 
 def rotate_on(
-    ground: GroundTable, body: BodyTable, at: Held, sense: float, kappa: float,
-    gyration: float, gravity: float, kept: bool, path: float, leg: int, hint: int,
-    poses: PoseTable, n_pose: int, events: EventTable, n_event: int,
-    rotations: RotationTable, n_rotation: int,
-) -> tuple[int, Held, int, int, int, int]:  # fmt: skip
+    scene: Scene, held: Held, sense: float, kappa: float, gyration: float, gravity: float, log: Log
+) -> tuple[int, Held]:
     """Rotate until two contacts hold the robot again, or it falls; and write that down.
-
-    Parameters
-    ----------
-    kept
-        As for `drive`.
-    leg
-        Line of poses after the rotation.
 
     Returns
     -------
     status
         `GOES_ON`, or the `Status` with which the drive ends.
-    pose, poses written, events written, rotations written, hint
+    pose
     """
-    x, z, phi, t_x, t_z, t_w, rear, front = at
+    x, z, phi, t_x, t_z, t_w, rear, front = held
     pivot = rear if sense > 0.0 else front
-    outcome, new_rear, new_front, x1, z1, phi1, angle, count, hint = rotate(
-        ground, body, pivot, x, z, phi, sense, kappa, gyration, gravity, kept, path,
-        rotations, n_rotation, hint,
-    )  # fmt: skip
-    if count > n_rotation:
-        code: int = Event.TIPS_BACK if sense > 0.0 else Event.NOSE_DROPS
-        about = (x, z, phi, t_x, t_z, t_w, pivot, rear)
-        write_event(events, n_event, code, path, about, n_pose - 1)
-        n_event += 1
-    if outcome != RotationOutcome.ARRESTED:
-        status, code = end_of_fall(outcome, sense)
-        about = (x1, z1, phi1, t_x, t_z, t_w, pivot, NO_FEATURE)
-        write_event(events, n_event, code, path, about, n_pose - 1)
-        return status, about, n_pose, n_event + 1, count, hint
-    c = math.cos(phi1)
-    s = math.sin(phi1)
-    rear = relabelled(ground, body, new_rear, x1, z1, c, s)
-    front = relabelled(ground, body, new_front, x1, z1, c, s)
-    t_x, t_z, t_w, size = tangent(ground, body, rear, front, x1, z1, c, s)
-    at = (x1, z1, phi1, t_x, t_z, t_w, rear, front)
+    count = log.n_rotation
+    fallen = rotate(scene, pivot, Release(x, z, phi, sense, kappa), gyration, gravity, log)
+    if log.n_rotation > count:
+        kind: int = Event.TIPS_BACK if sense > 0.0 else Event.NOSE_DROPS
+        write_event(log, kind, held, pivot, rear, log.n_pose - 1)
+    x, z, phi = fallen.x, fallen.z, fallen.phi
+    if fallen.outcome != RotationOutcome.ARRESTED:
+        status, kind = end_of_fall(fallen.outcome, sense)
+        then = Held(x, z, phi, t_x, t_z, t_w, pivot, NO_FEATURE)
+        write_event(log, kind, then, pivot, NO_FEATURE, log.n_pose - 1)
+        return status, then
+    at = placed(x, z, phi)
+    rear = relabelled(scene, fallen.rear, at)
+    front = relabelled(scene, fallen.front, at)
+    t_x, t_z, t_w, size = tangent(scene, rear, front, at)
+    then = Held(x, z, phi, t_x, t_z, t_w, rear, front)
     if size == 0.0:
-        return Status.NOT_CONVERGED, at, n_pose, n_event, count, hint
-    now = kept_pose(ground, body, poses, n_pose, path, at, leg, kept)
-    if angle > 1e-7:
-        write_event(events, n_event, Event.ARRESTED, path, at, n_pose)
-        n_event += 1
-        if repeats(rotations, count):
-            write_event(events, n_event, Event.STUCK, path, at, n_pose)
-            return Status.STUCK, at, now, n_event + 1, count, hint
-    return GOES_ON, at, now, n_event, count, hint
+        return Status.NOT_CONVERGED, then
+    now = log.n_pose
+    keep_pose(scene, log, then)
+    if fallen.angle > 1e-7:
+        write_event(log, Event.ARRESTED, then, rear, front, now)
+        if repeats(log.rotations, log.n_rotation):
+            write_event(log, Event.STUCK, then, rear, front, now)
+            return Status.STUCK, then
+    return GOES_ON, then
+
+
+def ended(log: Log, kind: int, held: Held, status: int) -> tuple[int, int, int, int]:
+    """Write the event with which a drive ends; its status, and the rows that it wrote."""
+    write_event(log, kind, held, held.rear, held.front, log.n_pose - 1)
+    return status, log.n_pose, log.n_event, log.n_rotation
 
 
 @entry
-def drive(
-    ground: GroundTable,
-    body: BodyTable,
-    x_start: float,
-    x_end: float,
-    phi_start: float,
-    step: float,
-    a: float,
-    g: float,
-    kappa_g: float,
-    gyration: float,
-    kept: bool,
-    poses: PoseTable,
-    events: EventTable,
-    rotations: RotationTable,
-) -> tuple[int, int, int, int]:
-    """Drive from ``x_start`` to ``x_end`` (centroid), writing into the three tables.
-
-    Parameters
-    ----------
-    ground, body
-        Tables.
-    x_start, x_end
-        Centroid at start and end [m], ``x_end`` > ``x_start``.
-    phi_start
-        Inclination from which the robot settles at the start [rad].
-    step
-        Arclength between poses [m].
-    a, g
-        Acceleration along the path of the centroid, gravity [m/s^2].
-    kappa_g
-        Tilt of gravity itself: its horizontal part backward over its vertical part g.
-    gyration
-        Radius of gyration about the centroid [m], for the energy of rotations.
-    kept
-        Whether poses are written down, and what the momentum of a rotation can still do: without
-        them a drive tells no more than how it ends.
-    poses, events, rotations
-        Tables of :func:`kaidan.contact.tables.path_tables`; columns in
-        :mod:`kaidan.contact.columns`, meanings in :mod:`kaidan.contact.records`.
+def drive(scene: Scene, journey: Journey, pull: Pull, log: Log) -> tuple[int, int, int, int]:
+    """Drive from ``x_start`` to ``x_end`` (centroid), writing a log.
 
     Returns
     -------
     status, poses written, events written, rotations written
     """
+    x_end = journey.x_end
+    step = journey.step
+    gyration = journey.gyration
     # the path at the start is taken to run along the inclination given
-    kappa = tilt(a, g, kappa_g, math.cos(phi_start), math.sin(phi_start))
-    good, at = settled(ground, body, x_start, phi_start, kappa)
+    kappa = tilt(pull, cos(journey.inclination), sin(journey.inclination))
+    good, held = settled(scene, journey.x_start, journey.inclination, kappa)
     if not good:
         return Status.NO_START, 0, 0, 0
-    thinnest = thinnest_radius(body)
-    path = 0.0
-    leg = 0
-    hint = 0
-    n_pose = kept_pose(ground, body, poses, 0, path, at, leg, kept)
-    n_event = 0
-    n_rotation = 0
+    thinnest = thinnest_radius(scene.body)
+    keep_pose(scene, log, held)
     idle = 0
     failures = 0
-    for _ in range(30 * poses.shape[0]):
-        if n_pose >= poses.shape[0] - 2 or n_event >= events.shape[0] - 4:
+    for _ in range(30 * len(log.poses)):
+        if log.n_pose >= len(log.poses) - 2 or log.n_event >= len(log.events) - 4:
             break
-        what, there, hint, ds, ends = step_on(
-            ground, body, at, x_end, step, thinnest, a, g, kappa_g, hint
-        )
+        what, there, ds, ends = step_on(scene, held, x_end, step, thinnest, pull)
         if what == Advance.NOT_CONVERGED:
             failures += 1
-            good, nudge, at = settled_again(ground, body, at, kappa)
+            good, nudge, held = settled_again(scene, held, kappa)
             if not good or failures > FAILURES:
-                return Status.NOT_CONVERGED, n_pose, n_event, n_rotation
-            path += abs(nudge)
-            write_event(events, n_event, Event.RESETTLED, path, at, n_pose - 1)
-            n_event += 1
+                return Status.NOT_CONVERGED, log.n_pose, log.n_event, log.n_rotation
+            log.s += abs(nudge)
+            write_event(log, Event.RESETTLED, held, held.rear, held.front, log.n_pose - 1)
             continue
-        moved = ds
-        if kept:
-            n_pose, moved = record_renamings(ground, body, poses, n_pose, path, at, there, ds, leg)
-        at = there
-        path += moved
-        if ends and (what == Advance.NOTHING or at[0] >= x_end - 1e-9):
-            n_pose = kept_pose(ground, body, poses, n_pose, path, at, leg, kept)
-            if at[0] >= x_end - 1e-7:
-                write_event(events, n_event, Event.ARRIVED, path, at, n_pose - 1)
-                return Status.OK, n_pose, n_event + 1, n_rotation
+        log.s += record_renamings(scene, log, held, there, ds) if log.keeps else ds
+        held = there
+        if ends and (what == Advance.NOTHING or held.x >= x_end - 1e-9):
+            keep_pose(scene, log, held)
+            if held.x >= x_end - 1e-7:
+                return ended(log, Event.ARRIVED, held, Status.OK)
             continue
         idle = 0 if ds > 1e-10 else idle + 1
         if idle > IDLE:
-            write_event(events, n_event, Event.STUCK, path, at, n_pose - 1)
-            return Status.STUCK, n_pose, n_event + 1, n_rotation
-        upright = abs(at[2]) > UPRIGHT - NEARLY
-        if kept and (
-            upright or what != Advance.NOTHING or path - poses[n_pose - 1, POSE_S] > 0.7 * step
+            return ended(log, Event.STUCK, held, Status.STUCK)
+        upright = abs(held.phi) > UPRIGHT - NEARLY
+        if log.keeps and (
+            upright or what != Advance.NOTHING or log.s - log.poses[log.n_pose - 1].s > 0.7 * step
         ):
-            n_pose = kept_pose(ground, body, poses, n_pose, path, at, leg, kept)
+            keep_pose(scene, log, held)
         if upright:
-            status, code = end_of_fall(RotationOutcome.PAST_VERTICAL, at[2])
-            write_event(events, n_event, code, path, at, n_pose - 1)
-            return status, n_pose, n_event + 1, n_rotation
+            status, kind = end_of_fall(RotationOutcome.PAST_VERTICAL, held.phi)
+            return ended(log, kind, held, status)
         if what == Advance.NOTHING:
             continue
-        kappa = tilt(a, g, kappa_g, at[3], at[4])
+        kappa = tilt(pull, held.t_x, held.t_z)
         sense = 1.0 if what == Advance.OVER_REAR else -1.0
         if what >= 0:
-            good, at, n_pose, n_event = exchange(
-                ground, body, what, at, kappa, kept, path, leg, poses, n_pose, events, n_event
-            )
+            good, held = exchange(scene, what, held, kappa, log)
             if not good:
-                return Status.NOT_CONVERGED, n_pose, n_event, n_rotation
-            kappa = tilt(a, g, kappa_g, at[3], at[4])
-            sense = onset(ground, body, at, kappa)
+                return Status.NOT_CONVERGED, log.n_pose, log.n_event, log.n_rotation
+            kappa = tilt(pull, held.t_x, held.t_z)
+            sense = onset(scene, held, kappa)
             if sense == 0.0:
                 continue
-        if n_rotation >= rotations.shape[0]:
+        if log.n_rotation >= len(log.rotations):
             break
-        leg += 1
-        status, at, n_pose, n_event, n_rotation, hint = rotate_on(
-            ground, body, at, sense, kappa, gyration, effective_gravity(a, g, at[3], at[4]),
-            kept, path, leg, hint, poses, n_pose, events, n_event, rotations, n_rotation,
-        )  # fmt: skip
+        log.leg += 1
+        gravity = effective_gravity(pull, held.t_x, held.t_z)
+        status, held = rotate_on(scene, held, sense, kappa, gyration, gravity, log)
         if status != GOES_ON:
-            return status, n_pose, n_event, n_rotation
-        if at[0] >= x_end:  # the rotation carried it there
-            write_event(events, n_event, Event.ARRIVED, path, at, n_pose - 1)
-            return Status.OK, n_pose, n_event + 1, n_rotation
-    return Status.TOO_LONG, n_pose, n_event, n_rotation
+            return status, log.n_pose, log.n_event, log.n_rotation
+        if held.x >= x_end:  # the rotation carried it there
+            return ended(log, Event.ARRIVED, held, Status.OK)
+    return Status.TOO_LONG, log.n_pose, log.n_event, log.n_rotation

@@ -5,94 +5,67 @@ from __future__ import annotations
 import math
 
 from kaidan.contact.codes import ROCKING
-from kaidan.contact.columns import (
-    BACK_RISE,
-    BOUNDED,
-    ENERGY,
-    ENERGY_SIDE,
-    FRONT_RISE,
-    OUTER_FRONT,
-    OUTER_REAR,
-    POSE_PHI,
-    POSE_X,
-    POSE_Z,
-    TILT,
-    WITHOUT,
-)
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.heaps import heap_of, taken
 from kaidan.contact.kernel.reserves import barrier, carrying_tilt
-from kaidan.contact.tables import (
-    BodyTable,
-    FloatRow,
-    GroundTable,
-    IntArray,
-    MarginTable,
-    PoseTable,
-)
+from kaidan.contact.layout import Margin, Pose, Release, Scene
+from kaidan.contact.memory import Row, Table, empty
 
 
 @entry
-def flow_energy(
-    ground: GroundTable, body: BodyTable, poses: PoseTable, margins: MarginTable, rows: IntArray
-) -> None:
+def flow_energy(scene: Scene, poses: Table[Pose], margins: Table[Margin], rows: Row[int]) -> None:
     """Work out the energy margin along the flow, its side and whether it is bounded, at some poses.
 
     Parameters
     ----------
-    ground, body, poses
-        As for :func:`kaidan.contact.kernel.margins.pose_margins`.
     margins
-        Table that it has filled.
+        As :func:`kaidan.contact.kernel.margins.pose_margins` has filled them.
     rows
         Which poses.
     """
-    hint = 0
-    for k in range(rows.shape[0]):
-        hint = work_out_energy(ground, body, poses, margins, rows[k], hint)
+    for k in range(len(rows)):
+        work_out_energy(scene, poses[rows[k]], margins[rows[k]])
 
 
-def work_out_energy(
-    ground: GroundTable, body: BodyTable, poses: PoseTable, margins: MarginTable, row: int,
-    hint: int,
-) -> int:  # fmt: skip
-    """Work out the energy margin along the flow at one pose; hint for the next call."""
-    x = poses[row, POSE_X]
-    z = poses[row, POSE_Z]
-    phi = poses[row, POSE_PHI]
-    kappa = margins[row, TILT]
-    rise_back = abs(margins[row, BACK_RISE])
-    rise_front = abs(margins[row, FRONT_RISE])
-    rear = int(margins[row, OUTER_REAR])
-    ahead = int(margins[row, OUTER_FRONT])
+def work_out_energy(scene: Scene, pose: Pose, margin: Margin) -> None:
+    """Work out the energy margin along the flow at one pose."""
+    x = pose.x
+    z = pose.z
+    phi = pose.inclination
+    kappa = margin.tilt
+    rise_back = abs(margin.back_rise)
+    rise_front = abs(margin.front_rise)
     # the side with the smaller bound first, the other only if it can be less
     side = 1.0
-    pivot = rear
+    pivot = margin.outer_rear
     bound = rise_front
     if rise_front < rise_back:
         side = -1.0
-        pivot = ahead
+        pivot = margin.outer_front
         bound = rise_back
-    bounded, rise, _, hint = barrier(ground, body, pivot, x, z, phi, side, kappa, ROCKING, hint)
+    bounded, rise, _ = barrier(scene, pivot, Release(x, z, phi, side, kappa), ROCKING)
     if rise > bound:
-        pivot = ahead if side > 0.0 else rear
-        other_bounded, other_rise, _, hint = barrier(
-            ground, body, pivot, x, z, phi, -side, kappa, ROCKING, hint
+        pivot = margin.outer_front if side > 0.0 else margin.outer_rear
+        other_bounded, other_rise, _ = barrier(
+            scene, pivot, Release(x, z, phi, -side, kappa), ROCKING
         )
         if other_rise < rise:
             rise = other_rise
             bounded = other_bounded
             side = -side
-    margins[row, ENERGY] = rise
-    margins[row, ENERGY_SIDE] = side
-    margins[row, BOUNDED] = 1.0 if bounded else 0.0
-    return hint
+    margin.energy = rise
+    margin.energy_side = side
+    margin.bounded = bounded
 
 
-@entry
+def rise_to(margin: Margin, side: float) -> float:
+    """Rise until the centroid stands over the contact on one side [m]."""
+    return margin.back_rise if side > 0.0 else margin.front_rise
+
+
 def least_flow_energy(
-    ground: GroundTable, body: BodyTable, poses: PoseTable, margins: MarginTable, rows: IntArray,
-    side: float, weights: FloatRow, tie: float, order: IntArray, pivots: FloatRow,
+    scene: Scene, poses: Table[Pose], margins: Table[Margin], rows: Row[int], side: float,
+    weights: Row[float], tie: float,
 ) -> tuple[float, int]:  # fmt: skip
     """Smallest weighted rise of the centroid that a fall to one side needs, of some poses.
 
@@ -102,8 +75,6 @@ def least_flow_energy(
 
     Parameters
     ----------
-    ground, body, poses, margins
-        As for :func:`flow_energy`.
     rows
         Which poses.
     side
@@ -112,51 +83,45 @@ def least_flow_energy(
         Of the rise at each pose of the table [1].
     tie
         Difference of rises that is none [m].
-    order, pivots
-        Scratch, as long as the rows.
 
     Returns
     -------
     rise [m], the first row that needs no more (-1: no pose needs a finite one)
     """
-    hint = 0
+    left = len(rows)
+    order = empty(int, left)
+    pivots = empty(float, left)
     least = math.inf
-    column = BACK_RISE if side > 0.0 else FRONT_RISE
-    for k in range(rows.shape[0]):
+    for k in range(left):
         order[k] = k
-        pivots[k] = weights[rows[k]] * margins[rows[k], column]
-    left = rows.shape[0]
+        pivots[k] = weights[rows[k]] * rise_to(margins[rows[k]], side)
     heap_of(order, pivots, left)
     while left > 0 and pivots[order[0]] < least + tie:
         row = rows[taken(order, pivots, left)]
         left -= 1
-        if math.isnan(margins[row, ENERGY]):
-            hint = work_out_energy(ground, body, poses, margins, row, hint)
-        rise = max(margins[row, ENERGY], margins[row, column])
+        if math.isnan(margins[row].energy):
+            work_out_energy(scene, poses[row], margins[row])
+        rise = max(margins[row].energy, rise_to(margins[row], side))
         least = min(least, weights[row] * rise)
     first = -1
-    for k in range(left, rows.shape[0]):
+    for k in range(left, len(rows)):
         row = rows[order[k]]
-        rise = max(margins[row, ENERGY], margins[row, column])
+        rise = max(margins[row].energy, rise_to(margins[row], side))
         if weights[row] * rise <= least + tie and least < math.inf:
             first = row if first < 0 else min(first, row)
     return least, first
 
 
 def pose_tilt(
-    ground: GroundTable, body: BodyTable, poses: PoseTable, margins: MarginTable, row: int,
-    side: float, tolerance: float, hint: int,
-) -> tuple[float, float, int]:  # fmt: skip
+    scene: Scene, pose: Pose, margin: Margin, side: float, tolerance: float
+) -> tuple[float, float]:
     """Tilt of gravity beyond which a pose rotates to one side by more than rocking.
 
     Returns
     -------
-    tilt [rad], rocking [rad], hint
+    tilt [rad], rocking [rad]
         As :func:`kaidan.contact.kernel.reserves.carrying_tilt`.
     """
-    column = OUTER_REAR if side > 0.0 else OUTER_FRONT
-    return carrying_tilt(
-        ground, body, int(margins[row, column]), poses[row, POSE_X], poses[row, POSE_Z],
-        poses[row, POSE_PHI], side, margins[row, TILT], tolerance, int(margins[row, WITHOUT]),
-        hint,
-    )  # fmt: skip
+    pivot = margin.outer_rear if side > 0.0 else margin.outer_front
+    release = Release(pose.x, pose.z, pose.inclination, side, margin.tilt)
+    return carrying_tilt(scene, pivot, release, tolerance, margin.without)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
-
 from kaidan.contact.codes import Advance
 from kaidan.contact.kernel.continuation import stepped, tilt
 from kaidan.contact.kernel.gaps import gap_anywhere
 from kaidan.contact.kernel.settling import lever
-from kaidan.contact.tables import BodyTable, GroundTable
+from kaidan.contact.layout import At, Held, Pull, Scene
 
 #: A gap below minus this [m] is a penetration.  An end's arc leaves a nosing like e^2/(2 R), so an
 #: event is seen sqrt(2 R 2e-12) = 0.5 um late for R = 60 mm; still ten times the corrector's rest.
@@ -45,47 +43,22 @@ def moved_again(moved: int, near: bool) -> int:
     return min(moved, 0) - 1
 
 
-def quantity(
-    ground: GroundTable,
-    body: BodyTable,
-    what: int,
-    rear: int,
-    front: int,
-    x: float,
-    z: float,
-    phi: float,
-    kappa: float,
-) -> float:
-    """Return what is positive as long as nothing happens: a gap, or a contact's lever [m]."""
-    c = math.cos(phi)
-    s = math.sin(phi)
+def quantity(scene: Scene, what: int, held: Held, at: At, kappa: float) -> float:
+    """Return what is positive as long as nothing happens: a gap, or a contact's lever [m].
+
+    ``at`` is where the body is in the pose.
+    """
     if what == Advance.OVER_REAR:
-        return -lever(ground, body, rear, x, z, c, s, kappa)
+        return -lever(scene, held.rear, at, kappa)
     if what == Advance.OVER_FRONT:
-        return lever(ground, body, front, x, z, c, s, kappa)
-    if what == rear or what == front:  # noqa: SIM109
+        return lever(scene, held.front, at, kappa)
+    if what == held.rear or what == held.front:
         return 0.5 * PENETRATED
-    return gap_anywhere(ground, body, what, x, z, c, s) + 0.5 * PENETRATED
+    return gap_anywhere(scene, what, at) + 0.5 * PENETRATED
 
 
 def closing_time(
-    ground: GroundTable,
-    body: BodyTable,
-    what: int,
-    rear: int,
-    front: int,
-    x: float,
-    z: float,
-    phi: float,
-    t_x: float,
-    t_z: float,
-    t_w: float,
-    ds: float,
-    f0: float,
-    f1: float,
-    a: float,
-    g: float,
-    kappa_g: float,
+    scene: Scene, what: int, held: Held, ds: float, f0: float, f1: float, pull: Pull
 ) -> tuple[int, float]:
     """Arclength at which one quantity changes sign within a step.
 
@@ -113,24 +86,12 @@ def closing_time(
             mid = 0.5 * (lo + hi)
         else:  # aimed a hair beyond the zero, so that a straight course ends with the first look
             mid = next_look(lo, hi, near + 0.2 * PENETRATED, far + 0.2 * PENETRATED, moved)
-        good, x1, z1, phi1, _, _, u_x, u_z, _, new_rear, new_front = stepped(
-            ground, body, rear, front, x, z, phi, t_x, t_z, t_w, mid
-        )
+        good, there, at = stepped(scene, held, mid)
         if not good:
             return 0, lo
-        if new_rear == what or new_front == what:
+        if there.rear == what or there.front == what:
             return 2, mid
-        value = quantity(
-            ground,
-            body,
-            what,
-            new_rear,
-            new_front,
-            x1,
-            z1,
-            phi1,
-            tilt(a, g, kappa_g, u_x, u_z),
-        )
+        value = quantity(scene, what, there, at, tilt(pull, there.t_x, there.t_z))
         moved = moved_again(moved, value > 0.0)
         if value > 0.0:
             lo = mid

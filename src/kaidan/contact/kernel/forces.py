@@ -15,41 +15,22 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.columns import (
-    CONTACT_FEATURE,
-    CONTACT_GAP,
-    CONTACT_KIND,
-    CONTACT_N_X,
-    CONTACT_N_Z,
-    CONTACT_X,
-    CONTACT_Z,
-    CONVEX,
-    COSINE,
+from kaidan.contact.entries import entry
+from kaidan.contact.kernel.gaps import centre_of, gap, pressed_normal
+from kaidan.contact.kernel.nearest_feature import first_index
+from kaidan.contact.kernel.trigonometry import placed
+from kaidan.contact.layout import (
+    DISC_1,
     DISC_2,
-    E_X,
-    E_Z,
-    KIND,
-    LENGTH,
     PART,
     POINT,
-    R1,
-    R2,
-    SIDE,
-    SINE,
-    U_X,
-    U_Z,
     VERTEX,
-    X1,
-    X2,
-    Z1,
-    Z2,
-    X,
-    Z,
+    Forces,
+    Press,
+    Scene,
+    Touching,
 )
-from kaidan.contact.entries import entry
-from kaidan.contact.kernel.gaps import gap, pressed_normal
-from kaidan.contact.kernel.nearest_feature import first_index
-from kaidan.contact.tables import BodyTable, ContactTable, FloatRow, GroundTable
+from kaidan.contact.memory import Row, Table
 
 NEVER = math.inf
 #: A force below this part of the weight is none: events are located to about 1e-9 m, so a contact
@@ -70,16 +51,12 @@ def cone_angle(tangential: float, normal: float, scale: float) -> float:
 
 @entry
 def two_contact_forces(
-    p1_x: float, p1_z: float, n1_x: float, n1_z: float,
-    p2_x: float, p2_z: float, n2_x: float, n2_z: float,
-    x: float, z: float, w_x: float, w_z: float,
-) -> tuple[float, float, float, float, float]:  # fmt: skip
+    one: Press, two: Press, x: float, z: float, w_x: float, w_z: float
+) -> Forces:
     """Smallest friction with which two contacts hold the robot, and the forces that do it.
 
     Parameters
     ----------
-    p1_x, p1_z, n1_x, n1_z, p2_x, p2_z, n2_x, n2_z
-        Points [m] and unit normals (into the robot) of the two contacts.
     x, z
         Centroid [m].
     w_x, w_z
@@ -87,45 +64,44 @@ def two_contact_forces(
 
     Returns
     -------
-    mu, N1, T1, N2, T2
-        T positive where it drives the robot ahead. ``mu`` is infinite if no friction suffices; if
-        it is only approached by an ever growing inner force (jamming between two faces) the
-        forces are NaN.
+    Forces
+        The friction is infinite if none suffices; if it is only approached by an ever growing
+        inner force (jamming between two faces) the forces are NaN.
 
     Notes
     -----
     max(|T1|/N1, |T2|/N2) is quasi-convex in the inner force, so its minimum lies where one ratio
     vanishes, where both are equal, or at infinity; each is a root of a polynomial of degree <= 2.
     """
-    d_x = p2_x - p1_x
-    d_z = p2_z - p1_z
+    d_x = two.x - one.x
+    d_z = two.z - one.z
     d = math.sqrt(d_x * d_x + d_z * d_z)
     size = math.sqrt(w_x * w_x + w_z * w_z)
     if d < 1e-12:
-        return NEVER, math.nan, math.nan, math.nan, math.nan
+        return Forces(NEVER, math.nan, math.nan, math.nan, math.nan)
     e_x = d_x / d
     e_z = d_z / d
-    across2 = ((x - p1_x) * w_z - (z - p1_z) * w_x) / d
+    across2 = ((x - one.x) * w_z - (z - one.z) * w_x) / d
     across1 = -w_x * e_z + w_z * e_x - across2
     along = w_x * e_x + w_z * e_z
     # N = n0 + n1 lambda, T = t0 + t1 lambda; forward tangent = (n_z, -n_x)
-    an1 = e_x * n1_x + e_z * n1_z
-    at1 = e_x * n1_z - e_z * n1_x
-    bn1 = across1 * (-e_z * n1_x + e_x * n1_z)
-    bt1 = across1 * (-e_z * n1_z - e_x * n1_x)
-    an2 = -(e_x * n2_x + e_z * n2_z)
-    at2 = -(e_x * n2_z - e_z * n2_x)
-    bn2 = across2 * (-e_z * n2_x + e_x * n2_z) - along * an2
-    bt2 = across2 * (-e_z * n2_z - e_x * n2_x) - along * at2
-    if abs(n1_x - n2_x) + abs(n1_z - n2_z) < 1e-12:
+    an1 = e_x * one.n_x + e_z * one.n_z
+    at1 = e_x * one.n_z - e_z * one.n_x
+    bn1 = across1 * (-e_z * one.n_x + e_x * one.n_z)
+    bt1 = across1 * (-e_z * one.n_z - e_x * one.n_x)
+    an2 = -(e_x * two.n_x + e_z * two.n_z)
+    at2 = -(e_x * two.n_z - e_z * two.n_x)
+    bn2 = across2 * (-e_z * two.n_x + e_x * two.n_z) - along * an2
+    bt2 = across2 * (-e_z * two.n_z - e_x * two.n_x) - along * at2
+    if abs(one.n_x - two.n_x) + abs(one.n_z - two.n_z) < 1e-12:
         # one plane: the friction is its slope, and least where all forces are parallel
-        normal = w_x * n1_x + w_z * n1_z
-        tangential = w_x * n1_z - w_z * n1_x
+        normal = w_x * one.n_x + w_z * one.n_z
+        tangential = w_x * one.n_z - w_z * one.n_x
         split = d_x * w_z - d_z * w_x
         if abs(split) > 1e-9 * d * size:
-            share = ((x - p1_x) * w_z - (z - p1_z) * w_x) / split
-            if 0.0 <= share <= 1.0:
-                return (
+            share = ((x - one.x) * w_z - (z - one.z) * w_x) / split
+            if share >= 0.0 and share <= 1.0:
+                return Forces(
                     cone_angle(tangential, normal, size),
                     (1.0 - share) * normal, (1.0 - share) * tangential,
                     share * normal, share * tangential,
@@ -135,21 +111,21 @@ def two_contact_forces(
     # at infinity
     if an1 * an2 > 0.0 and min(abs(an1), abs(an2)) > 1e-12:
         best = max(abs(at1 / an1), abs(at2 / an2))
-    for case in range(8):
+    for way in range(8):
         trial = 0.0
-        if case == 0:
+        if way == 0:
             if abs(at1) < 1e-15:
                 continue
             trial = -bt1 / at1
-        elif case == 1:
+        elif way == 1:
             if abs(at2) < 1e-15:
                 continue
             trial = -bt2 / at2
-        elif case == 2:
+        elif way == 2:
             trial = along
-        elif case >= 4:
+        elif way >= 4:
             # T1 N2 = +- T2 N1
-            sign = 1.0 if case < 6 else -1.0
+            sign = 1.0 if way < 6 else -1.0
             q2 = at1 * an2 - sign * at2 * an1
             q1 = at1 * bn2 + bt1 * an2 - sign * (at2 * bn1 + bt2 * an1)
             q0 = bt1 * bn2 - sign * bt2 * bn1
@@ -157,7 +133,7 @@ def two_contact_forces(
             if root < 0.0:
                 continue
             half = -0.5 * (q1 + math.copysign(math.sqrt(root), q1))
-            if case == 4 or case == 6:
+            if way == 4 or way == 6:
                 if half == 0.0:
                     continue
                 trial = q0 / half
@@ -172,112 +148,91 @@ def two_contact_forces(
         if mu < best or (mu == best and math.isnan(at)):
             best = mu
             at = trial
-    return best, bn1 + an1 * at, bt1 + at1 * at, bn2 + an2 * at, bt2 + at2 * at
+    return Forces(best, bn1 + an1 * at, bt1 + at1 * at, bn2 + an2 * at, bt2 + at2 * at)
 
 
 @entry
 def contacts_at(
-    ground: GroundTable,
-    body: BodyTable,
-    x: float,
-    z: float,
-    phi: float,
-    touch: float,
-    found: ContactTable,
-    hint: int,
-) -> tuple[int, int]:
+    scene: Scene, x: float, z: float, phi: float, touch: float, found: Table[Touching]
+) -> int:
     """All contacts of a pose: every feature whose gap is at most ``touch``.
 
     Parameters
     ----------
     found
-        Table to be filled (k, CONTACT_COLUMNS); features within 2 um of one already there are
-        the same contact.
-    hint
-        For the scan.
+        To be filled; features within 2 um of one already there are the same contact.
 
     Returns
     -------
-    number of contacts (at most the rows of ``found``), hint
+    number of contacts (at most the rows of ``found``)
     """
-    c = math.cos(phi)
-    s = math.sin(phi)
-    n = ground.shape[0]
+    at = placed(x, z, phi)
+    ground = scene.ground
     count = 0
-    new_hint = n
-    for part in range(body.shape[0]):
-        x1 = x + c * body[part, X1] - s * body[part, Z1]
-        z1 = z + s * body[part, X1] + c * body[part, Z1]
-        x2 = x + c * body[part, X2] - s * body[part, Z2]
-        z2 = z + s * body[part, X2] + c * body[part, Z2]
-        left = min(x1 - body[part, R1], x2 - body[part, R2]) - touch
-        right = max(x1 + body[part, R1], x2 + body[part, R2]) + touch
+    for number in range(len(scene.body)):
+        part = scene.body[number]
+        x1, z1 = centre_of(part.one, at)
+        x2, z2 = centre_of(part.two, at)
+        left = min(x1 - part.one.r, x2 - part.two.r) - touch
+        right = max(x1 + part.one.r, x2 + part.two.r) + touch
         # downward normal of the flat
-        side = body[part, SIDE]
-        b_x = body[part, SINE] * body[part, E_X] + body[part, COSINE] * side * body[part, E_Z]
-        b_z = body[part, SINE] * body[part, E_Z] - body[part, COSINE] * side * body[part, E_X]
-        q_x = c * b_x - s * b_z
-        q_z = s * b_x + c * b_z
-        line = x1 * q_x + z1 * q_z + body[part, R1] + touch
-        k = first_index(ground, left, hint)
-        hint = k
-        if k < new_hint:
-            new_hint = k
-        while k < n - 1 and ground[k, X] <= right:
+        b_x = part.sine * part.e_x + part.cosine * part.side * part.e_z
+        b_z = part.sine * part.e_z - part.cosine * part.side * part.e_x
+        q_x = at.c * b_x - at.s * b_z
+        q_z = at.s * b_x + at.c * b_z
+        line = x1 * q_x + z1 * q_z + part.one.r + touch
+        k = first_index(scene, left)
+        while k < len(ground) - 1 and ground[k].x <= right:
+            point = ground[k]
             for kind in range(VERTEX, DISC_2 + 1):
                 if kind == VERTEX:
                     # below the line of the flat a vertex is farther from the part than from it
-                    if ground[k, CONVEX] != 1.0 or ground[k, X] * q_x + ground[k, Z] * q_z > line:
+                    if not point.convex or point.x * q_x + point.z * q_z > line:
                         continue
                 else:
-                    to_x = x1 - ground[k, X]
-                    to_z = z1 - ground[k, Z]
-                    radius = body[part, R1]
-                    if kind == DISC_2:
-                        to_x = x2 - ground[k, X]
-                        to_z = z2 - ground[k, Z]
-                        radius = body[part, R2]
-                    foot = to_x * ground[k, U_X] + to_z * ground[k, U_Z]
-                    if foot < 0.0 or foot > ground[k, LENGTH]:
+                    to_x = (x1 if kind == DISC_1 else x2) - point.x
+                    to_z = (z1 if kind == DISC_1 else z2) - point.z
+                    radius = part.one.r if kind == DISC_1 else part.two.r
+                    foot = to_x * point.u_x + to_z * point.u_z
+                    if foot < 0.0 or foot > point.length:
                         continue
-                    off = ground[k, U_X] * to_z - ground[k, U_Z] * to_x
-                    if off - radius > touch:
+                    if point.u_x * to_z - point.u_z * to_x - radius > touch:
                         continue
-                feature = POINT * k + PART * part + kind
-                g, n_x, n_z, p_x, p_z = gap(ground, body, feature, x, z, c, s)
-                if abs(g) > touch:
+                feature = POINT * k + PART * number + kind
+                distance, n_x, n_z, p_x, p_z = gap(scene, feature, at)
+                if abs(distance) > touch or is_there(found, count, p_x, p_z):
                     continue
-                new = True
-                for row in range(count):
-                    if (
-                        abs(found[row, CONTACT_X] - p_x) < 2e-6
-                        and abs(found[row, CONTACT_Z] - p_z) < 2e-6
-                    ):
-                        new = False
-                        break
-                if new and count < found.shape[0]:
-                    n_x, n_z = pressed_normal(ground, body, feature, x, z, c, s, n_x, n_z)
-                    found[count, CONTACT_FEATURE] = feature
-                    found[count, CONTACT_X] = p_x
-                    found[count, CONTACT_Z] = p_z
-                    found[count, CONTACT_N_X] = n_x
-                    found[count, CONTACT_N_Z] = n_z
-                    found[count, CONTACT_GAP] = g
-                    found[count, CONTACT_KIND] = body[part, KIND]
+                if count < len(found):
+                    contact = found[count]
+                    n_x, n_z = pressed_normal(scene, feature, at, n_x, n_z)
+                    contact.feature = feature
+                    contact.x = p_x
+                    contact.z = p_z
+                    contact.n_x = n_x
+                    contact.n_z = n_z
+                    contact.gap = distance
+                    contact.kind = part.kind
                     count += 1
             k += 1
-    return count, new_hint
+    return count
+
+
+def is_there(found: Table[Touching], count: int, x: float, z: float) -> bool:
+    """Whether a place is that of a contact that has been found."""
+    for row in range(count):
+        if abs(found[row].x - x) < 2e-6 and abs(found[row].z - z) < 2e-6:
+            return True
+    return False
+
+
+def ahead_of(contact: Touching, x: float, z: float, kappa: float) -> float:
+    """How far ahead of the line of effective gravity through the centroid a contact lies [m]."""
+    return contact.x - x + kappa * (z - contact.z)
 
 
 @entry
 def shared_loads(
-    found: ContactTable,
-    count: int,
-    x: float,
-    z: float,
-    kappa: float,
-    gravity: float,
-    loads: FloatRow,
+    found: Table[Touching], x: float, z: float, kappa: float, gravity: float, loads: Row[float]
 ) -> int:
     """Share of each contact in the effective weight, equal springs [N/kg].
 
@@ -291,6 +246,7 @@ def shared_loads(
     -------
     number of contacts that carry
     """
+    count = len(found)
     for row in range(count):
         loads[row] = 1.0
     for _ in range(count):
@@ -299,18 +255,18 @@ def shared_loads(
         for row in range(count):
             if loads[row] != 0.0:
                 m += 1
-                mean += found[row, CONTACT_X] - x + kappa * (z - found[row, CONTACT_Z])
+                mean += ahead_of(found[row], x, z, kappa)
         mean /= m
         square = 0.0
         for row in range(count):
             if loads[row] != 0.0:
-                d = found[row, CONTACT_X] - x + kappa * (z - found[row, CONTACT_Z]) - mean
+                d = ahead_of(found[row], x, z, kappa) - mean
                 square += d * d
         worst = 0.0
         which = -1
         for row in range(count):
             if loads[row] != 0.0:
-                d = found[row, CONTACT_X] - x + kappa * (z - found[row, CONTACT_Z]) - mean
+                d = ahead_of(found[row], x, z, kappa) - mean
                 share = 1.0 / m
                 if square > 0.0:
                     share -= mean * d / square

@@ -13,7 +13,7 @@
 A vertex is measured to the whole outline of a part (arc, flat, arc): the gap is C1 from flat to
 arc.  From vertex to segment it is C1 as well, so a contact may be relabelled without a jump.
 
-A feature is one integer, see :mod:`kaidan.contact.columns`: the vertex or the start of the segment,
+A feature is one integer, see :mod:`kaidan.contact.layout`: the vertex or the start of the segment,
 the part, and VERTEX (vertex on part), DISC_1 or DISC_2 (end disc on segment).
 """
 
@@ -21,42 +21,25 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.columns import (
-    AXIS,
-    CONVEX,
-    COSINE,
-    DISC,
+from kaidan.contact.entries import entry
+from kaidan.contact.kernel.trigonometry import atan2, cos, sin
+from kaidan.contact.layout import (
     DISC_1,
     DISC_2,
-    DISC_R,
-    DISC_X,
-    DISC_Z,
-    E_X,
-    E_Z,
-    FLAT,
     KIND_MASK,
-    LENGTH,
     PART,
     PART_BITS,
     PART_MASK,
     POINT,
     POINT_BITS,
-    R1,
-    R2,
-    SIDE,
-    SINE,
-    U_X,
-    U_Z,
     VERTEX,
-    X1,
-    X2,
-    Z1,
-    Z2,
-    X,
-    Z,
+    At,
+    Disc,
+    Part,
+    Point,
+    Scene,
 )
-from kaidan.contact.entries import entry
-from kaidan.contact.tables import BodyTable, GroundTable
+from kaidan.contact.memory import Table
 
 #: Parts thinner than this are given that much inside below their axis [m], so that a step of some
 #: millimetres into a thin part is still seen as "too deep" and not as "through".
@@ -72,168 +55,134 @@ ARC = 0.25
 ONE_DISC = 1e-9
 
 
-def is_above(
-    ground: GroundTable,
-    body: BodyTable,
-    part: int,
-    k: int,
-    x: float,
-    c: float,
-    s: float,
-    below: float,
-) -> bool:
+def part_of(scene: Scene, feature: int) -> Part:
+    """Part of the robot that a feature is of."""
+    return scene.body[(feature >> PART_BITS) & PART_MASK]
+
+
+def disc_of(scene: Scene, feature: int) -> Disc:
+    """End disc that a feature is of; of a vertex the second one."""
+    part = part_of(scene, feature)
+    return part.one if feature & KIND_MASK == DISC_1 else part.two
+
+
+def centre_of(disc: Disc, at: At) -> tuple[float, float]:
+    """Centre of an end disc in the world [m]."""
+    return at.x + at.c * disc.x - at.s * disc.z, at.z + at.s * disc.x + at.c * disc.z
+
+
+def is_above(part: Part, v: float, at: At, below: float) -> bool:
     """Whether a vertex beyond the axis of a part is outside it, above, and not deep inside.
 
     The ground reaches down from every vertex, so a vertex just above a thin part has gone through
     it if the part lies under it; a vertex ahead of a lowered nose, or behind a lowered tail, is
-    simply above.
+    simply above. ``v`` is its place along [m].
     """
-    if below < min(body[part, R1], body[part, R2]) - INSIDE:
+    if below < min(part.one.r, part.two.r) - INSIDE:
         return True
-    x1 = x + c * body[part, X1] - s * body[part, Z1]
-    x2 = x + c * body[part, X2] - s * body[part, Z2]
-    v = ground[k, X]
-    left = min(x1 - body[part, R1], x2 - body[part, R2])
-    right = max(x1 + body[part, R1], x2 + body[part, R2])
-    return bool(v <= left or v >= right)
+    x1, _ = centre_of(part.one, at)
+    x2, _ = centre_of(part.two, at)
+    left = min(x1 - part.one.r, x2 - part.two.r)
+    right = max(x1 + part.one.r, x2 + part.two.r)
+    return v <= left or v >= right
+
+
+def beside_axis(part: Part, point: Point, at: At) -> tuple[float, float, float]:
+    """Where a point of the ground lies along the axis of a part and below it [m], on which side.
+
+    Above the part the point is measured to its upper side: the side is turned then.
+    """
+    d_x = point.x - at.x
+    d_z = point.z - at.z
+    a_x = at.c * d_x + at.s * d_z - part.one.x
+    a_z = at.c * d_z - at.s * d_x - part.one.z
+    along = a_x * part.e_x + a_z * part.e_z
+    below = part.side * (a_x * part.e_z - a_z * part.e_x)
+    if below < 0.0 and is_above(part, point.x, at, below):
+        return along, -below, -part.side
+    return along, below, part.side
 
 
 @entry
-def gap(
-    ground: GroundTable,
-    body: BodyTable,
-    feature: int,
-    x: float,
-    z: float,
-    c: float,
-    s: float,
-) -> tuple[float, float, float, float, float]:
+def gap(scene: Scene, feature: int, at: At) -> tuple[float, float, float, float, float]:
     """Signed gap of one feature, its normal and its contact point.
 
     The gradient of the gap to (x, z, phi) is ``(n_x, n_z, (p_x - x) n_z - (p_z - z) n_x)``.
-
-    Parameters
-    ----------
-    ground, body
-        Tables of :mod:`kaidan.contact.tables`.
-    feature
-        Code of the feature.
-    x, z
-        Centroid [m].
-    c, s
-        Cosine and sine of the inclination.
 
     Returns
     -------
     gap [m], n_x, n_z (unit, from the ground into the robot), p_x, p_z [m]
     """
     kind = feature & KIND_MASK
-    part = (feature >> PART_BITS) & PART_MASK
-    k = feature >> POINT_BITS
+    part = part_of(scene, feature)
+    point = scene.ground[feature >> POINT_BITS]
     if kind == VERTEX:
-        g_x = ground[k, X]
-        g_z = ground[k, Z]
-        d_x = g_x - x
-        d_z = g_z - z
-        a_x = c * d_x + s * d_z - body[part, X1]
-        a_z = c * d_z - s * d_x - body[part, Z1]
-        e_x = body[part, E_X]
-        e_z = body[part, E_Z]
-        sine = body[part, SINE]
-        cosine = body[part, COSINE]
-        side = body[part, SIDE]
-        along = a_x * e_x + a_z * e_z
-        below = side * (a_x * e_z - a_z * e_x)
-        if below < 0.0 and is_above(ground, body, part, k, x, c, s, below):
-            below = -below
-            side = -side
-        w = along * cosine - below * sine
-        if w > 0.0 and w < body[part, FLAT]:
-            distance = along * sine + below * cosine - body[part, R1]
-            nu = sine
-            nv = cosine
+        along, below, side = beside_axis(part, point, at)
+        w = along * part.cosine - below * part.sine
+        if w > 0.0 and w < part.flat:
+            distance = along * part.sine + below * part.cosine - part.one.r
+            nu = part.sine
+            nv = part.cosine
         else:
-            radius = body[part, R1]
+            radius = part.one.r
             if w > 0.0:
-                along -= body[part, AXIS]
-                radius = body[part, R2]
+                along -= part.axis
+                radius = part.two.r
             rho = math.sqrt(along * along + below * below)
             distance = rho - radius
             if rho > 1e-15:
                 nu = along / rho
                 nv = below / rho
             else:
-                nu = sine
-                nv = cosine
-        b_x = nu * e_x + nv * side * e_z
-        b_z = nu * e_z - nv * side * e_x
-        return distance, s * b_z - c * b_x, -s * b_x - c * b_z, g_x, g_z
-    j = DISC * (kind - DISC_1)
-    b_x = body[part, j + DISC_X]
-    b_z = body[part, j + DISC_Z]
-    c_x = x + c * b_x - s * b_z
-    c_z = z + s * b_x + c * b_z
-    radius = body[part, j + DISC_R]
-    n_x = -ground[k, U_Z]
-    n_z = ground[k, U_X]
-    distance = n_x * (c_x - ground[k, X]) + n_z * (c_z - ground[k, Z]) - radius
-    reach = radius + distance
+                nu = part.sine
+                nv = part.cosine
+        b_x = nu * part.e_x + nv * side * part.e_z
+        b_z = nu * part.e_z - nv * side * part.e_x
+        return distance, at.s * b_z - at.c * b_x, -at.s * b_x - at.c * b_z, point.x, point.z
+    disc = disc_of(scene, feature)
+    c_x, c_z = centre_of(disc, at)
+    n_x = -point.u_z
+    n_z = point.u_x
+    distance = n_x * (c_x - point.x) + n_z * (c_z - point.z) - disc.r
+    reach = disc.r + distance
     return distance, n_x, n_z, c_x - reach * n_x, c_z - reach * n_z
 
 
-def gap_anywhere(
-    ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
-) -> float:
+def gap_anywhere(scene: Scene, feature: int, at: At) -> float:
     """Gap of a feature wherever the robot is [m].
 
     As :func:`gap`, but a disc whose foot lies beyond an end of its segment is measured to that end:
     the line of a segment means nothing there.
     """
-    kind = feature & KIND_MASK
-    distance, _, _, p_x, p_z = gap(ground, body, feature, x, z, c, s)
-    if kind == VERTEX:
+    distance, _, _, p_x, p_z = gap(scene, feature, at)
+    if feature & KIND_MASK == VERTEX:
         return distance
-    beyond = beyond_segment(ground, feature >> POINT_BITS, p_x, p_z)
+    beyond = beyond_segment(scene.ground, feature >> POINT_BITS, p_x, p_z)
     if beyond <= 0.0:
         return distance
-    radius: float = body[(feature >> PART_BITS) & PART_MASK, DISC * (kind - DISC_1) + DISC_R]
+    radius = disc_of(scene, feature).r
     return math.sqrt(beyond * beyond + (distance + radius) * (distance + radius)) - radius
 
 
-def beyond_segment(ground: GroundTable, k: int, p_x: float, p_z: float) -> float:
+def beyond_segment(ground: Table[Point], k: int, p_x: float, p_z: float) -> float:
     """How far a foot on a segment's line lies beyond its nearer end [m]; negative: within."""
-    foot = (p_x - ground[k, X]) * ground[k, U_X] + (p_z - ground[k, Z]) * ground[k, U_Z]
-    return float(max(-foot, foot - ground[k, LENGTH]))
+    point = ground[k]
+    foot = (p_x - point.x) * point.u_x + (p_z - point.z) * point.u_z
+    return max(-foot, foot - point.length)
 
 
-def contact_point(
-    ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
-) -> tuple[float, float]:
+def contact_point(scene: Scene, feature: int, at: At) -> tuple[float, float]:
     """Contact point of one feature [m], without its gap: a vertex is its own."""
-    kind = feature & KIND_MASK
-    k = feature >> POINT_BITS
-    if kind == VERTEX:
-        return ground[k, X], ground[k, Z]
-    part = (feature >> PART_BITS) & PART_MASK
-    j = DISC * (kind - DISC_1)
-    c_x = x + c * body[part, j + DISC_X] - s * body[part, j + DISC_Z]
-    c_z = z + s * body[part, j + DISC_X] + c * body[part, j + DISC_Z]
-    u_x = ground[k, U_X]
-    u_z = ground[k, U_Z]
-    off = u_x * (c_z - ground[k, Z]) - u_z * (c_x - ground[k, X])
-    return c_x + off * u_z, c_z - off * u_x
+    point = scene.ground[feature >> POINT_BITS]
+    if feature & KIND_MASK == VERTEX:
+        return point.x, point.z
+    c_x, c_z = centre_of(disc_of(scene, feature), at)
+    off = point.u_x * (c_z - point.z) - point.u_z * (c_x - point.x)
+    return c_x + off * point.u_z, c_z - off * point.u_x
 
 
 def pressed_normal(
-    ground: GroundTable,
-    body: BodyTable,
-    feature: int,
-    x: float,
-    z: float,
-    c: float,
-    s: float,
-    n_x: float,
-    n_z: float,
+    scene: Scene, feature: int, at: At, n_x: float, n_z: float
 ) -> tuple[float, float]:
     """Normal of a contact as the belt gives way under it: forces follow it, poses do not.
 
@@ -247,127 +196,96 @@ def pressed_normal(
     n_x, n_z
         Normal of the rigid outline, from :func:`gap`.
     """
-    if feature & KIND_MASK != VERTEX:
+    if feature & KIND_MASK != VERTEX or on_flat(scene, feature, at):
         return n_x, n_z
-    part = (feature >> PART_BITS) & PART_MASK
-    k = feature >> POINT_BITS
-    if on_flat(ground, body, feature, x, z, c, s):
-        return n_x, n_z
-    d_x = x + c * body[part, X1] - s * body[part, Z1] - ground[k, X]
-    d_z = z + s * body[part, X1] + c * body[part, Z1] - ground[k, Z]
+    part = part_of(scene, feature)
+    point = scene.ground[feature >> POINT_BITS]
+    c_x, c_z = centre_of(part.one, at)
+    d_x = c_x - point.x
+    d_z = c_z - point.z
     to_1 = math.sqrt(d_x * d_x + d_z * d_z)
-    d_x = x + c * body[part, X2] - s * body[part, Z2] - ground[k, X]
-    d_z = z + s * body[part, X2] + c * body[part, Z2] - ground[k, Z]
+    c_x, c_z = centre_of(part.two, at)
+    d_x = c_x - point.x
+    d_z = c_z - point.z
     to_2 = math.sqrt(d_x * d_x + d_z * d_z)
-    j = 0 if to_1 - body[part, R1] <= to_2 - body[part, R2] else DISC
-    radius = body[part, j + DISC_R]
+    disc = part.one if to_1 - part.one.r <= to_2 - part.two.r else part.two
     # of all flats that end on this disc the nearest, and how far the normal has turned from it
     turned = math.pi
     length = 0.0
     upright = 1.0
-    for other in range(body.shape[0]):
+    for k in range(len(scene.body)):
+        other = scene.body[k]
         for end in range(2):
-            i = DISC * end
+            own = other.one if end == 0 else other.two
             if (
-                abs(body[other, i + DISC_X] - body[part, j + DISC_X]) > ONE_DISC
-                or abs(body[other, i + DISC_Z] - body[part, j + DISC_Z]) > ONE_DISC
-                or abs(body[other, i + DISC_R] - radius) > ONE_DISC
+                abs(own.x - disc.x) > ONE_DISC
+                or abs(own.z - disc.z) > ONE_DISC
+                or abs(own.r - disc.r) > ONE_DISC
             ):
                 continue
-            b_x = body[other, SINE] * body[other, E_X]
-            b_x += body[other, COSINE] * body[other, SIDE] * body[other, E_Z]
-            b_z = body[other, SINE] * body[other, E_Z]
-            b_z -= body[other, COSINE] * body[other, SIDE] * body[other, E_X]
-            f_x = s * b_z - c * b_x
-            f_z = -s * b_x - c * b_z
-            angle = math.atan2(n_x * f_z - n_z * f_x, n_x * f_x + n_z * f_z)
+            b_x = other.sine * other.e_x
+            b_x += other.cosine * other.side * other.e_z
+            b_z = other.sine * other.e_z
+            b_z -= other.cosine * other.side * other.e_x
+            f_x = at.s * b_z - at.c * b_x
+            f_z = -at.s * b_x - at.c * b_z
+            angle = atan2(n_x * f_z - n_z * f_x, n_x * f_x + n_z * f_z)
             if abs(angle) < abs(turned):
                 turned = angle
-                length = body[other, FLAT]
+                length = other.flat
                 upright = f_z
-    a = min(math.sqrt(2.0 * radius * YIELD * length), ARC * radius)
-    u = radius * abs(turned)
+    a = min(math.sqrt(2.0 * disc.r * YIELD * length), ARC * disc.r)
+    u = disc.r * abs(turned)
     if u >= 3.0 * a or n_z >= upright:
         return n_x, n_z
-    back = turned - math.copysign(1.5 * max(u - a, 0.0) / radius, turned)
-    return n_x * math.cos(back) - n_z * math.sin(back), n_z * math.cos(back) + n_x * math.sin(back)
+    back = turned - math.copysign(1.5 * max(u - a, 0.0) / disc.r, turned)
+    return n_x * cos(back) - n_z * sin(back), n_z * cos(back) + n_x * sin(back)
 
 
-def relabelled(
-    ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
-) -> int:
+def relabelled(scene: Scene, feature: int, at: At) -> int:
     """Name the same contact as it is called at this pose.
 
     A disc whose foot has run past the end of its segment stands on the vertex there; a vertex
     under an end disc whose centre has come over one of the vertex's segments is a contact with that
     segment.  Both changes are C1, so they are no events.
     """
-    kind = feature & KIND_MASK
-    part = (feature >> PART_BITS) & PART_MASK
     k = feature >> POINT_BITS
-    if kind == VERTEX:
-        g_x = ground[k, X]
-        g_z = ground[k, Z]
-        d_x = g_x - x
-        d_z = g_z - z
-        a_x = c * d_x + s * d_z - body[part, X1]
-        a_z = c * d_z - s * d_x - body[part, Z1]
-        e_x = body[part, E_X]
-        e_z = body[part, E_Z]
-        along = a_x * e_x + a_z * e_z
-        below = body[part, SIDE] * (a_x * e_z - a_z * e_x)
-        if below < 0.0 and is_above(ground, body, part, k, x, c, s, below):
-            below = -below
-        w = along * body[part, COSINE] - below * body[part, SINE]
-        if w > 0.0 and w < body[part, FLAT]:
+    point = scene.ground[k]
+    on_part = feature & (PART_MASK * PART)
+    if feature & KIND_MASK == VERTEX:
+        part = part_of(scene, feature)
+        along, below, _ = beside_axis(part, point, at)
+        w = along * part.cosine - below * part.sine
+        if w > 0.0 and w < part.flat:
             return feature
-        kind = DISC_1
-        if w > 0.0:
-            kind = DISC_2
-        j = DISC * (kind - DISC_1)
-        b_x = body[part, j + DISC_X]
-        b_z = body[part, j + DISC_Z]
-        to_x = x + c * b_x - s * b_z - g_x
-        to_z = z + s * b_x + c * b_z - g_z
-        if to_x * ground[k, U_X] + to_z * ground[k, U_Z] > 0.0:
-            return POINT * k + PART * part + kind
-        if to_x * ground[k - 1, U_X] + to_z * ground[k - 1, U_Z] < 0.0:
-            return POINT * (k - 1) + PART * part + kind
+        kind = DISC_2 if w > 0.0 else DISC_1
+        c_x, c_z = centre_of(part.two if w > 0.0 else part.one, at)
+        to_x = c_x - point.x
+        to_z = c_z - point.z
+        if to_x * point.u_x + to_z * point.u_z > 0.0:
+            return POINT * k + on_part + kind
+        behind = scene.ground[k - 1]
+        if to_x * behind.u_x + to_z * behind.u_z < 0.0:
+            return POINT * (k - 1) + on_part + kind
         return feature
-    j = DISC * (kind - DISC_1)
-    b_x = body[part, j + DISC_X]
-    b_z = body[part, j + DISC_Z]
-    to_x = x + c * b_x - s * b_z - ground[k, X]
-    to_z = z + s * b_x + c * b_z - ground[k, Z]
-    foot = to_x * ground[k, U_X] + to_z * ground[k, U_Z]
-    if foot < 0.0 and ground[k, CONVEX] == 1.0:
-        return POINT * k + PART * part
-    if foot > ground[k, LENGTH] and ground[k + 1, CONVEX] == 1.0:
-        return POINT * (k + 1) + PART * part
+    c_x, c_z = centre_of(disc_of(scene, feature), at)
+    foot = (c_x - point.x) * point.u_x + (c_z - point.z) * point.u_z
+    if foot < 0.0 and point.convex:
+        return POINT * k + on_part
+    if foot > point.length and scene.ground[k + 1].convex:
+        return POINT * (k + 1) + on_part
     return feature
 
 
 @entry
-def on_flat(
-    ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
-) -> bool:
+def on_flat(scene: Scene, feature: int, at: At) -> bool:
     """Whether a feature is a vertex under the straight underside of its part."""
-    return feature & KIND_MASK == VERTEX and flat_room(ground, body, feature, x, z, c, s) >= 0.0
+    return feature & KIND_MASK == VERTEX and flat_room(scene, feature, at) >= 0.0
 
 
-def flat_room(
-    ground: GroundTable, body: BodyTable, feature: int, x: float, z: float, c: float, s: float
-) -> float:
+def flat_room(scene: Scene, feature: int, at: At) -> float:
     """How far a vertex under a part is from the nearer end of its flat [m]; negative: beyond it."""
-    part = (feature >> PART_BITS) & PART_MASK
-    k = feature >> POINT_BITS
-    d_x = ground[k, X] - x
-    d_z = ground[k, Z] - z
-    a_x = c * d_x + s * d_z - body[part, X1]
-    a_z = c * d_z - s * d_x - body[part, Z1]
-    along = a_x * body[part, E_X] + a_z * body[part, E_Z]
-    below = body[part, SIDE] * (a_x * body[part, E_Z] - a_z * body[part, E_X])
-    if below < 0.0 and is_above(ground, body, part, k, x, c, s, below):
-        below = -below
-    w = along * body[part, COSINE] - below * body[part, SINE]
-    return float(min(w, body[part, FLAT] - w))
+    part = part_of(scene, feature)
+    along, below, _ = beside_axis(part, scene.ground[feature >> POINT_BITS], at)
+    w = along * part.cosine - below * part.sine
+    return min(w, part.flat - w)

@@ -12,27 +12,6 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.columns import (
-    FACE,
-    LOAD_COULOMB,
-    LOAD_X,
-    LOAD_Z,
-    NOSING,
-    NOWHERE,
-    SUPPORT_BESIDE,
-    SUPPORT_BEYOND,
-    SUPPORT_CURVATURE,
-    SUPPORT_FLAT,
-    SUPPORT_IS_ONE,
-    SUPPORT_LIFT,
-    SUPPORT_NORMAL,
-    SUPPORT_PLACE,
-    SUPPORT_POINT,
-    SUPPORT_TREAD,
-    SUPPORT_X,
-    SUPPORT_Z,
-    TREAD,
-)
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.cones import cone_margin
 from kaidan.contact.kernel.grousers import (
@@ -52,7 +31,20 @@ from kaidan.contact.kernel.grousers import (
     tip_tilt,
 )
 from kaidan.contact.kernel.peaks import larger
-from kaidan.contact.tables import FloatRow, IntArray, LoadTable, SupportTable, Tip
+from kaidan.contact.kernel.trigonometry import asin, atan2, cos, sin, tan
+from kaidan.contact.layout import (
+    FACE,
+    NOSING,
+    NOWHERE,
+    TREAD,
+    Cone,
+    Friction,
+    Grousers,
+    Load,
+    Support,
+    Tip,
+)
+from kaidan.contact.memory import Row, Table
 
 #: Share of the phases that counts where four nosings or more are under the belts [1]: fitted with
 #: `kaidan.mechanics.grousers.phases_friction` (docs/theory/grousers.md).
@@ -75,65 +67,53 @@ def smaller(one: float, other: float) -> float:
     return -larger(-one, -other)
 
 
-def carry(supports: SupportTable, first: int, i: int, j: int, loads: LoadTable, row: int) -> bool:
+def carry(one: Support, other: Support, outer: bool, load: Load) -> bool:
     """Whether two supports of a pose may carry it: on either side of its load, or the outer two."""
-    one = first + i
-    other = first + j
-    if supports[one, SUPPORT_IS_ONE] == 0.0 or supports[other, SUPPORT_IS_ONE] == 0.0:
+    if not one.is_one or not other.is_one:
         return False
-    if i == 0 and j == 1:
-        return True
-    slope = loads[row, LOAD_X] / loads[row, LOAD_Z]
-    ahead = supports[one, SUPPORT_X] - slope * supports[one, SUPPORT_Z]
-    behind = supports[other, SUPPORT_X] - slope * supports[other, SUPPORT_Z]
-    return bool(ahead * behind <= 0.0)
+    slope = load.x / load.z
+    ahead = one.x - slope * one.z
+    behind = other.x - slope * other.z
+    return outer or ahead * behind <= 0.0
 
 
-def friction_at(
-    supports: SupportTable, at: int, nosings: float, treads: float, faces: float, height: float
-) -> float:
+def friction_at(support: Support, friction: Friction, height: float) -> float:
     """Angle of friction under the belt; rigid grousers push an end off a face [rad]."""
-    if supports[at, SUPPORT_PLACE] == NOSING:
-        return nosings
-    if supports[at, SUPPORT_PLACE] == TREAD:
-        return treads
+    if support.place == NOSING:
+        return friction.nosings
+    if support.place == TREAD:
+        return friction.treads
     if height <= 0.0:
-        return faces
-    left = face_friction(math.tan(faces), height, supports[at, SUPPORT_CURVATURE])
-    return math.atan2(left, 1.0)
+        return friction.faces
+    return atan2(face_friction(tan(friction.faces), height, support.curvature), 1.0)
 
 
-def pushed_normal(
-    supports: SupportTable, at: int, other: int, h: float, r: float, side: float
-) -> float:
+def pushed_normal(support: Support, other: Support, h: float, r: float, side: float) -> float:
     """Tilt of the normal of an end's support once rigid grousers at another one push it back [rad].
 
     It goes no farther back than onto the flat. Going down, or of no height, nothing pushes.
     """
-    normal = float(supports[at, SUPPORT_NORMAL])
-    tread = float(supports[at, SUPPORT_TREAD])
-    place = supports[at, SUPPORT_PLACE]
-    if side < 0.0 or h <= 0.0 or place == FACE or math.isnan(tread):
+    normal = support.normal
+    tread = support.tread
+    if side < 0.0 or h <= 0.0 or support.place == FACE or math.isnan(tread):
         return normal
     lean = max(tread - normal, 0.0)
-    pushed = pushed_lean(
-        lean, tread - supports[other, SUPPORT_NORMAL], supports[at, SUPPORT_BEYOND], h, r,
-        supports[at, SUPPORT_CURVATURE],
-    )  # fmt: skip
-    if not math.isnan(supports[at, SUPPORT_FLAT]):
-        pushed = min(pushed, tread - supports[at, SUPPORT_FLAT])
+    pushed = pushed_lean(lean, tread - other.normal, support.beyond, h, r, support.curvature)
+    if not math.isnan(support.flat):
+        pushed = min(pushed, tread - support.flat)
     return tread - pushed if pushed > lean else normal
 
 
-def is_in_doubt(supports: SupportTable, first: int, slots: int) -> bool:
+def is_in_doubt(supports: Table[Support]) -> bool:
     """Whether an end is at a face while another one stands on a nosing, or on the tread behind."""
     at_face = False
     behind = False
-    for at in range(first, first + slots):
-        if supports[at, SUPPORT_IS_ONE] == 1.0 and supports[at, SUPPORT_CURVATURE] > 0.0:
-            if supports[at, SUPPORT_PLACE] == FACE:
+    for slot in range(len(supports)):
+        support = supports[slot]
+        if support.is_one and support.curvature > 0.0:
+            if support.place == FACE:
                 at_face = True
-            elif supports[at, SUPPORT_POINT] != NOWHERE:
+            elif support.point != NOWHERE:
                 behind = True
     return at_face and behind
 
@@ -142,27 +122,25 @@ def with_reserve(margin: float, friction: float) -> float:
     """Margin of an angle of friction, once what is required is `RESERVE` times as much [rad]."""
     if margin == -math.inf or margin >= friction:
         return margin
-    return friction - math.atan2(RESERVE * math.tan(friction - margin), 1.0)
+    return friction - atan2(RESERVE * tan(friction - margin), 1.0)
 
 
 def margin_of(
-    supports: SupportTable, one: int, alpha: float, phi: float, ahead: float, other: int,
-    other_alpha: float, other_phi: float, loads: LoadTable, row: int,
+    one: Support, alpha: float, phi: float, ahead: float, other: Support, other_alpha: float,
+    other_phi: float, load: Load,
 ) -> float:  # fmt: skip
     """Margin of two supports with their cones, the first so far ahead of its place [m]."""
-    normal = supports[one, SUPPORT_NORMAL]
+    x = one.x + ahead * cos(one.normal)
+    z = one.z - ahead * sin(one.normal)
     return cone_margin(
-        supports[one, SUPPORT_X] + ahead * math.cos(normal),
-        supports[one, SUPPORT_Z] - ahead * math.sin(normal), alpha, phi,
-        supports[other, SUPPORT_X], supports[other, SUPPORT_Z], other_alpha, other_phi,
-        loads[row, LOAD_X], loads[row, LOAD_Z],
-    )  # fmt: skip
+        Cone(x, z, alpha, phi), Cone(other.x, other.z, other_alpha, other_phi), load.x, load.z
+    )
 
 
 @entry
 def belt_margins(
-    supports: SupportTable, slots: int, loads: LoadTable, like: IntArray, nosings: float,
-    treads: float, faces: float, height: float, found: FloatRow,
+    supports: Table[Support], slots: int, loads: Table[Load], like: Row[int], friction: Friction,
+    height: float, found: Row[float],
 ) -> None:  # fmt: skip
     """Angle by which the cones of the belts may shrink without a grouser that stands, of each pose.
 
@@ -170,76 +148,62 @@ def belt_margins(
     ----------
     supports, slots, loads, like
         As :func:`kaidan.contact.kernel.supports.find_alike` takes and fills them.
-    nosings, treads, faces
-        Angles of friction [rad].
     height
         Of rigid grousers, which on an end's arc hold less at a face than a smooth belt [m].
     found
         To be filled [rad].
     """
-    one_friction = nosings == treads and treads == faces
-    for row in range(loads.shape[0]):
+    nosings = friction.nosings
+    one_friction = nosings == friction.treads and friction.treads == friction.faces
+    for row in range(len(loads)):
         if like[row] != row:
             found[row] = found[like[row]]
             continue
-        first = row * slots
+        own = supports[row * slots : (row + 1) * slots]
         at_face = False
-        for at in range(first, first + slots):
-            if supports[at, SUPPORT_IS_ONE] == 1.0 and supports[at, SUPPORT_PLACE] == FACE:
+        for slot in range(slots):
+            if own[slot].is_one and own[slot].place == FACE:
                 at_face = True
         found[row] = math.inf
         if one_friction:
-            found[row] = nosings - loads[row, LOAD_COULOMB]
+            found[row] = nosings - loads[row].coulomb
             if not at_face:
                 continue
         most = -math.inf
         for j in range(slots):
             for i in range(j):
-                if not carry(supports, first, i, j, loads, row):
+                one = own[i]
+                other = own[j]
+                if not carry(one, other, i == 0 and j == 1, loads[row]):
                     continue
-                one = first + i
-                other = first + j
                 margin = margin_of(
-                    supports, one, supports[one, SUPPORT_NORMAL],
-                    friction_at(supports, one, nosings, treads, faces, height), 0.0,
-                    other, supports[other, SUPPORT_NORMAL],
-                    friction_at(supports, other, nosings, treads, faces, height), loads, row,
+                    one, one.normal, friction_at(one, friction, height), 0.0, other, other.normal,
+                    friction_at(other, friction, height), loads[row],
                 )  # fmt: skip
                 most = larger(most, margin)
         found[row] = smaller(found[row], most)
 
 
-def tip_at(
-    supports: SupportTable, at: int, normal: float, h: float, s: float, w: float, r: float,
-    rigid: bool, side: float,
-) -> Tip:  # fmt: skip
-    """Tip of a grouser as it comes to stand at a support whose normal is so tilted [rad].
-
-    Returns
-    -------
-    Whether one can; tilt of the normal under it [rad]; length along the belt over which it stands
-    on the tread, and over which one that has passed the nosing rolls off it [m]; how far it stands
-    ahead of the nosing, along the belt [m].
-    """
-    tread = supports[at, SUPPORT_TREAD]
-    leans = side * (tread - normal)
-    if not (supports[at, SUPPORT_IS_ONE] == 1.0 and supports[at, SUPPORT_POINT] != NOWHERE):
-        return False, 0.0, 0.0, 0.0, 0.0
-    if not h > 0.0 or math.isnan(leans):
-        return False, 0.0, 0.0, 0.0, 0.0
-    if supports[at, SUPPORT_PLACE] == TREAD and leans <= LEVEL:
-        return False, 0.0, 0.0, 0.0, 0.0
-    curvature = supports[at, SUPPORT_CURVATURE]
-    if not math.isnan(supports[at, SUPPORT_LIFT]):
+def tip_at(support: Support, normal: float, grousers: Grousers, side: float) -> Tip:
+    """Tip of a grouser as it comes to stand at a support whose normal is so tilted [rad]."""
+    h, s, w, r, rigid = grousers
+    none = Tip(False, 0.0, 0.0, 0.0, 0.0)
+    leans = side * (support.tread - normal)
+    if not (support.is_one and support.point != NOWHERE and h > 0.0) or math.isnan(leans):
+        return none
+    if support.place == TREAD and leans <= LEVEL:
+        return none
+    curvature = support.curvature
+    if not math.isnan(support.lift):
         if leans <= 0.0:
-            return False, 0.0, 0.0, 0.0, 0.0
+            return none
         radius = 1.0 / curvature
         # the robot stands on its grousers, so the axle is higher by one
-        lift = supports[at, SUPPORT_LIFT] - h
+        lift = support.lift - h
         if lift > reach_over_edge(radius, h, s):
-            return False, 0.0, 0.0, 0.0, 0.0
+            return none
         over = edge_tilt(tip_overlap(radius, h, s, lift), r)
-        return True, tread - side * over, 0.0, 0.0, 0.0
+        return Tip(True, support.tread - side * over, 0.0, 0.0, 0.0)
     theta = min(max(leans, 1e-6), 0.5 * math.pi - 1e-6)
     behind = height_behind(theta, h, s, r, w, curvature) if rigid else h
     beta = tip_tilt(theta, behind, r, curvature)
@@ -248,45 +212,47 @@ def tip_at(
         run = end_run(theta, behind, r, curvature)
     off = roll_off_length(theta, behind, r)
     if not (leans > 0.0 and leans < 0.5 * math.pi and beta < theta):
-        return False, 0.0, 0.0, off, 0.0
-    return True, tread - side * beta, run, off, run + r * math.sin(theta - beta)
+        return Tip(False, 0.0, 0.0, off, 0.0)
+    return Tip(True, support.tread - side * beta, run, off, run + r * sin(theta - beta))
 
 
-def lag(supports: SupportTable, one: int, other: int, own: float, its: float) -> float:
+def lag(one: Support, other: Support, own: float, its: float) -> float:
     """Share of its speed by which the belt at a support passes more slowly than at another [1].
 
     Along its path a robot rotates about the point where the normals of both meet, see
     `kaidan.mechanics.grousers_in_turn.belt_lag`.
     """
-    d_x = supports[one, SUPPORT_X] - supports[other, SUPPORT_X]
-    d_z = supports[one, SUPPORT_Z] - supports[other, SUPPORT_Z]
-    far = d_x * math.cos(own) - d_z * math.sin(own)
+    d_x = one.x - other.x
+    d_z = one.z - other.z
+    far = d_x * cos(own) - d_z * sin(own)
     if far == 0.0:
         return math.inf
-    return float(1.0 - (d_x * math.cos(its) - d_z * math.sin(its)) / far)
+    return 1.0 - (d_x * cos(its) - d_z * sin(its)) / far
 
 
-def tilt_run_back(
-    supports: SupportTable, one: int, other: int, own: float, its: float, tip: Tip, s: float,
-    r: float, side: float, more: float,
-) -> float:  # fmt: skip
+def tilt_run_back(back: float, own: float, tip: Tip, r: float, side: float) -> float:
     """Tilt of the normal under a tip that ran back while the belt ran on by a spacing [rad].
 
-    It runs back over the tread first, then over the round of the nosing; NaN: it runs off. Of an
-    end it runs faster than the belt, and others at a face push it back: by so much more [m]. A
-    robot that goes down does not have to get on against its weight.
+    Parameters
+    ----------
+    back
+        How far it runs back [m], over the tread first, then over the round of the nosing. A robot
+        that goes down does not have to get on against its weight.
+
+    Returns
+    -------
+    NaN where it runs off.
     """
-    back = s * lag(supports, one, other, own, its) + more - tip[2]
-    if side < 0.0 or back <= 0.0:
-        return tip[1]
-    left = math.sin(side * (tip[1] - own)) - back / max(r, SHARP)
-    return own + side * math.asin(left) if left > 0.0 else math.nan
+    beyond = back - tip.run
+    if side < 0.0 or beyond <= 0.0:
+        return tip.tilt
+    left = sin(side * (tip.tilt - own)) - beyond / max(r, SHARP)
+    return own + side * asin(left) if left > 0.0 else math.nan
 
 
 def margin_standing(
-    supports: SupportTable, one: int, other: int, own: float, axis: float, loads: LoadTable,
-    row: int, tip: Tip, rolls: Tip, nosings: float, treads: float, faces: float, h: float,
-    s: float, r: float, rigid: bool, side: float,
+    one: Support, other: Support, own: float, axis: float, load: Load, tip: Tip, rolls: Tip,
+    friction: Friction, grousers: Grousers, side: float,
 ) -> float:  # fmt: skip
     """Margin of two supports, a grouser standing at the first [rad]; minus infinity: none can.
 
@@ -295,81 +261,79 @@ def margin_standing(
     farther than onto the face: then the worse of two times counts, see
     `kaidan.mechanics.grousers.roll_off_sine`, of the best part in which the other is taken to roll.
     As far as the other one lags it rolls off while the own one stands. Where belts pass the one
-    nosing two ways, and nothing else can hold, the tips of each keep off those of the other.
+    nosing two ways, and nothing else can hold, the tips of each keep off those of the other. Of an
+    end a tip runs back faster than the belt, and others at a face push it back.
     """
-    if not tip[0]:
+    h, s, _, r, rigid = grousers
+    treads = friction.treads
+    if not tip.stands:
         return -math.inf
     more = 0.0
     if rigid and side > 0.0:
-        if supports[one, SUPPORT_BESIDE] < h and supports[other, SUPPORT_POINT] == NOWHERE:
+        if one.beside < h and other.point == NOWHERE:
             return -math.inf
-        more = s * h * supports[one, SUPPORT_CURVATURE]
-        if supports[other, SUPPORT_PLACE] == FACE:
-            more += face_push(h, s, supports[other, SUPPORT_CURVATURE])
-    tilt = tilt_run_back(supports, one, other, own, axis, tip, s, r, side, more)
+        more = s * h * one.curvature
+        if other.place == FACE:
+            more += face_push(h, s, other.curvature)
+    tilt = tilt_run_back(s * lag(one, other, own, axis) + more, own, tip, r, side)
     if math.isnan(tilt):
         return -math.inf
-    phi = friction_at(supports, other, nosings, treads, faces, 0.0)
+    phi = friction_at(other, friction, 0.0)
     if not rigid:
-        return margin_of(supports, one, tilt, treads, 0.0, other, axis, phi, loads, row)
-    d_x = supports[one, SUPPORT_X] - supports[other, SUPPORT_X]
-    d_z = supports[one, SUPPORT_Z] - supports[other, SUPPORT_Z]
-    ahead = side * tip[4] if side * d_x > 0.0 else 0.0
+        return margin_of(one, tilt, treads, 0.0, other, axis, phi, load)
+    d_x = one.x - other.x
+    d_z = one.z - other.z
+    ahead = side * tip.ahead if side * d_x > 0.0 else 0.0
     gamma = 0.0
     rolled = 0.0
-    if supports[other, SUPPORT_PLACE] == NOSING and supports[other, SUPPORT_POINT] != NOWHERE:
+    if other.place == NOSING and other.point != NOWHERE:
         if side > 0.0:
-            rolled = min(max(s * lag(supports, other, one, axis, own), 0.0), rolls[3])
+            rolled = min(max(s * lag(other, one, axis, own), 0.0), rolls.off)
         axis -= side * (h / max(math.sqrt(d_x * d_x + d_z * d_z), APART))
-        gamma = roll_off_sine(tip[2], rolls[3] - rolled, max(r, SHARP))
+        gamma = roll_off_sine(tip.run, rolls.off - rolled, max(r, SHARP))
     if gamma <= 0.0 and rolled <= 0.0:
-        return margin_of(supports, one, tilt, treads, ahead, other, axis, phi, loads, row)
+        return margin_of(one, tilt, treads, ahead, other, axis, phi, load)
     lean = side * (tilt - own)
-    upright = 0.5 * math.pi - side * (supports[other, SUPPORT_TREAD] - axis)
+    upright = 0.5 * math.pi - side * (other.tread - axis)
     most = -math.inf
     for half in range(3):
         # the other has rolled off by so much at most, or the own one has climbed by the rest
         sine = min(half * gamma + rolled / max(r, SHARP), 1.0)
-        turned = min(math.asin(sine), max(upright, 0.0))
-        left = math.asin(max(math.sin(lean) - (2 - half) * gamma, 0.0))
-        first = margin_of(
-            supports, one, tilt, treads, ahead, other, axis - side * turned, phi, loads, row
-        )
+        turned = min(asin(sine), max(upright, 0.0))
+        left = asin(max(sin(lean) - (2 - half) * gamma, 0.0))
+        first = margin_of(one, tilt, treads, ahead, other, axis - side * turned, phi, load)
         if first <= most:  # the worse of the two is no better
             continue
-        then = margin_of(
-            supports, one, tilt - side * (lean - left), treads, ahead, other, axis, phi, loads, row
-        )
+        then = margin_of(one, tilt - side * (lean - left), treads, ahead, other, axis, phi, load)
         most = larger(most, smaller(first, then))
     return most
 
 
 def margin_of_several(
-    supports: SupportTable, at: int, several: int, required: float, tip: Tip, nosings: float,
-    s: float, rigid: bool, side: float,
+    support: Support, several: int, required: float, tip: Tip, nosings: float, grousers: Grousers,
+    side: float,
 ) -> float:  # fmt: skip
     """Margin of a pose on three supports or more, a grouser standing at one of them [rad].
 
     Rigid grousers hold in the mean over their phases. Others share the load, and one with no less
     than its part will stand.
     """
-    if not tip[0]:
+    if not tip.stands:
         return -math.inf
     theta = min(required, STEEPEST)
-    if rigid:
-        q = max(tip[2], 0.0) / s
+    if grousers.rigid:
+        q = max(tip.run, 0.0) / grousers.spacing
         needed = phases_friction(theta, MANY * q if several > 3 else q)
     else:
-        lean = min(max(side * (tip[1] - supports[at, SUPPORT_NORMAL]), 0.0), theta)
+        lean = min(max(side * (tip.tilt - support.normal), 0.0), theta)
         needed = standing_friction(theta, theta - lean, 1.0 / several)
-    return nosings - math.atan2(needed, 1.0)
+    return nosings - atan2(needed, 1.0)
 
 
 @entry
 def standing_margins(
-    supports: SupportTable, slots: int, loads: LoadTable, like: IntArray, nosings: float,
-    treads: float, faces: float, h: float, s: float, w: float, r: float, rigid: bool, side: float,
-    found: FloatRow,
+    supports: Table[Support], slots: int, loads: Table[Load], like: Row[int], friction: Friction,
+    grousers: Grousers, side: float, found: Row[float],
 ) -> None:  # fmt: skip
     """Margin of each pose with a grouser that stands at each of its supports.
 
@@ -380,65 +344,58 @@ def standing_margins(
     ----------
     supports, slots, loads, like
         As :func:`kaidan.contact.kernel.supports.find_alike` takes and fills them.
-    nosings, treads, faces
-        Angles of friction [rad].
-    h, s, w
-        Height of the grousers under load, their spacing, width of their tips along the belt [m].
-    r
-        Radius of the nosings [m].
-    rigid
-        Whether they are rigid and sharp.
     side
         +1 where the robot climbs, -1 where it goes down.
     found
         To be filled, as many a pose as it has slots [rad]; minus infinity: none can stand there.
     """
-    pushing = h if rigid else 0.0
-    for row in range(loads.shape[0]):
-        first = row * slots
+    r = grousers.nosing_radius
+    pushing = grousers.height if grousers.rigid else 0.0
+    for row in range(len(loads)):
+        load = loads[row]
+        own = supports[row * slots : (row + 1) * slots]
+        margins = found[row * slots : (row + 1) * slots]
         if like[row] != row:
             for slot in range(slots):
-                found[first + slot] = found[like[row] * slots + slot]
+                margins[slot] = found[like[row] * slots + slot]
             continue
         several = 0
         for slot in range(slots):
-            found[first + slot] = math.inf
-            if supports[first + slot, SUPPORT_IS_ONE] == 1.0:
+            margins[slot] = math.inf
+            if own[slot].is_one:
                 several += 1
         for j in range(1, several):
             for i in range(j):
-                if not carry(supports, first, i, j, loads, row):
+                one = own[i]
+                other = own[j]
+                if not carry(one, other, i == 0 and j == 1, load):
                     continue
-                at_i = pushed_normal(supports, first + i, first + j, pushing, r, side)
-                at_j = pushed_normal(supports, first + j, first + i, pushing, r, side)
-                of_i = tip_at(supports, first + i, at_i, h, s, w, r, rigid, side)
-                of_j = tip_at(supports, first + j, at_j, h, s, w, r, rigid, side)
-                one = margin_standing(
-                    supports, first + i, first + j, at_i, at_j, loads, row, of_i, of_j, nosings,
-                    treads, faces, h, s, r, rigid, side,
-                )  # fmt: skip
-                other = margin_standing(
-                    supports, first + j, first + i, at_j, at_i, loads, row, of_j, of_i, nosings,
-                    treads, faces, h, s, r, rigid, side,
-                )  # fmt: skip
-                for slot in range(slots):
-                    own = larger(one, other)
-                    if slot == i:
-                        own = one
-                    if slot == j:
-                        own = other
-                    found[first + slot] = smaller(found[first + slot], own)
-        for slot in range(slots):
-            at = first + slot
-            if found[at] == math.inf:
-                found[at] = -math.inf
-            if several > 2:
-                normal = supports[at, SUPPORT_NORMAL]
-                tip = tip_at(supports, at, normal, h, s, w, r, rigid, side)
-                of_all = margin_of_several(
-                    supports, at, several, loads[row, LOAD_COULOMB], tip, nosings, s, rigid, side
+                at_i = pushed_normal(one, other, pushing, r, side)
+                at_j = pushed_normal(other, one, pushing, r, side)
+                of_i = tip_at(one, at_i, grousers, side)
+                of_j = tip_at(other, at_j, grousers, side)
+                with_i = margin_standing(
+                    one, other, at_i, at_j, load, of_i, of_j, friction, grousers, side
                 )
-                found[at] = smaller(found[at], of_all)
-        if side > 0.0 and pushing > 0.0 and is_in_doubt(supports, first, slots):
-            for at in range(first, first + slots):
-                found[at] = with_reserve(found[at], nosings)
+                with_j = margin_standing(
+                    other, one, at_j, at_i, load, of_j, of_i, friction, grousers, side
+                )
+                for slot in range(slots):
+                    better = larger(with_i, with_j)
+                    if slot == i:
+                        better = with_i
+                    if slot == j:
+                        better = with_j
+                    margins[slot] = smaller(margins[slot], better)
+        for slot in range(slots):
+            if margins[slot] == math.inf:
+                margins[slot] = -math.inf
+            if several > 2:
+                tip = tip_at(own[slot], own[slot].normal, grousers, side)
+                of_all = margin_of_several(
+                    own[slot], several, load.coulomb, tip, friction.nosings, grousers, side
+                )
+                margins[slot] = smaller(margins[slot], of_all)
+        if side > 0.0 and pushing > 0.0 and is_in_doubt(own):
+            for slot in range(slots):
+                margins[slot] = with_reserve(margins[slot], friction.nosings)

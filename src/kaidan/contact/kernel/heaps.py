@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from kaidan.contact.tables import FloatRow, IntArray
+from kaidan.contact.memory import Row
 
 
-def is_less(figures: FloatRow, one: int, other: int) -> bool:
+def is_less(figures: Row[float], one: int, other: int) -> bool:
     """Whether a figure comes before another: of those alike the first."""
-    a: float = figures[one]
-    b: float = figures[other]
-    return a < b or (a == b and one < other)
+    return figures[one] < figures[other] or (figures[one] == figures[other] and one < other)
 
 
-def sink(order: IntArray, figures: FloatRow, root: int, end: int) -> None:
+def sink(order: Row[int], figures: Row[float], root: int, end: int) -> None:
     """Let one of a heap sink to its place."""
     while 2 * root + 1 < end:
         child = 2 * root + 1
@@ -26,15 +24,15 @@ def sink(order: IntArray, figures: FloatRow, root: int, end: int) -> None:
         root = child
 
 
-def heap_of(order: IntArray, figures: FloatRow, count: int) -> None:
+def heap_of(order: Row[int], figures: Row[float], count: int) -> None:
     """Make a heap of the rows of some figures."""
     for k in range(count // 2):
         sink(order, figures, count // 2 - 1 - k, count)
 
 
-def taken(order: IntArray, figures: FloatRow, left: int) -> int:
+def taken(order: Row[int], figures: Row[float], left: int) -> int:
     """Row of the smallest figure of a heap, which is put behind those that stay."""
-    first: int = order[0]
+    first = order[0]
     order[0] = order[left - 1]
     order[left - 1] = first
     sink(order, figures, 0, left - 1)

@@ -14,23 +14,9 @@ from __future__ import annotations
 import math
 
 from kaidan.contact.codes import PIECES
-from kaidan.contact.columns import (
-    WAY_AHEAD,
-    WAY_BEGIN,
-    WAY_BEHIND,
-    WAY_COLUMNS,
-    WAY_END,
-    WAY_GROUP,
-    WAY_PROMISE,
-    WAY_ROW,
-    WAY_S_AHEAD,
-    WAY_S_BEGIN,
-    WAY_S_BEHIND,
-    WAY_S_END,
-)
-from kaidan.contact.entries import entry
 from kaidan.contact.kernel.way_order import order_of, put_in_order
-from kaidan.contact.tables import FloatRow, IntArray, WayTable
+from kaidan.contact.layout import Figures, Way
+from kaidan.contact.memory import Row, Table, empty, put
 
 #: Share of a figure by which it may be higher where no line tells [1].
 NEAR = 0.05
@@ -88,44 +74,23 @@ def is_open(may: float, largest: float, tolerance: float) -> bool:
     return may > largest + LEAST + tolerance * abs(largest)
 
 
-def told(line: IntArray, values: FloatRow, row: int) -> bool:
+def told(figures: Figures, row: int) -> bool:
     """Whether the path leads on from a pose to the next, and the figure is known at both."""
-    if row < 0 or row >= values.shape[0] - 1 or line[row] == 0:
+    values = figures.values
+    if row < 0 or row >= len(values) - 1 or not figures.line[row]:
         return False
-    here: float = values[row]
-    then: float = values[row + 1]
-    return -math.inf < here < math.inf and -math.inf < then < math.inf
+    return abs(values[row]) < math.inf and abs(values[row + 1]) < math.inf
 
 
-@entry
-def open_ways(
-    s: FloatRow,
-    line: IntArray,
-    values: FloatRow,
-    group: IntArray,
-    narrow: IntArray,
-    largest: FloatRow,
-    tolerance: float,
-    ways: WayTable,
-) -> int:
+def open_ways(figures: Figures, tolerance: float, largest: Row[float], ways: Table[Way]) -> int:
     """Ways from each pose of a group to the next that promise enough.
 
     Parameters
     ----------
-    s
-        Arclength of each pose [m].
-    line
-        1 where the path leads on from a pose to the next.
-    values
-        The figure at each pose.
-    group
-        Number of the group of each pose; negative: of none.
-    narrow
-        1 where the way from a pose to the next may hide a peak that no line tells of.
+    tolerance
+        Share of a figure above which is not looked for [1].
     largest
         Figure of each group, to be filled.
-    tolerance
-        Share of it above which is not looked for [1].
     ways
         To be filled.
 
@@ -133,30 +98,33 @@ def open_ways(
     -------
     number of ways
     """
-    for k in range(largest.shape[0]):
+    s = figures.s
+    values = figures.values
+    group = figures.group
+    for k in range(len(largest)):
         largest[k] = -1.7976931348623157e308
-    for row in range(values.shape[0]):
+    for row in range(len(values)):
         if group[row] >= 0:
             largest[group[row]] = larger(largest[group[row]], values[row])
     count = 0
-    for row in range(values.shape[0] - 1):
-        if group[row] < 0 or not told(line, values, row):
+    for row in range(len(values) - 1):
+        if group[row] < 0 or not told(figures, row):
             continue
         behind = math.nan
         s_behind = s[row]
         if row > 0:
             s_behind = s[row - 1]
-            if told(line, values, row - 1):
+            if told(figures, row - 1):
                 behind = values[row - 1]
         ahead = math.nan
         s_ahead = s[row + 1]
-        if row + 2 < values.shape[0]:
+        if row + 2 < len(values):
             s_ahead = s[row + 2]
-            if told(line, values, row + 1):
+            if told(figures, row + 1):
                 ahead = values[row + 2]
         begin = values[row]
         end = values[row + 1]
-        if narrow[row] == 1:
+        if figures.narrow[row]:
             higher = larger(begin, end)
             may = higher + NEAR * abs(higher)
         else:
@@ -165,55 +133,36 @@ def open_ways(
                 slope(s[row + 1], s_ahead, end, ahead),
             )  # fmt: skip
         if is_open(may, largest[group[row]], tolerance):
-            noted(
-                ways, count, row, group[row], s_behind, s[row], s[row + 1], s_ahead,
-                behind, begin, end, ahead, may,
-            )  # fmt: skip
+            way = ways[count]
+            way.row = row
+            way.group = group[row]
+            way.s_behind = s_behind
+            way.s_begin = s[row]
+            way.s_end = s[row + 1]
+            way.s_ahead = s_ahead
+            way.behind = behind
+            way.begin = begin
+            way.end = end
+            way.ahead = ahead
+            way.promise = may
             count += 1
     return count
 
 
-def noted(
-    ways: WayTable, at: int, row: int, group: int, s_behind: float, s_begin: float, s_end: float,
-    s_ahead: float, behind: float, begin: float, end: float, ahead: float, may: float,
-) -> None:  # fmt: skip
-    """Write a way into its row."""
-    ways[at, WAY_ROW] = row
-    ways[at, WAY_GROUP] = group
-    ways[at, WAY_S_BEHIND] = s_behind
-    ways[at, WAY_S_BEGIN] = s_begin
-    ways[at, WAY_S_END] = s_end
-    ways[at, WAY_S_AHEAD] = s_ahead
-    ways[at, WAY_BEHIND] = behind
-    ways[at, WAY_BEGIN] = begin
-    ways[at, WAY_END] = end
-    ways[at, WAY_AHEAD] = ahead
-    ways[at, WAY_PROMISE] = may
-
-
-@entry
 def chosen_ways(
-    ways: WayTable,
-    count: int,
-    largest: FloatRow,
-    tolerance: float,
-    at_once: int,
-    order: IntArray,
-    kept: WayTable,
-    chosen: IntArray,
-) -> tuple[int, int]:
+    ways: Table[Way], largest: Row[float], tolerance: float, at_once: int, kept: Table[Way],
+    chosen: Row[int],
+) -> tuple[int, int]:  # fmt: skip
     """Ways that still promise enough, those that repeat themselves once, and which to cut first.
 
     Parameters
     ----------
-    ways, count
-        Table and number of its rows in use; those that promise too little are written over.
+    ways
+        Those that promise too little are written over.
     largest, tolerance
         As for `open_ways`.
     at_once
         Ways of a group to be cut together.
-    order
-        Scratch, as long as the ways.
     kept
         To be filled: ways in their order, the most promising first.
     chosen
@@ -223,79 +172,71 @@ def chosen_ways(
     -------
     number of ways kept, number chosen
     """
+    order = empty(int, len(ways))
     many = 0
-    for k in range(count):
-        if is_open(ways[k, WAY_PROMISE], largest[int(ways[k, WAY_GROUP])], tolerance):
-            for column in range(WAY_COLUMNS):
-                ways[many, column] = ways[k, column]
+    for k in range(len(ways)):
+        if is_open(ways[k].promise, largest[ways[k].group], tolerance):
+            put(ways[many], ways[k])
             order[many] = many
             many += 1
     put_in_order(ways, order, many, False)
     unlike = 0
     for k in range(many):
-        if k == 0 or order_of(ways, order[unlike - 1], order[k]) != 0:
+        if k == 0 or order_of(ways[order[unlike - 1]], ways[order[k]]) != 0:
             order[unlike] = order[k]
             unlike += 1
     put_in_order(ways, order, unlike, True)
     for k in range(unlike):
-        for column in range(WAY_COLUMNS):
-            kept[k, column] = ways[order[k], column]
+        put(kept[k], ways[order[k]])
     found = 0
-    for group in range(largest.shape[0]):
+    for group in range(len(largest)):
         taken = 0
         for k in range(unlike):
-            if taken < at_once and int(kept[k, WAY_GROUP]) == group:
+            if taken < at_once and kept[k].group == group:
                 chosen[found] = k
                 found += 1
                 taken += 1
     return unlike, found
 
 
-@entry
 def places_on_ways(
-    s: FloatRow, kept: WayTable, chosen: IntArray, count: int, rows: IntArray, shares: FloatRow
+    s: Row[float], kept: Table[Way], chosen: Row[int], rows: Row[int], shares: Row[float]
 ) -> None:
     """Poses that cut some ways into `PIECES`: the row before each and the share of its way.
 
     Of each way the first, then of each the second, and so on.
     """
+    count = len(chosen)
     for cut in range(1, PIECES):
         for k in range(count):
-            way = chosen[k]
-            row = int(kept[way, WAY_ROW])
-            begin = kept[way, WAY_S_BEGIN]
-            at = begin + float(cut) / PIECES * (kept[way, WAY_S_END] - begin)
-            rows[(cut - 1) * count + k] = row
-            shares[(cut - 1) * count + k] = (at - s[row]) / (s[row + 1] - s[row])
+            way = kept[chosen[k]]
+            at = way.s_begin + cut / PIECES * (way.s_end - way.s_begin)
+            rows[(cut - 1) * count + k] = way.row
+            shares[(cut - 1) * count + k] = (at - s[way.row]) / (s[way.row + 1] - s[way.row])
 
 
-def end_of_piece(
-    kept: WayTable, way: int, cut: int, inside: FloatRow, count: int, k: int
-) -> tuple[float, float]:
+def end_of_piece(way: Way, cut: int, inside: Row[float], count: int, k: int) -> tuple[float, float]:
     """Place and figure where a way is cut: -1 and `PIECES` + 1 are the poses behind and ahead."""
-    begin = kept[way, WAY_S_BEGIN]
-    s = begin + float(cut) / PIECES * (kept[way, WAY_S_END] - begin)
+    s = way.s_begin + cut / PIECES * (way.s_end - way.s_begin)
     if cut < 0:
-        return kept[way, WAY_S_BEHIND], kept[way, WAY_BEHIND]
+        return way.s_behind, way.behind
     if cut > PIECES:
-        return kept[way, WAY_S_AHEAD], kept[way, WAY_AHEAD]
+        return way.s_ahead, way.ahead
     if cut == 0:
-        return s, kept[way, WAY_BEGIN]
+        return s, way.begin
     if cut == PIECES:
-        return s, kept[way, WAY_END]
+        return s, way.end
     return s, inside[(cut - 1) * count + k]
 
 
-@entry
 def cut_ways(
-    kept: WayTable, many: int, chosen: IntArray, count: int, inside: FloatRow, largest: FloatRow,
-    ways: WayTable,
-) -> int:  # fmt: skip
+    kept: Table[Way], chosen: Row[int], inside: Row[float], largest: Row[float], ways: Table[Way]
+) -> int:
     """Ways that were not chosen, and the pieces of those that were.
 
     Parameters
     ----------
-    kept, many, chosen, count
+    kept, chosen
         As `chosen_ways` filled them.
     inside
         The figure at the poses of `places_on_ways`.
@@ -308,34 +249,34 @@ def cut_ways(
     -------
     number of ways
     """
+    count = len(chosen)
     left = 0
-    for k in range(many):
+    for k in range(len(kept)):
         stays = True
         for j in range(count):
             if chosen[j] == k:
                 stays = False
         if stays:
-            for column in range(WAY_COLUMNS):
-                ways[left, column] = kept[k, column]
+            put(ways[left], kept[k])
             left += 1
     for k in range(count):
-        group = int(kept[chosen[k], WAY_GROUP])
+        group = kept[chosen[k]].group
         for cut in range(PIECES - 1):
             largest[group] = larger(largest[group], inside[cut * count + k])
     for cut in range(PIECES):
         for k in range(count):
-            way = chosen[k]
-            s_behind, behind = end_of_piece(kept, way, cut - 1, inside, count, k)
-            s_begin, begin = end_of_piece(kept, way, cut, inside, count, k)
-            s_end, end = end_of_piece(kept, way, cut + 1, inside, count, k)
-            s_ahead, ahead = end_of_piece(kept, way, cut + 2, inside, count, k)
-            may = promised(
-                s_end - s_begin, begin, end, slope(s_behind, s_begin, behind, begin),
-                slope(s_end, s_ahead, end, ahead),
-            )  # fmt: skip
-            noted(
-                ways, left, int(kept[way, WAY_ROW]), int(kept[way, WAY_GROUP]), s_behind, s_begin,
-                s_end, s_ahead, behind, begin, end, ahead, may,
+            way = kept[chosen[k]]
+            piece = ways[left]
+            piece.row = way.row
+            piece.group = way.group
+            piece.s_behind, piece.behind = end_of_piece(way, cut - 1, inside, count, k)
+            piece.s_begin, piece.begin = end_of_piece(way, cut, inside, count, k)
+            piece.s_end, piece.end = end_of_piece(way, cut + 1, inside, count, k)
+            piece.s_ahead, piece.ahead = end_of_piece(way, cut + 2, inside, count, k)
+            piece.promise = promised(
+                piece.s_end - piece.s_begin, piece.begin, piece.end,
+                slope(piece.s_behind, piece.s_begin, piece.behind, piece.begin),
+                slope(piece.s_end, piece.s_ahead, piece.end, piece.ahead),
             )  # fmt: skip
             left += 1
     return left

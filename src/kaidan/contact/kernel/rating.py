@@ -13,94 +13,44 @@ from __future__ import annotations
 import math
 
 from kaidan.contact.codes import RotationOutcome, Status
-from kaidan.contact.columns import (
-    BARRIER,
-    BARRIER_ACROSS,
-    BELLY_TOUCHES,
-    END_PHI,
-    END_X,
-    END_Z,
-    FLIGHT_BEGIN,
-    FLIGHT_END,
-    FLIGHT_SLOPE,
-    FRICTION,
-    FRONT_X,
-    FRONT_Z,
-    JOB_ACCELERATION,
-    JOB_END,
-    JOB_GYRATION,
-    JOB_PHI,
-    JOB_ROBOT,
-    JOB_START,
-    OUTCOME,
-    PIVOT_X,
-    PIVOT_Z,
-    POSE_LEG,
-    POSE_PSI,
-    POSE_S,
-    RATED_ANGLE,
-    RATED_BELLY,
-    RATED_FRICTION,
-    RATED_HELD,
-    RATED_HELD_BEST,
-    RATED_IMPACT,
-    RATED_ROCKING,
-    RATED_SPARE,
-    RATED_STATUS,
-    REAR_X,
-    ROTATION_ANGLE,
-    ROTATION_S,
-    ROTATION_SENSE,
-    START_PHI,
-    START_X,
-    START_Z,
-    X,
-    Z,
-)
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.driver import drive
-from kaidan.contact.kernel.holding import find_standing, least_held
+from kaidan.contact.kernel.holding import held_on_grousers
 from kaidan.contact.kernel.impact import impact_speed
 from kaidan.contact.kernel.margins import pose_margins
 from kaidan.contact.kernel.phases import in_zone
 from kaidan.contact.kernel.sampling import leaves_edge
-from kaidan.contact.tables import (
-    BodyTable,
-    ContactTable,
-    EventTable,
-    FlightTable,
-    FloatRow,
-    GroundTable,
-    GrouserTable,
-    IntArray,
-    JobTable,
-    LoadTable,
-    MarginTable,
-    PointTable,
-    PoseTable,
-    RatingTable,
-    RotationTable,
-    SupportTable,
-    ZoneTable,
+from kaidan.contact.kernel.trigonometry import atan2, cos, sin
+from kaidan.contact.layout import (
+    Belts,
+    Course,
+    EventRow,
+    Flight,
+    Job,
+    Journey,
+    Log,
+    Margin,
+    Pose,
+    Pull,
+    Rating,
+    RotationRow,
+    Scene,
+    Zone,
 )
+from kaidan.contact.memory import Row, Table, empty
 
 #: Way of the centroid between two rotations that follow at once, over the flat's length [1].
 FOLLOWS = 0.01
 
 
-def comes_off(poses: PoseTable, row: int, zones: ZoneTable) -> bool:
-    """Whether the trailing end leaves an edge on the way down, the front on a landing."""
-    return leaves_edge(poses, row) and in_zone(zones, poses[row, FRONT_X], poses[row, FRONT_Z])
-
-
 @entry
-def row_before(poses: PoseTable, count: int, s: float) -> int:
+def row_before(poses: Table[Pose], s: float) -> int:
     """Row of the last pose of the line of poses that ends at an arclength.
 
     Parameters
     ----------
-    poses, count
-        Poses in the order of their arclengths, and how many.
+    poses
+        In the order of their arclengths.
     s
         Where a rotation begins [m]: between two rows of one arclength, before it and after it.
 
@@ -110,17 +60,17 @@ def row_before(poses: PoseTable, count: int, s: float) -> int:
         Where no pose is the last one before.
     """
     low = 0
-    high = count
+    high = len(poses)
     while low < high:
         middle = (low + high) // 2
-        if poses[middle, POSE_S] < s - 1e-9:
+        if poses[middle].s < s - 1e-9:
             low = middle + 1
         else:
             high = middle
     best = -1
     row = low
-    while row < count and poses[row, POSE_S] <= s + 1e-9:
-        if best < 0 or poses[row, POSE_LEG] <= poses[best, POSE_LEG]:
+    while row < len(poses) and poses[row].s <= s + 1e-9:
+        if best < 0 or poses[row].leg <= poses[best].leg:
             best = row
         row += 1
     if best >= 0:
@@ -128,28 +78,30 @@ def row_before(poses: PoseTable, count: int, s: float) -> int:
     return low - 1 if low > 0 else 0
 
 
-def beyond_the_edge(
-    rotations: RotationTable, row: int, edges: PointTable, flat: float, rough: float
-) -> float:
+def comes_off(pose: Pose, zones: Table[Zone]) -> bool:
+    """Whether the trailing end leaves an edge on the way down, the front contact on a landing."""
+    return leaves_edge(pose) and in_zone(zones, pose.front.x, pose.front.z)
+
+
+def beyond_the_edge(row: RotationRow, course: Course, flat: float) -> float:
     """How far a rotation goes below the line from its pivot to the next edge [rad]."""
     line = -math.inf
-    for k in range(edges.shape[0]):
-        x = edges[k, X] - rotations[row, PIVOT_X]
-        z = edges[k, Z] - rotations[row, PIVOT_Z]
-        if x > rough and math.sqrt(x * x + z * z) <= flat:
-            line = max(line, math.atan2(z, x))
+    for k in range(len(course.edges)):
+        x = course.edges[k].x - row.pivot_x
+        z = course.edges[k].z - row.pivot_z
+        if x > course.rough and math.sqrt(x * x + z * z) <= flat:
+            line = max(line, atan2(z, x))
     if line == -math.inf:
         return 0.0
-    below: float = min(line, rotations[row, START_PHI]) - rotations[row, END_PHI]
-    return max(below, 0.0)
+    return max(min(line, row.start.inclination) - row.end.inclination, 0.0)
 
 
-def flight_at(poses: PoseTable, row: int, flights: FlightTable) -> int:
+def flight_at(poses: Table[Pose], row: int, flights: Table[Flight]) -> int:
     """Flight on which both contacts of a pose and of the next stand; -1: none."""
-    rear = min(poses[row, REAR_X], poses[row + 1, REAR_X])
-    front = max(poses[row, FRONT_X], poses[row + 1, FRONT_X])
-    for k in range(flights.shape[0]):
-        if flights[k, FLIGHT_BEGIN] <= rear and front <= flights[k, FLIGHT_END]:
+    rear = min(poses[row].rear.x, poses[row + 1].rear.x)
+    front = max(poses[row].front.x, poses[row + 1].front.x)
+    for k in range(len(flights)):
+        if flights[k].begin <= rear and front <= flights[k].end:
             return k
     return -1
 
@@ -160,24 +112,9 @@ def rocking(turn: float, before: float, after: float, theta_s: float) -> float:
 
 
 def rate_rotations(
-    ground: GroundTable,
-    body: BodyTable,
-    poses: PoseTable,
-    n_pose: int,
-    rotations: RotationTable,
-    count: int,
-    a: float,
-    g: float,
-    flat: float,
-    rough: float,
-    tilt_rear: float,
-    tilt_front: float,
-    edges: PointTable,
-    flights: FlightTable,
-    found: ContactTable,
-    ratings: RatingTable,
-    job: int,
-) -> None:
+    scene: Scene, poses: Table[Pose], rotations: Table[RotationRow], pull: Pull, flat: float,
+    course: Course, flights: Table[Flight], rating: Rating,
+) -> None:  # fmt: skip
     """Write the extremes over the chains of rotations that follow one another at once."""
     most = 0.0
     rocks = 0.0
@@ -191,10 +128,11 @@ def rate_rotations(
     highest = -math.inf
     flight = -1
     begins = True
-    for row in range(count):
-        if row > 0:
-            w_x = rotations[row, START_X] - rotations[row - 1, END_X]
-            w_z = rotations[row, START_Z] - rotations[row - 1, END_Z]
+    for k in range(len(rotations)):
+        row = rotations[k]
+        if k > 0:
+            w_x = row.start.x - rotations[k - 1].end.x
+            w_z = row.start.z - rotations[k - 1].end.z
             if math.sqrt(w_x * w_x + w_z * w_z) > FOLLOWS * flat:
                 angle = 0.0
                 avoids = 0.0
@@ -203,180 +141,111 @@ def rate_rotations(
                 lowest = math.inf
                 highest = -math.inf
                 begins = True
-        at = row_before(poses, n_pose, rotations[row, ROTATION_S])
-        psi = poses[at, POSE_PSI]
-        ahead = a * math.cos(psi)
-        up = g + a * math.sin(psi)
+        at = row_before(poses, row.s)
+        psi = poses[at].path_direction
+        ahead = pull.a * cos(psi)
+        up = pull.g + pull.a * sin(psi)
         size = math.sqrt(ahead * ahead + up * up)
-        d_x = rotations[row, START_X] - rotations[row, END_X]
-        d_z = rotations[row, START_Z] - rotations[row, END_Z]
+        d_x = row.start.x - row.end.x
+        d_z = row.start.z - row.end.z
         fallen += (up * d_z + ahead * d_x) / size
         moved -= (up * d_x - ahead * d_z) / size
-        angle += rotations[row, ROTATION_ANGLE]
-        if rotations[row, ROTATION_SENSE] < 0.0:
-            avoids += beyond_the_edge(rotations, row, edges, flat, rough)
-        else:
-            avoids += rotations[row, ROTATION_ANGLE]
-        lowest = min(lowest, rotations[row, START_PHI], rotations[row, END_PHI])
-        highest = max(highest, rotations[row, START_PHI], rotations[row, END_PHI])
+        angle += row.angle
+        avoids += beyond_the_edge(row, course, flat) if row.sense < 0.0 else row.angle
+        lowest = min(lowest, row.start.inclination, row.end.inclination)
+        highest = max(highest, row.start.inclination, row.end.inclination)
         stands = -1
-        arrested = int(rotations[row, OUTCOME]) == RotationOutcome.ARRESTED
-        if arrested:
+        if row.outcome == RotationOutcome.ARRESTED:
             stands = flight_at(poses, at, flights)
+            speed = max(speed, impact_speed(scene, rotations, k))
         if begins:
             flight = stands
         elif stands != flight:
             flight = -1
         begins = False
-        if arrested:
-            speed = max(speed, impact_speed(ground, body, rotations, row, found))
-        rise = rotations[row, BARRIER] / size - fallen
-        way = moved + rotations[row, BARRIER_ACROSS]
-        if rotations[row, ROTATION_SENSE] < 0.0:
-            rise = math.cos(tilt_front) * rise - math.sin(tilt_front) * way
+        rise = row.barrier / size - fallen
+        way = moved + row.barrier_across
+        if row.sense < 0.0:
+            rise = cos(course.tilt_front) * rise - sin(course.tilt_front) * way
         else:
-            rise = math.cos(tilt_rear) * rise + math.sin(tilt_rear) * way
+            rise = cos(course.tilt_rear) * rise + sin(course.tilt_rear) * way
         spare = min(spare, rise)
         most = max(most, angle)
         if flight < 0:
             rocks = max(rocks, avoids)
         else:
-            rocks = max(rocks, rocking(avoids, lowest, highest, flights[flight, FLIGHT_SLOPE]))
-    ratings[job, RATED_ANGLE] = most
-    ratings[job, RATED_ROCKING] = rocks
-    ratings[job, RATED_IMPACT] = speed
-    ratings[job, RATED_SPARE] = spare
+            rocks = max(rocks, rocking(avoids, lowest, highest, flights[flight].slope))
+    rating.largest_rotation = most
+    rating.rocking = rocks
+    rating.impact_speed = speed
+    rating.spare = spare
+
+
+def rate_poses(
+    scene: Scene, poses: Table[Pose], pull: Pull, course: Course, belts: Belts, rating: Rating
+) -> None:
+    """Write the largest friction, whether the belly touches, and how grousers hold."""
+    margins = empty(Margin, len(poses))
+    counts = empty(bool, len(poses))
+    pose_margins(scene, poses, pull, margins)
+    mu = 0.0
+    belly = False
+    for row in range(len(poses)):
+        pose = poses[row]
+        counts[row] = not comes_off(pose, course.zones)
+        belly = belly or margins[row].belly_touches
+        friction = margins[row].required_friction
+        if counts[row] and (friction > mu or math.isnan(friction)):
+            mu = math.inf if math.isnan(friction) else friction
+    rating.required_friction = mu
+    rating.belly_touches = belly
+    rating.held = math.inf
+    rating.held_at_best = math.inf
+    if len(belts.grousers) > 0:
+        rating.held, rating.held_at_best = held_on_grousers(
+            scene, poses, margins, pull, belts, counts
+        )
 
 
 @entry
 def rate_many(
-    ground: GroundTable,
-    bodies: BodyTable,
-    ends: IntArray,
-    flats: FloatRow,
-    flight_ends: IntArray,
-    flights: FlightTable,
-    jobs: JobTable,
-    step: float,
-    g: float,
-    touch: float,
-    rough: float,
-    tilt_rear: float,
-    tilt_front: float,
-    zones: ZoneTable,
-    edges: PointTable,
-    treads: FloatRow,
-    climbs: bool,
-    steep: float,
-    on_flat: float,
-    slip: float,
-    grousers: GrouserTable,
-    poses: PoseTable,
-    events: EventTable,
-    rotations: RotationTable,
-    margins: MarginTable,
-    found: ContactTable,
-    supports: SupportTable,
-    loads: LoadTable,
-    unlike: IntArray,
-    like: IntArray,
-    counts: IntArray,
-    points: IntArray,
-    standing: FloatRow,
-    friction: FloatRow,
-    held: FloatRow,
-    ratings: RatingTable,
-) -> None:
+    scene: Scene, ends: Row[int], flats: Row[float], flight_ends: Row[int], flights: Table[Flight],
+    jobs: Table[Job], size: int, g: float, course: Course, belts: Belts, ratings: Table[Rating],
+) -> None:  # fmt: skip
     """Drive a list of jobs over one terrain and rate each.
 
     Parameters
     ----------
-    ground
-        Terrain.
-    bodies, ends, flats
-        Body tables one below the other, the row after the end of each, length of its flat [m].
+    scene, ends, flats
+        Terrain, robots one below the other, the row after the end of each, length of its flat [m].
     flight_ends, flights
-        Flights as each robot sees them one below the other, the row after those of each: first and
-        last x [m], mean slope [rad].
+        Flights as each robot sees them one below the other, the row after those of each.
     jobs
-        As in :func:`kaidan.contact.kernel.batch.traverse_many`; the terrain and the reference
-        inclination play no part.
-    step, g, touch, rough
-        Arclength between poses [m], gravity [m/s^2], gap of a contact, distance within which an
-        edge is not ahead of another [m].
-    tilt_rear, tilt_front
-        Tilt of gravity towards an end that comes down, for the rise to spare [rad].
-    zones
-        Landings (k, 4): places of the front contact at which the robot lands, first and last x,
-        lowest and highest z [m].
-    edges
-        Edges of the terrain that may hold an end as it comes down (k, 2) [m].
-    treads, climbs, steep, on_flat
-        As :func:`kaidan.contact.kernel.supports.find_supports` takes them, the last as its touch.
-    slip
-        How far beyond the spacing of grousers a slip is followed [m].
-    grousers
-        Cases of grousers on the belts, the worst and the best; none: nobody asks how they hold.
-    poses, events, rotations, margins, found
-        Scratch, see :func:`kaidan.contact.kernel.driver.drive`.
-    supports, loads, unlike, like, counts, points, standing, friction, held
-        Scratch of what grousers hold, see :mod:`kaidan.contact.kernel.holding`.
+        The terrain and the reference inclination play no part.
+    size
+        Poses at most.
     ratings
-        To be filled, a row a job: status; of one that arrives the largest required friction but
-        where the trailing end leaves an edge as it lands, whether the belly touches (0, 1), and of
-        rotations that follow at once the largest angle, the largest rocking [rad], the largest
-        speed of an impact [m/s], the least rise to spare [m]; and the least margin of belts with
-        grousers in the worst and in the best case [rad], infinite where nobody asks for it or more
-        nosings than there is room for touch a flat.
+        To be filled, a row a job; of one that does not arrive its status.
     """
-    for job in range(jobs.shape[0]):
-        robot = int(jobs[job, JOB_ROBOT])
-        first = 0
-        if robot > 0:
-            first = ends[robot - 1]
-        body = bodies[first : ends[robot]]
-        begin = 0
-        if robot > 0:
-            begin = flight_ends[robot - 1]
-        a = jobs[job, JOB_ACCELERATION]
-        status, n_pose, _, n_rotation = drive(
-            ground, body, jobs[job, JOB_START], jobs[job, JOB_END], jobs[job, JOB_PHI], step, a, g,
-            0.0, jobs[job, JOB_GYRATION], True, poses, events, rotations,
-        )  # fmt: skip
-        ratings[job, RATED_STATUS] = status
+    poses = empty(Pose, size)
+    events = empty(EventRow, size)
+    rotations = empty(RotationRow, size // 8 + 16)
+    bodies = scene.body
+    for k in range(len(jobs)):
+        job = jobs[k]
+        rating = ratings[k]
+        before = job.robot - 1
+        scene.body = bodies[ends[before] if before >= 0 else 0 : ends[job.robot]]
+        begin = flight_ends[before] if before >= 0 else 0
+        pull = Pull(job.acceleration, g)
+        journey = Journey(job.x_start, job.x_end, job.inclination, course.step, job.gyration)
+        log = Log(poses, events, rotations, True)
+        status, n_pose, _, n_rotation = drive(scene, journey, pull, log)
+        rating.status = status
         if status != Status.OK:
             continue
-        pose_margins(ground, body, poses, n_pose, a, g, touch, margins, found)
-        mu = 0.0
-        belly = 0.0
-        for row in range(n_pose):
-            belly = max(belly, margins[row, BELLY_TOUCHES])
-            if margins[row, FRICTION] > mu or math.isnan(margins[row, FRICTION]):
-                if comes_off(poses, row, zones):
-                    continue
-                mu = math.inf if math.isnan(margins[row, FRICTION]) else margins[row, FRICTION]
-        ratings[job, RATED_FRICTION] = mu
-        ratings[job, RATED_BELLY] = belly
-        ratings[job, RATED_HELD] = math.inf
-        ratings[job, RATED_HELD_BEST] = math.inf
-        slots = 0
-        if grousers.shape[0] > 0:
-            slots = find_standing(
-                ground, body, poses, n_pose, margins, a, g, treads, climbs, steep, on_flat,
-                supports, loads, unlike, like, points,
-            )  # fmt: skip
-        if slots > 0:
-            for row in range(n_pose):
-                counts[row] = 0 if comes_off(poses, row, zones) else 1
-            ratings[job, RATED_HELD] = least_held(
-                poses, n_pose, climbs, slip, grousers, False, counts, slots, supports, loads, like,
-                points, standing, friction, held,
-            )  # fmt: skip
-            ratings[job, RATED_HELD_BEST] = least_held(
-                poses, n_pose, climbs, slip, grousers, True, counts, slots, supports, loads, like,
-                points, standing, friction, held,
-            )  # fmt: skip
+        rate_poses(scene, poses[0:n_pose], pull, course, belts, rating)
         rate_rotations(
-            ground, body, poses, n_pose, rotations, n_rotation, a, g, flats[robot], rough,
-            tilt_rear, tilt_front, edges, flights[begin : flight_ends[robot]], found, ratings, job,
+            scene, poses[0:n_pose], rotations[0:n_rotation], pull, flats[job.robot], course,
+            flights[begin : flight_ends[job.robot]], rating,
         )  # fmt: skip

@@ -15,37 +15,23 @@ under an end onto the flat, or leaves it.
 
 from __future__ import annotations
 
-import math
-
-from kaidan.contact.columns import (
-    CONVEX,
-    DISC,
-    DISC_X,
-    DISC_Z,
-    KIND_MASK,
-    LENGTH,
-    PART_BITS,
-    PART_MASK,
-    POINT_BITS,
-    POSE_FRONT,
-    POSE_LEG,
-    POSE_PHI,
-    POSE_REAR,
-    POSE_S,
-    POSE_X,
-    POSE_Z,
-    U_X,
-    U_Z,
-    VERTEX,
-    X,
-    Z,
-)
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.continuation import ARM, distance, stepped, tangent
 from kaidan.contact.kernel.event_location import moved_again, next_look
-from kaidan.contact.kernel.gaps import FAR, flat_room, gap, on_flat
+from kaidan.contact.kernel.gaps import FAR, centre_of, disc_of, flat_room, gap, on_flat
 from kaidan.contact.kernel.recording import record_pose
-from kaidan.contact.tables import BodyTable, FloatRow, GroundTable, Held, IntArray, PoseTable
+from kaidan.contact.kernel.trigonometry import placed
+from kaidan.contact.layout import (
+    KIND_MASK,
+    POINT_BITS,
+    VERTEX,
+    At,
+    Held,
+    Log,
+    Pose,
+    Scene,
+)
+from kaidan.contact.memory import Row, Table
 
 #: How well the place is known [m]: a normal on an arc of 5 mm turns by 2e-7 rad in it.
 PLACE = 1e-9
@@ -53,64 +39,37 @@ PLACE = 1e-9
 LEAST = 1e-12
 
 
-def name_room(
-    ground: GroundTable, body: BodyTable, feature: int, flat: bool,
-    x: float, z: float, c: float, s: float,
-) -> float:  # fmt: skip
+def name_room(scene: Scene, feature: int, flat: bool, at: At) -> float:
     """How far a contact may run on before it takes another name, or leaves or meets the flat [m].
 
     Negative: it has run past. ``flat`` tells whether it was a vertex on the flat.
     """
-    kind = feature & KIND_MASK
-    part = (feature >> PART_BITS) & PART_MASK
+    ground = scene.ground
     k = feature >> POINT_BITS
-    if kind == VERTEX:
-        on = flat_room(ground, body, feature, x, z, c, s)
+    point = ground[k]
+    if feature & KIND_MASK == VERTEX:
+        on = flat_room(scene, feature, at)
         if flat:
             return on
-        _, n_x, n_z, _, _ = gap(ground, body, feature, x, z, c, s)
+        _, n_x, n_z, _, _ = gap(scene, feature, at)
         # the normal leans from that of the one segment to that of the other
-        behind = n_x * ground[k - 1, U_X] + n_z * ground[k - 1, U_Z]
-        return float(min(-on, behind, -(n_x * ground[k, U_X] + n_z * ground[k, U_Z])))
-    j = DISC * (kind - 1)
-    to_x = x + c * body[part, j + DISC_X] - s * body[part, j + DISC_Z] - ground[k, X]
-    to_z = z + s * body[part, j + DISC_X] + c * body[part, j + DISC_Z] - ground[k, Z]
-    foot = to_x * ground[k, U_X] + to_z * ground[k, U_Z]
-    room = FAR
-    if ground[k, CONVEX] == 1.0:
-        room = foot
-    if ground[k + 1, CONVEX] == 1.0:
-        room = min(room, ground[k, LENGTH] - foot)
-    return float(room)
+        behind = n_x * ground[k - 1].u_x + n_z * ground[k - 1].u_z
+        return min(-on, behind, -(n_x * point.u_x + n_z * point.u_z))
+    c_x, c_z = centre_of(disc_of(scene, feature), at)
+    foot = (c_x - point.x) * point.u_x + (c_z - point.z) * point.u_z
+    room = foot if point.convex else FAR
+    if ground[k + 1].convex:
+        room = min(room, point.length - foot)
+    return room
 
 
-def least_room(
-    ground: GroundTable, body: BodyTable, rear: int, front: int, rear_on: bool, front_on: bool,
-    x: float, z: float, c: float, s: float,
-) -> float:  # fmt: skip
-    """The smaller `name_room` of both contacts."""
-    return min(
-        name_room(ground, body, rear, rear_on, x, z, c, s),
-        name_room(ground, body, front, front_on, x, z, c, s),
-    )
+def least_room(scene: Scene, held: Held, rear_on: bool, front_on: bool, at: At) -> float:
+    """The smaller `name_room` of both contacts of a pose, where the body is elsewhere."""
+    return min(name_room(scene, held.rear, rear_on, at), name_room(scene, held.front, front_on, at))
 
 
 def renaming(
-    ground: GroundTable,
-    body: BodyTable,
-    rear: int,
-    front: int,
-    x: float,
-    z: float,
-    phi: float,
-    t_x: float,
-    t_z: float,
-    t_w: float,
-    ds: float,
-    rear_on: bool,
-    front_on: bool,
-    near: float,
-    far: float,
+    scene: Scene, held: Held, ds: float, rear_on: bool, front_on: bool, near: float, far: float
 ) -> float:
     """Arclength within a step at which a contact takes another name [m]: `PLACE` beyond it.
 
@@ -130,17 +89,15 @@ def renaming(
         beside = mid + 0.4 * PLACE if moved >= 0 else mid - 0.4 * PLACE
         if lo < beside and beside < hi:
             mid = beside
-        good, x1, z1, _, c, s, _, _, _, new_rear, new_front = stepped(
-            ground, body, rear, front, x, z, phi, t_x, t_z, t_w, mid
-        )
+        good, there, at = stepped(scene, held, mid)
         if not good:
             break
-        room = least_room(ground, body, rear, front, rear_on, front_on, x1, z1, c, s)
+        room = least_room(scene, held, rear_on, front_on, at)
         before = (
-            new_rear == rear
-            and new_front == front
-            and on_flat(ground, body, rear, x1, z1, c, s) == rear_on
-            and on_flat(ground, body, front, x1, z1, c, s) == front_on
+            there.rear == held.rear
+            and there.front == held.front
+            and on_flat(scene, held.rear, at) == rear_on
+            and on_flat(scene, held.front, at) == front_on
         )
         moved = moved_again(moved, before)
         if before:
@@ -154,124 +111,88 @@ def renaming(
     return hi
 
 
-def record_renamings(
-    ground: GroundTable,
-    body: BodyTable,
-    poses: PoseTable,
-    n_pose: int,
-    path: float,
-    at: Held,
-    there: Held,
-    ds: float,
-    leg: int,
-) -> tuple[int, float]:
+def record_renamings(scene: Scene, log: Log, held: Held, there: Held, ds: float) -> float:
     """Write the poses within a step at which a contact takes another name, or passes a flat's end.
 
     Parameters
     ----------
-    at, there
+    held, there
         The pose at the begin of the step, and at its end.
 
     Returns
     -------
-    poses written in all, and how far it is from pose to pose over the step [m]
+    how far it is from pose to pose over the step [m]
     """
-    x, z, phi, t_x, t_z, t_w, rear, front = at
-    x1, z1, phi1, _, _, _, new_rear, new_front = there
-    c1 = math.cos(phi1)
-    s1 = math.sin(phi1)
+    now = held
+    at1 = placed(there.x, there.z, there.phi)
     left = ds
     length = 0.0
     for _ in range(4):
-        if n_pose >= poses.shape[0] - 2:
+        if log.n_pose >= len(log.poses) - 2:
             break
-        c = math.cos(phi)
-        s = math.sin(phi)
-        rear_on = on_flat(ground, body, rear, x, z, c, s)
-        front_on = on_flat(ground, body, front, x, z, c, s)
+        at = placed(now.x, now.z, now.phi)
+        rear_on = on_flat(scene, now.rear, at)
+        front_on = on_flat(scene, now.front, at)
         if (
-            rear == new_rear
-            and front == new_front
-            and rear_on == on_flat(ground, body, rear, x1, z1, c1, s1)
-            and front_on == on_flat(ground, body, front, x1, z1, c1, s1)
+            now.rear == there.rear
+            and now.front == there.front
+            and rear_on == on_flat(scene, now.rear, at1)
+            and front_on == on_flat(scene, now.front, at1)
         ):
             break
-        cut = renaming(
-            ground, body, rear, front, x, z, phi, t_x, t_z, t_w, left, rear_on, front_on,
-            least_room(ground, body, rear, front, rear_on, front_on, x, z, c, s),
-            least_room(ground, body, rear, front, rear_on, front_on, x1, z1, c1, s1),
-        )  # fmt: skip
+        near = least_room(scene, now, rear_on, front_on, at)
+        far = least_room(scene, now, rear_on, front_on, at1)
+        cut = renaming(scene, now, left, rear_on, front_on, near, far)
         if cut > left - 2.0 * PLACE:  # the pose at the end of the step is it
             break
         # found, as `renaming` has looked there
-        _, x2, z2, phi2, _, _, u_x, u_z, u_w, rear2, front2 = stepped(
-            ground, body, rear, front, x, z, phi, t_x, t_z, t_w, cut
-        )
+        _, then, _ = stepped(scene, now, cut)
         left -= cut
-        length += distance(x, z, phi, x2, z2, phi2)
-        x, z, phi, t_x, t_z, t_w, rear, front = x2, z2, phi2, u_x, u_z, u_w, rear2, front2
-        now = (x, z, phi, t_x, t_z, t_w, rear, front)
-        record_pose(ground, body, poses, n_pose, path + length, now, leg)
-        n_pose += 1
-    return n_pose, length + distance(x, z, phi, x1, z1, phi1)
+        length += distance(now, then)
+        now = then
+        record_pose(scene, log.poses[log.n_pose], log.s + length, now, log.leg)
+        log.n_pose += 1
+    return length + distance(now, there)
 
 
 @entry
 def poses_between(
-    ground: GroundTable,
-    body: BodyTable,
-    poses: PoseTable,
-    rows: IntArray,
-    shares: FloatRow,
-    count: int,
-    between: PoseTable,
+    scene: Scene, poses: Table[Pose], rows: Row[int], shares: Row[float], between: Table[Pose]
 ) -> None:
     """Work out poses between two of a line of poses.
 
     Parameters
     ----------
-    ground, body
-        Tables.
     poses
-        Table of :func:`kaidan.contact.kernel.driver.drive`.
+        Of :func:`kaidan.contact.kernel.driver.drive`.
     rows
         The first of each two.
     shares
         Of the arclength to the next (0 to 1).
-    count
-        How many.
     between
-        Table of poses to be filled; short of them where the corrector fails.
+        To be filled; short of them where the corrector fails.
     """
-    for k in range(count):
-        row = rows[k]
-        x = poses[row, POSE_X]
-        z = poses[row, POSE_Z]
-        phi = poses[row, POSE_PHI]
-        rear = int(poses[row, POSE_REAR])
-        front = int(poses[row, POSE_FRONT])
-        ds = shares[k] * (poses[row + 1, POSE_S] - poses[row, POSE_S])
-        t_x, t_z, t_w, _ = tangent(ground, body, rear, front, x, z, math.cos(phi), math.sin(phi))
-        onward = (poses[row + 1, POSE_X] - x) * t_x + (poses[row + 1, POSE_Z] - z) * t_z
-        if onward + ARM * (poses[row + 1, POSE_PHI] - phi) * t_w < 0.0:
+    for k in range(len(rows)):
+        pose = poses[rows[k]]
+        then = poses[rows[k] + 1]
+        rear = pose.rear.feature
+        front = pose.front.feature
+        ds = shares[k] * (then.s - pose.s)
+        at = placed(pose.x, pose.z, pose.inclination)
+        t_x, t_z, t_w, _ = tangent(scene, rear, front, at)
+        onward = (then.x - pose.x) * t_x + (then.z - pose.z) * t_z
+        if onward + ARM * (then.inclination - pose.inclination) * t_w < 0.0:
             t_x, t_z, t_w = -t_x, -t_z, -t_w
+        held = Held(pose.x, pose.z, pose.inclination, t_x, t_z, t_w, rear, front)
         left = ds
         step = ds
         for _ in range(20):
             if left <= PLACE or step <= PLACE:
                 break
-            good, x1, z1, phi1, _, _, u_x, u_z, u_w, new_rear, new_front = stepped(
-                ground, body, rear, front, x, z, phi, t_x, t_z, t_w, min(step, left)
-            )
+            good, there, _ = stepped(scene, held, min(step, left))
             if good:
-                left -= distance(x, z, phi, x1, z1, phi1)
-                x, z, phi, t_x, t_z, t_w = x1, z1, phi1, u_x, u_z, u_w
-                rear = new_rear
-                front = new_front
+                left -= distance(held, there)
+                held = there
             else:  # the path bends too much for the step
                 step *= 0.5
-        now = (x, z, phi, t_x, t_z, t_w, rear, front)
-        record_pose(
-            ground, body, between, k, poses[row, POSE_S] + ds - left, now,
-            int(poses[row, POSE_LEG]),
-        )  # fmt: skip
+        record_pose(scene, between[k], pose.s + ds - left, held, pose.leg)

@@ -19,36 +19,33 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.columns import (
-    CONVEX,
-    COSINE,
-    E_X,
-    E_Z,
+from kaidan.contact.kernel.closing import TO_FLAT, crossing_angle, flat_normal
+from kaidan.contact.kernel.event_location import PENETRATED
+from kaidan.contact.kernel.first_closing import first_closing
+from kaidan.contact.kernel.gaps import centre_of, contact_point, on_flat
+from kaidan.contact.kernel.nearest_feature import first_index
+from kaidan.contact.kernel.rotation import (
+    angle_until_over,
+    carried,
+    foot_limit,
+    next_pivot,
+    turned,
+    turned_on,
+)
+from kaidan.contact.kernel.settling import lever
+from kaidan.contact.kernel.trigonometry import atan2, cos, placed, sin
+from kaidan.contact.layout import (
     KIND_MASK,
     NO_FEATURE,
     PART,
     POINT,
     POINT_BITS,
-    R1,
-    R2,
-    SIDE,
-    SINE,
     VERTEX,
-    X1,
-    X2,
-    Z1,
-    Z2,
-    X,
-    Z,
+    At,
+    First,
+    Release,
+    Scene,
 )
-from kaidan.contact.kernel.closing import crossing_angle
-from kaidan.contact.kernel.event_location import PENETRATED
-from kaidan.contact.kernel.first_closing import first_closing
-from kaidan.contact.kernel.gaps import contact_point, on_flat
-from kaidan.contact.kernel.nearest_feature import first_index
-from kaidan.contact.kernel.rotation import angle_until_over, carried, foot_limit, next_pivot, turned
-from kaidan.contact.kernel.settling import lever
-from kaidan.contact.tables import BodyTable, GroundTable
 
 #: A contact that closes as the centroid comes over the pivot, or this much beyond [rad], closes
 #: first: a robot that rotates back to where its rotation began stands there on what carried it.
@@ -56,17 +53,8 @@ AS_IT_COMES_OVER = 1e-6
 
 
 def barrier(
-    ground: GroundTable,
-    body: BodyTable,
-    pivot: int,
-    x: float,
-    z: float,
-    phi: float,
-    sense: float,
-    kappa: float,
-    tolerance: float,
-    hint: int,
-) -> tuple[bool, float, float, int]:
+    scene: Scene, pivot: int, release: Release, tolerance: float
+) -> tuple[bool, float, float]:
     """Rise of the centroid along the flow before it turns by more than rocking: the energy margin.
 
     It turns about ``pivot`` against gravity; where another gap closes farther out the turn goes on
@@ -81,44 +69,38 @@ def barrier(
         Along effective gravity.
     across [m]
         How far the centroid has moved across it there, along x.
-    hint
     """
+    x, z, phi, sense, kappa = release
     down = math.sqrt(1.0 + kappa * kappa)
     height = (z + kappa * x) / down
     begin = (x - kappa * z) / down
     total = 0.0
     best = 0.0
     across = 0.0
-    for _ in range(60 + 2 * ground.shape[0]):  # an end rolls over each point by two names
-        c = math.cos(phi)
-        s = math.sin(phi)
-        delta = lever(ground, body, pivot, x, z, c, s, kappa)
+    for _ in range(60 + 2 * len(scene.ground)):  # an end rolls over each point by two names
+        at = placed(x, z, phi)
         over = 0.0
-        if delta * sense < 0.0:
-            over = max(angle_until_over(ground, body, pivot, x, z, c, s, sense, kappa, False), 0.0)
+        if lever(scene, pivot, at, kappa) * sense < 0.0:
+            over = max(angle_until_over(scene, pivot, at, sense, kappa, False), 0.0)
         elif total >= tolerance:
-            return True, best, across, hint
+            return True, best, across
         most = 0.5 * math.pi - total
         if most <= 0.0:
-            return False, best, across, hint
-        limit = foot_limit(ground, body, pivot, x, z, c, s, sense)
+            return False, best, across
+        limit = foot_limit(scene, pivot, at, sense)
         end = min(limit, most)
         if over <= end:  # past the pivot only as far as rocking is tolerated
             end = min(max(over + AS_IT_COMES_OVER, tolerance - total), end)
-        closed, angle, hint = first_closing(ground, body, pivot, x, z, c, s, sense, end, hint)
+        angle, closed = first_closing(scene, pivot, at, sense, end)
         if over < angle:
-            c_over = math.cos(over)
-            s_over = sense * math.sin(over)
-            top_x, top_z = carried(ground, body, pivot, x, z, c, s, sense * over, c_over, s_over)
+            top_x, top_z = carried(scene, pivot, at, sense * over, cos(over), sense * sin(over))
             rise = (top_z + kappa * top_x) / down - height
             if rise > best:
                 best = rise
                 across = (top_x - kappa * top_z) / down - begin
             if closed < 0 and angle < limit and pivot & KIND_MASK == VERTEX:
-                return True, best, across, hint  # past the highest point of a circle
-        x, z = carried(
-            ground, body, pivot, x, z, c, s, sense * angle, math.cos(angle), sense * math.sin(angle)
-        )
+                return True, best, across  # past the highest point of a circle
+        x, z = carried(scene, pivot, at, sense * angle, cos(angle), sense * sin(angle))
         phi += sense * angle
         total += angle
         rise = (z + kappa * x) / down - height
@@ -128,86 +110,63 @@ def barrier(
         if closed >= 0:
             pivot = closed
         elif over <= angle and angle < limit:
-            return True, best, across, hint
+            return True, best, across
         elif limit <= angle:
-            pivot = next_pivot(ground, body, pivot, x, z, phi, sense)
+            pivot = next_pivot(scene, pivot, sense)
         else:
-            return False, best, across, hint
-    return False, best, across, hint
+            return False, best, across
+    return False, best, across
 
 
-def lean(
-    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float,
-    sense: float, kappa: float,
-) -> float:  # fmt: skip
+def lean(scene: Scene, pivot: int, at: At, sense: float, kappa: float) -> float:
     """Tilt of gravity at which its line through the centroid passes a contact [rad]."""
-    p_x, p_z = contact_point(ground, body, pivot, x, z, math.cos(phi), math.sin(phi))
-    return math.atan2(sense * (x - p_x - kappa * (z - p_z)), z - p_z + kappa * (x - p_x))
+    p_x, p_z = contact_point(scene, pivot, at)
+    return atan2(sense * (at.x - p_x - kappa * (at.z - p_z)), at.z - p_z + kappa * (at.x - p_x))
 
 
 def next_under_flat(
-    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float,
-    sense: float, end: float, without: int, hint: int,
-) -> tuple[int, float, int]:  # fmt: skip
+    scene: Scene, pivot: int, at: At, sense: float, end: float, without: int
+) -> First:
     """First vertex that comes under a flat within a rotation of ``end`` about a vertex.
 
     Ends of the parts are passed over: they may touch before, or never. So is the point ``without``.
-
-    Returns
-    -------
-    feature (-1: none), angle [rad], hint for the next call
     """
-    c = math.cos(phi)
-    s = math.sin(phi)
+    ground = scene.ground
     at_k = pivot >> POINT_BITS
-    o_x = ground[at_k, X]
-    o_z = ground[at_k, Z]
-    cosine = math.cos(end)
-    sine = math.sin(end)
-    best = end
-    which = NO_FEATURE
-    new_hint = ground.shape[0]
-    for part in range(body.shape[0]):
-        a_x = x + c * body[part, X1] - s * body[part, Z1]
-        a_z = z + s * body[part, X1] + c * body[part, Z1]
-        b_x = x + c * body[part, X2] - s * body[part, Z2]
-        e_x = body[part, E_X]
-        e_z = body[part, E_Z] * body[part, SIDE]
-        along = body[part, SINE] * e_x + body[part, COSINE] * e_z
-        up = body[part, SINE] * body[part, E_Z] - body[part, COSINE] * e_x * body[part, SIDE]
-        n_x = c * along - s * up
-        n_z = s * along + c * up
-        level = (o_x - a_x) * n_x + (o_z - a_z) * n_z - body[part, R1]
-        thick = max(body[part, R1], body[part, R2])
+    o_x = ground[at_k].x
+    o_z = ground[at_k].z
+    cosine = cos(end)
+    sine = sin(end)
+    first = First(end, NO_FEATURE)
+    for number in range(len(scene.body)):
+        part = scene.body[number]
+        a_x, a_z = centre_of(part.one, at)
+        b_x, _ = centre_of(part.two, at)
+        n_x, n_z = flat_normal(part, TO_FLAT, at)
+        level = (o_x - a_x) * n_x + (o_z - a_z) * n_z - part.one.r
+        thick = max(part.one.r, part.two.r)
         swept = thick + end * (abs(a_x - o_x) + abs(b_x - o_x) + abs(a_z - o_z) + thick)
         right = max(a_x, b_x) + swept
-        k = first_index(ground, min(a_x, b_x) - swept, hint)
-        hint = k
-        new_hint = min(new_hint, k)
-        while k < ground.shape[0] - 1 and ground[k, X] <= right:
-            if ground[k, CONVEX] == 1.0 and k != at_k and k != without:
-                v_x = ground[k, X] - o_x
-                v_z = ground[k, Z] - o_z
+        k = first_index(scene, min(a_x, b_x) - swept)
+        while k < len(ground) - 1 and ground[k].x <= right:
+            if ground[k].convex and k != at_k and k != without:
+                v_x = ground[k].x - o_x
+                v_z = ground[k].z - o_z
                 angle = crossing_angle(
                     level, v_x * n_x + v_z * n_z, sense * (v_z * n_x - v_x * n_z), cosine, sine,
                     PENETRATED,
                 )  # fmt: skip
-                if angle < best:
-                    c1 = math.cos(angle)
-                    s1 = sense * math.sin(angle)
-                    y_x, y_z = carried(ground, body, pivot, x, z, c, s, sense * angle, c1, s1)
-                    feature = POINT * k + PART * part
-                    if on_flat(ground, body, feature, y_x, y_z, c * c1 - s * s1, s * c1 + c * s1):
-                        best = angle
-                        which = feature
+                if angle < first.angle:
+                    feature = POINT * k + PART * number
+                    if on_flat(scene, feature, turned_on(scene, pivot, at, sense, angle)):
+                        first = First(angle, feature)
             k += 1
-    return which, best, new_hint
+    return first
 
 
 def carrying_tilt(
-    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float,
-    sense: float, kappa: float, tolerance: float, without: int, hint: int,
-) -> tuple[float, float, int]:  # fmt: skip
+    scene: Scene, pivot: int, release: Release, tolerance: float, without: int
+) -> tuple[float, float]:
     """Tilt of gravity beyond which a pose rotates by more than rocking.
 
     Of the nosings under the flats all within ``tolerance`` carry, those that the robot has to rock
@@ -217,8 +176,6 @@ def carrying_tilt(
     ----------
     pivot
         Outermost contact on the side to which it would turn.
-    sense
-        +1 nose up, -1 nose down.
     tolerance
         Rotation that is rocking [rad].
     without
@@ -231,37 +188,33 @@ def carrying_tilt(
         Largest lean about a pivot that takes over within the tolerance.
     rocking [rad]
         Rotation after which that pivot takes over.
-    hint
     """
-    most = lean(ground, body, pivot, x, z, phi, sense, kappa)
+    x, z, phi, sense, kappa = release
+    at = placed(x, z, phi)
+    most = lean(scene, pivot, at, sense, kappa)
     if tolerance <= 0.0 and pivot & KIND_MASK == VERTEX:  # the robot rocks onto nothing
-        return most, 0.0, hint
+        return most, 0.0
     rocking = 0.0
     total = 0.0
     for _ in range(20):
+        limit = math.inf
         if pivot & KIND_MASK == VERTEX:
-            limit = math.inf
-            closed, angle, hint = next_under_flat(
-                ground, body, pivot, x, z, phi, sense, tolerance - total, without, hint
-            )
+            first = next_under_flat(scene, pivot, at, sense, tolerance - total, without)
         else:
-            c = math.cos(phi)
-            s = math.sin(phi)
-            limit = foot_limit(ground, body, pivot, x, z, c, s, sense)
-            closed, angle, hint = first_closing(
-                ground, body, pivot, x, z, c, s, sense, min(tolerance - total, limit), hint
-            )
-        x, z = turned(ground, body, pivot, x, z, phi, sense * angle)
-        phi += sense * angle
-        total += angle
-        if closed >= 0:
-            pivot = closed
-            held = lean(ground, body, pivot, x, z, phi, sense, kappa)
-            if held > most and on_flat(ground, body, pivot, x, z, math.cos(phi), math.sin(phi)):
+            limit = foot_limit(scene, pivot, at, sense)
+            first = first_closing(scene, pivot, at, sense, min(tolerance - total, limit))
+        x, z = turned(scene, pivot, x, z, phi, sense * first.angle)
+        phi += sense * first.angle
+        total += first.angle
+        at = placed(x, z, phi)
+        if first.feature >= 0:
+            pivot = first.feature
+            held = lean(scene, pivot, at, sense, kappa)
+            if held > most and on_flat(scene, pivot, at):
                 most = held
                 rocking = total
-        elif limit <= angle:
-            pivot = next_pivot(ground, body, pivot, x, z, phi, sense)
+        elif limit <= first.angle:
+            pivot = next_pivot(scene, pivot, sense)
         if total >= tolerance:
             break
-    return most, rocking, hint
+    return most, rocking

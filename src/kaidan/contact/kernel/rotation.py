@@ -12,117 +12,90 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.columns import (
-    CONVEX,
-    DISC,
-    DISC_1,
-    DISC_R,
-    DISC_X,
-    DISC_Z,
+from kaidan.contact.entries import entry
+from kaidan.contact.kernel.gaps import centre_of, disc_of
+from kaidan.contact.kernel.trigonometry import asin, atan2, cos, placed, sin
+from kaidan.contact.layout import (
     KIND_MASK,
-    LENGTH,
     PART,
-    PART_BITS,
     PART_MASK,
     POINT,
     POINT_BITS,
-    U_X,
-    U_Z,
     VERTEX,
-    X,
-    Z,
+    At,
+    Scene,
 )
-from kaidan.contact.entries import entry
-from kaidan.contact.tables import BodyTable, GroundTable
 
 NEVER = 1e9
 
 
 @entry
 def turned(
-    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float, angle: float
+    scene: Scene, pivot: int, x: float, z: float, phi: float, angle: float
 ) -> tuple[float, float]:
     """Centroid after turning by ``angle`` about a contact: closed form, rolling included."""
-    return carried(
-        ground, body, pivot, x, z, math.cos(phi), math.sin(phi), angle,
-        math.cos(angle), math.sin(angle),
-    )  # fmt: skip
+    return carried(scene, pivot, placed(x, z, phi), angle, cos(angle), sin(angle))
 
 
 def carried(
-    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, c0: float, s0: float,
-    angle: float, c: float, s: float,
-) -> tuple[float, float]:  # fmt: skip
-    """Centroid after turning by ``angle``; cosines and sines of the inclination and of the turn."""
-    kind = pivot & KIND_MASK
-    k = pivot >> POINT_BITS
-    if kind == VERTEX:
-        g_x = ground[k, X]
-        g_z = ground[k, Z]
-        d_x = x - g_x
-        d_z = z - g_z
-        return g_x + c * d_x - s * d_z, g_z + s * d_x + c * d_z
-    part = (pivot >> PART_BITS) & PART_MASK
-    j = DISC * (kind - DISC_1)
-    b_x = body[part, j + DISC_X]
-    b_z = body[part, j + DISC_Z]
-    o_x = c0 * b_x - s0 * b_z
-    o_z = s0 * b_x + c0 * b_z
-    roll = -body[part, j + DISC_R] * angle
+    scene: Scene, pivot: int, at: At, angle: float, c: float, s: float
+) -> tuple[float, float]:
+    """Centroid after turning by ``angle``; ``c`` and ``s`` are its cosine and sine."""
+    point = scene.ground[pivot >> POINT_BITS]
+    if pivot & KIND_MASK == VERTEX:
+        d_x = at.x - point.x
+        d_z = at.z - point.z
+        return point.x + c * d_x - s * d_z, point.z + s * d_x + c * d_z
+    disc = disc_of(scene, pivot)
+    o_x = at.c * disc.x - at.s * disc.z
+    o_z = at.s * disc.x + at.c * disc.z
+    roll = -disc.r * angle
     return (
-        x + o_x + roll * ground[k, U_X] - c * o_x + s * o_z,
-        z + o_z + roll * ground[k, U_Z] - s * o_x - c * o_z,
+        at.x + o_x + roll * point.u_x - c * o_x + s * o_z,
+        at.z + o_z + roll * point.u_z - s * o_x - c * o_z,
     )
 
 
-def foot_limit(
-    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, c: float, s: float,
-    sense: float,
-) -> float:  # fmt: skip
-    """Turn after which a rolling disc's foot reaches the end of its segment [rad] (inf: vertex)."""
-    kind = pivot & KIND_MASK
-    if kind == VERTEX:
-        return 1e9
-    k = pivot >> POINT_BITS
-    part = (pivot >> PART_BITS) & PART_MASK
-    j = DISC * (kind - DISC_1)
-    c_x = x + c * body[part, j + DISC_X] - s * body[part, j + DISC_Z]
-    c_z = z + s * body[part, j + DISC_X] + c * body[part, j + DISC_Z]
-    foot = (c_x - ground[k, X]) * ground[k, U_X] + (c_z - ground[k, Z]) * ground[k, U_Z]
+def turned_on(scene: Scene, pivot: int, at: At, sense: float, angle: float) -> At:
+    """Where the body is after turning by an angle in a sense about a contact."""
+    c = cos(angle)
+    s = sense * sin(angle)
+    x, z = carried(scene, pivot, at, sense * angle, c, s)
+    return At(x, z, at.c * c - at.s * s, at.s * c + at.c * s)
+
+
+def foot_limit(scene: Scene, pivot: int, at: At, sense: float) -> float:
+    """Turn after which a rolling disc's foot reaches the end of its segment [rad]; vertex: 1e9."""
+    if pivot & KIND_MASK == VERTEX:
+        return NEVER
+    point = scene.ground[pivot >> POINT_BITS]
+    disc = disc_of(scene, pivot)
+    c_x, c_z = centre_of(disc, at)
+    foot = (c_x - point.x) * point.u_x + (c_z - point.z) * point.u_z
     if sense > 0.0:
-        return float(max(foot, 0.0) / body[part, j + DISC_R])
-    return float(max(ground[k, LENGTH] - foot, 0.0) / body[part, j + DISC_R])
+        return max(foot, 0.0) / disc.r
+    return max(point.length - foot, 0.0) / disc.r
 
 
-def next_pivot(
-    ground: GroundTable, body: BodyTable, pivot: int, x: float, z: float, phi: float, sense: float
-) -> int:
+def next_pivot(scene: Scene, pivot: int, sense: float) -> int:
     """Name of the pivot after its disc has run to the end of its segment.
 
     Over the end of the terrain itself it turns about that end.
     """
+    ground = scene.ground
     k = pivot >> POINT_BITS
-    part = (pivot >> PART_BITS) & PART_MASK
+    part = pivot & (PART * PART_MASK)
     if sense > 0.0:
-        if ground[k, CONVEX] == 1.0 or k == 0:
-            return POINT * k + PART * part
+        if ground[k].convex or k == 0:
+            return POINT * k + part
         return POINT * (k - 1) + (pivot & (POINT - 1))
-    if ground[k + 1, CONVEX] == 1.0 or k + 2 == ground.shape[0]:
-        return POINT * (k + 1) + PART * part
+    if ground[k + 1].convex or k + 2 == len(ground):
+        return POINT * (k + 1) + part
     return POINT * (k + 1) + (pivot & (POINT - 1))
 
 
 def angle_until_over(
-    ground: GroundTable,
-    body: BodyTable,
-    pivot: int,
-    x: float,
-    z: float,
-    c: float,
-    s: float,
-    sense: float,
-    kappa: float,
-    below: bool,
+    scene: Scene, pivot: int, at: At, sense: float, kappa: float, below: bool
 ) -> float:
     """Turn after which the centroid stands over the pivot, or hangs below it [rad]; 1e9: never.
 
@@ -131,24 +104,23 @@ def angle_until_over(
     offset from the gravity line through its centre; the second root of the sine is the stable one,
     on which a disc comes to rest rocking. A vertex is never hung from within 90 degrees.
     """
-    k = pivot >> POINT_BITS
+    point = scene.ground[pivot >> POINT_BITS]
     if pivot & KIND_MASK == VERTEX:
         if below:
             return NEVER
-        d_x = x - ground[k, X]
-        d_z = z - ground[k, Z]
-        angle = sense * math.atan2(d_x - kappa * d_z, d_z + kappa * d_x)
+        d_x = at.x - point.x
+        d_z = at.z - point.z
+        angle = sense * atan2(d_x - kappa * d_z, d_z + kappa * d_x)
         return angle + 2.0 * math.pi if angle < -1e-9 else angle
-    part = (pivot >> PART_BITS) & PART_MASK
-    j = DISC * ((pivot & KIND_MASK) - DISC_1)
-    d_x = s * body[part, j + DISC_Z] - c * body[part, j + DISC_X]
-    d_z = -s * body[part, j + DISC_X] - c * body[part, j + DISC_Z]
-    ratio = body[part, j + DISC_R] * (ground[k, U_Z] + kappa * ground[k, U_X])
+    disc = disc_of(scene, pivot)
+    d_x = at.s * disc.z - at.c * disc.x
+    d_z = -at.s * disc.x - at.c * disc.z
+    ratio = disc.r * (point.u_z + kappa * point.u_x)
     size = math.sqrt((d_x * d_x + d_z * d_z) * (1.0 + kappa * kappa))
     if abs(ratio) >= size:
         return NEVER
-    lean = math.asin(ratio / size)
+    lean = asin(ratio / size)
     if below:
         lean = math.pi - lean
-    angle = sense * (math.atan2(1.0, kappa) - lean - math.atan2(d_z, d_x))
+    angle = sense * (atan2(1.0, kappa) - lean - atan2(d_z, d_x))
     return angle + 2.0 * math.pi if angle < -1e-9 else angle

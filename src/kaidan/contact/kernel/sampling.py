@@ -13,42 +13,25 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.columns import (
-    FRONT_N_X,
-    FRONT_N_Z,
-    KIND_MASK,
-    MARGIN_COLUMNS,
-    PASSED_POINT,
-    PASSED_ROW,
-    PASSED_S,
-    POSE_COLUMNS,
-    POSE_FRONT,
-    POSE_PHI,
-    POSE_PSI,
-    POSE_REAR,
-    POSE_S,
-    REAR_LEAN,
-    REAR_N_X,
-    REAR_N_Z,
-    TRACTION,
-    VERTEX,
-)
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.margins import margins_without, pose_margins
 from kaidan.contact.kernel.peak_search import figure_of, find_peaks, leads_on
 from kaidan.contact.kernel.phases import LANDS
 from kaidan.contact.kernel.renaming import poses_between
-from kaidan.contact.tables import (
-    BodyTable,
-    ContactTable,
-    FloatRow,
-    GroundTable,
-    IntArray,
-    MarginTable,
-    PassedTable,
-    PoseTable,
-    WayTable,
+from kaidan.contact.kernel.trigonometry import atan2, cos, sin
+from kaidan.contact.layout import (
+    KIND_MASK,
+    VERTEX,
+    Figures,
+    Margin,
+    Passed,
+    Pose,
+    Pull,
+    Samples,
+    Scene,
+    Touch,
 )
+from kaidan.contact.memory import Row, Table, empty, put
 
 #: Share of the largest friction of a phase above which a peak is not looked for [1].
 TOLERANCE = 1e-4
@@ -58,54 +41,61 @@ ROUNDING = 1e-9
 LEAVES = 3
 
 
-def leaves_edge(poses: PoseTable, row: int) -> bool:
+#: Groups: phases, and what leaves an edge as it lands.
+GROUPS = 4
+
+
+def leaves_edge(pose: Pose) -> bool:
     """Whether the trailing end leaves an edge as the robot goes down.
 
     Its contact lies beyond the flat, on the end's arc or on a face, so that it pushes the robot
     ahead more than the flat would; and the path falls.
     """
-    flat = max(-poses[row, POSE_PHI], 0.0)
-    leans: bool = poses[row, REAR_LEAN] > flat + ROUNDING
-    return leans and math.sin(poses[row, POSE_PSI]) < 0.0
+    flat = max(-pose.inclination, 0.0)
+    return pose.rear_lean > flat + ROUNDING and sin(pose.path_direction) < 0.0
 
 
-def turns_at_end(poses: PoseTable, row: int, feature: int, n_x: int, n_z: int) -> bool:
+def turns_at_end(one: Touch, phi: float, other: Touch, then: float) -> bool:
     """Whether a corner moves along the end of a belt from a pose to the next.
 
-    ``feature``, ``n_x`` and ``n_z`` are the columns of the contact and of its normal.
+    ``phi`` and ``then`` are the inclinations of the poses [rad].
     """
-    one = int(poses[row, feature]) & KIND_MASK
-    two = int(poses[row + 1, feature]) & KIND_MASK
-    if one != VERTEX and two != VERTEX:
+    if one.feature & KIND_MASK != VERTEX and other.feature & KIND_MASK != VERTEX:
         return False
-    was = math.atan2(poses[row, n_x], poses[row, n_z]) + poses[row, POSE_PHI]
-    new = math.atan2(poses[row + 1, n_x], poses[row + 1, n_z]) + poses[row + 1, POSE_PHI]
-    return bool(abs(new - was) > ROUNDING)
+    was = atan2(one.n_x, one.n_z) + phi
+    new = atan2(other.n_x, other.n_z) + then
+    return abs(new - was) > ROUNDING
 
 
-def moves_along_end(poses: PoseTable, row: int) -> bool:
+def moves_along_end(poses: Table[Pose], row: int) -> bool:
     """Whether a nosing moves along the end of a belt from a pose to the next.
 
     There the belt gives way at it up to some height and then no more: two kinks of the friction,
     which may be nearer to one another than the poses.
     """
-    return leads_on(poses, row) and (
-        turns_at_end(poses, row, POSE_REAR, REAR_N_X, REAR_N_Z)
-        or turns_at_end(poses, row, POSE_FRONT, FRONT_N_X, FRONT_N_Z)
-    )
+    if not leads_on(poses, row):
+        return False
+    one = poses[row]
+    other = poses[row + 1]
+    phi = one.inclination
+    then = other.inclination
+    rear = turns_at_end(one.rear, phi, other.rear, then)
+    return rear or turns_at_end(one.front, phi, other.front, then)
 
 
 def turn_to(one: float, other: float) -> float:
     """Angle from one direction to another, within half a revolution [rad]."""
-    return math.atan2(math.sin(other - one), math.cos(other - one))
+    return atan2(sin(other - one), cos(other - one))
 
 
-def upright_at(poses: PoseTable, row: int, upright: float) -> float:
+def upright_at(poses: Table[Pose], row: int, upright: float) -> float:
     """Share of the arclength to the next pose at which the path may stand upright; -1: nowhere."""
-    psi = poses[row, POSE_PSI]
-    then = poses[row + 1, POSE_PSI]
+    if not leads_on(poses, row):
+        return -1.0
+    psi = poses[row].path_direction
+    then = poses[row + 1].path_direction
     # between two directions on one side of upright the path does not pass it
-    if not leads_on(poses, row) or math.cos(psi) * math.cos(then) >= ROUNDING:
+    if cos(psi) * cos(then) >= ROUNDING:
         return -1.0
     swept = turn_to(psi, then)
     away = turn_to(psi, upright)
@@ -114,69 +104,33 @@ def upright_at(poses: PoseTable, row: int, upright: float) -> float:
     return -1.0
 
 
-def turns_steadily(poses: PoseTable, row: int, psi: float) -> bool:
+def turns_steadily(one: Pose, other: Pose, psi: float) -> bool:
     """Whether the path turns steadily over a direction from a pose to the next.
 
     Where it comes to a stand and goes back, its direction jumps: nothing stands upright there.
     """
-    first = turn_to(poses[row, POSE_PSI], psi)
-    then = turn_to(psi, poses[row + 1, POSE_PSI])
+    first = turn_to(one.path_direction, psi)
+    then = turn_to(psi, other.path_direction)
     half = 0.5 * math.pi
     return first * then > 0.0 and abs(first) < half and abs(then) < half
 
 
 @entry
 def find_samples(
-    ground: GroundTable,
-    body: BodyTable,
-    path: PoseTable,
-    path_margins: MarginTable,
-    phase: IntArray,
-    passed: PassedTable,
-    passings: int,
-    a: float,
-    g: float,
-    touch: float,
-    values: FloatRow,
-    group: IntArray,
-    narrow: IntArray,
-    points: IntArray,
-    parts: FloatRow,
-    largest: FloatRow,
-    s: FloatRow,
-    line: IntArray,
-    ways: WayTable,
-    kept: WayTable,
-    order: IntArray,
-    chosen: IntArray,
-    places: IntArray,
-    shares: FloatRow,
-    inside: FloatRow,
-    new: PoseTable,
-    new_margins: MarginTable,
-    contacts: ContactTable,
-    rows: IntArray,
-    poses: PoseTable,
-    margins: MarginTable,
-) -> int:
+    scene: Scene, path: Table[Pose], path_margins: Table[Margin], phase: Row[int],
+    passed: Table[Passed], pull: Pull, found: Samples,
+) -> int:  # fmt: skip
     """Find poses between those of a path at which its extremes may lie.
 
     Parameters
     ----------
-    ground, body, a, g, touch
-        As for :func:`kaidan.contact.kernel.margins.pose_margins`.
     path, path_margins
         Poses and their margins.
     phase
         Number of the phase of each pose, the last one `LANDS`.
-    passed, passings
-        Nosings that a flat reaches or leaves, and their number.
-    values, group, narrow, points, parts
-        Scratch: of each pose its friction, its group, whether the way from it is narrow; of each
-        pose in between the point of a nosing that does not count, the share of the arclength.
-    largest, s, line, ways, kept, order, chosen, places, shares, inside, new, new_margins, contacts
-        Scratch of :func:`kaidan.contact.kernel.peak_search.find_peaks`.
-    rows, poses, margins
+    passed
+        Nosings that a flat reaches or leaves.
+    found
         To be filled: poses of the path and those between them, with their margins and the row of
         the path before each. Where the path turns steadily over the upright, the traction is that
         of all the weight.
@@ -185,53 +139,47 @@ def find_samples(
     -------
     number of poses
     """
-    count = path.shape[0]
-    hint = 0
+    count = len(path)
+    rows = found.rows
+    poses = found.poses
+    margins = found.margins
+    figures = Figures(
+        empty(float, count), empty(bool, count), empty(float, count), empty(int, count),
+        empty(bool, count),
+    )  # fmt: skip
     for row in range(count):
         rows[row] = row
-        for column in range(POSE_COLUMNS):
-            poses[row, column] = path[row, column]
-        for column in range(MARGIN_COLUMNS):
-            margins[row, column] = path_margins[row, column]
-        values[row], hint = figure_of(ground, body, path, path_margins, row, 0.0, hint)
-        group[row] = phase[row]
-        if phase[row] == LANDS and leaves_edge(path, row):
-            group[row] = LEAVES
-        narrow[row] = 1 if row + 1 < count and moves_along_end(path, row) else 0
-    for k in range(passings):
-        row = int(passed[k, PASSED_ROW])
-        begin = path[row, POSE_S]
+        put(poses[row], path[row])
+        put(margins[row], path_margins[row])
+        figures.values[row] = figure_of(scene, path[row], path_margins[row], 0.0)
+        leaves = phase[row] == LANDS and leaves_edge(path[row])
+        figures.group[row] = LEAVES if leaves else phase[row]
+        figures.narrow[row] = moves_along_end(path, row)
+    parts = empty(float, len(passed) + 2 * count)
+    points = empty(int, len(passed))
+    for k in range(len(passed)):
+        row = passed[k].row
         rows[count + k] = row
-        parts[k] = (passed[k, PASSED_S] - begin) / (path[row + 1, POSE_S] - begin)
-        points[k] = int(passed[k, PASSED_POINT])
-    total = count + passings
-    poses_between(ground, body, path, rows[count:total], parts, passings, poses[count:total])
-    margins_without(
-        ground, body, poses[count:total], points, passings, a, g, touch, margins[count:total],
-        contacts,
-    )  # fmt: skip
-    total += find_peaks(
-        ground, body, path, values, group, narrow, TOLERANCE, 0.0, a, g, touch, largest, s, line,
-        ways, kept, order, chosen, places, shares, inside, new, new_margins, contacts,
-        rows[total : rows.shape[0]], poses[total : poses.shape[0]],
-        margins[total : margins.shape[0]],
-    )  # fmt: skip
-    upright = 0
+        parts[k] = (passed[k].s - path[row].s) / (path[row + 1].s - path[row].s)
+        points[k] = passed[k].point
+    total = count + len(passed)
+    poses_between(scene, path, rows[count:total], parts, poses[count:total])
+    margins_without(scene, poses[count:total], points, pull, margins[count:total])
+    left = Samples(rows[total:], poses[total:], margins[total:])
+    total += find_peaks(scene, path, figures, GROUPS, TOLERANCE, 0.0, pull, left)
+    last = total
     for downward in range(2):
         direction = -0.5 * math.pi if downward == 1 else 0.5 * math.pi
         for row in range(count - 1):
             share = upright_at(path, row, direction)
             if share >= 0.0:
-                rows[total + upright] = row
-                parts[upright] = share
-                upright += 1
-    last: int = total + upright
-    poses_between(ground, body, path, rows[total:last], parts, upright, poses[total:last])
-    pose_margins(
-        ground, body, poses[total:last], upright, a, g, touch, margins[total:last], contacts
-    )
+                rows[last] = row
+                parts[last - total] = share
+                last += 1
+    poses_between(scene, path, rows[total:last], parts, poses[total:last])
+    pose_margins(scene, poses[total:last], pull, margins[total:last])
     for k in range(total, last):
-        psi = poses[k, POSE_PSI]
-        if turns_steadily(path, rows[k], psi):
-            margins[k, TRACTION] = (g if math.sin(psi) > 0.0 else -g) + a
+        psi = poses[k].path_direction
+        if turns_steadily(path[rows[k]], path[rows[k] + 1], psi):
+            margins[k].traction = (pull.g if sin(psi) > 0.0 else -pull.g) + pull.a
     return last

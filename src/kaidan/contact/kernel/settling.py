@@ -12,39 +12,23 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.columns import (
-    CONVEX,
-    COSINE,
-    DISC_1,
-    DISC_2,
-    E_X,
-    E_Z,
-    LENGTH,
-    NO_FEATURE,
-    PART,
-    POINT,
-    R1,
-    R2,
-    SINE,
-    U_X,
-    U_Z,
-    X1,
-    X2,
-    Z1,
-    Z2,
-    X,
-    Z,
-)
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.gaps import FAR, contact_point, gap, relabelled
 from kaidan.contact.kernel.nearest_feature import first_index
-from kaidan.contact.tables import BodyTable, GroundTable
+from kaidan.contact.kernel.trigonometry import placed
+from kaidan.contact.layout import (
+    DISC_1,
+    DISC_2,
+    NO_FEATURE,
+    PART,
+    POINT,
+    At,
+    Scene,
+)
 
 
 @entry
-def touching(
-    ground: GroundTable, body: BodyTable, x: float, c: float, s: float
-) -> tuple[float, int]:
+def touching(scene: Scene, x: float, c: float, s: float) -> tuple[float, int]:
     """Lowest height of the centroid at which nothing is penetrated, and the feature that touches.
 
     Valid for inclinations within 90 degrees either way.  Vertical risers are passed over: a disc
@@ -54,37 +38,24 @@ def touching(
     -------
     z [m], feature
     """
-    z, feature, _ = touching_near(ground, body, x, c, s, 0)
-    return z, feature
-
-
-def touching_near(
-    ground: GroundTable, body: BodyTable, x: float, c: float, s: float, hint: int
-) -> tuple[float, int, int]:
-    """The same, with a point of the terrain near the rear of the robot, from the call before.
-
-    Returns
-    -------
-    z [m], feature, hint for the next call
-    """
-    n = ground.shape[0]
+    ground = scene.ground
+    n = len(ground)
     best = -FAR
     which = NO_FEATURE
-    for part in range(body.shape[0]):
-        r1 = body[part, R1]
-        r2 = body[part, R2]
+    for number in range(len(scene.body)):
+        part = scene.body[number]
+        r1 = part.one.r
+        r2 = part.two.r
         # disc centres and lower common tangent, relative to the centroid, in the world
-        x1 = c * body[part, X1] - s * body[part, Z1]
-        z1 = s * body[part, X1] + c * body[part, Z1]
-        x2 = c * body[part, X2] - s * body[part, Z2]
-        z2 = s * body[part, X2] + c * body[part, Z2]
-        e_x = c * body[part, E_X] - s * body[part, E_Z]
-        e_z = s * body[part, E_X] + c * body[part, E_Z]
-        cosine = body[part, COSINE]
-        if e_x < 0.0:
-            cosine = -cosine
-        n_x = body[part, SINE] * e_x + cosine * e_z
-        n_z = body[part, SINE] * e_z - cosine * e_x
+        x1 = c * part.one.x - s * part.one.z
+        z1 = s * part.one.x + c * part.one.z
+        x2 = c * part.two.x - s * part.two.z
+        z2 = s * part.two.x + c * part.two.z
+        e_x = c * part.e_x - s * part.e_z
+        e_z = s * part.e_x + c * part.e_z
+        cosine = -part.cosine if e_x < 0.0 else part.cosine
+        n_x = part.sine * e_x + cosine * e_z
+        n_z = part.sine * e_z - cosine * e_x
         t1_x = x1 + r1 * n_x
         t1_z = z1 + r1 * n_z
         t2_x = x2 + r2 * n_x
@@ -94,78 +65,65 @@ def touching_near(
             slope = (t2_z - t1_z) / (t2_x - t1_x)
         left = x + min(x1 - r1, x2 - r2)
         right = x + max(x1 + r1, x2 + r2)
-        k = first_index(ground, left, hint)
-        hint = k
-        while k < n - 1 and ground[k, X] <= right:
-            if ground[k, CONVEX] == 1.0:
-                d = ground[k, X] - x
+        k = first_index(scene, left)
+        while k < n - 1 and ground[k].x <= right:
+            point = ground[k]
+            if point.convex:
+                d = point.x - x
                 if (d - t1_x) * (d - t2_x) <= 0.0:
-                    z = ground[k, Z] - (t1_z + slope * (d - t1_x))
+                    z = point.z - (t1_z + slope * (d - t1_x))
                     if z > best:
                         best = z
-                        which = POINT * k + PART * part
+                        which = POINT * k + PART * number
                 else:
                     h1 = r1 * r1 - (d - x1) * (d - x1)
                     if h1 >= 0.0:
-                        z = ground[k, Z] - (z1 - math.sqrt(h1))
+                        z = point.z - (z1 - math.sqrt(h1))
                         if z > best:
                             best = z
-                            which = POINT * k + PART * part
+                            which = POINT * k + PART * number
                     h2 = r2 * r2 - (d - x2) * (d - x2)
                     if h2 >= 0.0:
-                        z = ground[k, Z] - (z2 - math.sqrt(h2))
+                        z = point.z - (z2 - math.sqrt(h2))
                         if z > best:
                             best = z
-                            which = POINT * k + PART * part
-            u_x = ground[k, U_X]
-            u_z = ground[k, U_Z]
+                            which = POINT * k + PART * number
+            u_x = point.u_x
+            u_z = point.u_z
             if u_x > 1e-9:
-                to_x = x + x1 - ground[k, X]
+                to_x = x + x1 - point.x
                 foot_x = to_x + r1 * u_z
-                if foot_x >= 0.0 and foot_x <= ground[k, LENGTH] * u_x:
-                    z = ground[k, Z] + (r1 + u_z * to_x) / u_x - z1
+                if foot_x >= 0.0 and foot_x <= point.length * u_x:
+                    z = point.z + (r1 + u_z * to_x) / u_x - z1
                     if z > best:
                         best = z
-                        which = POINT * k + PART * part + DISC_1
-                to_x = x + x2 - ground[k, X]
+                        which = POINT * k + PART * number + DISC_1
+                to_x = x + x2 - point.x
                 foot_x = to_x + r2 * u_z
-                if foot_x >= 0.0 and foot_x <= ground[k, LENGTH] * u_x:
-                    z = ground[k, Z] + (r2 + u_z * to_x) / u_x - z2
+                if foot_x >= 0.0 and foot_x <= point.length * u_x:
+                    z = point.z + (r2 + u_z * to_x) / u_x - z2
                     if z > best:
                         best = z
-                        which = POINT * k + PART * part + DISC_2
+                        which = POINT * k + PART * number + DISC_2
             k += 1
-    return best, which, hint
+    return best, which
 
 
-def lever(
-    ground: GroundTable,
-    body: BodyTable,
-    feature: int,
-    x: float,
-    z: float,
-    c: float,
-    s: float,
-    kappa: float,
-) -> float:
+def lever(scene: Scene, feature: int, at: At, kappa: float) -> float:
     """Delta of one contact [m]: how far ahead of the effective gravity line it lies.
 
     ``kappa`` is the tilt of effective gravity, a cos psi / (g + a sin psi); 0 at rest.
     """
-    p_x, p_z = contact_point(ground, body, feature, x, z, c, s)
-    return p_x - x + kappa * (z - p_z)
+    p_x, p_z = contact_point(scene, feature, at)
+    return p_x - at.x + kappa * (at.z - p_z)
 
 
 @entry
-def settle(
-    ground: GroundTable, body: BodyTable, x: float, phi: float, kappa: float
-) -> tuple[bool, float, float, int, int]:
+def settle(scene: Scene, x: float, phi: float, kappa: float) -> tuple[bool, float, float, int, int]:
     """Stable pose at a given x, the first one in the direction in which the robot turns from phi.
 
     Parameters
     ----------
-    ground, body
-        Tables.
     x
         Centroid [m].
     phi
@@ -178,20 +136,17 @@ def settle(
     found, z [m], phi [rad], rear feature, front feature.  ``found`` is False if it turns past
     90 degrees.
     """
-    c = math.cos(phi)
-    s = math.sin(phi)
-    z, feature, hint = touching_near(ground, body, x, c, s, 0)
-    delta = lever(ground, body, feature, x, z, c, s, kappa)
-    up = delta > 0.0
+    at = placed(x, 0.0, phi)
+    z, feature = touching(scene, x, at.c, at.s)
+    up = lever(scene, feature, At(x, z, at.c, at.s), kappa) > 0.0
     step = 0.004
     while True:
         trial = phi + step if up else phi - step
         if abs(trial) > 0.5 * math.pi:
             return False, z, phi, feature, NO_FEATURE
-        c = math.cos(trial)
-        s = math.sin(trial)
-        z, f_trial, hint = touching_near(ground, body, x, c, s, hint)
-        delta = lever(ground, body, f_trial, x, z, c, s, kappa)
+        at = placed(x, 0.0, trial)
+        z, f_trial = touching(scene, x, at.c, at.s)
+        delta = lever(scene, f_trial, At(x, z, at.c, at.s), kappa)
         if (delta > 0.0) != up:
             break
         phi = trial
@@ -207,10 +162,9 @@ def settle(
         q_z = z
         good = False
         for _ in range(6):
-            c = math.cos(q_phi)
-            s = math.sin(q_phi)
-            g1, m_x, m_z, p_x, p_z = gap(ground, body, f_lo, x, q_z, c, s)
-            g2, n_x, n_z, o_x, o_z = gap(ground, body, f_hi, x, q_z, c, s)
+            at = placed(x, q_z, q_phi)
+            g1, m_x, m_z, p_x, p_z = gap(scene, f_lo, at)
+            g2, n_x, n_z, o_x, o_z = gap(scene, f_hi, at)
             if abs(g1) < 1e-13 and abs(g2) < 1e-13:
                 good = True
                 break
@@ -227,14 +181,13 @@ def settle(
         if not good or q_phi < lo - 1e-12 or q_phi > hi + 1e-12:
             good = False
             trial = mid
-            c = math.cos(mid)
-            s = math.sin(mid)
-        z, f_trial, hint = touching_near(ground, body, x, c, s, hint)
+            at = placed(x, 0.0, mid)
+        z, f_trial = touching(scene, x, at.c, at.s)
         if good and z <= q_z + 1e-12:
             return True, q_z, trial, f_hi, f_lo
         if hi - lo < 1e-14:
             break
-        if lever(ground, body, f_trial, x, z, c, s, kappa) > 0.0:
+        if lever(scene, f_trial, At(x, z, at.c, at.s), kappa) > 0.0:
             lo = trial
             f_lo = f_trial
         else:
@@ -242,16 +195,14 @@ def settle(
             f_hi = f_trial
     # where an end passes a face the height jumps, to that on the vertex above it: it stands below,
     # against the face
-    c = math.cos(lo)
-    s = math.sin(lo)
-    z, _, hint = touching_near(ground, body, x, c, s, hint)
-    z_hi, _, hint = touching_near(ground, body, x, math.cos(hi), math.sin(hi), hint)
+    at = placed(x, 0.0, lo)
+    above = placed(x, 0.0, hi)
+    z, _ = touching(scene, x, at.c, at.s)
+    z_hi, _ = touching(scene, x, above.c, above.s)
     trial = lo
     if z_hi < z:
         trial = hi
         z = z_hi
-        c = math.cos(hi)
-        s = math.sin(hi)
-    rear = relabelled(ground, body, f_hi, x, z, c, s)
-    front = relabelled(ground, body, f_lo, x, z, c, s)
-    return True, z, trial, rear, front
+        at = above
+    at = At(x, z, at.c, at.s)
+    return True, z, trial, relabelled(scene, f_hi, at), relabelled(scene, f_lo, at)

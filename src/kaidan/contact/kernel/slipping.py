@@ -11,16 +11,16 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.columns import POSE_LEG, POSE_S
 from kaidan.contact.entries import entry
-from kaidan.contact.tables import FloatRow, IntArray, PoseTable
+from kaidan.contact.layout import Pose
+from kaidan.contact.memory import Row, Table
 
 #: Poses that a slip passes at most.
 MOST_SHIFTS = 1000
 
 
 def held_by(
-    points: IntArray, standing: FloatRow, friction: FloatRow, slots: int, row: int, point: int
+    points: Row[int], standing: Row[float], friction: Row[float], slots: int, row: int, point: int
 ) -> float:
     """Margin at a pose by friction, or by a grouser that stands at one point of the ground."""
     most = -math.inf
@@ -32,18 +32,18 @@ def held_by(
     return most
 
 
-def is_unlike_before(points: IntArray, slots: int) -> bool:
+def is_unlike_before(points: Row[int], slots: int) -> bool:
     """Whether a path begins with one end on a floor and the other one at a nosing.
 
     A robot that slips back from there comes before that riser, of which the path knows nothing.
     """
-    return slots > 1 and bool((points[0] < 0) != (points[1] < 0))
+    return slots > 1 and (points[0] < 0) != (points[1] < 0)
 
 
 @entry
 def held_while_slipping(
-    poses: PoseTable, points: IntArray, standing: FloatRow, friction: FloatRow, slots: int,
-    sense: int, way: float, over: float, found: FloatRow,
+    poses: Table[Pose], points: Row[int], standing: Row[float], friction: Row[float], slots: int,
+    sense: int, way: float, over: float, found: Row[float],
 ) -> None:  # fmt: skip
     """Work out with how much to spare each pose holds before the robot slips for good.
 
@@ -53,7 +53,7 @@ def held_while_slipping(
     Parameters
     ----------
     poses
-        Table of :func:`kaidan.contact.kernel.driver.drive`.
+        Of :func:`kaidan.contact.kernel.driver.drive`.
     points
         Point of the ground of each contact at which a grouser may stand, pose by pose; -1: none.
     standing
@@ -72,7 +72,7 @@ def held_while_slipping(
     found
         To be filled [rad].
     """
-    count = poses.shape[0]
+    count = len(poses)
     for row in range(count):
         most = friction[row]
         for slot in range(slots):
@@ -88,8 +88,8 @@ def held_while_slipping(
                 if (
                     there < 0
                     or there >= count
-                    or poses[there, POSE_LEG] != poses[row, POSE_LEG]
-                    or abs(poses[there, POSE_S] - poses[row, POSE_S]) >= way
+                    or poses[there].leg != poses[row].leg
+                    or abs(poses[there].s - poses[row].s) >= way
                     or not least > most
                 ):
                     break
@@ -101,8 +101,8 @@ def held_while_slipping(
     if sense > 0:
         for row in range(count):
             there = row + 1
-            while there < count and poses[there, POSE_LEG] == poses[row, POSE_LEG]:
-                if poses[there, POSE_S] - poses[row, POSE_S] >= over:
+            while there < count and poses[there].leg == poses[row].leg:
+                if poses[there].s - poses[row].s >= over:
                     break
                 # friction at one pose does not stop what slides
                 if found[there] > friction[there] and found[there] > found[row]:

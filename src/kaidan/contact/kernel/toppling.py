@@ -18,7 +18,6 @@ from __future__ import annotations
 import math
 
 from kaidan.contact.codes import RotationOutcome
-from kaidan.contact.columns import NO_FEATURE
 from kaidan.contact.kernel.first_closing import first_closing
 from kaidan.contact.kernel.gaps import contact_point, gap
 from kaidan.contact.kernel.rotation import (
@@ -29,7 +28,8 @@ from kaidan.contact.kernel.rotation import (
     turned,
 )
 from kaidan.contact.kernel.settling import lever
-from kaidan.contact.tables import BodyTable, GroundTable
+from kaidan.contact.kernel.trigonometry import placed
+from kaidan.contact.layout import NO_FEATURE, At, Fallen, Release, Scene
 
 #: Contacts that close within this of a turn are one impact [rad]: on nosings all alike they close
 #: at once, and rounding alone would say which is the first.
@@ -38,27 +38,16 @@ AT_ONCE = 2e-3
 TOUCHES = 1e-9
 
 
-def same_place(
-    ground: GroundTable,
-    body: BodyTable,
-    one: int,
-    other: int,
-    x: float,
-    z: float,
-    phi: float,
-) -> bool:
+def same_place(scene: Scene, one: int, other: int, at: At) -> bool:
     """Whether two features are one contact under two names (points within 2 um)."""
-    c = math.cos(phi)
-    s = math.sin(phi)
-    p_x, p_z = contact_point(ground, body, one, x, z, c, s)
-    o_x, o_z = contact_point(ground, body, other, x, z, c, s)
+    p_x, p_z = contact_point(scene, one, at)
+    o_x, o_z = contact_point(scene, other, at)
     return abs(p_x - o_x) < 2e-6 and abs(p_z - o_z) < 2e-6
 
 
 def rates(
-    ground: GroundTable, body: BodyTable, about: int, closed: int, x: float, z: float, phi: float,
-    k2: float, freely: float,
-) -> tuple[float, float, float]:  # fmt: skip
+    scene: Scene, about: int, closed: int, at: At, k2: float, freely: float
+) -> tuple[float, float, float]:
     """Rates of turn before and after an impact [rad/s], and what is left of the energy [J/kg].
 
     Parameters
@@ -70,62 +59,31 @@ def rates(
     freely
         Energy of a free turn about ``about`` [J/kg].
     """
-    c = math.cos(phi)
-    s = math.sin(phi)
-    a_x, a_z = contact_point(ground, body, about, x, z, c, s)
-    a_x = x - a_x
-    a_z = z - a_z
+    a_x, a_z = contact_point(scene, about, at)
+    a_x = at.x - a_x
+    a_z = at.z - a_z
     before = math.sqrt(max(2.0 * freely / (k2 + a_x * a_x + a_z * a_z), 0.0))
     if closed < 0:
         return before, 0.0, 0.0
-    b_x, b_z = contact_point(ground, body, closed, x, z, c, s)
-    b_x = x - b_x
-    b_z = z - b_z
+    b_x, b_z = contact_point(scene, closed, at)
+    b_x = at.x - b_x
+    b_z = at.z - b_z
     arm = k2 + b_x * b_x + b_z * b_z
     after = before * max(k2 + a_x * b_x + a_z * b_z, 0.0) / arm
     return before, after, 0.5 * after * after * arm
 
 
-def fall(
-    ground: GroundTable,
-    body: BodyTable,
-    pivot: int,
-    x: float,
-    z: float,
-    phi: float,
-    sense: float,
-    kappa: float,
-    gyration: float,
-    gravity: float,
-    hint: int,
-) -> tuple[int, int, int, float, float, float, float, float, float, int]:
+def fall(scene: Scene, pivot: int, release: Release, gyration: float, gravity: float) -> Fallen:
     """Follow a release to the next stable pose, or past the vertical.
 
     Parameters
     ----------
     pivot
         Contact over which the centroid stands.
-    x, z, phi, sense, kappa
-        Pose, sense of the turn, tilt of effective gravity (frozen).
     gyration
         Radius of gyration about the centroid [m]: I / M = gyration^2.
     gravity
         Effective gravity [m/s^2].
-
-    Returns
-    -------
-    outcome
-        A `RotationOutcome`.
-    rear, front
-        The two contacts that arrest it, if it is arrested.
-    x, z, phi
-    omega_minus
-        Rate of turn just before the last impact [rad/s].
-    omega_plus
-        and just after it, turning about the last contact (0 if it stops).
-    turned
-        Angle through which it turned [rad].
-    hint
 
     Notes
     -----
@@ -137,33 +95,31 @@ def fall(
     Of contacts that close at once, within `AT_ONCE`, the last one takes the impact: the others take
     nothing of the rate.
     """
+    x, z, phi, sense, kappa = release
     total = 0.0
     kinetic = 0.0
     freely = 0.0
     since = NEVER
     about = pivot
-    omega_minus = 0.0
-    omega_plus = 0.0
+    before = 0.0
+    after = 0.0
     still = 0
     k2 = gyration * gyration
     down = math.sqrt(1.0 + kappa * kappa)
     outcome: int = RotationOutcome.ENDLESS
     rear = pivot
     front = NO_FEATURE
-    for _ in range(60 + 2 * ground.shape[0]):  # an end rolls over each point by two names
+    for _ in range(60 + 2 * len(scene.ground)):  # an end rolls over each point by two names
         most = min(0.5 * math.pi - sense * phi, 0.5 * math.pi - total)
         if most <= 0.0:
             outcome = RotationOutcome.PAST_VERTICAL
             break
         height = (z + kappa * x) / down
-        c = math.cos(phi)
-        s = math.sin(phi)
-        limit = foot_limit(ground, body, pivot, x, z, c, s, sense)
-        rest = angle_until_over(ground, body, pivot, x, z, c, s, sense, kappa, True)
-        closed, angle, hint = first_closing(
-            ground, body, pivot, x, z, c, s, sense, min(most, limit, rest), hint
-        )
-        x, z = turned(ground, body, pivot, x, z, phi, sense * angle)
+        at = placed(x, z, phi)
+        limit = foot_limit(scene, pivot, at, sense)
+        rest = angle_until_over(scene, pivot, at, sense, kappa, True)
+        angle, closed = first_closing(scene, pivot, at, sense, min(most, limit, rest))
+        x, z = turned(scene, pivot, x, z, phi, sense * angle)
         phi += sense * angle
         gained = gravity * (height - (z + kappa * x) / down)
         kinetic += gained
@@ -174,22 +130,22 @@ def fall(
             about = pivot
             freely = kinetic
         still = 0 if angle > 1e-12 else still + 1
-        omega_minus, after, left = rates(ground, body, about, closed, x, z, phi, k2, freely)
+        at = placed(x, z, phi)
+        before, on, left = rates(scene, about, closed, at, k2, freely)
         if closed < 0:
             if rest > angle and limit <= angle:
-                pivot = next_pivot(ground, body, pivot, x, z, phi, sense)
+                pivot = next_pivot(scene, pivot, sense)
                 continue
             outcome = RotationOutcome.ROCKING if rest <= angle else RotationOutcome.PAST_VERTICAL
             break
-        omega_plus = after
+        after = on
         kinetic = left
         since = 0.0
-        c = math.cos(phi)
-        s = math.sin(phi)
-        if lever(ground, body, closed, x, z, c, s, kappa) * sense <= 0.0:
+        if lever(scene, closed, at, kappa) * sense <= 0.0:
             stays = pivot
-            if about != pivot and abs(gap(ground, body, about, x, z, c, s)[0]) < TOUCHES:
-                stays = about
+            if about != pivot:
+                distance, _, _, _, _ = gap(scene, about, at)
+                stays = about if abs(distance) < TOUCHES else pivot
             outcome = RotationOutcome.ARRESTED
             rear = closed if sense >= 0.0 else stays
             front = stays if sense >= 0.0 else closed
@@ -198,4 +154,4 @@ def fall(
             outcome = RotationOutcome.WEDGED
             break
         pivot = closed
-    return outcome, rear, front, x, z, phi, omega_minus, omega_plus, total, hint
+    return Fallen(outcome, rear, front, x, z, phi, before, after, total)

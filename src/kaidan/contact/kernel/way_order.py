@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from kaidan.contact.columns import WAY_BEGIN, WAY_END, WAY_GROUP, WAY_PROMISE
-from kaidan.contact.tables import IntArray, WayTable
+from kaidan.contact.layout import Way
+from kaidan.contact.memory import Row, Table
 
 #: What is one after the point to which two ways are alike, that is one that repeats itself.
 ALIKE = 1e9
@@ -20,35 +20,34 @@ def rounded(figure: float) -> float:
     return scaled
 
 
-def order_of(ways: WayTable, one: int, other: int) -> int:
-    """-1 if a way comes before another by group, promise and ends, 1 if behind, 0 if alike."""
-    a = ways[one, WAY_GROUP]
-    b = ways[other, WAY_GROUP]
-    if a == b:
-        a = rounded(ways[one, WAY_PROMISE])
-        b = rounded(ways[other, WAY_PROMISE])
-    if a == b:
-        a = rounded(ways[one, WAY_BEGIN])
-        b = rounded(ways[other, WAY_BEGIN])
-    if a == b:
-        a = rounded(ways[one, WAY_END])
-        b = rounded(ways[other, WAY_END])
-    if a == b:
+def compared(one: float, other: float) -> int:
+    """-1, 0 or 1 as a figure is less than another, alike or more."""
+    if rounded(one) == rounded(other):
         return 0
-    return -1 if a < b else 1
+    return -1 if rounded(one) < rounded(other) else 1
 
 
-def is_before(ways: WayTable, one: int, other: int, by_promise: bool) -> bool:
+def order_of(one: Way, other: Way) -> int:
+    """-1 if a way comes before another by group, promise and ends, 1 if behind, 0 if alike."""
+    if one.group != other.group:
+        return -1 if one.group < other.group else 1
+    order = compared(one.promise, other.promise)
+    if order == 0:
+        order = compared(one.begin, other.begin)
+    if order == 0:
+        order = compared(one.end, other.end)
+    return order
+
+
+def is_before(ways: Table[Way], one: int, other: int, by_promise: bool) -> bool:
     """Whether a way comes before another: those that are alike as they stand."""
-    promise: float = ways[one, WAY_PROMISE]
-    others: float = ways[other, WAY_PROMISE]
-    if by_promise and promise != others:
-        return promise > others
-    order = order_of(ways, one, other)
+    if by_promise and ways[one].promise != ways[other].promise:
+        return ways[one].promise > ways[other].promise
+    order = order_of(ways[one], ways[other])
     return order < 0 or (order == 0 and one < other)
 
 
-def sift(ways: WayTable, order: IntArray, start: int, end: int, by_promise: bool) -> None:
+def sift(ways: Table[Way], order: Row[int], start: int, end: int, by_promise: bool) -> None:
     """Let one of a heap, the last on top, sink to its place."""
     root = start
     while 2 * root + 1 < end:
@@ -63,7 +62,7 @@ def sift(ways: WayTable, order: IntArray, start: int, end: int, by_promise: bool
         root = child
 
 
-def put_in_order(ways: WayTable, order: IntArray, count: int, by_promise: bool) -> None:
+def put_in_order(ways: Table[Way], order: Row[int], count: int, by_promise: bool) -> None:
     """Sort the rows of some ways, by `is_before`."""
     for k in range(count):
         if k < count // 2:
