@@ -171,7 +171,13 @@ def piped(*words):
     """The command on a pipe that stays open."""
     command = [sys.executable, "-m", "kaidan", "monitor", "kenaf", *SHAPE, "-", *words]
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    with subprocess.Popen(command, encoding="utf-8", **pipes) as process:
+    kept = signal.getsignal(signal.SIGINT)
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background ignores it
+    try:
+        process = subprocess.Popen(command, encoding="utf-8", **pipes)
+    finally:
+        signal.signal(signal.SIGINT, kept)
+    with process:
         yield process
 
 
