@@ -57,7 +57,7 @@ def samples_of(
     assert path.margins is not None
     passed, count = nosings_passed(path, touch), len(path.poses)
     room = 3 * count + len(passed) + GROUPS * ROUNDS * (PIECES - 1) * CUT_AT_ONCE
-    rows, poses, margins = np.empty(room, dtype=np.int64), zeros(Pose, room), zeros(Margin, room)
+    rows, poses, margins = np.zeros(room, dtype=np.int64), zeros(Pose, room), zeros(Margin, room)
     total = kernel().find_samples(
         path.scene, path.poses.table, path.margins.table, phase, passed,
         Pull(acceleration, gravity), (rows, poses, margins),

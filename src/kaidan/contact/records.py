@@ -57,7 +57,10 @@ class _Table:
 
 
 def _beside(*columns: NDArray[Any]) -> FloatArray:
-    return np.stack(columns, axis=-1)
+    beside = np.empty((len(columns[0]), len(columns)))
+    for k, column in enumerate(columns):
+        beside[:, k] = column
+    return beside
 
 
 class Ground(_Table):

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kaidan.contact.codes import Status
-from kaidan.contact.door import zeros
+from kaidan.contact.door import stacked, zeros
 from kaidan.contact.layout import Margin, Pose, Pull, Slide
 from kaidan.contact.path import Path
 from kaidan.contact.records import Body, Events, Ground, Margins, Poses, Rotations
@@ -49,8 +49,8 @@ def stand_in_turn(
     >>> found.z.round(6).tolist()
     [0.071, 0.071]
     """
-    ground, bodies = ground_of(terrain), np.stack([body_of(each, kinds) for each in parts])
-    count = len(bodies)
+    count, ground = len(parts), ground_of(terrain)
+    bodies = stacked([body_of(each, kinds) for each in parts]).reshape(count, -1)
     poses, margins = zeros(Pose, count), zeros(Margin, count)
     stands = kernel().stand_in_turn(
         (ground, bodies.ravel()), bodies.shape[1], x, inclination, Pull(0.0, STANDARD_GRAVITY),

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 
-from kaidan.contact.kernel.trigonometry import atan2, cos, sin, tan
+from kaidan.contact.kernel.trigonometry import atan2, cosine_sine, tan
 from kaidan.contact.layout import Bound, Cone
 
 #: Angle below a place where two bounds meet at which none of them is lost to rounding [rad].
@@ -32,8 +32,7 @@ def edge(
     f_x: float, f_z: float, g_x: float, g_z: float, angle: float, side: float, size: float
 ) -> Bound:
     """Edge of a cone as a bound on the inner force: a, b, c, d."""
-    u_x = sin(angle)
-    u_z = cos(angle)
+    u_z, u_x = cosine_sine(angle)
     return Bound(
         side * (u_x * f_z - u_z * f_x) + size,
         u_z * f_z + u_x * f_x,

@@ -21,8 +21,8 @@ from kaidan.contact.kernel.closing import (
 from kaidan.contact.kernel.event_location import PENETRATED
 from kaidan.contact.kernel.gaps import centre_of, contact_point, disc_of, gap
 from kaidan.contact.kernel.nearest_feature import first_index
-from kaidan.contact.kernel.rotation import turned_on
-from kaidan.contact.kernel.trigonometry import cos, sin
+from kaidan.contact.kernel.rotation import turned_by
+from kaidan.contact.kernel.trigonometry import cosine_sine
 from kaidan.contact.kernel.turning_closing import arcs_closing, flat_closing, segment_closing
 from kaidan.contact.layout import (
     DISC_1,
@@ -47,7 +47,8 @@ from kaidan.contact.layout import (
 
 def turn_about(scene: Scene, pivot: int, start: At, sense: float, end: float) -> Turn:
     """Rotation by an angle in a sense about a contact, from where the body is."""
-    finish = turned_on(scene, pivot, start, sense, end)
+    c, s = cosine_sine(end)
+    finish = turned_by(scene, pivot, start, sense, end, c, s)
     height, n_x, n_z, o_x, o_z = gap(scene, pivot, start)
     f_x, f_z = contact_point(scene, pivot, finish)
     radius = 0.0
@@ -59,7 +60,7 @@ def turn_about(scene: Scene, pivot: int, start: At, sense: float, end: float) ->
         h_x = o_x - radius * point.u_z
         h_z = o_z + radius * point.u_x
     return Turn(
-        pivot, start, o_x, o_z, finish, f_x, f_z, sense, end, cos(end), sin(end),
+        pivot, start, o_x, o_z, finish, f_x, f_z, sense, end, c, s,
         h_x, h_z, radius, n_x, n_z, height,
     )  # fmt: skip
 

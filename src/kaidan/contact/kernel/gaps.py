@@ -22,7 +22,7 @@ from __future__ import annotations
 import math
 
 from kaidan.contact.entries import entry
-from kaidan.contact.kernel.trigonometry import atan2, cos, sin
+from kaidan.contact.kernel.trigonometry import atan2, cosine_sine
 from kaidan.contact.layout import (
     DISC_1,
     DISC_2,
@@ -239,7 +239,8 @@ def pressed_normal(
     if u >= 3.0 * a or n_z >= upright:
         return n_x, n_z
     back = turned - math.copysign(1.5 * max(u - a, 0.0) / disc.r, turned)
-    return n_x * cos(back) - n_z * sin(back), n_z * cos(back) + n_x * sin(back)
+    c, s = cosine_sine(back)
+    return n_x * c - n_z * s, n_z * c + n_x * s
 
 
 def relabelled(scene: Scene, feature: int, at: At) -> int:

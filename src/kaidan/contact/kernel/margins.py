@@ -17,7 +17,7 @@ from kaidan.contact.entries import entry
 from kaidan.contact.kernel.continuation import gap_rate, tangent
 from kaidan.contact.kernel.forces import ahead_of, contacts_at, two_contact_forces
 from kaidan.contact.kernel.passings import where_of
-from kaidan.contact.kernel.trigonometry import atan2, cos, sin
+from kaidan.contact.kernel.trigonometry import atan2, cosine_sine
 from kaidan.contact.layout import (
     NO_FEATURE,
     Forces,
@@ -180,9 +180,10 @@ def margins_at(pose: Pose, pull: Pull, found: Table[Touching], margin: Margin) -
     psi = pose.path_direction
     kappa = 0.0
     gravity = g
+    ahead, up = cosine_sine(psi)
     if a != 0.0:
-        kappa = a * cos(psi) / (g + a * sin(psi))
-        gravity = math.sqrt(g * g + a * a + 2.0 * g * a * sin(psi))
+        kappa = a * ahead / (g + a * up)
+        gravity = math.sqrt(g * g + a * a + 2.0 * g * a * up)
     down = math.sqrt(1.0 + kappa * kappa)
     w_x = gravity * kappa / down
     w_z = gravity / down
@@ -199,7 +200,7 @@ def margins_at(pose: Pose, pull: Pull, found: Table[Touching], margin: Margin) -
     margin.rear_traction = forces.first_traction
     margin.front_load = forces.second_load
     margin.front_traction = forces.second_traction
-    margin.traction = g * sin(psi) + a
+    margin.traction = g * up + a
     margin.back = back
     margin.front = front
     rise_back = pivot_rise(r_x, r_z, x, z, kappa)

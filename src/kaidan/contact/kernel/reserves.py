@@ -33,7 +33,7 @@ from kaidan.contact.kernel.rotation import (
     turned_on,
 )
 from kaidan.contact.kernel.settling import lever
-from kaidan.contact.kernel.trigonometry import atan2, cos, placed, sin
+from kaidan.contact.kernel.trigonometry import atan2, cosine_sine, placed
 from kaidan.contact.layout import (
     KIND_MASK,
     NO_FEATURE,
@@ -93,14 +93,16 @@ def barrier(
             end = min(max(over + AS_IT_COMES_OVER, tolerance - total), end)
         angle, closed = first_closing(scene, pivot, at, sense, end)
         if over < angle:
-            top_x, top_z = carried(scene, pivot, at, sense * over, cos(over), sense * sin(over))
+            c, s = cosine_sine(over)
+            top_x, top_z = carried(scene, pivot, at, sense * over, c, sense * s)
             rise = (top_z + kappa * top_x) / down - height
             if rise > best:
                 best = rise
                 across = (top_x - kappa * top_z) / down - begin
             if closed < 0 and angle < limit and pivot & KIND_MASK == VERTEX:
                 return True, best, across  # past the highest point of a circle
-        x, z = carried(scene, pivot, at, sense * angle, cos(angle), sense * sin(angle))
+        c, s = cosine_sine(angle)
+        x, z = carried(scene, pivot, at, sense * angle, c, sense * s)
         phi += sense * angle
         total += angle
         rise = (z + kappa * x) / down - height
@@ -135,8 +137,7 @@ def next_under_flat(
     at_k = pivot >> POINT_BITS
     o_x = ground[at_k].x
     o_z = ground[at_k].z
-    cosine = cos(end)
-    sine = sin(end)
+    cosine, sine = cosine_sine(end)
     first = First(end, NO_FEATURE)
     for number in range(len(scene.body)):
         part = scene.body[number]

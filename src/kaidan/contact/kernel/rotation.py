@@ -14,7 +14,7 @@ import math
 
 from kaidan.contact.entries import entry
 from kaidan.contact.kernel.gaps import centre_of, disc_of
-from kaidan.contact.kernel.trigonometry import asin, atan2, cos, placed, sin
+from kaidan.contact.kernel.trigonometry import asin, atan2, cosine_sine, placed
 from kaidan.contact.layout import (
     KIND_MASK,
     PART,
@@ -34,7 +34,8 @@ def turned(
     scene: Scene, pivot: int, x: float, z: float, phi: float, angle: float
 ) -> tuple[float, float]:
     """Centroid after turning by ``angle`` about a contact: closed form, rolling included."""
-    return carried(scene, pivot, placed(x, z, phi), angle, cos(angle), sin(angle))
+    c, s = cosine_sine(angle)
+    return carried(scene, pivot, placed(x, z, phi), angle, c, s)
 
 
 def carried(
@@ -58,8 +59,16 @@ def carried(
 
 def turned_on(scene: Scene, pivot: int, at: At, sense: float, angle: float) -> At:
     """Where the body is after turning by an angle in a sense about a contact."""
-    c = cos(angle)
-    s = sense * sin(angle)
+    c, s = cosine_sine(angle)
+    return turned_by(scene, pivot, at, sense, angle, c, s)
+
+
+def turned_by(
+    scene: Scene, pivot: int, at: At, sense: float, angle: float, cosine: float, sine: float
+) -> At:
+    """The same of an angle whose cosine and sine are known."""
+    c = cosine
+    s = sense * sine
     x, z = carried(scene, pivot, at, sense * angle, c, s)
     return At(x, z, at.c * c - at.s * s, at.s * c + at.c * s)
 

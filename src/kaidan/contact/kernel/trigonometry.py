@@ -145,9 +145,9 @@ def tan(x: float) -> float:
     return -(q + left)
 
 
-def placed(x: float, z: float, phi: float) -> At:
-    """Where the body is, from its centroid [m] and its inclination [rad]."""
-    quarter, y, rest = reduced(phi)
+def cosine_sine(x: float) -> tuple[float, float]:
+    """Cosine and sine together, which takes little more than either."""
+    quarter, y, rest = reduced(x)
     high, low = cosine_near(y, rest)
     c = high + low
     s = y + sine_near(y, rest)
@@ -155,6 +155,12 @@ def placed(x: float, z: float, phi: float) -> At:
         c, s = -s, c
     if quarter > 1:
         c, s = -c, -s
+    return c, s
+
+
+def placed(x: float, z: float, phi: float) -> At:
+    """Where the body is, from its centroid [m] and its inclination [rad]."""
+    c, s = cosine_sine(phi)
     return At(x, z, c, s)
 
 

@@ -12,7 +12,7 @@ from kaidan.contact.kernel.closing import (
 )
 from kaidan.contact.kernel.event_location import PENETRATED
 from kaidan.contact.kernel.rotation import turned_on
-from kaidan.contact.kernel.trigonometry import atan2, cos, sin
+from kaidan.contact.kernel.trigonometry import atan2, cosine_sine
 from kaidan.contact.layout import (
     DISC_1,
     KIND_MASK,
@@ -143,7 +143,8 @@ def segment_closing(
         at = crossing_angle_on(level, even, rate, turn.c, turn.s, point.length, -beyond, turn.sense)
         if at < best.angle:
             # along the segment: the centre, turned
-            foot = turn.sense * (cos(at) * rate - sin(at) * even) - beyond
+            c, s = cosine_sine(at)
+            foot = turn.sense * (c * rate - s * even) - beyond
             if foot >= 0.0 and foot <= point.length:
                 best = First(at, feature)
     return best
