@@ -1,4 +1,4 @@
-"""Calls of the kernel as bytes, which `replay.c` makes again, and each told as one number.
+"""Calls of the kernel as bytes, which `replay.c` makes again, and a number for each.
 
 ``python native/recording.py COUNT FILE`` asks everything once and then drives so many random robots
 over random terrains, on the kernel that ``KAIDAN_KERNEL`` names. It prints the number of each call
@@ -67,10 +67,9 @@ def written(given: Any, kind: Any) -> bytes:
         return columns(np.array([given], dtype_of(kind))).tobytes()
     if not isinstance(given, np.ndarray):
         return b"".join(map(written, given, parts_of(kind)))
-    last = given[-1:].tobytes()
-    follow = len(given)
-    while follow > 1 and given[follow - 2 : follow - 1].tobytes() == last:
-        follow -= 1
+    plain = given.view(np.uint8).reshape(len(given), given.itemsize)
+    other = np.flatnonzero((plain != plain[-1:]).any(axis=1))
+    follow = min(other[-1] + 2 if len(other) else 1, len(given))
     rows = given[:follow].tobytes()
     return np.array([len(given), follow], WORD).tobytes() + rows + bytes(-len(rows) % 8)
 
