@@ -56,6 +56,9 @@ ELSEWHERE = {
     "ASAN_OPTIONS=detect_leaks=0 \\": "by hand",
     "    PYTHONMALLOC=malloc pytest tests/unit/contact "
     'tests/agreement/test_native_and_plain_kernel.py -m "not slow"': "by hand",
+    ".ci/kernel": ".ci/run, for a short while",
+    "python native/kernel_source.py kernel.c": ".ci/kernel",
+    "KAIDAN_BUILD_NATIVE=0 pip install .": "by hand",
     "pip install -e .": ".ci/run, within '.[dev]'",
     "python3 -m venv fresh && fresh/bin/pip install -c constraints.txt '.[test]'": "by hand",
     "fresh/bin/kaidan doctor && fresh/bin/python -m pytest -q tests/unit/mechanics "
