@@ -80,13 +80,7 @@ def kernel_in_use() -> Literal["plain", "native"]:
 
 
 def kernel() -> Any:
-    """Entries of the kernel in use, by their names.
-
-    Raises
-    ------
-    InputError
-        If the native kernel was chosen by name and is not there.
-    """
+    """Entries of the kernel in use, by their names."""
     choice = _choice()
     if choice == "plain":
         return _plain()

@@ -65,15 +65,9 @@ def may_graze(
 ) -> bool:
     """Whether the centroid may pass a contact and come back within one step.
 
-    Parameters
-    ----------
-    held, there
-        Pose at both ends of the step.
-    ahead
-        Whether it is the front contact, or the rear one.
-    kappa, kappa1
-        Tilt of effective gravity there: where the course bends back, the tilt at its end hides what
-        was passed. The tangents at both ends meet below the true course if that is convex.
+    kappa, kappa1: tilt of effective gravity there: where the course bends back, the tilt at its end
+        hides what was passed. The tangents at both ends meet below the true course if that is
+        convex.
     """
     sign = 1.0 if ahead else -1.0
     one = held.front if ahead else held.rear
@@ -135,16 +129,7 @@ def clear_step(
 ) -> tuple[bool, Held, int, float, float, float, float]:
     """Shorten a step until the corrector finds its end and nothing may have happened on the way.
 
-    Returns
-    -------
-    found
-    pose
-        At the end of the step.
-    feature, gap
-        The nearest there.
-    behind, ahead
-        How far the contacts lie from effective gravity's line there [m].
-    ds
+    behind, ahead: how far the contacts lie from effective gravity's line there [m].
     """
     kappa0 = tilt(pull, held.t_x, held.t_z)
     for _ in range(60):
@@ -236,14 +221,9 @@ def advance(
 ) -> tuple[int, Held, float]:
     """One step along the line of poses, cut short at the first event.
 
-    Returns
-    -------
-    outcome
-        An `Advance`, or the feature that has closed.
-    pose
-        Reached, with its tangent and contacts.
-    ds
-        The step actually taken [m].
+    outcome: an `Advance`, or the feature that has closed.
+    pose: reached, with its tangent and contacts.
+    ds: the step actually taken [m].
     """
     if OF_RADIUS * thinnest < ds:
         ds = careful(scene, held, ds, thinnest)

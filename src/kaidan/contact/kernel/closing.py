@@ -109,14 +109,10 @@ def crossing_angle_on(
 ) -> float:  # fmt: skip
     """:func:`crossing_angle` to a flat or a segment; 1e9 too if the foot stays beside it.
 
-    Parameters
-    ----------
-    level, even, rate, cosine, sine
-        See :func:`crossing_angle`.
-    length
-        Of the flat or the segment [m].
-    offset, ahead
-        The foot runs along an arc: offset + ahead (rate cos - even sin), ``ahead`` 1 or -1.
+    level, even, rate, cosine, sine: see :func:`crossing_angle`.
+    length: of the flat or the segment [m].
+    offset, ahead: the foot runs along an arc: offset + ahead (rate cos - even sin), ``ahead`` 1 or
+        -1.
 
     Notes
     -----
@@ -143,16 +139,9 @@ def closing_angle(
     meets it above zero, nothing closes. A vertex beyond the line of a flat, or a disc below the
     line of a segment, is followed in the same way until it is back: it has passed beside.
 
-    Parameters
-    ----------
-    number
-        Of the part.
-    before
-        Angle at which something else closes [rad].
-    value, rate, far, far_rate
-        Gap [m] and its change [m/rad] at both ends of the rotation.
-    bend
-        K [m/rad^2]; for an arc, from below only.
+    before: angle at which something else closes [rad].
+    value, rate, far, far_rate: gap [m] and its change [m/rad] at both ends of the rotation.
+    bend: K [m/rad^2]; for an arc, from below only.
     """
     part = scene.body[number]
     outside = value > -BESIDE

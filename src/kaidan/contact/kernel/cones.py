@@ -119,15 +119,9 @@ def held_below(one: Bound, two: Bound, three: Bound, four: Bound, t: float) -> f
 def cone_margin(one: Cone, two: Cone, w_x: float, w_z: float) -> float:
     """Angle by which the cones of two contacts may shrink while they hold the robot [rad].
 
-    Parameters
-    ----------
-    w_x, w_z
-        Sum of their forces [N/kg].
+    w_x, w_z: sum of their forces [N/kg].
 
-    Returns
-    -------
-    float
-        Minus infinity where no friction is enough, NaN for contacts at one place.
+    Minus infinity where no friction is enough, NaN for contacts at one place.
     """
     d_x = two.x - one.x
     d_z = two.z - one.z

@@ -16,12 +16,7 @@ from kaidan.contact.layout import Fallen, Held, Log, Pull, Release, Scene
 
 
 def settled(scene: Scene, x: float, phi: float, kappa: float) -> tuple[bool, Held]:
-    """Settle the robot from an inclination, on two contacts.
-
-    Returns
-    -------
-    found, and the pose
-    """
+    """Settle the robot from an inclination, on two contacts."""
     found, z, phi, rear, front = settle(scene, x, phi, kappa)
     if not found or rear == front:
         return False, Held(x, z, phi, 0.0, 0.0, 0.0, rear, front)
@@ -32,13 +27,7 @@ def settled(scene: Scene, x: float, phi: float, kappa: float) -> tuple[bool, Hel
 def settled_again(scene: Scene, held: Held, kappa: float) -> tuple[bool, float, Held]:
     """Settle the robot a little farther on, where the corrector has failed.
 
-    Returns
-    -------
-    found
-        Whether that is the same pose to within millimetres, with a path that goes on ahead.
-    nudge
-        How far farther on [m].
-    pose
+    nudge: how far farther on [m].
     """
     nudge = math.copysign(1e-5, held.t_x)
     for _ in range(4):
@@ -55,17 +44,7 @@ def settled_again(scene: Scene, held: Held, kappa: float) -> tuple[bool, float, 
 
 
 def exchanged(scene: Scene, made: int, held: Held, kappa: float) -> tuple[bool, int, Held]:
-    """Replace the contact on the side of the centroid on which another has closed.
-
-    Returns
-    -------
-    good
-        Whether the new pair has a line of poses.
-    lost
-        The contact that opens.
-    pose
-        With the tangent along which the lost contact opens.
-    """
+    """Replace the contact on the side of the centroid on which another has closed."""
     x, z, phi, t_x, t_z, t_w, rear, front = held
     at = placed(x, z, phi)
     lost = front

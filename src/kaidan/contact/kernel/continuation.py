@@ -77,12 +77,7 @@ def gap_rate(scene: Scene, feature: int, at: At, t_x: float, t_z: float, t_w: fl
 def corrected(
     scene: Scene, rear: int, front: int, x: float, z: float, phi: float
 ) -> tuple[bool, Held, At]:
-    """Nearest pose at which both gaps are closed (Newton across the tangent).
-
-    Returns
-    -------
-    converged, pose, of whose unit tangent the sign is left open; where the body is
-    """
+    """Nearest pose at which both gaps are closed (Newton across the tangent)."""
     for _ in range(12):
         at = placed(x, z, phi)
         g1, m_x, m_z, p_x, p_z = gap(scene, rear, at)
@@ -108,12 +103,7 @@ def corrected(
 
 
 def stepped(scene: Scene, at: Held, ds: float) -> tuple[bool, Held, At]:
-    """Pose one step of arclength further, contacts renamed where they run on.
-
-    Returns
-    -------
-    good, pose with its tangent in the same sense as before, where the body is
-    """
+    """Pose one step of arclength further, contacts renamed where they run on."""
     good, there, where = corrected(
         scene, at.rear, at.front, at.x + ds * at.t_x, at.z + ds * at.t_z, at.phi + ds * at.t_w / ARM
     )

@@ -60,12 +60,8 @@ def step_on(
 ) -> tuple[int, Held, float, bool]:
     """One step, cut where the robot arrives or is driven upright: linear in the step.
 
-    Returns
-    -------
-    outcome, pose, step taken [m]
-        As :func:`kaidan.contact.kernel.advance.advance`.
-    ends
-        Whether it comes to ``x_end``.
+    As :func:`kaidan.contact.kernel.advance.advance`.
+    ends: whether it comes to ``x_end``.
     """
     what, there, ds = advance(scene, held, step, thinnest, pull)
     ends = there.x >= x_end and held.x < x_end
@@ -81,12 +77,7 @@ def step_on(
 
 
 def exchange(scene: Scene, made: int, held: Held, kappa: float, log: Log) -> tuple[bool, Held]:
-    """Exchange a contact for another that has closed, and write that down.
-
-    Returns
-    -------
-    good, pose
-    """
+    """Exchange a contact for another that has closed, and write that down."""
     good, lost, then = exchanged(scene, made, held, kappa)
     if not good:
         return False, then
@@ -109,11 +100,7 @@ def rotate_on(
 ) -> tuple[int, Held]:
     """Rotate until two contacts hold the robot again, or it falls; and write that down.
 
-    Returns
-    -------
-    status
-        `GOES_ON`, or the `Status` with which the drive ends.
-    pose
+    status: `GOES_ON`, or the `Status` with which the drive ends.
     """
     x, z, phi, t_x, t_z, t_w, rear, front = held
     pivot = rear if sense > 0.0 else front
@@ -153,12 +140,7 @@ def ended(log: Log, kind: int, held: Held, status: int) -> tuple[int, int, int, 
 
 @entry
 def drive(scene: Scene, journey: Journey, pull: Pull, log: Log) -> tuple[int, int, int, int]:
-    """Drive from ``x_start`` to ``x_end`` (centroid), writing a log.
-
-    Returns
-    -------
-    status, poses written, events written, rotations written
-    """
+    """Drive from ``x_start`` to ``x_end`` (centroid), writing a log."""
     x_end = journey.x_end
     step = journey.step
     gyration = journey.gyration

@@ -16,12 +16,7 @@ from kaidan.contact.memory import Row, Table, empty
 def flow_energy(scene: Scene, poses: Table[Pose], margins: Table[Margin], rows: Row[int]) -> None:
     """Work out the energy margin along the flow, its side and whether it is bounded, at some poses.
 
-    Parameters
-    ----------
-    margins
-        As :func:`kaidan.contact.kernel.margins.pose_margins` has filled them.
-    rows
-        Which poses.
+    margins: as :func:`kaidan.contact.kernel.margins.pose_margins` has filled them.
     """
     for k in range(len(rows)):
         work_out_energy(scene, poses[rows[k]], margins[rows[k]])
@@ -73,20 +68,11 @@ def least_flow_energy(
     the rise about its pivot, whichever is more. So only poses whose pivot's rise is below the least
     found are worked out.
 
-    Parameters
-    ----------
-    rows
-        Which poses.
-    side
-        +1 back, -1 front.
-    weights
-        Of the rise at each pose of the table [1].
-    tie
-        Difference of rises that is none [m].
+    side: +1 back, -1 front.
+    weights: of the rise at each pose of the table [1].
+    tie: difference of rises that is none [m].
 
-    Returns
-    -------
-    rise [m], the first row that needs no more (-1: no pose needs a finite one)
+    rise [m], the first row that needs no more (-1: no pose needs a finite one).
     """
     left = len(rows)
     order = empty(int, left)
@@ -117,10 +103,7 @@ def pose_tilt(
 ) -> tuple[float, float]:
     """Tilt of gravity beyond which a pose rotates to one side by more than rocking.
 
-    Returns
-    -------
-    tilt [rad], rocking [rad]
-        As :func:`kaidan.contact.kernel.reserves.carrying_tilt`.
+    As :func:`kaidan.contact.kernel.reserves.carrying_tilt`.
     """
     pivot = margin.outer_rear if side > 0.0 else margin.outer_front
     release = Release(pose.x, pose.z, pose.inclination, side, margin.tilt)

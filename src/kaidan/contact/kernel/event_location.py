@@ -21,14 +21,8 @@ SAME_END = 3
 def next_look(lo: float, hi: float, near: float, far: float, moved: int) -> float:
     """Where to look next for the zero between two ends: on the line through their values.
 
-    Parameters
-    ----------
-    lo, hi
-        The ends.
-    near, far
-        Values there, one above zero and one not; of an end that stays, with its weight.
-    moved
-        How often in a row the near end moved, or with its sign turned the far one.
+    near, far: values there, one above zero and one not; of an end that stays, with its weight.
+    moved: how often in a row the near end moved, or with its sign turned the far one.
     """
     look = lo + (hi - lo) * near / (near - far)
     if abs(moved) >= SAME_END or not (lo < look and look < hi):
@@ -67,11 +61,7 @@ def closing_time(
     ``what`` is a feature (its gap), `Advance.OVER_REAR` or `Advance.OVER_FRONT` (a lever).
     ``f0`` > 0 >= ``f1`` are the values at the ends.
 
-    Returns
-    -------
-    0 not found, 1 found, 2 no event: one of the two contacts takes that name on the way
-    arclength [m]
-        On the far side of the event, within 1e-9 m or a gap of 1e-12 m.
+    On the far side of the event, within 1e-9 m or a gap of 1e-12 m.
     """
     lo = 0.0
     hi = ds

@@ -254,12 +254,7 @@ def find_extremes(
 ) -> None:  # fmt: skip
     """Find the extreme figures of each phase of a path.
 
-    Parameters
-    ----------
-    poses, margins
-        Poses of a path and behind them those between two of it, with their margins.
-    extremes
-        To be filled, a row a phase: the number of poses, and where there is one the figures.
+    extremes: to be filled, a row a phase: the number of poses, and where there is one the figures.
     """
     side = -1.0 if leading.descending else 1.0
     height = leading.height

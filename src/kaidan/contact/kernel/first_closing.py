@@ -114,19 +114,7 @@ def rolling_closing(
     scene: Scene, k: int, number: int, down: bool, falls: bool, turn: Turn, swept: Swept,
     first: First,
 ) -> First:  # fmt: skip
-    """Point k or segment k meets a part that rolls: no sinusoid.
-
-    Parameters
-    ----------
-    number
-        Of the part.
-    down, falls
-        Whether its lower and its upper side can meet a point.
-
-    Returns
-    -------
-    What closes first: what is given unless one of these closes before.
-    """
+    """Point k or segment k meets a part that rolls: no sinusoid."""
     found = first
     point = scene.ground[k]
     part = scene.body[number]
@@ -189,12 +177,7 @@ def stays_under(point: Point, turn: Turn) -> bool:
 
 
 def part_closing(scene: Scene, number: int, turn: Turn, first: First) -> First:
-    """Points and segments meet one part.
-
-    Returns
-    -------
-    What closes first: what is given unless one of these closes before.
-    """
+    """Points and segments meet one part."""
     best = first
     ground = scene.ground
     part = scene.body[number]

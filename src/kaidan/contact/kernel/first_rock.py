@@ -44,12 +44,8 @@ def least_tilts(
 ) -> None:
     """Tilts at which some poses rotate at all; and by more than rocking, as far as it may be least.
 
-    Parameters
-    ----------
-    side
-        +1 back, -1 front.
-    looked
-        Tilts are to be filled: infinite where it is not looked for, as it is not the least.
+    side: +1 back, -1 front.
+    looked: tilts are to be filled: infinite where it is not looked for, as it is not the least.
     """
     left = len(looked.pose)
     order = empty(int, left)
@@ -78,14 +74,8 @@ def mark_ways(
 ) -> None:  # fmt: skip
     """Mark the ways between poses that count, at one of which a nosing may be rocked onto.
 
-    Parameters
-    ----------
-    least
-        Tilt of any pose [rad].
-    group
-        0 where a pose counts.
-    beside
-        To be filled: whether the way to the next pose is one.
+    least: tilt of any pose [rad].
+    group: 0 where a pose counts.
     """
     for row in range(len(poses)):
         beside[row] = False
@@ -126,18 +116,11 @@ def lost_between(
 ) -> tuple[float, int]:  # fmt: skip
     """Least tilt as the flat comes to leave, or to reach, a nosing that it would rock onto.
 
-    Parameters
-    ----------
-    beside
-        Whether the way to the next pose counts, and a nosing may be rocked onto at one of both.
-    least
-        Tilt of any pose [rad]: a place is looked for where it may be less.
-    lowest
-        Tilt below which the robot has rocked nowhere [rad].
+    beside: whether the way to the next pose counts, and a nosing may be rocked onto at one of both.
+    least: tilt of any pose [rad]: a place is looked for where it may be less.
+    lowest: tilt below which the robot has rocked nowhere [rad].
 
-    Returns
-    -------
-    tilt [rad], row before it (-1: none)
+    tilt [rad], row before it (-1: none).
     """
     longest = 0.0
     lost = math.inf
@@ -196,21 +179,11 @@ def first_rock(
     halved out between two. So is the place of a least tilt. Left, the nosing leaves the robot
     steeper by what it rocked, which is subtracted there, down to a tilt at which it rocks nowhere.
 
-    Parameters
-    ----------
-    rows
-        Which poses, ascending.
-    own
-        Poses at the head of the table that follow one another; the rest lie between two of them.
-    side
-        +1 back, -1 front.
-    whence
-        Inclination from which each pose came down by rocking [rad]: gravity tilted back returns it
-        there, and that is rocking too. Minus infinity: from none.
+    side: +1 back, -1 front.
+    whence: inclination from which each pose came down by rocking [rad]: gravity tilted back returns
+        it there, and that is rocking too. Minus infinity: from none.
 
-    Returns
-    -------
-    tilt [rad], row of the pose
+    tilt [rad], row of the pose.
     """
     size = len(poses)
     figures = Figures(

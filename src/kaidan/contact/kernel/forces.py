@@ -55,18 +55,11 @@ def two_contact_forces(
 ) -> Forces:
     """Smallest friction with which two contacts hold the robot, and the forces that do it.
 
-    Parameters
-    ----------
-    x, z
-        Centroid [m].
-    w_x, w_z
-        Sum of the contact forces, that is minus effective gravity [N/kg].
+    x, z: centroid [m].
+    w_x, w_z: sum of the contact forces, that is minus effective gravity [N/kg].
 
-    Returns
-    -------
-    Forces
-        The friction is infinite if none suffices; if it is only approached by an ever growing
-        inner force (jamming between two faces) the forces are NaN.
+    The friction is infinite if none suffices; if it is only approached by an ever growing inner
+    force (jamming between two faces) the forces are NaN.
 
     Notes
     -----
@@ -157,14 +150,7 @@ def contacts_at(
 ) -> int:
     """All contacts of a pose: every feature whose gap is at most ``touch``.
 
-    Parameters
-    ----------
-    found
-        To be filled; features within 2 um of one already there are the same contact.
-
-    Returns
-    -------
-    number of contacts (at most the rows of ``found``)
+    found: to be filled; features within 2 um of one already there are the same contact.
     """
     at = placed(x, z, phi)
     ground = scene.ground
@@ -241,10 +227,6 @@ def shared_loads(
     ``N_i = W cos(theta) [1/m + (x_z - mean)(x_i - mean) / sum (x_j - mean)^2]`` with
     ``N_i = load cos(theta)``.  Contacts on faces cannot be carried so: see the
     two-contact solution.
-
-    Returns
-    -------
-    number of contacts that carry
     """
     count = len(found)
     for row in range(count):

@@ -109,9 +109,7 @@ def gap(scene: Scene, feature: int, at: At) -> tuple[float, float, float, float,
 
     The gradient of the gap to (x, z, phi) is ``(n_x, n_z, (p_x - x) n_z - (p_z - z) n_x)``.
 
-    Returns
-    -------
-    gap [m], n_x, n_z (unit, from the ground into the robot), p_x, p_z [m]
+    gap [m], n_x, n_z (unit, from the ground into the robot), p_x, p_z [m].
     """
     kind = feature & KIND_MASK
     part = part_of(scene, feature)
@@ -191,10 +189,7 @@ def pressed_normal(
     as the flat does, over a quarter of a radian at most, and from 3 a on as the arc does; between,
     the normal turns by 3 (u - a) / 2R. A normal more upright than the flat's stays.
 
-    Parameters
-    ----------
-    n_x, n_z
-        Normal of the rigid outline, from :func:`gap`.
+    n_x, n_z: normal of the rigid outline, from :func:`gap`.
     """
     if feature & KIND_MASK != VERTEX or on_flat(scene, feature, at):
         return n_x, n_z

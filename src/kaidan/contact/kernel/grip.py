@@ -144,14 +144,10 @@ def belt_margins(
 ) -> None:  # fmt: skip
     """Angle by which the cones of the belts may shrink without a grouser that stands, of each pose.
 
-    Parameters
-    ----------
-    supports, slots, loads, like
-        As :func:`kaidan.contact.kernel.supports.find_alike` takes and fills them.
-    height
-        Of rigid grousers, which on an end's arc hold less at a face than a smooth belt [m].
-    found
-        To be filled [rad].
+    supports, slots, loads, like: as :func:`kaidan.contact.kernel.supports.find_alike` takes and
+        fills them.
+    height: of rigid grousers, which on an end's arc hold less at a face than a smooth belt [m].
+    found: to be filled [rad].
     """
     nosings = friction.nosings
     one_friction = nosings == friction.treads and friction.treads == friction.faces
@@ -233,15 +229,8 @@ def lag(one: Support, other: Support, own: float, its: float) -> float:
 def tilt_run_back(back: float, own: float, tip: Tip, r: float, side: float) -> float:
     """Tilt of the normal under a tip that ran back while the belt ran on by a spacing [rad].
 
-    Parameters
-    ----------
-    back
-        How far it runs back [m], over the tread first, then over the round of the nosing. A robot
+    back: how far it runs back [m], over the tread first, then over the round of the nosing. A robot
         that goes down does not have to get on against its weight.
-
-    Returns
-    -------
-    NaN where it runs off.
     """
     beyond = back - tip.run
     if side < 0.0 or beyond <= 0.0:
@@ -340,14 +329,10 @@ def standing_margins(
     Which two of several supports carry depends on where grousers stand. So the least over the pairs
     counts: with that support among them, or else with the better of the two.
 
-    Parameters
-    ----------
-    supports, slots, loads, like
-        As :func:`kaidan.contact.kernel.supports.find_alike` takes and fills them.
-    side
-        +1 where the robot climbs, -1 where it goes down.
-    found
-        To be filled, as many a pose as it has slots [rad]; minus infinity: none can stand there.
+    supports, slots, loads, like: as :func:`kaidan.contact.kernel.supports.find_alike` takes and
+        fills them.
+    side: +1 where the robot climbs, -1 where it goes down.
+    found: to be filled, as many a pose as it has slots [rad]; minus infinity: none can stand there.
     """
     r = grousers.nosing_radius
     pushing = grousers.height if grousers.rigid else 0.0

@@ -79,12 +79,7 @@ def held_on_grousers(
 
     Infinite where more nosings than there is room for touch a flat.
 
-    Parameters
-    ----------
-    margins
-        Of the poses.
-    counts
-        Which poses count, by where they are.
+    counts: which poses count, by where they are.
     """
     loads = empty(Load, len(poses))
     loads_of(poses, margins, pull, loads)
@@ -131,10 +126,7 @@ def least_held(
 
     See `kaidan.traversal.grip.Grip`, pose by pose.
 
-    Parameters
-    ----------
-    slip
-        How far beyond the spacing of grousers a slip is followed [m].
+    slip: how far beyond the spacing of grousers a slip is followed [m].
     """
     height = grousers.height if grousers.rigid else 0.0
     smooth = empty(float, len(poses))

@@ -61,10 +61,6 @@ def lasting(scene: Scene, pose: Pose, sense: float, found: Table[Touching]) -> i
 
     ``sense`` +1 ahead, -1 back. All are kept where one would be run into: the line does not lead
     that way, but is left at once.
-
-    Returns
-    -------
-    number of contacts kept, at the head of ``found``
     """
     at = where_of(pose)
     t_x, t_z, t_w, _ = tangent(scene, pose.rear.feature, pose.front.feature, at)
@@ -240,12 +236,7 @@ def pose_margins(scene: Scene, poses: Table[Pose], pull: Pull, margins: Table[Ma
     least value alone is required: that is :func:`flow_energy`'s. Where a contact is exchanged the
     path has two poses at one place: those contacts count that hold before it, and after it.
 
-    Parameters
-    ----------
-    poses
-        Of :func:`kaidan.contact.kernel.driver.drive`.
-    margins
-        To be filled.
+    poses: of :func:`kaidan.contact.kernel.driver.drive`.
     """
     found = empty(Touching, MOST_CONTACTS)
     for row in range(len(poses)):
@@ -263,14 +254,7 @@ def margins_without(
 ) -> None:
     """Work out forces and margins at some poses as if one of their contacts were not there.
 
-    Parameters
-    ----------
-    poses
-        Poses at which a nosing comes under the flat, or leaves it.
-    without
-        That nosing's point of the ground, for each.
-    margins
-        To be filled.
+    without: that nosing's point of the ground, for each.
     """
     found = empty(Touching, MOST_CONTACTS)
     for row in range(len(poses)):

@@ -74,10 +74,7 @@ def disc_gap(
 ) -> float:
     """Gap between a disc and a segment if it is less than ``best``, else ``best`` [m].
 
-    Parameters
-    ----------
-    to_x, to_z
-        From the point where the segment begins to the disc's centre [m].
+    to_x, to_z: from the point where the segment begins to the disc's centre [m].
     """
     distance = point.u_x * to_z - point.u_z * to_x
     if distance - radius >= best or distance <= -DEEPEST:
@@ -93,16 +90,10 @@ def disc_gap(
 def nearest(scene: Scene, at: At, skip_1: int, skip_2: int, reach: float) -> tuple[int, float]:
     """Feature with the smallest gap, two left out.
 
-    Parameters
-    ----------
-    skip_1, skip_2
-        Features left out (the contacts that carry the robot), -1 for none.
-    reach
-        Gaps above this [m] need not be found.
+    skip_1, skip_2: features left out (the contacts that carry the robot), -1 for none.
+    reach: gaps above this [m] need not be found.
 
-    Returns
-    -------
-    feature (-1: nothing within reach), gap [m]
+    feature (-1: nothing within reach), gap [m].
     """
     x, z, c, s = at
     ground = scene.ground

@@ -215,18 +215,8 @@ def find_passings(
 ) -> int:  # fmt: skip
     """Find nosings that come under a flat, or leave it, along a path, in their order.
 
-    Parameters
-    ----------
-    poses, events, touch, reach
-        As for `nosings_passed`.
-    margins
-        Of the poses; without any it is looked everywhere.
-    passed
-        To be filled.
-
-    Returns
-    -------
-    number of passings; more than there is room for: too many to be found
+    poses, events, touch, reach: as for `nosings_passed`.
+    margins: of the poses; without any it is looked everywhere.
     """
     rows = empty(int, len(poses))
     pieces = 0

@@ -54,20 +54,10 @@ def find_peaks(
 ) -> int:  # fmt: skip
     """Find poses between two of a path at which a figure may be the largest of a group of poses.
 
-    Parameters
-    ----------
-    poses
-        The path.
-    figures, tolerance
-        As for :func:`kaidan.contact.kernel.peaks.open_ways`; places and lines are to be filled.
-    side
-        Which figure, see `figure_of`.
-    found
-        To be filled: row before each pose, the pose, its margins.
-
-    Returns
-    -------
-    number of poses
+    figures, tolerance: as for :func:`kaidan.contact.kernel.peaks.open_ways`; places and lines are
+        to be filled.
+    side: which figure, see `figure_of`.
+    found: to be filled: row before each pose, the pose, its margins.
     """
     for row in range(len(poses)):
         figures.s[row] = poses[row].s

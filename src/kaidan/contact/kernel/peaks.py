@@ -36,15 +36,9 @@ def slope(s: float, then: float, height: float, higher: float) -> float:
 def promised(length: float, begin: float, end: float, before: float, after: float) -> float:
     """How high a figure may be on a way: where lines through its outer poses meet, or its ends.
 
-    Parameters
-    ----------
-    length
-        From its one end to the other [m].
-    begin, end
-        The figure at its ends.
-    before, after
-        Its slopes before and after the way. NaN where nothing is known: without one of them the
-        other line counts, without both `NEAR` above the higher end.
+    length: from its one end to the other [m].
+    before, after: its slopes before and after the way. NaN where nothing is known: without one of
+        them the other line counts, without both `NEAR` above the higher end.
     """
     higher = larger(begin, end)
     if math.isnan(before) and math.isnan(after):
@@ -85,18 +79,8 @@ def told(figures: Figures, row: int) -> bool:
 def open_ways(figures: Figures, tolerance: float, largest: Row[float], ways: Table[Way]) -> int:
     """Ways from each pose of a group to the next that promise enough.
 
-    Parameters
-    ----------
-    tolerance
-        Share of a figure above which is not looked for [1].
-    largest
-        Figure of each group, to be filled.
-    ways
-        To be filled.
-
-    Returns
-    -------
-    number of ways
+    tolerance: share of a figure above which is not looked for [1].
+    largest: figure of each group, to be filled.
     """
     s = figures.s
     values = figures.values
@@ -155,22 +139,9 @@ def chosen_ways(
 ) -> tuple[int, int]:  # fmt: skip
     """Ways that still promise enough, those that repeat themselves once, and which to cut first.
 
-    Parameters
-    ----------
-    ways
-        Those that promise too little are written over.
-    largest, tolerance
-        As for `open_ways`.
-    at_once
-        Ways of a group to be cut together.
-    kept
-        To be filled: ways in their order, the most promising first.
-    chosen
-        To be filled: rows of ``kept``, group by group.
-
-    Returns
-    -------
-    number of ways kept, number chosen
+    largest, tolerance: as for `open_ways`.
+    kept: to be filled: ways in their order, the most promising first.
+    chosen: to be filled: rows of ``kept``, group by group.
     """
     order = empty(int, len(ways))
     many = 0
@@ -234,20 +205,9 @@ def cut_ways(
 ) -> int:
     """Ways that were not chosen, and the pieces of those that were.
 
-    Parameters
-    ----------
-    kept, chosen
-        As `chosen_ways` filled them.
-    inside
-        The figure at the poses of `places_on_ways`.
-    largest
-        Figure of each group, raised to what is found.
-    ways
-        To be filled.
-
-    Returns
-    -------
-    number of ways
+    kept, chosen: as `chosen_ways` filled them.
+    inside: the figure at the poses of `places_on_ways`.
+    largest: figure of each group, raised to what is found.
     """
     count = len(chosen)
     left = 0

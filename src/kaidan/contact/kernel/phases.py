@@ -46,16 +46,9 @@ def name_phases(
 ) -> None:
     """Name the phase of each pose.
 
-    Parameters
-    ----------
-    enters, ends
-        Zones in which the rear contact stands of a robot that enters, those of each flight
-        together; and the row after the last of each flight.
-    lands
-        Zones in which the front contact stands of one that lands, which it does whatever the rear
-        contact says.
-    phase
-        To be filled: `ENTERS`, `TRAVERSES`, `LANDS`.
+    enters, ends: zones in which the rear contact stands of a robot that enters, those of each
+        flight together; and the row after the last of each flight.
+    phase: to be filled: `ENTERS`, `TRAVERSES`, `LANDS`.
     """
     for row in range(len(poses)):
         phase[row] = TRAVERSES

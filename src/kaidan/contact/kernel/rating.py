@@ -47,17 +47,9 @@ FOLLOWS = 0.01
 def row_before(poses: Table[Pose], s: float) -> int:
     """Row of the last pose of the line of poses that ends at an arclength.
 
-    Parameters
-    ----------
-    poses
-        In the order of their arclengths.
-    s
-        Where a rotation begins [m]: between two rows of one arclength, before it and after it.
+    s: where a rotation begins [m]: between two rows of one arclength, before it and after it.
 
-    Returns
-    -------
-    row
-        Where no pose is the last one before.
+    row: where no pose is the last one before.
     """
     low = 0
     high = len(poses)

@@ -114,14 +114,7 @@ def renaming(
 def record_renamings(scene: Scene, log: Log, held: Held, there: Held, ds: float) -> float:
     """Write the poses within a step at which a contact takes another name, or passes a flat's end.
 
-    Parameters
-    ----------
-    held, there
-        The pose at the begin of the step, and at its end.
-
-    Returns
-    -------
-    how far it is from pose to pose over the step [m]
+    how far it is from pose to pose over the step [m].
     """
     now = held
     at1 = placed(there.x, there.z, there.phi)
@@ -161,16 +154,10 @@ def poses_between(
 ) -> None:
     """Work out poses between two of a line of poses.
 
-    Parameters
-    ----------
-    poses
-        Of :func:`kaidan.contact.kernel.driver.drive`.
-    rows
-        The first of each two.
-    shares
-        Of the arclength to the next (0 to 1).
-    between
-        To be filled; short of them where the corrector fails.
+    poses: of :func:`kaidan.contact.kernel.driver.drive`.
+    rows: the first of each two.
+    shares: of the arclength to the next (0 to 1).
+    between: to be filled; short of them where the corrector fails.
     """
     for k in range(len(rows)):
         pose = poses[rows[k]]

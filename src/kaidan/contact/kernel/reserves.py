@@ -61,14 +61,9 @@ def barrier(
     about that contact, until the centroid stands over the pivot. If it then comes to rest within
     ``tolerance`` [rad] of the pose, the turn goes on from there.
 
-    Returns
-    -------
-    bounded
-        False if no such pose lies within 90 degrees (then the rise is a lower bound).
-    rise [m]
-        Along effective gravity.
-    across [m]
-        How far the centroid has moved across it there, along x.
+    bounded: False if no such pose lies within 90 degrees (then the rise is a lower bound).
+    Along effective gravity.
+    How far the centroid has moved across it there, along x.
     """
     x, z, phi, sense, kappa = release
     down = math.sqrt(1.0 + kappa * kappa)
@@ -173,22 +168,12 @@ def carrying_tilt(
     Of the nosings under the flats all within ``tolerance`` carry, those that the robot has to rock
     onto too; an end that only comes to touch in rotating does not, and hides none of them.
 
-    Parameters
-    ----------
-    pivot
-        Outermost contact on the side to which it would turn.
-    tolerance
-        Rotation that is rocking [rad].
-    without
-        Point of the ground that does not count, or -1: the flat is about to reach it, or has left
-        it.
+    tolerance: rotation that is rocking [rad].
+    without: point of the ground that does not count, or -1: the flat is about to reach it, or has
+        left it.
 
-    Returns
-    -------
-    tilt [rad]
-        Largest lean about a pivot that takes over within the tolerance.
-    rocking [rad]
-        Rotation after which that pivot takes over.
+    Largest lean about a pivot that takes over within the tolerance.
+    Rotation after which that pivot takes over.
     """
     x, z, phi, sense, kappa = release
     at = placed(x, z, phi)

@@ -122,22 +122,11 @@ def find_samples(
 ) -> int:  # fmt: skip
     """Find poses between those of a path at which its extremes may lie.
 
-    Parameters
-    ----------
-    path, path_margins
-        Poses and their margins.
-    phase
-        Number of the phase of each pose, the last one `LANDS`.
-    passed
-        Nosings that a flat reaches or leaves.
-    found
-        To be filled: poses of the path and those between them, with their margins and the row of
+    phase: number of the phase of each pose, the last one `LANDS`.
+    passed: nosings that a flat reaches or leaves.
+    found: to be filled: poses of the path and those between them, with their margins and the row of
         the path before each. Where the path turns steadily over the upright, the traction is that
         of all the weight.
-
-    Returns
-    -------
-    number of poses
     """
     count = len(path)
     rows = found.rows

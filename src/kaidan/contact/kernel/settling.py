@@ -34,9 +34,7 @@ def touching(scene: Scene, x: float, c: float, s: float) -> tuple[float, int]:
     Valid for inclinations within 90 degrees either way.  Vertical risers are passed over: a disc
     beside a riser is lifted onto it only when some part of it lies above the riser's edge.
 
-    Returns
-    -------
-    z [m], feature
+    z [m], feature.
     """
     ground = scene.ground
     n = len(ground)

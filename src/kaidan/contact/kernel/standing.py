@@ -92,13 +92,6 @@ def belt_slide(part: Part, then: Part, pose: Pose, next_pose: Pose, touch: Touch
     """Way along the ground by which the belt at a contact moves ahead to the next pose [m].
 
     A part that is a disc turns with the robot.
-
-    Parameters
-    ----------
-    part, then
-        That stands there, and the same one in the next pose.
-    touch
-        The contact.
     """
     if touch.n_z < STEEPEST:
         return 0.0

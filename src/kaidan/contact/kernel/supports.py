@@ -56,18 +56,10 @@ def find_supports(
 ) -> int:  # fmt: skip
     """Find what each pose stands on: the contacts that carry it first, then nosings by their place.
 
-    Parameters
-    ----------
-    scene, parts
-        Terrain and robot: one for all poses, or one for each, as many parts one below the other.
-    treads
-        Tilt of the normal of the tread uphill of each point of the ground [rad]; NaN: none.
-    supports, slots
-        To be filled, and how many rows a pose has; supports beyond them are left out.
-
-    Returns
-    -------
-    most supports of a pose
+    scene, parts: terrain and robot: one for all poses, or one for each, as many parts one below the
+        other.
+    treads: tilt of the normal of the tread uphill of each point of the ground [rad]; NaN: none.
+    supports, slots: to be filled, and how many rows a pose has; supports beyond them are left out.
     """
     most = 2
     ground = scene.ground
@@ -262,14 +254,9 @@ def stand_alike(
 def find_alike(supports: Table[Support], slots: int, loads: Table[Load], like: Row[int]) -> None:
     """Find of each pose the first one that stands alike: a regular flight repeats itself.
 
-    Parameters
-    ----------
-    supports, slots
-        As `find_supports` filled them.
-    loads
-        Of each pose.
-    like
-        To be filled: its own row where none before stands alike.
+    supports, slots: as `find_supports` filled them.
+    loads: of each pose.
+    like: to be filled: its own row where none before stands alike.
     """
     unlike = empty(int, len(loads))
     count = 0

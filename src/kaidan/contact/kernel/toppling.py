@@ -50,14 +50,9 @@ def rates(
 ) -> tuple[float, float, float]:
     """Rates of turn before and after an impact [rad/s], and what is left of the energy [J/kg].
 
-    Parameters
-    ----------
-    about, closed
-        Contact about which it has turned, and the one that closes; -1: none does.
-    k2
-        Square of the radius of gyration [m^2].
-    freely
-        Energy of a free turn about ``about`` [J/kg].
+    about, closed: contact about which it has turned, and the one that closes; -1: none does.
+    k2: square of the radius of gyration [m^2].
+    freely: energy of a free turn about ``about`` [J/kg].
     """
     a_x, a_z = contact_point(scene, about, at)
     a_x = at.x - a_x
@@ -76,14 +71,8 @@ def rates(
 def fall(scene: Scene, pivot: int, release: Release, gyration: float, gravity: float) -> Fallen:
     """Follow a release to the next stable pose, or past the vertical.
 
-    Parameters
-    ----------
-    pivot
-        Contact over which the centroid stands.
-    gyration
-        Radius of gyration about the centroid [m]: I / M = gyration^2.
-    gravity
-        Effective gravity [m/s^2].
+    gyration: radius of gyration about the centroid [m]: I / M = gyration^2.
+    gravity: effective gravity [m/s^2].
 
     Notes
     -----

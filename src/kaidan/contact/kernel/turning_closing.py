@@ -41,10 +41,6 @@ def flat_closing(
     """Point k meets a flat of a part that turns about the point of the pivot.
 
     ``side``: see :func:`kaidan.contact.kernel.first_closing.side_of`; ``number``: of the part.
-
-    Returns
-    -------
-    What closes first: what is given unless it closes before.
     """
     point = scene.ground[k]
     part = scene.body[number]
@@ -68,12 +64,7 @@ def flat_closing(
 def arcs_closing(
     scene: Scene, k: int, number: int, turn: Turn, swept: Swept, first: First
 ) -> First:
-    """Point k meets the end discs of a part that turns about the point of the pivot.
-
-    Returns
-    -------
-    What closes first: what is given unless it closes before.
-    """
+    """Point k meets the end discs of a part that turns about the point of the pivot."""
     best = first
     point = scene.ground[k]
     part = scene.body[number]
@@ -101,12 +92,7 @@ def arcs_closing(
 def segment_closing(
     scene: Scene, k: int, number: int, turn: Turn, swept: Swept, first: First
 ) -> First:
-    """End discs of a part that turns about the point of the pivot meet segment k.
-
-    Returns
-    -------
-    What closes first: what is given unless it closes before.
-    """
+    """End discs of a part that turns about the point of the pivot meet segment k."""
     best = first
     point = scene.ground[k]
     part = scene.body[number]
