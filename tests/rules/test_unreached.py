@@ -2,9 +2,14 @@
 
 from rules.unreached import unreached
 
-PENDING = ("kaidan.contact.",)
-"""What the kernel's own issue takes away."""
+UNNAMED = (
+    "kaidan.contact.heights.TouchingHeights.contact_x",
+    "kaidan.contact.heights.TouchingHeights.contact_z",
+    "kaidan.contact.memory.Table._part",
+    "kaidan.contact.memory._ends",
+)
+"""Read without their name: parts of a tuple taken apart; what a slice of a table makes."""
 
 
 def test_a_command_a_verb_or_a_page_reaches_everything():
-    assert [name for name in unreached() if not name.startswith(PENDING)] == []
+    assert [name for name in unreached() if name not in UNNAMED] == []

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from kaidan.contact.codes import PartKind, Status
 from kaidan.contact.contacts import Contact, contacts_of
-from kaidan.contact.door import Records, picked, stacked, zeros
+from kaidan.contact.door import Records, stacked, zeros
 from kaidan.contact.features import Feature
 from kaidan.contact.kernel.trigonometry import placed
 from kaidan.contact.layout import Margin, Pose, Pull
@@ -114,29 +114,6 @@ class Path:
         row: int = kernel().row_before(self.poses.table, s)
         return row
 
-    def first_beyond(self, mu: float) -> int | None:
-        """Row of the first pose whose required friction exceeds mu; None if there is none.
-
-        With friction mu the path as computed holds up to that pose: below the friction of a
-        riser start, for example, the robot does not climb.
-
-        Examples
-        --------
-        >>> from kaidan.contact import traverse
-        >>> step = [[-4, 0], [0, 0], [0, 0.1], [4, 0.1]]
-        >>> robot = [[-0.274, -0.011, 0.06, 0.196, -0.011, 0.06]]
-        >>> path = traverse(step, robot, -1.0, 0.5)
-        >>> row = path.first_beyond(0.6)
-        >>> round(float(path.x[row] + 0.196 + 0.06), 6)  # the nose meets the face
-        0.0
-        >>> path.first_beyond(5.0) is None
-        True
-        """
-        if self.margins is None:
-            raise ValueError("traverse: friction needs with_margins=True")
-        rows = np.flatnonzero(~(self.margins.required_friction <= mu))
-        return int(rows[0]) if len(rows) else None
-
     def energy(self, rows: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Energy margin along the flow at some poses.
 
@@ -176,27 +153,6 @@ class Path:
         )
         return rear, front
 
-    def margins_of(
-        self, rows: slice, *, acceleration: float = 0.0, gravity: float = STANDARD_GRAVITY,
-    ) -> Margins:  # fmt: skip
-        """Forces and margins of some consecutive poses, of a path that was driven without.
-
-        Parameters
-        ----------
-        rows
-            Which poses.
-        acceleration
-            Along the path of the centroid [m/s^2].
-        gravity
-            [m/s^2]
-
-        Returns
-        -------
-        Margins
-            All but the energy along the flow.
-        """
-        return Margins(self._margins(picked(self.poses.table, rows), Pull(acceleration, gravity)))
-
     def _margins(self, poses: Records, pull: Pull) -> Records:
         table = zeros(Margin, len(poses))
         kernel().pose_margins(self.scene, np.ascontiguousarray(poses), pull, table)
@@ -214,8 +170,10 @@ class Path:
             The first of each two.
         shares
             Of the arclength to the next (0 to 1).
-        acceleration, gravity
-            As for :meth:`margins_of`.
+        acceleration
+            Along the path of the centroid [m/s^2].
+        gravity
+            [m/s^2]
 
         Returns
         -------
