@@ -50,12 +50,6 @@ ELSEWHERE = {
     "pip install .": ".ci/run, as part of the README's line",
     "python3 -m venv .venv && . .venv/bin/activate": ".ci/run, elsewhere",
     "pip install -e '.[dev]'": ".ci/run",
-    'CFLAGS="-fsanitize=address,undefined -fno-sanitize-recover=all -g" '
-    "pip install -e .": "by hand",
-    'LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libubsan.so)" '
-    "ASAN_OPTIONS=detect_leaks=0 \\": "by hand",
-    "    PYTHONMALLOC=malloc pytest tests/unit/contact "
-    'tests/agreement/test_native_and_plain_kernel.py -m "not slow"': "by hand",
     ".ci/kernel": ".ci/run, for a short while",
     "python native/kernel_source.py kernel.c": ".ci/kernel",
     "KAIDAN_BUILD_NATIVE=0 pip install .": "by hand",
