@@ -183,7 +183,7 @@ def limit_of_round_end(
     c : float or array
         Height of the flat above the nosing that stays [m].
     phi : float or array
-        Angle of the end at which it lets go at the latest [rad], as `winding_angle` has it.
+        Angle of the end at which it is detached at the latest [rad], as `winding_angle` has it.
 
     Returns
     -------
@@ -217,7 +217,7 @@ def lead_of_driving(
     ``mean of atan2(x + v t, C_N), weighted by lambda exp(-lambda t), - atan2(x, C_N)``,
     ``lambda = sqrt(b^2 + g H / (rho^2 + H^2)) - b``, ``b = x v / (rho^2 + H^2)``, H^2 = x^2 + C_N^2
 
-    Assumptions: up, at rest until the loss; a sharp end, which catches nothing; first order in the
+    Assumptions: up, at rest until the loss; a sharp end, which arrests nothing; first order in the
     angle beyond the limit.
 
     Parameters
