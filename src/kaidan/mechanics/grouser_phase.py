@@ -174,7 +174,7 @@ def limit_of_round_end(
 
     ``max of limit_at_loss(w=R (1 - cos), e=R sin)`` over angles up to phi.
 
-    Assumptions: nosings alone (no tread catches the tail); smooth but for c.
+    Assumptions: nosings alone (no tread arrests the tail); smooth but for c.
 
     Parameters
     ----------

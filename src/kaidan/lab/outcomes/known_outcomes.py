@@ -118,7 +118,7 @@ class KnownOutcomes(Answer):
     text_module = "kaidan.lab.outcomes.text"
 
     pairs: tuple[Pair, ...]
-    """In the order of the catalogue, and of the files given, asked in each way."""
+    """In the order of the catalogue, and of the files given, each with all that may be known."""
     tallies: tuple[Tally, ...]
     """One for each kind of evidence and what is known."""
     reported: int
