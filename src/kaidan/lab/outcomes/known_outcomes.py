@@ -1,8 +1,8 @@
 """Robots on stairs whose outcome is public, and what kaidan answers: agreement and errors counted.
 
 The pairs are those of the catalogue's ``outcomes.toml``: what the sources say of robot, stairs and
-manner, fixed before an answer was looked at but where a note says otherwise. Each is asked in
-several ways, since no operator knows what a laboratory measured.
+manner, fixed before an answer was looked at but where a note says otherwise. Each question
+is put three times, since no operator knows what a laboratory measured.
 """
 
 import math
@@ -86,7 +86,7 @@ class Pair(Part):
 
 
 class Tally(Part):
-    """How many pairs of one kind of evidence agree, asked in one way."""
+    """How many pairs of one kind of evidence agree, with as much known."""
 
     evidence: Evidence
     """Which kind."""
