@@ -40,7 +40,9 @@ def store(tmp_path_factory):
 def test_what_is_shown(store):
     folder, output = store
     lines = output.splitlines()
-    assert lines[0] == "kenaf: 4 trials; smooth-belt, 0.1 m/s, friction 3, seed 0"
+    assert (
+        lines[0] == "kenaf: 4 trials; smooth-belt, 0.1 m/s, friction 3, 10 nosings a trial, seed 0"
+    )
     assert "  150 mm up    55:o  70:x" in lines
     assert lines[-2] == f"wrote {folder}.csv"
     assert re.fullmatch(rf"wrote {re.escape(str(folder))}\.svg \(\d+ kB\)", lines[-1])
@@ -186,7 +188,10 @@ def test_without_a_track_it_is_the_one_that_was_fitted_and_says_so(tmp_path):
              "--trials", "1", "--workers", "1"]  # fmt: skip
     kept = [*words, "--store", str(tmp_path / "store")]
     lines = told(*kept).output.splitlines()
-    assert lines[0] == "kenaf: 1 trials; yielding-belt, 0.1 m/s, friction 3, seed 0"
+    assert (
+        lines[0]
+        == "kenaf: 1 trials; yielding-belt, 0.1 m/s, friction 3, 10 nosings a trial, seed 0"
+    )
     assert lines[1].startswith("  The track is the one fitted to the paper's text")
     told_by = json.loads(told(*kept, "--json").output)
     # 4.1 mm under 20 kg; the sheet's own figures come before it
@@ -200,7 +205,7 @@ def test_grousers_grip_by_their_shape_so_their_friction_is_that_of_metal_on_an_e
     words = ["lab", "experiment", "kenaf", "--track", "driven-grousers", "--spacings", "150mm",
              "--angles", "20deg", "--trials", "1", "--workers", "1"]  # fmt: skip
     assert told(*words).output.startswith(
-        "kenaf: 1 trials; driven-grousers, 0.1 m/s, friction 0.8, seed 0\n"
+        "kenaf: 1 trials; driven-grousers, 0.1 m/s, friction 0.8, 10 nosings a trial, seed 0\n"
     )
 
 

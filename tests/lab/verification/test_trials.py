@@ -170,3 +170,27 @@ def test_a_store_of_other_columns_is_refused_in_one_line(tmp_path):
         f"store {str(store)!r}: another version of kaidan wrote it, with other columns; export it "
         "and begin a new store"
     )
+
+
+def test_phases_are_spread_evenly_and_shared_by_all_slopes():
+    conditions = [Condition(nosing_spacing=0.15, angle=angle) for angle in (0.9, 1.0)]
+    made = plan(conditions=conditions, trials=5, stratified=True, nosings=10)
+    specs = list(made.specs())
+    phases = [spec.grouser_phase for spec in specs[:5]]
+    # by hand: one in each fifth, all at one place within theirs
+    assert [int(5 * phase) for phase in phases] == [0, 1, 2, 3, 4]
+    assert [5 * phase % 1.0 for phase in phases] == pytest.approx([5 * phases[0] % 1.0] * 5)
+    offsets = [(spec.start_offset - 0.1) / 0.4 for spec in specs[:5]]
+    assert sorted(int(5 * offset) for offset in offsets) == [0, 1, 2, 3, 4]
+    for first, second in zip(specs[:5], specs[5:], strict=True):
+        assert first.drawn() == second.drawn()
+        assert first.seed != second.seed
+    assert specs[3] == made.spec(made.conditions[0], 3)
+
+
+def test_a_trial_of_ten_nosings_stays_on_the_flight():
+    for direction in ("up", "down"):
+        condition = Condition(nosing_spacing=0.15, angle=0.9, direction=direction)
+        (spec,) = plan(conditions=[condition], trials=1, nosings=10).specs()
+        assert spec.nosings == 10
+        assert not spec.runs_out

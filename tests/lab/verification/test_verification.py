@@ -63,6 +63,19 @@ def ends(found):
     return found.low, found.mean, found.high
 
 
+def test_the_first_phase_that_is_lost():
+    # one of two falls at 54 up, at 60 down: between 52 and 54, between 58 and 60; by hand
+    (spacing,) = found_of().spacings
+    assert ends(spacing.onset_deg) == pytest.approx((52.0, 53.0, 54.0))
+    assert ends(spacing.descent_onset_deg) == pytest.approx((58.0, 59.0, 60.0))
+    # the mean of the series lies half a step higher: the other one is lost between 54 and 56
+    assert spacing.margin_deg.mean == pytest.approx(54.0)
+    (lost,) = found_of(up={50.0: "fc", 52.0: "ff"}).spacings
+    assert lost.onset_deg is None
+    (kept,) = found_of(up={50.0: "cc", 52.0: "cc"}).spacings
+    assert kept.onset_deg is None
+
+
 def test_an_experiment_read_back_is_equal_and_fits_its_schema():
     found = found_of(robot=Robot.named("kenaf"))
     assert Verification.from_json(found.to_json()) == found

@@ -24,6 +24,10 @@ def seed_of(*parts: int) -> int:
     return int(np.random.SeedSequence(parts).generate_state(1, np.uint64)[0] >> np.uint64(1))
 
 
+OFFSETS = (0.1, 0.5)
+"""Start offsets of stratified trials, as `TrialSpec.drawn` draws them [1]."""
+
+
 class Condition(Sheet):
     """Stairs and direction, at which a robot makes several trials."""
 
@@ -106,13 +110,17 @@ class Setting(Sheet):
             return 80.0
         return min(80.0, math.degrees(math.atan(self.static_friction)) - 1.0)
 
-    def trial(self, condition: Condition, seed: int, **others: Any) -> TrialSpec:
-        """Trial at a condition on a long flight.
+    def trial(
+        self, condition: Condition, seed: int, *, nosings: int = 2, **others: Any
+    ) -> TrialSpec:
+        """Trial at a condition on a flight that is long enough.
 
         Parameters
         ----------
         seed : int
             Of what is random.
+        nosings : int
+            To be passed.
         **others
             Other fields of the trial.
         """
@@ -121,7 +129,9 @@ class Setting(Sheet):
         question = Question(
             robot=self.robot,
             terrain=Stairs.inclined(
-                angle=condition.angle, nosing_spacing=p, steps=max(12, 8 + int(within))
+                angle=condition.angle,
+                nosing_spacing=p,
+                steps=max(12, 8 + int(within)) + max(nosings - 2, 0),
             ),
             surface=None if self.friction is None else Surface.of_friction(self.friction),
             direction=condition.direction,
@@ -130,9 +140,8 @@ class Setting(Sheet):
             posture=self.posture,
             payload=self.payload,
         )
-        return TrialSpec(
-            question=question, track=self.track, ground=self.ground, seed=seed, **others
-        )
+        own = {"track": self.track, "ground": self.ground, "seed": seed, "nosings": nosings}
+        return TrialSpec(question=question, **own, **others)
 
 
 class VerificationTest(Sheet):
@@ -158,6 +167,18 @@ class VerificationTest(Sheet):
         json_schema_extra={"unit": "trials"},
     )
     seed: int = Field(default=0, ge=0, le=2**63 - 1, description="of start offsets and phases")
+    nosings: int = Field(
+        default=2,
+        ge=1,
+        le=1000,
+        description="to be passed in a trial; on the paper's rig about ten",
+        json_schema_extra={"unit": "nosings"},
+    )
+    stratified: bool = Field(
+        default=False,
+        description="whether the k-th trials of all conditions share start offset and grouser "
+        "phase, which are spread evenly over the trials of a condition",
+    )
 
     def __len__(self) -> int:
         return len(self.conditions) * self.trials
@@ -167,11 +188,26 @@ class VerificationTest(Sheet):
         for condition in self.conditions:
             first = self.spec(condition, 0)  # validated once; the others differ by their seeds
             for trial in range(self.trials):
-                yield first.model_copy(update={"seed": self._seed(condition, trial)})
+                own = {"seed": self._seed(condition, trial), **self._start(trial)}
+                yield first.model_copy(update=own)
 
     def spec(self, condition: Condition, trial: int) -> TrialSpec:
         """One trial; its seed depends on the condition, not on which others there are."""
-        return self.setting.trial(condition, self._seed(condition, trial))
+        seed, start = self._seed(condition, trial), self._start(trial)
+        return self.setting.trial(condition, seed, nosings=self.nosings, **start)
+
+    def _start(self, trial: int) -> dict[str, float]:
+        """Start offset and grouser phase of the k-th trials: one in each stratum of both."""
+        if not self.stratified:
+            return {}
+        draw = np.random.default_rng(self.seed)
+        within, order = draw.random(2), draw.permutation(self.trials)
+        offset, phase = (np.array([order[trial], trial]) + within) / self.trials
+        least, most = OFFSETS
+        return {
+            "start_offset": float(least + (most - least) * offset),
+            "grouser_phase": float(phase),
+        }
 
     def _seed(self, condition: Condition, trial: int) -> int:
         p, angle = round(1e6 * condition.nosing_spacing), round(1e6 * condition.angle)

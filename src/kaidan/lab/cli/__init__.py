@@ -5,8 +5,8 @@ from importlib import import_module
 import typer
 
 _COMMANDS = (
-    "agree", "calibrate", "campaign", "experiment", "outcomes", "physics", "reproduce", "rerun",
-    "schema",
+    "agree", "bench", "calibrate", "campaign", "experiment", "outcomes", "physics", "reproduce",
+    "rerun", "schema",
 )  # fmt: skip
 
 

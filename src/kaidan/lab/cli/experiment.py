@@ -38,6 +38,9 @@ Descent = Annotated[
 Seed = Annotated[
     int, typer.Option(min=0, help="Seed of the start offsets and the grousers' phases.")
 ]
+Nosings = Annotated[
+    int, typer.Option(min=1, max=1000, help="Nosings to be passed in a trial, each at its phase.")
+]
 StoreFolder = Annotated[
     Path | None,
     typer.Option(
@@ -96,6 +99,7 @@ def experiment(
     payload: options.PayloadText = None,
     override: options.Override = None,
     seed: Seed = 0,
+    nosings: Nosings = 10,
     protocol: ProtocolFile = None,
     store: StoreFolder = None,
     workers: Workers = None,
@@ -126,6 +130,7 @@ def experiment(
         trials=trials,
         descent=descent,
         seed=seed,
+        nosings=nosings,
         track=None
         if track is None and not any(given)
         else physics.track_model(track or "yielding-belt", *given),

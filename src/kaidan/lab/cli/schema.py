@@ -18,6 +18,7 @@ KINDS = {
     "grouser-effects": "kaidan.lab.calibration.answer:GrouserEffects",
     "reproduction": "kaidan.lab.reproduction.reproduction:Reproduction",
     "outcomes": "kaidan.lab.outcomes.known_outcomes:KnownOutcomes",
+    "bench": "kaidan.lab.outcomes.bench:Bench",
 }
 """What has a schema: name on the command line, module and class."""
 

@@ -1,18 +1,21 @@
 """Robots on stairs whose outcome is public, and what kaidan answers: agreement and errors counted.
 
 The pairs are those of the catalogue's ``outcomes.toml``: what the sources say of robot, stairs and
-manner, fixed before an answer was looked at but where a note says otherwise.
+manner, fixed before an answer was looked at but where a note says otherwise. Each question
+is put three times, since no operator knows what a laboratory measured.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Literal
 
 from kaidan import catalog
+from kaidan.allowance import UNMEASURED
 from kaidan.answer import Answer, Part
 from kaidan.arguments import known_arguments
 from kaidan.assessment import with_plan
 from kaidan.assessment.verdict import conclude
+from kaidan.lab.outcomes.form import OutcomesForm
 from kaidan.modes import Direction, Phase, Verdict
 from kaidan.question import Question
 from kaidan.terrain.profile import Profile
@@ -22,6 +25,7 @@ from kaidan.units import value_of
 Outcome = Literal["climbs", "rocks", "falls", "slides", "sticks"]
 Evidence = Literal["test", "simulation"]
 Comparison = Literal["agrees", "wrong GO", "wrong NO-GO", "CAUTION", "no answer"]
+Knowledge = Literal["source", "operator", "grip tried"]
 
 RIGHT: dict[Outcome, Verdict] = {
     "climbs": Verdict.GO,
@@ -31,6 +35,14 @@ RIGHT: dict[Outcome, Verdict] = {
     "sticks": Verdict.NO_GO,
 }
 """Verdict that agrees with each outcome."""
+QUANTILE = 1.959964
+"""Of the normal distribution, for intervals of 95 %."""
+_ESTIMATED = {"com_from_front": "5mm", "com_height": "5mm"}
+"""Standard uncertainty of a centroid that nobody measured better: an operator's tape and tilt."""
+_HEADING = "3deg"
+"""How far off the line of steepest ascent an operator may drive."""
+_GAUGE = "320mm"
+"""Of the robot without flippers, whose sheet has none: ours, of its width of 0.4 m."""
 
 
 class Pair(Part):
@@ -46,8 +58,8 @@ class Pair(Part):
     """From nosing to nosing [m]; null likewise."""
     direction: Direction
     """Which way it goes."""
-    friction: tuple[float, float]
-    """Least and largest static friction of the question [1]."""
+    friction: tuple[float, float] | None
+    """Least and largest static friction of the question [1]; null: not stated."""
     outcome: Outcome
     """What happened. To rock is to rotate, be arrested and go on."""
     evidence: Evidence
@@ -58,6 +70,12 @@ class Pair(Part):
     """How the source says it, or how it follows."""
     source: str
     """Key of the source."""
+    fill_in: bool
+    """Whether it was added at every 5 deg from 30 to 60 deg, where the outcome is easy to tell."""
+    knowledge: Knowledge
+    """How the question was put: as the source has it; by an operator, who knows the belts' kind
+    but neither grip, allowances nor the centroid to better than 5 mm; or by one who has tried the
+    grip and drives 3 deg off."""
     verdict: Verdict
     """What kaidan answers."""
     governs: str
@@ -69,16 +87,24 @@ class Pair(Part):
 
 
 class Tally(Part):
-    """How many pairs of one kind of evidence agree."""
+    """How many pairs of one kind of evidence agree, with as much known."""
 
     evidence: Evidence
     """Which kind."""
+    fill_in: bool
+    """Whether these are the pairs at every 5 deg."""
+    knowledge: Knowledge
+    """How the question was put."""
     pairs: int
     """How many."""
     agree: int
     """GO and it climbed, CAUTION and it rocked, NO-GO and it failed."""
+    agree_share: tuple[float, float]
+    """Between which shares that lies, were the pairs independent (95 %, Wilson)."""
     wrong_go: int
     """GO, and the robot failed or rocked."""
+    wrong_go_share: tuple[float, float]
+    """Between which shares that lies, likewise."""
     wrong_no_go: int
     """NO-GO, and the robot did not fail."""
     caution: int
@@ -93,24 +119,51 @@ class KnownOutcomes(Answer):
     text_module = "kaidan.lab.outcomes.text"
 
     pairs: tuple[Pair, ...]
-    """In the order of the catalogue."""
+    """In the order of the catalogue, and of the files given, each with all that may be known."""
     tallies: tuple[Tally, ...]
-    """One for each kind of evidence."""
+    """One for each kind of evidence and what is known."""
     reported: int
     """Public outcomes and makers' claims whose geometry is not public: no question can be put."""
 
 
 @known_arguments
-def known_outcomes() -> KnownOutcomes:
-    """Put the question of every public outcome to kaidan, and count agreement and errors."""
-    table = catalog.outcomes()
-    pairs = [_pair(entry, terrain) for entry in table["pair"] for terrain in _terrains(entry)]
-    kinds: tuple[Evidence, ...] = ("test", "simulation")
+def known_outcomes(*forms: OutcomesForm) -> KnownOutcomes:
+    """Put the question of every public outcome to kaidan, and count agreement and errors.
+
+    forms: a laboratory's own pairs besides.
+    """
+    pairs = [
+        _pair(entry, terrain, knowledge)
+        for entry in entries(forms)
+        for terrain in terrains(entry)
+        for knowledge in _ways(entry)
+    ]
     return KnownOutcomes(
-        pairs=pairs,
-        tallies=[_tally(kind, [pair for pair in pairs if pair.evidence == kind]) for kind in kinds],
-        reported=len(table["reported"]),
+        pairs=pairs, tallies=tuple(_tallies(pairs)), reported=len(catalog.outcomes()["reported"])
     )
+
+
+def entries(forms: Iterable[OutcomesForm] = ()) -> Iterator[Mapping[str, Any]]:
+    """What sources say of robot, stairs, manner and outcome, one after the other."""
+    yield from catalog.outcomes()["pair"]
+    for form in forms:
+        yield from form.entries()
+
+
+def share(count: int, of: int) -> tuple[float, float]:
+    """Interval of a share, 95 %, by Wilson's formula.
+
+    Examples
+    --------
+    >>> print(*(round(end, 3) for end in share(0, 16)))
+    0.0 0.194
+    """
+    if not of:
+        return 0.0, 1.0
+    z2 = QUANTILE**2
+    middle = (count + z2 / 2) / (of + z2)
+    half = QUANTILE / (of + z2) * math.sqrt(count * (of - count) / of + z2 / 4)
+    return max(middle - half, 0.0), min(middle + half, 1.0)
 
 
 def compared(outcome: Outcome, verdict: Verdict) -> Comparison:
@@ -131,7 +184,7 @@ def compared(outcome: Outcome, verdict: Verdict) -> Comparison:
     }[verdict]  # type: ignore[return-value]
 
 
-def _terrains(entry: Mapping[str, Any]) -> list[Stairs] | list[Profile]:
+def terrains(entry: Mapping[str, Any]) -> list[Stairs] | list[Profile]:
     """Terrain of an entry: one flight for each of its angles, its one flight, or its profile."""
     if "points" in entry:
         return [Profile.of_points(entry["points"], name=entry["name"])]
@@ -140,18 +193,44 @@ def _terrains(entry: Mapping[str, Any]) -> list[Stairs] | list[Profile]:
     return [_stairs(each) for each in stairs]
 
 
-def _pair(entry: Mapping[str, Any], terrain: Stairs | Profile) -> Pair:
-    question, findings, _ = with_plan(Question.ask(entry["robot"], terrain, **entry["manner"]))
+def _ways(entry: Mapping[str, Any]) -> Iterator[Knowledge]:
+    """What may be known of a pair: operators stand before real flights."""
+    yield "source"
+    if entry["evidence"] == "test":
+        yield from ("operator", "grip tried")
+
+
+def _manner(entry: Mapping[str, Any], knowledge: Knowledge) -> dict[str, Any]:
+    manner = dict(entry["manner"])
+    if knowledge == "source":
+        return manner
+    override = {"track.belt": "grousers", **manner.pop("override", {})}
+    if knowledge == "operator":
+        del manner["friction"]
+    else:
+        override.setdefault("gauge", _GAUGE)
+        manner["yaw"] = _HEADING
+    most = 0.0 if manner.get("direction") == "down" else UNMEASURED
+    unmeasured = {"theta_d": (0.0, UNMEASURED), "theta_M": (0.0, most)}
+    return {**manner, **unmeasured, "override": override, "uncertainty": _ESTIMATED}
+
+
+def _pair(entry: Mapping[str, Any], terrain: Stairs | Profile, knowledge: Knowledge) -> Pair:
+    question, findings, _ = with_plan(
+        Question.ask(entry["robot"], terrain, **_manner(entry, knowledge))
+    )
     conclusion = conclude(question, findings)
     flight = question.flight
-    assert question.surface is not None
+    surface = question.surface
     return Pair(
         robot=question.robot.name,
         stairs=question.terrain_name,
         angle_deg=flight and math.degrees(flight.angle),
         nosing_spacing_m=flight and flight.nosing_spacing,
         direction=question.direction,
-        friction=(question.surface.friction_low, question.surface.friction_high),
+        friction=surface and (surface.friction_low, surface.friction_high),
+        fill_in="angles" in entry,
+        knowledge=knowledge,
         verdict=conclusion.verdict,
         governs=str(conclusion.governs),
         phase=conclusion.phase,
@@ -169,14 +248,25 @@ def _stairs(entry: Mapping[str, Any]) -> Stairs:
     return Stairs(name=name, rise=rise, going=going, steps=entry["steps"])
 
 
-def _tally(evidence: Evidence, pairs: list[Pair]) -> Tally:
-    found = [pair.comparison for pair in pairs]
-    return Tally(
-        evidence=evidence,
-        pairs=len(pairs),
-        agree=found.count("agrees"),
-        wrong_go=found.count("wrong GO"),
-        wrong_no_go=found.count("wrong NO-GO"),
-        caution=found.count("CAUTION"),
-        no_answer=found.count("no answer"),
-    )
+def _tallies(pairs: list[Pair]) -> Iterator[Tally]:
+    kinds = {(pair.evidence, pair.fill_in, pair.knowledge): None for pair in pairs}
+    for evidence, fill_in, knowledge in kinds:
+        found = [
+            pair.comparison
+            for pair in pairs
+            if (pair.evidence, pair.fill_in, pair.knowledge) == (evidence, fill_in, knowledge)
+        ]
+        agree, wrong_go = found.count("agrees"), found.count("wrong GO")
+        yield Tally(
+            evidence=evidence,
+            fill_in=fill_in,
+            knowledge=knowledge,
+            pairs=len(found),
+            agree=agree,
+            agree_share=share(agree, len(found)),
+            wrong_go=wrong_go,
+            wrong_go_share=share(wrong_go, len(found)),
+            wrong_no_go=found.count("wrong NO-GO"),
+            caution=found.count("CAUTION"),
+            no_answer=found.count("no answer"),
+        )

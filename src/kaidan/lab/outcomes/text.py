@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from kaidan.lab.outcomes.known_outcomes import KnownOutcomes, Pair, Tally
 
 AIM = "Aim, over tests: no wrong GO, at least 80 % agree, at most 15 % CAUTION."
-_EVIDENCE = {"test": "tests of real robots", "simulation": "simulations of other projects"}
+_EVIDENCE = {"test": "real robot", "simulation": "simulation of others"}
 _COLUMNS = {
     "robot": "robot",
     "stairs": "stairs",
@@ -19,15 +19,25 @@ _COLUMNS = {
     "where": "where",
     "comparison": "comparison",
 }
+_KNOWLEDGE = {
+    "source": "what the source has",
+    "operator": "what an operator knows: nothing measured, no grip",
+    "grip tried": "the same, grip tried, 3 deg off heading",
+}
 
 
 def text(found: "KnownOutcomes") -> str:
-    """One line a pair, the counts, and what they are to be."""
+    """One line a pair as the source has it, the counts by what is known, and their aim."""
+    shown = [pair for pair in found.pairs if pair.knowledge == "source" and not pair.fill_in]
+    counted = [_counted(tally) for tally in found.tallies]
     return "\n".join(
         [
-            table([_row(pair) for pair in found.pairs], _COLUMNS),
+            table([_row(pair) for pair in shown], _COLUMNS),
             "",
-            *map(_counted, found.tallies),
+            table(counted, {name: name for name in counted[0]}),
+            "",
+            "In brackets: where the share lies with 95 %, were the pairs independent. They are of",
+            "one rig, so it is less certain. Pairs at every 5 deg are easy, and counted apart.",
             AIM,
             f"Of {found.reported} more public outcomes and claims no geometry is public.",
         ]
@@ -47,14 +57,18 @@ def _row(pair: "Pair") -> dict[str, str]:
     }
 
 
-def _counted(tally: "Tally") -> str:
-    def share(count: int) -> str:
-        return f" ({100 * count / tally.pairs:.0f} %)" if tally.pairs else ""
+def _counted(tally: "Tally") -> dict[str, str]:
+    return {
+        "evidence": _EVIDENCE[tally.evidence] + (", every 5 deg" if tally.fill_in else ""),
+        "known": _KNOWLEDGE[tally.knowledge],
+        "pairs": str(tally.pairs),
+        "agree": f"{tally.agree} {_span(tally.agree_share)}",
+        "wrong GO": f"{tally.wrong_go} {_span(tally.wrong_go_share)}",
+        "wrong NO-GO": str(tally.wrong_no_go),
+        "CAUTION": str(tally.caution),
+        "outside": str(tally.no_answer),
+    }
 
-    outside = f", {tally.no_answer} outside the model" if tally.no_answer else ""
-    return (
-        f"{_EVIDENCE[tally.evidence]}, {tally.pairs} in all: "
-        f"{tally.agree} agree{share(tally.agree)}, "
-        f"{tally.wrong_go} wrong GO, {tally.wrong_no_go} wrong NO-GO, "
-        f"{tally.caution} CAUTION{share(tally.caution)}{outside}"
-    )
+
+def _span(share: tuple[float, float]) -> str:
+    return f"({100 * share[0]:.0f} to {100 * share[1]:.0f} %)"

@@ -13,6 +13,7 @@ import numpy as np
 from kaidan.answer import Answer, Part
 from kaidan.arguments import known_arguments
 from kaidan.lab.reproduction import sentences as said
+from kaidan.lab.reproduction.phase import GrouserPhase, grouser_phase
 from kaidan.lab.reproduction.printed import MEASURED, Measured
 from kaidan.mechanics.margin import theta_s_sup, theta_s_sup_arccos, theta_s_sup_corrected
 from kaidan.mechanics.measures import energy_margin_backward, kinetic_energy_height
@@ -111,6 +112,8 @@ class Reproduction(Answer):
     """The corrected margin."""
     state_c: StateC
     """The triangle of Fig. 10."""
+    phase: GrouserPhase
+    """What the phase of grousers says of the falls, of theta_d and of theta_M."""
 
 
 @known_arguments
@@ -137,6 +140,7 @@ def reproduce() -> Reproduction:
         measured=MEASURED,
         equation_24=corrected,
         state_c=state_c(),
+        phase=grouser_phase(**_table_1()),
     )
 
 

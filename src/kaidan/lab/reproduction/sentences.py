@@ -56,3 +56,34 @@ def captions(friction: float, corrected: tuple[float, float]) -> dict[str, str]:
             f"{low:.1f}-{high:.1f} deg at 150 mm (computed). {NOT_PRINTED}"
         ),
     }
+
+
+RIGID = "rigid smooth belt, sharp ends: Eqs. (19)-(23)"
+PRESSED_IN = "smooth belt that is pressed in and gives theta_d"
+ROUND_END = "smooth belt, round ends of 65 mm"
+GROUSERS = "grousers that give theta_d, sharp ends, at rest"
+GROUSERS_DRIVEN = "the same at 100 mm/s"
+WOUND = "the same, ends of 65 mm wound over bars, at the best spacing of grousers"
+
+
+def grousers_and_round_end(radius_mm: float) -> str:
+    """Name of an explanation."""
+    return f"the same at rest, ends of {radius_mm:.0f} mm"
+
+
+def phase_notes(
+    h: float, beyond: tuple[float, float], driven: tuple[float, float]
+) -> tuple[str, ...]:
+    """What the table of grouser phase takes, and where the lowest nosing is lost [mm]."""
+    return (
+        f"Grouser phase: theta_d = 2.6 deg at 150 mm is a height of {h:.1f} mm. "
+        "Nothing else is taken.",
+        "Up and down: the worst phase at rest. Driven: up at 100 mm/s, for a radius of gyration "
+        "of 100 to 180 mm.",
+        f"Whatever the track is, it loses the lowest nosing {_span(beyond)} mm beyond the end of "
+        f"its flat at rest, or {_span(driven)} mm at 100 mm/s.",
+    )
+
+
+def _span(ends: tuple[float, float]) -> str:
+    return f"{ends[0]:.1f} to {ends[1]:.1f}"

@@ -1,13 +1,16 @@
 """A filled rig sheet as an answer, and as figures of the robot's sheet."""
 
 import math
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from kaidan.answer import Answer, Part
 from kaidan.errors import InputError
+from kaidan.lab.rig.cause import Cause, Contrast, contrast_of
 from kaidan.lab.rig.fitting import TOGETHER, Fitted, fit
 from kaidan.lab.rig.sheet import RigSheet
 from kaidan.mechanics import STANDARD_GRAVITY
+from kaidan.mechanics.grouser_phase import limit_at_loss, limit_up
+from kaidan.mechanics.margin import theta_s_sup, theta_s_sup_corrected
 from kaidan.mechanics.yielding import theta_d_two_contacts
 from kaidan.robot import Robot
 
@@ -39,6 +42,14 @@ class AtSpacing(Part):
     """Extra inclination near the margin [deg]; null: fewer than three measurements."""
     w_n_mm: Figure | None
     """Indentation under the whole weight that the closed form needs for it [mm]."""
+    equation_24_deg: float | None
+    """Margin up by Eq. (24), theta_s_sup less theta_d and theta_M as measured [deg]; null: one of
+    them was not."""
+    phase_deg: float | None
+    """Margin up by grouser phase at rest, of the height by tape, or else of that which theta_d
+    gives [deg]; null: neither is known."""
+    film_deg: float | None
+    """Margin up at rest if the lowest nosing is lost as filmed [deg]; null: not filmed."""
 
 
 class RigCalibration(Answer):
@@ -62,6 +73,17 @@ class RigCalibration(Answer):
     """theta_M, margin going down less that going up [deg]; null: not tried both ways."""
     spacings: tuple[AtSpacing, ...]
     """Each nosing spacing."""
+    cause: Cause | None
+    """What gives theta_d, by the trials with the belt set: grousers, rubber, both, or undecided;
+    null: not tried."""
+    cause_mm: Figure | None
+    """How much of theta_d times p the belt's phase makes [mm]: the grousers' height, or nothing."""
+    rear_radius_m: float | None
+    """Of the tail, by tape [m]."""
+    grouser_height_m: float | None
+    """By tape [m]."""
+    grouser_spacing_m: float | None
+    """By tape [m]."""
     agrees: bool | None
     """Whether the bench's k and the closed form's agree within their intervals at every spacing;
     null: one of them is not known."""
@@ -71,6 +93,13 @@ class RigCalibration(Answer):
     def figures(self) -> dict[str, float]:
         """Figures of the robot's sheet by their dotted names, SI."""
         found: dict[str, float] = {"mass": self.mass_kg}
+        for name, length in (
+            ("track.rear_radius", self.rear_radius_m),
+            ("track.grouser_height", self.grouser_height_m),
+            ("track.grouser_spacing", self.grouser_spacing_m),
+        ):
+            if length is not None:
+                found[name] = float(f"{length:.4g}")
         for name, one in (
             ("track.stiffness", self.stiffness_N_m),
             ("track.shear_stiffness", self.shear_stiffness_N_m),
@@ -102,6 +131,7 @@ def calibrate_rig(sheet: RigSheet) -> RigCalibration:
             "rig: nothing is filled in: three measurements or a counted trial at least"
         )
     weight = sheet.mass * STANDARD_GRAVITY
+    contrast = contrast_of(sheet)
     rows, agrees = [], None if k is None else True
     for p in sorted({*tilts, *margins.up}):
         tilt = tilts.get(p)
@@ -114,6 +144,7 @@ def calibrate_rig(sheet: RigSheet) -> RigCalibration:
                 margin_up_deg=_degrees(margins.up.get(p)),
                 theta_d_deg=_degrees(tilt),
                 w_n_mm=None if needed is None else Figure.of(needed, 1e3),
+                **_closed_forms(robot, sheet, p, tilt, margins.theta_M),
             )
         )
     if not any(row.w_n_mm for row in rows):
@@ -127,9 +158,48 @@ def calibrate_rig(sheet: RigSheet) -> RigCalibration:
         theta_d_deg=_hull(list(tilts.values())),
         theta_M_deg=_degrees(margins.theta_M),
         spacings=tuple(rows),
+        **_causes(contrast),
+        rear_radius_m=sheet.rear_radius,
+        grouser_height_m=sheet.grouser_height,
+        grouser_spacing_m=sheet.grouser_spacing,
         agrees=agrees,
         together=TOGETHER,
     )
+
+
+def _causes(contrast: Contrast | None) -> dict[str, Any]:
+    if contrast is None:
+        return {"cause": None, "cause_mm": None}
+    return {"cause": contrast.cause, "cause_mm": Figure.of(contrast.rise, 1e3)}
+
+
+def _closed_forms(
+    robot: Robot, sheet: RigSheet, p: float, tilt: Fitted | None, theta_M: Fitted | None
+) -> dict[str, float | None]:
+    """Margins up at a spacing by closed forms [deg]."""
+    stance, lost = robot.stance(), [each for each in sheet.film if each.nosing_spacing == p]
+    place = {
+        "L": stance.flat_length,
+        "p": p,
+        "C_L": stance.com_from_front,
+        "C_N": stance.com_height,
+    }
+    h = sheet.grouser_height
+    if h is None and tilt is not None:
+        h = p * math.sin(tilt.value)
+    found: dict[str, float | None] = dict.fromkeys(("equation_24_deg", "phase_deg", "film_deg"))
+    if tilt is not None and theta_M is not None:
+        corrected = theta_s_sup_corrected(
+            theta_s_sup=theta_s_sup(**place), theta_d=tilt.value, theta_M=theta_M.value
+        )
+        found["equation_24_deg"] = math.degrees(corrected)
+    if h is not None:
+        found["phase_deg"] = math.degrees(limit_up(h=h, **place))
+    if lost:
+        w = sum(each.below for each in lost) / len(lost)
+        e = sum(each.beyond for each in lost) / len(lost)
+        found["film_deg"] = math.degrees(limit_at_loss(c=h or 0.0, w=w, e=e, **place))
+    return found
 
 
 def _degrees(one: Fitted | None) -> Figure | None:

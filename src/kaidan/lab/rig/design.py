@@ -35,6 +35,8 @@ STEP = math.radians(1.0)
 """Between the slopes that may be tried [rad]."""
 STEEPEST = math.radians(65.0)
 """Steepest slope that a rig need reach [rad]."""
+BELOW = math.radians(3.0)
+"""How far below the margin theta_d is measured where its cause is looked for [rad]."""
 DRAWS = 64
 """Of what is possible before anything was tried."""
 TILT_READ = math.radians(0.5)
@@ -124,7 +126,8 @@ def _order(condition: Condition) -> tuple[float, bool, float]:
     return condition.nosing_spacing, condition.direction == "down", condition.angle
 
 
-def _margin(robot: Robot, p: float) -> float:
+def margin_of(robot: Robot, p: float) -> float:
+    """Margin of the rigid smooth track [rad]."""
     stance = robot.stance()
     return float(
         theta_s_sup(
@@ -136,7 +139,7 @@ def _margin(robot: Robot, p: float) -> float:
 def _candidates(robot: Robot, spacings: list[float]) -> list[Condition]:
     found = []
     for p in spacings:
-        margin = _margin(robot, p)
+        margin = margin_of(robot, p)
         if not math.radians(10.0) < margin:  # NaN too
             continue
         for k in range(-9, 10):
@@ -158,7 +161,7 @@ def _information(robot: Robot, at: Condition, used: list[float], trials: int) ->
     scatter = SCATTER[0] * np.exp(SCATTER[1] * unit[:, 2])
     own = 3 + used.index(at.nosing_spacing)
     down = at.direction == "down"
-    off = _margin(robot, at.nosing_spacing) + MARGIN * unit[:, own] + theta_M * down - at.angle
+    off = margin_of(robot, at.nosing_spacing) + MARGIN * unit[:, own] + theta_M * down - at.angle
     holds = 1.0 / (1.0 + np.exp(-np.clip(off / scatter, -50.0, 50.0)))
     slope = np.zeros((DRAWS, 3 + len(used)))
     slope[:, own] = 1.0 / scatter

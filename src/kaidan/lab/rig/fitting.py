@@ -155,9 +155,10 @@ def _interval(axis: Array, weights: Array) -> Fitted:
 
 def fit(sheet: RigSheet) -> tuple[Fitted | None, Fitted | None, dict[float, Fitted], Margins]:
     """k, kt, theta_d by spacing, and margins with theta_M, as far as the sheet has them."""
+    trials = tuple(each for each in sheet.trials if not each.belt_set)  # those are for the cause
     return (
         stiffness_of(sheet.press, "press"),
         stiffness_of(sheet.shear, "shear"),
-        theta_d_of(sheet.trials),
-        margins_of(sheet.trials),
+        theta_d_of(trials),
+        margins_of(trials),
     )

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from kaidan.lab.rig import protocol_text as text
-from kaidan.lab.rig.design import Design, design, spacings_of
+from kaidan.lab.rig.design import BELOW, Design, design, margin_of, spacings_of
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.robot import Robot
 
@@ -52,12 +52,25 @@ def protocol_of(
          each.condition.direction, each.gain)
         for each in chosen.planned
     ]  # fmt: skip
+    parting = _parting(robot, chosen.planned[0].condition.nosing_spacing)
     stance = robot.stance()
     return Protocol(
         page=text.page(
             robot.name, stance.com_from_front, stance.com_height, conditions, trials,
-            chosen.expected, forces,
+            chosen.expected, forces, parting,
         ),
-        sheet=text.sheet(named, mass, conditions, forces),
+        sheet=text.sheet(named, mass, conditions, forces, parting),
         design=chosen,
     )  # fmt: skip
+
+
+def _parting(robot: Robot, near: float) -> list[text.Row]:
+    """Spacings in step with the grousers and half off, near one [m]; none: they are not known."""
+    s = robot.track.grouser_spacing
+    if s is None:
+        return []
+    n = max(round(near / s), 1)
+    return [
+        (1e3 * p, math.degrees(margin_of(robot, p) - BELOW), "up", 0.0)
+        for p in (n * s, (n + 0.5) * s)
+    ]

@@ -16,6 +16,7 @@ def page(
     trials: int,
     expected: Mapping[str, tuple[float, float]],
     forces: Sequence[float | None],
+    parting: Sequence[Row],
 ) -> str:
     """What to do, as Markdown."""
     listed = "\n".join(
@@ -55,6 +56,20 @@ driven: forces {loads}; wait 10 s at each; read the travel of the bar against th
 mm (`press`). Then press with the weight and pull the bar along the tracks by the same forces,
 the belts braked, up to where it slips; read its travel (`shear`).
 
+## Tape and film
+
+Measure the tail's radius, the height of a grouser above the belt and ten grouser spacings. On the
+film read, where the tail leaves a nosing: how far the nosing then is beyond the end of the flat,
+along the track, and how far it stands above the flat, prolonged (`film`).
+
+## Grousers or rubber
+
+Grousers lean the robot by their phase, rubber by its load. Two spacings part them: p a whole number
+of grouser spacings, and half of one more, each 3 deg below its margin. Begin five trials with a tip
+on the lowest nosing and five with the belt turned by half a grouser spacing; read `extra`, the
+largest. Grousers: nothing at the first spacing, arcsin(h/p) at the second. Rubber: the same at
+both. Write `belt_set = true` with these trials. {_parting(parting)}
+
 ## On the stairs
 
 100 mm/s, belts on before the nosing is reached, five nosings a trial. **h** holds: it drives
@@ -83,8 +98,19 @@ and the logs.
 """
 
 
+def _parting(parting: Sequence[Row]) -> str:
+    if not parting:
+        return "Add them to the sheet once the grouser spacing is measured."
+    each = " and ".join(f"{p:.1f} mm at {angle:.0f} deg" for p, angle, _, _ in parting)
+    return f"Here: {each}."
+
+
 def sheet(
-    robot: str, mass: float | None, rows: Sequence[Row], forces: Sequence[float | None]
+    robot: str,
+    mass: float | None,
+    rows: Sequence[Row],
+    forces: Sequence[float | None],
+    parting: Sequence[Row],
 ) -> str:
     """What to fill in, as TOML."""
     weight = f'"{mass:g}kg"' if mass is not None else '"FILL IN"'
@@ -93,6 +119,9 @@ def sheet(
         "# Take out what was not done; a row of trials without results does no harm.",
         f"robot = {json.dumps(robot, ensure_ascii=False)}",
         f"mass = {weight}  # as tested",
+        '# rear_radius = "65mm"      # by tape; take out the # of what was measured',
+        '# grouser_height = "7mm"',
+        '# grouser_spacing = "33mm"',
     ]
     for name, how in (("press", "across"), ("shear", "along")):
         lines += ["", f"# Bench, {how} the track: force on one nosing, travel against the hull"]
@@ -111,5 +140,15 @@ def sheet(
             f'direction = "{direction}"',
             'results = ""  # such as "hhhfh"',
             'extra = []  # such as ["2.1deg", "2.4deg"]',
+        ]
+    for p, angle, direction, _ in parting:
+        lines += [
+            "[[trials]]  # grousers or rubber",
+            f'nosing_spacing = "{p:.1f}mm"',
+            f'angle = "{angle:.0f}deg"',
+            f'direction = "{direction}"',
+            "belt_set = true",
+            'results = ""  # five with a tip on the lowest nosing, five turned by half',
+            "extra = []",
         ]
     return "\n".join(lines) + "\n"

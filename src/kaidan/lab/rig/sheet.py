@@ -44,6 +44,12 @@ class Trials(Sheet):
         json_schema_extra={"unit": "rad"},
     )
 
+    belt_set: bool = Field(
+        default=False,
+        description="whether the belt was set before each trial, a tip on the lowest nosing or "
+        "turned by half a grouser spacing in turn",
+    )
+
     @model_validator(mode="after")
     def _of_letters(self) -> Self:
         odd = set(self.results) - {HELD, FELL, OTHER}
@@ -69,6 +75,20 @@ class Trials(Sheet):
         return self.results.count(FELL)
 
 
+class Film(Sheet):
+    """Where the tail left a nosing, on a film."""
+
+    label: ClassVar[str] = "rig: film"
+
+    nosing_spacing: float = quantity("m", 0.02, 2.5, "nosing to nosing along the slope")
+    beyond: float = quantity(
+        "m", -0.1, 0.5, "from the end of the flat to the nosing, along the track, as it is left"
+    )
+    below: float = quantity(
+        "m", -0.05, 0.5, "how far the nosing then stands above the flat, prolonged"
+    )
+
+
 class RigSheet(Sheet):
     """What was measured of one robot."""
 
@@ -76,6 +96,11 @@ class RigSheet(Sheet):
 
     robot: str = Field(description="name in the catalogue, or TOML file")
     mass: float = quantity("kg", 0.1, 5000.0, "of the robot as it was tested")
+    rear_radius: float | None = quantity("m", 0.0, 1.0, "of the tail, by tape", default=None)
+    grouser_height: float | None = quantity("m", 0.0, 0.1, "above the belt, by tape", default=None)
+    grouser_spacing: float | None = quantity(
+        "m", 0.002, 0.5, "tip to tip along the belt, over ten of them", default=None
+    )
     press: tuple[Measurement, ...] = Field(
         default=(), description="across the track: force of one nosing, and how far it presses in"
     )
@@ -83,6 +108,7 @@ class RigSheet(Sheet):
         default=(), description="along the track, loaded: pull over one nosing, and its travel"
     )
     trials: tuple[Trials, ...] = Field(default=(), description="on the stairs")
+    film: tuple[Film, ...] = Field(default=(), description="of the tail, as it leaves a nosing")
 
     @classmethod
     def of_file(cls, path: str | Path) -> Self:

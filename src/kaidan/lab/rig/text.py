@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from kaidan.tables import table
+from kaidan.tables import fixed, table
 
 if TYPE_CHECKING:
     from kaidan.lab.rig.calibration import AtSpacing, Figure, RigCalibration
@@ -27,13 +27,28 @@ def text(found: "RigCalibration") -> str:
             "margin": "margin up [deg]",
             "theta_d": "theta_d [deg]",
             "w_n": "indentation that it needs [mm]",
+            "24": "by Eq. (24)",
+            "phase": "by grouser phase",
+            "film": "as filmed",
         }
         lines += ["", table([_spacing(each) for each in found.spacings], columns)]
+    if found.cause is not None and found.cause_mm is not None:
+        lines += [
+            "",
+            f"  {_CAUSES[found.cause]} The belt's phase makes {_cell(found.cause_mm)} mm of "
+            f"theta_d times p; grousers are {1e3 * (found.grouser_height_m or 0.0):.1f} mm high.",
+        ]
     if found.agrees is not None:
         lines += ["", _AGREES if found.agrees else _DISAGREES]
     return "\n".join(lines)
 
 
+_CAUSES = {
+    "grousers": "theta_d comes of the phase of the grousers.",
+    "rubber": "theta_d comes of a track that yields: the belt's phase does not matter.",
+    "both": "theta_d comes of the phase of the grousers in part: something yields as well.",
+    "undecided": "These trials do not part grousers from rubber: make more.",
+}
 _AGREES = "  theta_d and the bench require the same k, by the closed form."
 _DISAGREES = (
     "  theta_d requires another k than the bench, by the closed form: something else yields too "
@@ -59,6 +74,9 @@ def _spacing(each: "AtSpacing") -> dict[str, str]:
         "margin": _cell(each.margin_up_deg),
         "theta_d": _cell(each.theta_d_deg),
         "w_n": _cell(each.w_n_mm),
+        "24": fixed(each.equation_24_deg, 1),
+        "phase": fixed(each.phase_deg, 1),
+        "film": fixed(each.film_deg, 1),
     }
 
 

@@ -143,6 +143,15 @@ def margin(counts: Sequence[Count]) -> Range | None:
     return Range(low=min(low for low, _ in found), mean=mean, high=max(high for _, high in found))
 
 
+def onset(counts: Sequence[Count]) -> Range | None:
+    """Slope at which the first of all phases is lost; its ends are slopes that were tried."""
+    held = list(while_true(counts, lambda count: not any(count.lost_of_trial)))
+    if not held or len(held) == len(counts):
+        return None
+    low, high = held[-1].angle_deg, counts[len(held)].angle_deg
+    return Range(low=low, mean=(low + high) / 2, high=high)
+
+
 def descent_gain(up: Sequence[Count], down: Sequence[Count]) -> Range | None:
     """theta_M: descending margin less the ascending one, as in Fig. 19.
 

@@ -18,6 +18,9 @@ from kaidan.work import read_batches
 
 PAPER = "150mm,180mm,200mm,220mm"
 """Nosing spacings of the paper's test."""
+NOSINGS = 10
+"""Nosings that a trial passes: a run on the paper's rig passed about so many, each at its own phase
+of the grousers."""
 SLOPES = (0.01, 1.5533)
 """Slopes that can be tested, up to 89 degrees [rad]."""
 
@@ -91,6 +94,7 @@ def plan_of(
     trials: int = 5,
     descent: bool = False,
     seed: int = 0,
+    nosings: int = NOSINGS,
     **setting: Any,
 ) -> VerificationTest:
     """Plan of what people write.
@@ -110,6 +114,8 @@ def plan_of(
         Whether it comes down too, tail first.
     seed : int
         Of all start offsets and grousers' phases.
+    nosings : int
+        To be passed in a trial.
     **setting
         Of `kaidan.lab.campaign.Setting.of`: flippers, payload, override, friction, speed, track,
         ground. Without a track that of `kaidan.lab.calibration.fitted.fitted`.
@@ -139,7 +145,14 @@ def plan_of(
             for direction in directions
             for angle in slopes
         )
-    plan = VerificationTest(setting=shared, conditions=conditions, trials=trials, seed=seed)
+    plan = VerificationTest(
+        setting=shared,
+        conditions=conditions,
+        trials=trials,
+        seed=seed,
+        nosings=nosings,
+        stratified=True,
+    )
     for condition in plan.conditions:
         plan.spec(condition, 0)  # refuses what cannot be tried before anything is begun
     return plan

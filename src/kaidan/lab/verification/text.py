@@ -22,6 +22,8 @@ _HEADS = {
     "contact": "contact [deg]",
     "climbed": "all climbed up to",
     "fell": "all fell from",
+    "onset": "first lost up, down",
+    "mean": "mean up, down",
     "d": "theta_d",
     "M": "theta_M",
     "corrected": "Eq. (24)",
@@ -33,7 +35,7 @@ def text(found: "Verification") -> str:
     number = sum(len(count.lost_of_trial) for count in found.counts)
     lines = [
         f"{found.robot}: {number} trials; {found.track}, {found.speed_m_s:g} m/s, friction "
-        f"{found.friction:g}, seed {found.seed}",
+        f"{found.friction:g}, {found.nosings} nosings a trial, seed {found.seed}",
         *_SAID[found.track_from],
         f"  {found.version}",
         "",
@@ -63,6 +65,8 @@ def _row(each: "Spacing") -> dict[str, str]:
         "contact": fixed(each.contact_deg),
         "climbed": fixed(each.climbed_up_to_deg),
         "fell": fixed(each.fell_from_deg),
+        "onset": f"{_middle(each.onset_deg)}, {_middle(each.descent_onset_deg)}",
+        "mean": f"{_middle(each.margin_deg)}, {_middle(each.descent_margin_deg)}",
         "d": _range(each.theta_d_deg),
         "M": _range(each.theta_M_deg),
         "corrected": _range(each.corrected_deg),
@@ -75,6 +79,10 @@ def _symbol(count: "Count") -> str:
     if count.symbol == "square":
         return f"{sum(count.others.values())}?"
     return {"circle": "o", "cross": "x"}.get(count.symbol, str(count.fell))
+
+
+def _middle(value: "Range | None") -> str:
+    return "-" if value is None else f"{value.mean:.1f}"
 
 
 def _range(value: "Range | None") -> str:

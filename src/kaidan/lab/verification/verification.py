@@ -21,6 +21,7 @@ from kaidan.lab.verification.counts import (
     count_of,
     descent_gain,
     margin,
+    onset,
 )
 from kaidan.mechanics.margin import theta_s_sup
 from kaidan.mechanics.plane import two_contacts_remain
@@ -50,6 +51,11 @@ class Spacing(Part):
     """Slope at which it begins to fall or to stall going up; its ends are slopes that were
     tried."""
     descent_margin_deg: Range | None
+    """The same going down."""
+    onset_deg: Range | None
+    """Slope at which the first trial is lost going up, in whichever phase; between two that were
+    tried."""
+    descent_onset_deg: Range | None
     """The same going down."""
     theta_d_deg: Range | None
     """Extra inclination at the steepest slope at which all climbed, as in Fig. 16."""
@@ -93,6 +99,8 @@ class Verification(Answer):
     """Of the track on the nosings [1]."""
     trials: int
     """Of each condition."""
+    nosings: int
+    """To be passed in a trial."""
     seed: int
     version: str
     """Of what computed the trials."""
@@ -184,6 +192,7 @@ def verification(plan: VerificationTest, rows: Iterable[Mapping[str, Any]]) -> V
         speed_m_s=setting.speed,
         friction=setting.static_friction,
         trials=plan.trials,
+        nosings=plan.nosings,
         seed=plan.seed,
         version=TRIALS.version(),
         spacings=[_spacing(setting, p, counts) for p in sorted(spacings)],
@@ -208,6 +217,8 @@ def _spacing(setting: Setting, p: float, counts: Sequence[Count]) -> Spacing:
         fell_from_deg=lost[-1].angle_deg if lost else None,
         margin_deg=margin(up),
         descent_margin_deg=margin(down),
+        onset_deg=onset(up),
+        descent_onset_deg=onset(down),
         theta_d_deg=theta_d,
         theta_M_deg=theta_M,
         corrected_deg=_corrected(sup, theta_d, theta_M),
