@@ -160,7 +160,8 @@ def test_driving_on_against_one_degree_of_freedom(v):
     lean = np.arcsin(c / p)
     x = L - C_L - p * np.cos(lean)
     found = np.arctan2(x, C_N + c) - lean + lead_of_driving(x=x, C_N=C_N + c, v=v, rho=rho)
-    assert np.degrees(found - toppling(p, 0.0, c, v, rho)) == pytest.approx(0.0, abs=0.2)
+    # 0.01 deg of halving, the steps, and what is left out of the linear motion
+    assert np.degrees(found - toppling(p, 0.0, c, v, rho)) == pytest.approx(0.0, abs=0.07)
     assert lead_of_driving(x=0.124, C_N=C_N, v=0.0, rho=0.15) == pytest.approx(0.0, abs=1e-12)
 
 
