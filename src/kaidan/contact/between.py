@@ -46,7 +46,7 @@ def samples_of(
     touch
         Gap up to which a nosing lies on a flat [m].
     acceleration, gravity
-        As for :meth:`Path.margins_of`.
+        As for :meth:`Path.between`.
 
     Returns
     -------

@@ -48,7 +48,7 @@ class Manner(NamedTuple):
     whole: bool
     """Whether one flat carries all along on a flight."""
     counts: tuple[int, int, int]
-    """Which poses of each phase count for its energy: `NO_POSE`, `BESIDE_NOSINGS`, `EVERY_POSE`."""
+    """Which poses of each phase count: ``NO_POSE``, ``BESIDE_NOSINGS`` or ``EVERY_POSE``."""
     tops: Sequence[tuple[float, float, float, float]]
     """Where the uppermost contact stands on a flight's last nosing or beyond: smallest and largest
     x, smallest and largest z [m]."""

@@ -393,7 +393,7 @@ class Support:
     place: int
     """`NOSING`, `TREAD` or `FACE`."""
     point: int
-    """Of the ground, where a grouser may stand; `NOWHERE`: none."""
+    """Of the ground, where a grouser may stand; ``NOWHERE``: none."""
     tread: float
     """Tilt of the normal of the tread there [rad]; NaN: none."""
     curvature: float

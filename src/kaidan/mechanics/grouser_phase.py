@@ -51,7 +51,7 @@ def limit_at_loss(
     Returns
     -------
     float or array
-        Slope [rad]; NaN for |c + w| > p.
+        Slope [rad]; NaN where c + w exceeds p.
 
     Examples
     --------
