@@ -11,9 +11,8 @@ equation has no solution. Read the modules in the order of the paper:
 ``transitions`` (entering, riser start, crest), ``rearing`` (a tail in the corner of a tread),
 ``rocking`` (what of a turn counts on a flight), ``drive`` (traction, torque, power), ``oblique``
 (approach with a yaw), ``margins`` (every failure mode at once), ``weighing`` (the centroid from
-scales, tape and level), ``grousers`` (what a belt with grousers holds), ``grouser_phase``
-(what their height costs of the margin), ``clearance`` and ``turning`` (room on a flight, at a
-corner, through a door, on a landing).
+scales, tape and level), ``grousers`` (what a belt with grousers holds), ``clearance``
+and ``turning`` (room on a flight, at a corner, through a door, on a landing).
 
 Symbols, floats or arrays that broadcast, which a formula lists only where it means another:
 ``theta_s`` slope of the line through the nosings [rad], ``p`` nosing spacing [m], ``L`` length of

@@ -15,8 +15,8 @@ from kaidan.answer import Answer, Part
 from kaidan.assessment import with_plan
 from kaidan.assessment.verdict import conclude
 from kaidan.errors import InputError, short
+from kaidan.lab.grouser_phase import limit_down, limit_up
 from kaidan.lab.outcomes.known_outcomes import Outcome, compared, entries, terrains
-from kaidan.mechanics.grouser_phase import limit_down, limit_up
 from kaidan.mechanics.margin import theta_s_sup
 from kaidan.modes import Verdict
 from kaidan.question import Question

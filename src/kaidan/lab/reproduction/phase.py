@@ -8,9 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from kaidan.answer import Part
-from kaidan.lab.reproduction import sentences as said
-from kaidan.lab.reproduction.printed import MEASURED
-from kaidan.mechanics.grouser_phase import (
+from kaidan.lab.grouser_phase import (
     lead_of_driving,
     limit_at_loss,
     limit_down,
@@ -18,6 +16,8 @@ from kaidan.mechanics.grouser_phase import (
     limit_up,
     winding_angle,
 )
+from kaidan.lab.reproduction import sentences as said
+from kaidan.lab.reproduction.printed import MEASURED
 from kaidan.mechanics.margin import theta_s_sup
 from kaidan.mechanics.yielding import theta_s_sup_yielding
 

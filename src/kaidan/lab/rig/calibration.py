@@ -5,11 +5,11 @@ from typing import Any, ClassVar
 
 from kaidan.answer import Answer, Part
 from kaidan.errors import InputError
+from kaidan.lab.grouser_phase import limit_at_loss, limit_up
 from kaidan.lab.rig.cause import Cause, Contrast, contrast_of
 from kaidan.lab.rig.fitting import TOGETHER, Fitted, fit
 from kaidan.lab.rig.sheet import RigSheet
 from kaidan.mechanics import STANDARD_GRAVITY
-from kaidan.mechanics.grouser_phase import limit_at_loss, limit_up
 from kaidan.mechanics.margin import theta_s_sup, theta_s_sup_corrected
 from kaidan.mechanics.yielding import theta_d_two_contacts
 from kaidan.robot import Robot

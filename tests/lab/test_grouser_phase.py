@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from kaidan.mechanics.grouser_phase import (
+from kaidan.lab.grouser_phase import (
     lead_of_driving,
     limit_at_loss,
     limit_down,
