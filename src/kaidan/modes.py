@@ -6,7 +6,7 @@ drawn and written as JSON without another change (see CONTRIBUTING).
 
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Literal
+from typing import Literal, NamedTuple
 
 Direction = Literal["up", "down"]
 Facing = Literal["nose-first", "tail-first"]
@@ -17,9 +17,15 @@ class Verdict(StrEnum):
     """Answer to "can this robot take these stairs?", the best first."""
 
     GO = "go"
-    CAUTION = "caution"
+    """Nothing fails in the worst case."""
+    ROUGH = "rough"
+    """It arrives in every case known of, but rocks, lands hard or rests on its belly."""
+    UNSURE = "unsure"
+    """A case of something that is not known fails."""
     NO_GO = "no-go"
+    """It fails in the best case too."""
     OUTSIDE_MODEL = "outside-model"
+    """The model says nothing."""
 
     @property
     def rank(self) -> int:
@@ -28,7 +34,7 @@ class Verdict(StrEnum):
 
     @property
     def exit_code(self) -> int:
-        """Code with which a command ends: 0 go or caution, 1 no-go, 3 outside the model."""
+        """Code with which a command ends: `EXIT_CODES`."""
         return _EXIT_CODES[self]
 
     @property
@@ -40,10 +46,34 @@ class Verdict(StrEnum):
 _RANKS = {verdict: rank for rank, verdict in enumerate(Verdict)}
 _EXIT_CODES = {
     Verdict.GO: 0,
-    Verdict.CAUTION: 0,
     Verdict.NO_GO: 1,
     Verdict.OUTSIDE_MODEL: 3,
+    Verdict.ROUGH: 4,
+    Verdict.UNSURE: 5,
 }
+EXIT_CODES = "0 GO, 1 NO-GO, 2 bad input, 3 outside the model, 4 ROUGH, 5 UNSURE"
+"""As help and messages say them; 2 is no verdict."""
+
+
+class IfFails(NamedTuple):
+    """Verdict of a failure mode on its own."""
+
+    best: Verdict
+    """Where it fails in the best case, and so in every case."""
+    worst: Verdict
+    """Where it fails in the worst case only."""
+    unknown: Verdict
+    """Where its margin is not known."""
+
+
+FAILS = IfFails(Verdict.NO_GO, Verdict.UNSURE, Verdict.UNSURE)
+"""The robot does not arrive."""
+FAILS_IF_KNOWN = FAILS._replace(unknown=Verdict.GO)
+"""The same, of what sheets often leave out: it counts where it is known."""
+ROUGHLY = IfFails(Verdict.ROUGH, Verdict.ROUGH, Verdict.UNSURE)
+"""The robot arrives, not smoothly: `FALLS` and the kinetic modes say whether it falls."""
+OPEN = IfFails(Verdict.UNSURE, Verdict.UNSURE, Verdict.UNSURE)
+"""Nothing tells whether the robot arrives: what is not seen, not measured or not simulated."""
 
 
 @dataclass(frozen=True)
@@ -57,6 +87,8 @@ class FailureMode:
     holds or does not."""
     label: str
     """What happens, as people say it: "tipping over its downhill end"."""
+    if_fails: IfFails
+    """Verdict where it fails in the best case, in the worst case only, or is not known."""
 
     @property
     def shown_unit(self) -> str:
@@ -82,7 +114,7 @@ FAILURE_MODES: dict[str, FailureMode] = {}
 """All failure modes by key; ties between margins go to the first."""
 
 
-def failure_mode(key: str, unit: str, label: str) -> FailureMode:
+def failure_mode(key: str, unit: str, label: str, if_fails: IfFails) -> FailureMode:
     """Add a failure mode to the vocabulary.
 
     Parameters
@@ -93,58 +125,66 @@ def failure_mode(key: str, unit: str, label: str) -> FailureMode:
         Unit of its margin.
     label : str
         What happens, a noun phrase.
+    if_fails : IfFails
+        Verdict where it fails; a finding may know better.
     """
-    mode = FailureMode(key, unit, label)
+    mode = FailureMode(key, unit, label, if_fails)
     FAILURE_MODES[key] = mode
     return mode
 
 
-TIP_DOWNHILL = failure_mode("tip_downhill", "rad", "tipping over its downhill end")
+TIP_DOWNHILL = failure_mode("tip_downhill", "rad", "tipping over its downhill end", ROUGHLY)
 """The paper's falling backward, nose up the stairs."""
-TIP_UPHILL = failure_mode("tip_uphill", "rad", "tipping over its uphill end")
+TIP_UPHILL = failure_mode("tip_uphill", "rad", "tipping over its uphill end", ROUGHLY)
 """The paper's falling forward."""
-TIP_SIDEWAYS = failure_mode("tip_sideways", "rad", "tipping over its side")
-FALL_DOWNHILL = failure_mode("fall_downhill", "rad", "falling over its downhill end")
+TIP_SIDEWAYS = failure_mode("tip_sideways", "rad", "tipping over its side", FAILS)
+FALL_DOWNHILL = failure_mode("fall_downhill", "rad", "falling over its downhill end", FAILS)
 """Of a robot that rocks: tilt of gravity to its fall, less the reserve."""
-FALL_UPHILL = failure_mode("fall_uphill", "rad", "falling over its uphill end")
-SLIDES_DOWN = failure_mode("slides_down", "rad", "sliding down for lack of friction")
+FALL_UPHILL = failure_mode("fall_uphill", "rad", "falling over its uphill end", FAILS)
+SLIDES_DOWN = failure_mode("slides_down", "rad", "sliding down for lack of friction", FAILS)
 """The paper's slipping, Eq. (4)."""
-SLIDES_UP = failure_mode("slides_up", "rad", "sliding on uphill for lack of friction")
-GAP_JAM = failure_mode("gap_jam", "rad", "jamming because its track has a gap")
+SLIDES_UP = failure_mode("slides_up", "rad", "sliding on uphill for lack of friction", FAILS)
+GAP_JAM = failure_mode("gap_jam", "rad", "jamming because its track has a gap", OPEN)
 """Driven in MuJoCo such robots jammed with friction to spare."""
-DRIVE = failure_mode("drive", "rad", "too little traction of the drive")
-STUCK = failure_mode("stuck", "rad", "getting stuck")
+DRIVE = failure_mode("drive", "rad", "too little traction of the drive", FAILS_IF_KNOWN)
+STUCK = failure_mode("stuck", "rad", "getting stuck", FAILS)
 """Its margin is minus a right angle: no slope of the stairs would do."""
 ROTATION = failure_mode(
-    "rotation", "rad of rotation", "rotating farther than the path obliges it to"
+    "rotation", "rad of rotation", "rotating farther than the path obliges it to", ROUGHLY
 )
 """A rotation that the path does not oblige to."""
-MOMENTUM = failure_mode("momentum", "m", "toppling with the momentum of a rotation")
-IMPACT = failure_mode("impact", "m/s", "hitting the ground too fast")
+MOMENTUM = failure_mode("momentum", "m", "toppling with the momentum of a rotation", OPEN)
+IMPACT = failure_mode("impact", "m/s", "hitting the ground too fast", ROUGHLY)
 """After a drop that the path obliges to."""
-ENERGY = failure_mode("energy", "m", "too little energy margin for its speed")
-HIGH_CENTRING = failure_mode("high_centring", "", "resting on its belly")
-POSTURE_CHANGE = failure_mode("posture_change", "", "rotating while its flippers move")
+ENERGY = failure_mode("energy", "m", "too little energy margin for its speed", OPEN)
+HIGH_CENTRING = failure_mode("high_centring", "", "resting on its belly", ROUGHLY)
+POSTURE_CHANGE = failure_mode("posture_change", "", "rotating while its flippers move", ROUGHLY)
 """Between two postures of a plan, the robot standing."""
-FLIPPER_TORQUE = failure_mode("flipper_torque", "N m", "too little torque to move its flippers")
-POSTURE_TOLERANCE = failure_mode("posture_tolerance", "", "flippers some degrees off their angles")
+FLIPPER_TORQUE = failure_mode(
+    "flipper_torque", "N m", "too little torque to move its flippers", FAILS
+)
+POSTURE_TOLERANCE = failure_mode(
+    "posture_tolerance", "", "flippers some degrees off their angles", OPEN
+)
 """Of a plan that was found: off its angles its verdict is worse."""
-GROUSER_SPEED = failure_mode("grouser_speed", "m/s", "driving too fast on grousers")
+GROUSER_SPEED = failure_mode("grouser_speed", "m/s", "driving too fast on grousers", OPEN)
 """Faster, grousers hooked a nosing or spun at a riser in simulations."""
-LANDING_ROOM = failure_mode("landing_room", "m", "a landing shorter than the robot")
-TURNING = failure_mode("turning", "", "too little room to turn on a landing")
-NARROW = failure_mode("narrow", "m", "a flight narrower than the robot needs")
-FOOT_UNSEEN = failure_mode("foot_unseen", "", "a first riser that nobody saw")
+LANDING_ROOM = failure_mode("landing_room", "m", "a landing shorter than the robot", OPEN)
+TURNING = failure_mode("turning", "", "too little room to turn on a landing", OPEN)
+NARROW = failure_mode("narrow", "m", "a flight narrower than the robot needs", FAILS)
+FOOT_UNSEEN = failure_mode("foot_unseen", "", "a first riser that nobody saw", OPEN)
 """Of a scan: the flight may begin lower, or with a higher riser."""
-GAP = failure_mode("gap", "m", "an end dropping into a gap")
+GAP = failure_mode("gap", "m", "an end dropping into a gap", OPEN)
 """A gap that an end of the robot fits into, or behind which nobody found a floor."""
-ACROSS = failure_mode("across", "", "one track meeting other ground than the other")
+ACROSS = failure_mode("across", "", "one track meeting other ground than the other", OPEN)
 """On a profile that is not built across the path: nobody stated that both meet the same."""
-FLOOR_FINISH = failure_mode("floor_finish", "", "an end riser that is drawn and stated otherwise")
+FLOOR_FINISH = failure_mode(
+    "floor_finish", "", "an end riser that is drawn and stated otherwise", OPEN
+)
 """Of a building model: a floor or the steps may be drawn without their finish."""
-LOW = failure_mode("low", "m", "a ceiling lower than the robot needs")
-TWIST = failure_mode("twist", "rad", "tipping on nosings that differ from left to right")
-UNWEIGHED = failure_mode("unweighed", "", "a centroid that nobody measured")
+LOW = failure_mode("low", "m", "a ceiling lower than the robot needs", FAILS)
+TWIST = failure_mode("twist", "rad", "tipping on nosings that differ from left to right", OPEN)
+UNWEIGHED = failure_mode("unweighed", "", "a centroid that nobody measured", OPEN)
 """The sheet has a range: no GO before the robot is weighed."""
 
 TIPS = (TIP_DOWNHILL, TIP_UPHILL, TIP_SIDEWAYS)
@@ -176,15 +216,6 @@ class Phase(StrEnum):
     """On the flight alone."""
     LAND = "land"
     """From the first contact with the other landing until the whole robot stands on it."""
-
-
-class Acceptance(StrEnum):
-    """What counts as holding: how far down the three grades the operator goes."""
-
-    NO_ROTATION = "no-rotation"
-    """Grade one, the paper's criterion, alone."""
-    ARRESTED = "arrested"
-    """Also a rotation that the next contact arrests with the momentum gained (grade three)."""
 
 
 @dataclass(frozen=True)

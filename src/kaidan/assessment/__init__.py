@@ -30,7 +30,7 @@ def assess(robot: Any, stairs: Any = None, **manner: Any) -> Assessment:
     stairs : Stairs, Profile, str, path or a sequence of flights
         Stairs, their name in the catalogue, or a TOML file; several flights; or a profile.
     **manner
-        Everything else of a question: surface, friction, direction, flippers, model, accept and so
+        Everything else of a question: surface, friction, direction, flippers, model and so
         on, see `kaidan.Question.of`.
 
     Returns
@@ -122,9 +122,7 @@ def off_plan(question: Question, found: Findings, search: "Found | None" = None)
 
     if holds_off_its_angles(question) if search is None else search.sturdy:
         return found
-    off = Finding.certain(
-        POSTURE_TOLERANCE, -math.inf, failing=Verdict.CAUTION, model=question.model
-    )
+    off = Finding.certain(POSTURE_TOLERANCE, -math.inf, model=question.model)
     return replace(found, each=(*found.each, off))
 
 

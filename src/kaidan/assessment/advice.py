@@ -135,7 +135,7 @@ def _planned(
     if is_go and holds_off_its_angles(question, drives):
         return then, False
     if is_go:
-        then = then._replace(verdict=Verdict.CAUTION)
+        then = then._replace(verdict=Verdict.UNSURE)
     if search is not None and question.robot.com_range is None:
         asked = question.changed(best_of=search.best_of)
         own = better_than(then.verdict, asked, drives=drives, other_frictions=anew)
@@ -276,7 +276,7 @@ def _stowed_on_landings(question: Question, found: Findings) -> Iterator[Candida
     if at_them.verdict is Verdict.GO and not all(
         then(each, judge(each)).verdict is Verdict.GO for each in off_angles(question)
     ):
-        at_them = at_them._replace(verdict=Verdict.CAUTION)
+        at_them = at_them._replace(verdict=Verdict.UNSURE)
     yield Candidate(text.STOWED, question, certain=True, then=at_them)
 
 

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from kaidan.models.support_polygon import SupportPolygonFigures
     from kaidan.models.traction_figures import TractionFigures
 
-VerdictName = Literal["go", "caution", "no-go", "outside-model"]
+VerdictName = Literal["go", "rough", "unsure", "no-go", "outside-model"]
 
 
 class FindingShown(Part):

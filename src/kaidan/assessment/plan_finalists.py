@@ -102,7 +102,7 @@ def _to_steady(search: Search, first: Judged | None) -> Plan | None:
     if first is None:
         return None
     hoped, grips = first.conclusion.verdict, search.question.robot.track.has_grousers
-    if not (hoped is Verdict.GO or (grips and hoped is Verdict.CAUTION)):
+    if not (hoped is Verdict.GO or (grips and hoped is Verdict.UNSURE)):
         return None
     at = first.question.postures
     return Plan(search.scores.facing, tuple((phase, at[phase]) for phase in search.scores.phases))
@@ -155,7 +155,7 @@ def _rank(search: Search, merit: Merit) -> int:
     passes, failing, _ = merit
     if search.question.robot.track.has_grousers or (passes and not failing):
         return Verdict.GO.rank
-    return Verdict.CAUTION.rank if passes else Verdict.NO_GO.rank
+    return Verdict.UNSURE.rank if passes else Verdict.NO_GO.rank
 
 
 def _may_be_better(

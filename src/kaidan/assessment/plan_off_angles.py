@@ -40,7 +40,7 @@ def judged_off(
     for off in each if search is None else search.weakest_first(each):
         if beaten is not None and worst <= beaten:
             return OffAngles(plan, worst, tested=False)
-        if worst[0] == -Verdict.CAUTION.rank and drives.is_no_failure(off):
+        if worst[0] == -Verdict.UNSURE.rank and drives.is_no_failure(off):
             continue
         worst = (min(worst[0], drives.rank(off)), *worst[1:])
         if worst[0] <= -Verdict.NO_GO.rank:

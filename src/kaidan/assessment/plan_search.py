@@ -176,7 +176,7 @@ def _at_unknown_friction(
     So of two plans the one is better that needs less of it. Without a friction nothing is known to
     hold: no plan is a GO. None: it has no better verdict than the one given.
     """
-    if verdict is not None and verdict.rank <= Verdict.CAUTION.rank:
+    if verdict is not None and verdict.rank <= Verdict.UNSURE.rank:
         return None
     found = found_of(question.changed(surface=Surface.of_friction(UNKNOWN)), limits, drives=drives)
     asked = found.question.changed(surface=None)

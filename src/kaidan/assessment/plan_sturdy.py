@@ -23,7 +23,7 @@ from kaidan.models.belts import holds_otherwise
 from kaidan.models.findings import at_risk
 from kaidan.models.quasi_static import Basis, findings_of, sliding_margin
 from kaidan.models.traction import gripping
-from kaidan.modes import Acceptance, Phase, Verdict
+from kaidan.modes import Phase, Verdict
 from kaidan.robot import Posture
 from kaidan.traversal.moves import angles_of
 
@@ -59,9 +59,9 @@ class Worth(NamedTuple):
 
 
 OUT = Worth(-len(Verdict), -90.0)
-SHORT_OF_GO = Worth(-Verdict.CAUTION.rank, ENOUGH)
+SHORT_OF_GO = Worth(-Verdict.UNSURE.rank, ENOUGH)
 """As much as a phase can come to that is no GO."""
-HOPELESS = Worth(-Verdict.CAUTION.rank, -3.0)
+HOPELESS = Worth(-Verdict.UNSURE.rank, -3.0)
 """From which on no posture close by is tried."""
 ANY = Worth(-Verdict.GO.rank, ENOUGH)
 """As much as a phase can come to."""
@@ -83,7 +83,7 @@ class Sturdier:
         self.question = scores.question.changed(facing=scores.facing)
         self._scored: Scores | None = None
         """Scores of what is looked at here; None where they do not tell what a phase comes to."""
-        plain = self.question.accept is Acceptance.NO_ROTATION and not self.question.uncertain
+        plain = not self.question.uncertain
         belts = gripping(self.question)
         if plain and (belts is not None or not holds_otherwise(self.question)):
             self._scored = Scores(scores.question, scores.facing, belts)
@@ -282,7 +282,7 @@ class Sturdier:
             if basis is not None:
                 sliding = np.nan_to_num(sliding_margin(basis.question, basis), nan=math.inf)
                 margin = at_risk(sliding, basis.question.risk)
-            verdict = Verdict.GO if margin > 0.0 else Verdict.CAUTION
+            verdict = Verdict.GO if margin > 0.0 else Verdict.UNSURE
             self._sliding[key] = OUT if basis is None else _worth(verdict, margin)
         return self._sliding[key]
 
@@ -334,7 +334,7 @@ def _hope(score: Score) -> Worth:
     """What a phase of a score comes to at most."""
     if score == FAILED:  # how far a fall is off is no part of a score
         return Worth(-Verdict.NO_GO.rank, ENOUGH)
-    verdict = Verdict.CAUTION if score.failing else Verdict.GO
+    verdict = Verdict.UNSURE if score.failing else Verdict.GO
     margin = math.radians(score.margin + SLACK)
     return _worth(verdict if score.passes else Verdict.NO_GO, margin)
 

@@ -26,7 +26,7 @@ class Stretch(Part):
     """C_L where it begins [m]."""
     to_m: float
     """C_L where it ends [m]."""
-    verdict: Literal["go", "caution", "no-go", "outside-model"]
+    verdict: Literal["go", "rough", "unsure", "no-go", "outside-model"]
     """Verdict of all of it."""
     governs: str
     """What decides at its middle, or at the judged place next to it."""

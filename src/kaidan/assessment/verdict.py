@@ -1,40 +1,35 @@
 """From findings to a verdict: one policy, whichever model found them and of whichever phase.
 
-- OUTSIDE THE MODEL: the model says nothing.
-- NO-GO: more samples than the accepted risk fail in the best case, by a mode that is a failure.
-- CAUTION: more than that fail in the worst case by any mode; or friction, or the margin against
-  tipping, or any margin of slope, is not known.
-- GO: else.
-
-An operator who accepts an arrested rotation waives tipping and rotation of a robot that arrives,
-and takes the momentum that a plastic impact leaves as what decides.
+Each finding has a verdict of its own: `kaidan.modes` says of its failure mode which, where it fails
+in the best case, in the worst case only, or is not known. Of a sample the worst counts, and over
+the samples the one that no more than the accepted share exceeds.
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import replace
+from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
 
-from kaidan.models.findings import Array, Finding, Findings, at_risk, failing_beyond, smallest
+from kaidan.models.findings import Array, Finding, Findings, at_risk, smallest
 from kaidan.modes import (
     FAILURE_MODES,
+    FALLS,
     GAP,
-    MOMENTUM,
+    OPEN,
     ROTATION,
-    SUPPLIES,
     TIPS,
     UNWEIGHED,
-    Acceptance,
     Phase,
     Undecided,
     Verdict,
 )
 from kaidan.question import Question
 
-WAIVED = (*TIPS, ROTATION)
-"""Modes that an operator who accepts an arrested rotation waives, where the robot arrives."""
+ROCKS = (*TIPS, ROTATION)
+"""Modes of which only the tilt to the fall tells whether the robot arrives."""
 FALL = math.pi / 2
 """Margin of a robot of which no slope makes it fail [rad]."""
 
@@ -63,7 +58,7 @@ def conclude(question: Question, found: Findings) -> Conclusion:
     Parameters
     ----------
     question : Question
-        Risk, acceptance, and whether friction is known.
+        Risk, and whether friction is known.
     found : Findings
         Of one model.
     """
@@ -79,65 +74,74 @@ def conclude(question: Question, found: Findings) -> Conclusion:
             np.array([nan]),
             (),
         )
-    each = _accepted(question, found.each)
+    each = _with_falls(found.each)
     slopes = [one for one in each if one.mode.unit == "rad"]
     samples = smallest(one.worst for one in slopes) if slopes else np.array([math.nan])
     best = smallest(one.best for one in slopes) if slopes else np.array([math.nan])
     margin, margin_best = (min(at_risk(values, question.risk), FALL) for values in (samples, best))
-    failures = [one for one in each if one.failing is Verdict.NO_GO]
     doubts = _doubts(each, question)
-    friction_known = question.surface is not None
-    governing: Finding | None
-    if _beyond(failures, question.risk, best=True):
-        verdict = Verdict.NO_GO
-        governing = _deciding(failures, question)
-    elif _beyond(each, question.risk):
-        verdict = Verdict.CAUTION
+    verdict = verdict_of(each, question.risk)
+    known = any(math.isfinite(one.margin(question.risk)) for one in slopes)
+    if verdict is Verdict.NO_GO:
+        governing: Finding | None = _deciding(each, question)
+    elif doubts:
         governing = doubts[0]
+    elif verdict is not Verdict.GO:  # something is not known
+        governing = next(one for one in each if verdict_of([one], question.risk) is verdict)
     else:
-        governing = None if _tipping_unknown(each) else _nearest(each, question)
-        verdict = Verdict.GO if governing and friction_known else Verdict.CAUTION
-    key = governing.mode.key if governing else Undecided.MARGIN_UNKNOWN.value
-    if verdict is Verdict.CAUTION and not doubts and not friction_known:
-        governing = next((one for one in each if one.mode in SUPPLIES), None)
-        key = Undecided.FRICTION_UNKNOWN.value
+        governing = _nearest(each, question)
+        verdict = Verdict.GO if known and question.surface is not None else Verdict.UNSURE
+    key = _key(governing, question, verdict)
     if verdict is Verdict.NO_GO and not margin_best <= 0:  # no slope of the stairs would do
         margin = margin_best = -FALL
     phase, step = (governing.phase, governing.step) if governing else (None, None)
     return Conclusion(verdict, key, phase, step, margin, margin_best, samples, tuple(doubts))
 
 
-def _tipping_unknown(each: Iterable[Finding]) -> bool:
-    """Whether the margin against tipping somewhere is what the model should know and does not."""
-    return any(one.mode in TIPS and bool(np.isnan(one.worst).all()) for one in each)
+def verdict_of(each: Sequence[Finding], risk: float) -> Verdict:
+    """Worst verdict that more samples than the accepted share have."""
+    ranks = reduce(np.maximum, (one.verdicts() for one in each), np.zeros(1, dtype=np.int64))
+    return tuple(Verdict)[int(np.sort(ranks)[len(ranks) - 1 - int(risk * len(ranks))])]
 
 
-def _accepted(question: Question, each: tuple[Finding, ...]) -> list[Finding]:
-    """Findings that count, by what the operator accepts."""
-    if question.accept is not Acceptance.ARRESTED:
+def _with_falls(each: Sequence[Finding]) -> list[Finding]:
+    """Findings, those of rocking open where nothing tells whether the robot falls."""
+    if any(one.mode in FALLS for one in each):
         return list(each)
-    kept = []
-    for one in each:
-        if one.mode in WAIVED and one.failing is Verdict.CAUTION:
-            continue
-        kept.append(replace(one, worst=one.best) if one.mode is MOMENTUM else one)
-    return kept
+    return [
+        replace(one, instead=OPEN) if one.mode in ROCKS and one.if_fails is one.mode.if_fails
+        else one
+        for one in each
+    ]  # fmt: skip
 
 
-def _beyond(each: list[Finding], risk: float, *, best: bool = False) -> bool:
-    """Whether more samples than the accepted share fail by any of the findings."""
-    rows = [one.best if best else one.worst for one in each]
-    if all(len(row) == 1 for row in rows):  # of one sample no share is accepted
-        return any(row.item() <= 0 for row in rows)
-    return failing_beyond((one.fails(best=best) for one in each), risk)
+def _key(governing: Finding | None, question: Question, verdict: Verdict) -> str:
+    """What governs: a failure mode, or what is not known."""
+    if governing is None:
+        return Undecided.MARGIN_UNKNOWN.value
+    if verdict is not Verdict.UNSURE or governing.fails().any():
+        return governing.mode.key
+    unstated = question.surface is None and not _tipping_unknown(governing)
+    return (Undecided.FRICTION_UNKNOWN if unstated else Undecided.MARGIN_UNKNOWN).value
 
 
-def _doubts(each: list[Finding], question: Question) -> list[Finding]:
+def _tipping_unknown(one: Finding) -> bool:
+    """Whether it is the margin against tipping, and not known."""
+    return one.mode in TIPS and bool(np.isnan(one.worst).all())
+
+
+def _doubts(each: Sequence[Finding], question: Question) -> list[Finding]:
     """What fails beyond the risk alone; where nothing does, what fails beyond it together."""
-    some = [one for one in each if _beyond([one], question.risk)]
-    if not some and _beyond(each, question.risk):
+    risk = question.risk
+    some = [one for one in each if _fails_alone(one, risk)]
+    if not some and verdict_of(each, risk) is not Verdict.GO:
         some = [one for one in each if one.fails().any()]
-    return sorted(some, key=lambda one: _order(one, question))
+    return sorted(some, key=lambda one: (-verdict_of([one], risk).rank, *_order(one, question)))
+
+
+def _fails_alone(one: Finding, risk: float) -> bool:
+    """Whether more samples than the accepted share fail in the worst case."""
+    return int(one.fails().sum()) > int(risk * len(one.worst))
 
 
 def _order(one: Finding, question: Question, *, best: bool = False) -> tuple[int, float, int]:
@@ -150,17 +154,18 @@ def _order(one: Finding, question: Question, *, best: bool = False) -> tuple[int
     return 0, one.margin(question.risk, best=best), listed
 
 
-def _deciding(failures: list[Finding], question: Question) -> Finding:
+def _deciding(each: Sequence[Finding], question: Question) -> Finding:
     """Failure that decides a NO-GO: of those that fail alone, else of all, the smallest margin.
 
     In the best case, which a NO-GO fails in: 0.96 of friction where 0.6 to 1.0 is stated may hold,
     a fall of the same robot does not.
     """
-    alone = [one for one in failures if _beyond([one], question.risk, best=True)]
+    failures = [one for one in each if one.if_fails.best is Verdict.NO_GO]
+    alone = [one for one in failures if verdict_of([one], question.risk) is Verdict.NO_GO]
     return min(alone or failures, key=lambda one: _order(one, question, best=True))
 
 
-def _nearest(each: list[Finding], question: Question) -> Finding | None:
+def _nearest(each: Sequence[Finding], question: Question) -> Finding | None:
     """Mode with the smallest known margin of slope; None: none is known."""
     known = [
         one for one in each if one.mode.unit == "rad" and math.isfinite(one.margin(question.risk))

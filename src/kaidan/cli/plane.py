@@ -26,7 +26,7 @@ def register(app: typer.Typer) -> None:
 
 
 @question(
-    without=("points", "uniform_across", "uncertainty", "yaw", "risk", "accept", "model"),
+    without=("points", "uniform_across", "uncertainty", "yaw", "risk", "model"),
     flippers="stowed",
 )
 def plane(

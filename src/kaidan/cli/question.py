@@ -39,7 +39,6 @@ def question_options(
     uncertainty: options.UncertaintyText = None,
     yaw: options.Yaw = "0deg",
     risk: options.Risk = 0.01,
-    accept: options.Accept = "no-rotation",
     model: options.Model = "contact",
 ) -> None:
     """Only its signature counts: the options of a question."""

@@ -25,7 +25,7 @@ _SHOWN_POSES = 9
 _COLOURS = (look.VERMILION, look.BLUE, look.GREEN, look.PURPLE)
 _FILLS = {
     Verdict.GO: "#c5e8dc",
-    Verdict.CAUTION: "#fbf1cc",
+    Verdict.UNSURE: "#fbf1cc",
     Verdict.NO_GO: "#f2c6af",
     Verdict.OUTSIDE_MODEL: "#ffffff",
 }

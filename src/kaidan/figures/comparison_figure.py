@@ -21,13 +21,13 @@ _STRIP = 0.11
 
 _FILLS: dict[Verdict, dict[str, Any]] = {
     Verdict.GO: {"facecolor": "#c5e8dc", "hatch": None},
-    Verdict.CAUTION: {"facecolor": "#fbf1cc", "hatch": "//////"},
+    Verdict.UNSURE: {"facecolor": "#fbf1cc", "hatch": "//////"},
     Verdict.NO_GO: {"facecolor": "#f2c6af", "hatch": "xxxxxx"},
     Verdict.OUTSIDE_MODEL: {"facecolor": "#ffffff", "hatch": "......"},
 }
 _SIGNS: dict[Verdict, dict[str, Any]] = {
     Verdict.GO: {"marker": "o", "markerfacecolor": look.BLACK},
-    Verdict.CAUTION: {"marker": "^", "markerfacecolor": "white"},
+    Verdict.UNSURE: {"marker": "^", "markerfacecolor": "white"},
     Verdict.NO_GO: {"marker": "X", "markerfacecolor": look.BLACK},
     Verdict.OUTSIDE_MODEL: {"marker": "s", "markerfacecolor": "white"},
 }

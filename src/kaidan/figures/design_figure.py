@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 _SHOWN = {"m": ("mm", 1e3), "rad": ("°", 180 / math.pi)}
 _FILLS = {
     Verdict.GO: ("#c5e8dc", None),
-    Verdict.CAUTION: ("#fbf1cc", "////"),
+    Verdict.UNSURE: ("#fbf1cc", "////"),
     Verdict.NO_GO: ("#f2c6af", "xxx"),
     Verdict.OUTSIDE_MODEL: ("#ffffff", "..."),
 }
@@ -72,7 +72,7 @@ def _draw_map(axes: Axes, found: "Design", drawn: "DesignMap") -> None:
         axes.fill_between([], [], facecolor=colour, hatch=hatch, edgecolor="#777777",
                           linewidth=0.3, label=verdict.label)  # fmt: skip
     margins = np.array(drawn.margins_deg, dtype=float)
-    seen = margins[np.isfinite(margins) & (verdicts <= Verdict.CAUTION.rank)]
+    seen = margins[np.isfinite(margins) & (verdicts <= Verdict.UNSURE.rank)]
     if len(seen) and np.ptp(seen) > 0.1:
         step = _round_step(float(np.ptp(seen)))
         levels = np.arange(math.ceil(seen.min() / step), math.floor(seen.max() / step) + 1) * step

@@ -8,7 +8,7 @@ from kaidan.mechanics import STANDARD_GRAVITY, Number
 from kaidan.mechanics.margins import margins
 from kaidan.modes import FORMULAS, SLIDES_DOWN, Verdict
 
-CAUTION, NO_GO = Verdict.CAUTION.rank, Verdict.NO_GO.rank
+CAUTION, NO_GO = Verdict.UNSURE.rank, Verdict.NO_GO.rank
 _SLIDES_DOWN = FORMULAS.index(SLIDES_DOWN)
 """Code of sliding down; sliding up has the next, tipping the first two."""
 

@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from kaidan.models.sentences import terrain as text
-from kaidan.modes import ACROSS, FLOOR_FINISH, FOOT_UNSEEN, MODELS, FailureMode, Verdict
+from kaidan.modes import ACROSS, FLOOR_FINISH, FOOT_UNSEEN, MODELS, FailureMode
 
 if TYPE_CHECKING:
     from kaidan.models.findings import Findings
@@ -54,10 +54,7 @@ def beside(question: "Question", found: "Findings") -> "Findings":
     if doubted := _in_doubt(question):
         from kaidan.models.findings import Finding
 
-        more = (
-            Finding.certain(mode, -math.inf, failing=Verdict.CAUTION, model=found.model)
-            for mode in doubted
-        )
+        more = (Finding.certain(mode, -math.inf, model=found.model) for mode in doubted)
         found = replace(found, each=(*found.each, *more))
     if question.uneven_across:
         from kaidan.models import two_tracks

@@ -31,7 +31,6 @@ from kaidan.modes import (
     TIP_UPHILL,
     FailureMode,
     Phase,
-    Verdict,
 )
 from kaidan.question import Question
 from kaidan.terrain.stairs import Stairs
@@ -95,7 +94,7 @@ def _tips(
     if question.yaw and isinstance(flight, Stairs):
         if phase not in (None, Phase.TRAVERSE):
             return []
-        return list(support_polygon.tips(question, flight, failing=Verdict.CAUTION))
+        return list(support_polygon.tips(question, flight))
     phases = None if phase is None else tuple(one for one in found.phases if one.phase is phase)
     d, M = driven.allowance_d, driven.allowance_M
     each = []
@@ -113,7 +112,6 @@ def _tips(
                 mode=mode,
                 worst=margin - off[0],
                 best=margin - off[1],
-                failing=Verdict.CAUTION,
                 phase=rock.phase,
                 step=rock.step,
                 model=_NAME,
@@ -215,7 +213,6 @@ def _hits(question: Question, found: Traverse, chains: list[Chain]) -> list[Find
                 mode=MOMENTUM,
                 worst=np.array([worst.spare(high) - question.momentum_threshold()]),
                 best=np.array([min(one.spare_after_impact(low) for one in chains)]),
-                failing=Verdict.CAUTION,
                 phase=worst.phase,
                 step=worst.step,
                 model=_NAME,
@@ -245,15 +242,14 @@ def _of_smallest(
 ) -> Finding:
     """Finding of the smallest of some margins; without any infinite, or not known if it falls."""
     if not margins and found.status in _FELL:
-        return Finding.certain(mode, math.nan, failing=Verdict.CAUTION, model=_NAME)
+        return Finding.certain(mode, math.nan, model=_NAME)
     if not margins:
-        return Finding.certain(mode, math.inf, failing=Verdict.CAUTION, model=_NAME)
+        return Finding.certain(mode, math.inf, model=_NAME)
     # of those that are alike the first: a traverse repeats itself
     k = int(np.flatnonzero(np.array(margins) < min(margins) + _ROUNDING)[0])
     return Finding.certain(
         mode,
         margins[k],
-        failing=Verdict.CAUTION,
         phase=of[k].phase,
         step=of[k].step,
         model=_NAME,
@@ -309,7 +305,6 @@ def _energy(
         mode=ENERGY,
         worst=worst - threshold,
         best=best - threshold,
-        failing=Verdict.CAUTION,
         phase=phase,
         step=step,
         model=_NAME,

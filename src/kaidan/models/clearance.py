@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from kaidan.models.findings import Finding, Findings, Later
-from kaidan.modes import GAP, LOW, NARROW, FailureMode, Phase, Verdict
+from kaidan.modes import GAP, LOW, NARROW, FailureMode, Phase
 from kaidan.outline import Outline
 from kaidan.question import Question
 from kaidan.robot import Posture
@@ -66,7 +66,7 @@ def with_gap(question: Question, found: Findings, flight: Stairs, gap: Gap) -> F
     Findings
     """
     margin = question.narrowest_end - (gap.length or math.inf)
-    finding = Finding.certain(GAP, margin, failing=Verdict.CAUTION, model=found.model)
+    finding = Finding.certain(GAP, margin, model=found.model)
     before = found.notes
     notes = Later(lambda: (*before, text.stated(gap, flight.nosing_places)))
     return replace(found, each=(*found.each, finding), notes=notes)

@@ -16,12 +16,15 @@ from kaidan.models.findings import Array, Finding, Findings, Later, at_risk
 from kaidan.models.regular_flight import no_regular_flight
 from kaidan.models.samples import Draws, draws, nominal
 from kaidan.models.sentences import closed_form as text
-from kaidan.modes import CLOSED_FORM, DRIVE, FORMULAS, TIPS, Verdict
+from kaidan.modes import CLOSED_FORM, DRIVE, FAILS, FORMULAS, OPEN, TIPS
 from kaidan.question import Question
 from kaidan.terrain.stairs import Stairs
 
 MODES = (*FORMULAS, DRIVE)
 """Failure modes that it knows, in the order of its arrays."""
+_OF_TIPS = {False: FAILS, True: OPEN}
+"""Verdicts where it tips, by whether a controlled acceleration may avoid it: nothing tells whether
+the next contact would arrest it."""
 
 
 def judge(question: Question, *, known: Findings | None = None) -> Findings:
@@ -61,7 +64,7 @@ def judge(question: Question, *, known: Findings | None = None) -> Findings:
             mode=mode,
             worst=least.modes[i, 0],
             best=least.modes[i, 1],
-            failing=Verdict.CAUTION if basis.semi_stable and mode in TIPS else Verdict.NO_GO,
+            instead=_OF_TIPS[basis.semi_stable] if mode in TIPS else None,
             model=CLOSED_FORM.name,
         )
         for i, mode in enumerate(MODES)

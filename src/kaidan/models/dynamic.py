@@ -18,6 +18,7 @@ from kaidan.models.findings import Finding, Findings
 from kaidan.models.proportion import interval
 from kaidan.models.sentences import dynamic as text
 from kaidan.modes import (
+    FAILS_IF_KNOWN,
     PHYSICS,
     SLIDES_DOWN,
     SLIDES_UP,
@@ -126,6 +127,7 @@ def _each(draws: Sequence[Draw], *, certain: bool) -> list[Finding]:
                 mode=mode,
                 worst=margins,
                 best=best[mode],
+                instead=FAILS_IF_KNOWN,
                 phase=phase,
                 step=step,
                 model=PHYSICS.name,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kaidan.answer import Part
-from kaidan.modes import SLIDES_DOWN, SLIDES_UP, FailureMode, Phase, Verdict
+from kaidan.modes import SLIDES_DOWN, SLIDES_UP, FailureMode, IfFails, Phase
 
 Array = NDArray[np.float64]
 T = TypeVar("T")
@@ -48,9 +48,8 @@ class Finding:
     where every input is exact. NaN: not known. Infinite: it only holds or does not."""
     best: Array
     """The same with every range at its favourable end."""
-    failing: Verdict = Verdict.NO_GO
-    """Verdict where it fails in the best case too: NO_GO, or CAUTION where it is no failure by
-    itself."""
+    instead: IfFails | None = None
+    """Verdicts where it fails, of a model that knows more or less than `FailureMode.if_fails`."""
     phase: Phase | None = None
     """Part of the traverse in which the margin is smallest."""
     step: int | None = None
@@ -63,6 +62,18 @@ class Finding:
         """Finding whose margin depends on nothing uncertain."""
         both = np.array([margin])
         return cls(mode=mode, worst=both, best=both, model=model, **others)
+
+    @property
+    def if_fails(self) -> IfFails:
+        """Verdict where it fails."""
+        return self.instead or self.mode.if_fails
+
+    def verdicts(self) -> NDArray[np.int64]:
+        """Verdict of each sample on its own, by its rank, shape (samples,)."""
+        row = self.if_fails
+        unknown = np.isnan(self.worst) & np.isnan(self.best)
+        known = np.where(self.best <= 0, row.best.rank, (self.worst <= 0) * row.worst.rank)
+        return np.asarray(np.where(unknown, row.unknown.rank, known))
 
     def margin(self, risk: float, *, best: bool = False) -> float:
         """Margin at an accepted risk, in the worst or in the best case; NaN: not known."""
@@ -152,12 +163,3 @@ def each_at_risk(values: Array, risk: float) -> Array:
 def smallest(samples: Iterable[Array]) -> Array:
     """Smallest value that is known, of each sample; NaN where none is."""
     return np.asarray(reduce(np.fmin, samples))
-
-
-def failing_beyond(failing: Iterable[NDArray[np.bool_]], risk: float) -> bool:
-    """Whether of more samples than the accepted share anything fails."""
-    rows = list(failing)
-    if not rows:
-        return False
-    any_fails = reduce(np.logical_or, rows)
-    return int(any_fails.sum()) > int(risk * len(any_fails))

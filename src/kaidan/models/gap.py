@@ -17,7 +17,7 @@ from typing import Protocol
 import numpy as np
 
 from kaidan.models.findings import Finding
-from kaidan.modes import CONTACT, GAP_JAM, Phase, Verdict
+from kaidan.modes import CONTACT, GAP_JAM, Phase
 from kaidan.question import Question
 from kaidan.traversal import Traverse
 from kaidan.traversal.phases import step_at
@@ -81,6 +81,4 @@ def _spare(required: float) -> float:
 
 
 def _finding(margin: float, phase: Phase | None, step: int | None) -> Finding:
-    return Finding.certain(
-        GAP_JAM, margin, failing=Verdict.CAUTION, phase=phase, step=step, model=CONTACT.name
-    )
+    return Finding.certain(GAP_JAM, margin, phase=phase, step=step, model=CONTACT.name)

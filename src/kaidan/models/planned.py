@@ -21,13 +21,13 @@ from kaidan.models.traction_figures import TractionFigures
 from kaidan.modes import (
     CONTACT,
     ENERGY,
+    FAILS,
     FLIPPER_TORQUE,
     POSTURE_CHANGE,
     SLIDES_DOWN,
     TIP_DOWNHILL,
     FailureMode,
     Phase,
-    Verdict,
 )
 from kaidan.question import Question
 from kaidan.robot import Posture
@@ -176,12 +176,11 @@ def _smallest(some: Sequence[Finding]) -> Finding:
                for one in some]  # fmt: skip
     known = [k for k, margin in enumerate(margins) if not math.isnan(margin)] or range(len(some))
     first = some[min(known, key=lambda k: round(margins[k], 6))]
-    severe = any(some[k].failing is Verdict.NO_GO for k in known)
     return replace(
         first,
         worst=smallest(some[k].worst for k in known),
         best=smallest(some[k].best for k in known),
-        failing=Verdict.NO_GO if severe else Verdict.CAUTION,
+        instead=max((some[k].if_fails for k in known), key=lambda row: row.best.rank),
     )
 
 
@@ -190,13 +189,12 @@ def _of_move(
 ) -> tuple[Finding, ...]:
     """Findings of a change of posture: whether it stands, with what friction, energy, torque."""
     margin = -math.inf if not each.stands or each.rocks > ROCKING else math.inf
-    failing = Verdict.CAUTION if each.stands else Verdict.NO_GO
     certain = partial(Finding.certain, phase=each.before, model=CONTACT.name)
-    found = [certain(POSTURE_CHANGE, margin, failing=failing)]
+    found = [certain(POSTURE_CHANGE, margin, instead=None if each.stands else FAILS)]
     if standing is not None:
         worst, best = np.array([standing.worst]), np.array([standing.best])
         slides = certain(SLIDES_DOWN, 0.0)
-        energy = certain(ENERGY, each.energy - question.kinetic_height, failing=Verdict.CAUTION)
+        energy = certain(ENERGY, each.energy - question.kinetic_height)
         found += [replace(slides, worst=worst, best=best), energy]
     found += _tips_on_the_way(question, each)
     if not math.isnan(each.spare_torque):
@@ -218,7 +216,6 @@ def _tips_on_the_way(question: Question, each: Move) -> list[Finding]:
             mode=TIP_DOWNHILL,
             worst=np.array([tilt - d.high - M.high]),
             best=np.array([tilt - d.low - M.low]),
-            failing=Verdict.CAUTION,
             phase=each.before,
             model=CONTACT.name,
         )

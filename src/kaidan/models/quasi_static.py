@@ -37,7 +37,6 @@ from kaidan.modes import (
     STUCK,
     FailureMode,
     Phase,
-    Verdict,
 )
 from kaidan.question import Question
 from kaidan.terrain.profile import Profile
@@ -319,7 +318,7 @@ def _obstacles(
     belly = [extremes.phase for extremes in phases if extremes.belly_touches]
     if question.robot.track.belly_clearance is not None:
         place = belly[0] if belly else None
-        each.append(_yes_or_no(HIGH_CENTRING, not belly, Verdict.CAUTION, place, None))
+        each.append(_yes_or_no(HIGH_CENTRING, not belly, place, None))
     if phase in (None, Phase.LAND):
         leaves, length = question.leaves, sum(found.outline.reach)
         ends = zip(found.profile.landings, leaves[:: -1 if found.descending else 1], strict=True)
@@ -332,12 +331,10 @@ def _obstacles(
             (float(run_up_margin(depth=d, length=length, leaf=leaf)) for d, leaf in deep),
             default=math.inf,
         )
-        each.append(Finding.certain(LANDING_ROOM, room, failing=Verdict.CAUTION, model=_NAME))
+        each.append(Finding.certain(LANDING_ROOM, room, model=_NAME))
     return each
 
 
-def _yes_or_no(
-    mode: FailureMode, holds: bool, failing: Verdict, phase: Phase | None, step: int | None
-) -> Finding:
+def _yes_or_no(mode: FailureMode, holds: bool, phase: Phase | None, step: int | None) -> Finding:
     margin = math.inf if holds else -math.inf
-    return Finding.certain(mode, margin, failing=failing, phase=phase, step=step, model=_NAME)
+    return Finding.certain(mode, margin, phase=phase, step=step, model=_NAME)

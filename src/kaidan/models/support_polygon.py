@@ -40,14 +40,15 @@ from kaidan.models.sentences.support_polygon import FLIGHT_ALONE
 from kaidan.modes import (
     DRIVE,
     ENERGY,
+    FAILS,
     SLIDES_DOWN,
     SLIDES_UP,
     SUPPORT_POLYGON,
     TIP_DOWNHILL,
     TIP_SIDEWAYS,
     TIP_UPHILL,
+    IfFails,
     Phase,
-    Verdict,
 )
 from kaidan.question import LARGEST_YAW, Question
 from kaidan.terrain.stairs import Stairs
@@ -115,7 +116,7 @@ def judge(question: Question, *, known: Findings | None = None) -> Findings:
     return Findings(
         model=_NAME,
         each=(
-            *tips(question, flight, failing=Verdict.NO_GO),
+            *tips(question, flight, instead=FAILS),
             slides,
             stalls,
             energy_finding(question, energy),
@@ -127,8 +128,13 @@ def judge(question: Question, *, known: Findings | None = None) -> Findings:
     )
 
 
-def tips(question: Question, flight: Stairs, *, failing: Verdict) -> tuple[Finding, ...]:
-    """Findings of tipping over the polygon's edges, less the allowances."""
+def tips(
+    question: Question, flight: Stairs, *, instead: IfFails | None = None
+) -> tuple[Finding, ...]:
+    """Findings of tipping over the polygon's edges, less the allowances.
+
+    instead: verdicts where nothing tells what happens after the tip.
+    """
     bare = margins_of(question, flight, np.array([question.yaw]))[:, 0]
     d, M = question.allowance_d, question.allowance_M
     off = {TIP_DOWNHILL: (d.high + M.high, d.low + M.low)}
@@ -137,7 +143,7 @@ def tips(question: Question, flight: Stairs, *, failing: Verdict) -> tuple[Findi
             mode=mode,
             worst=margin - off.get(mode, (d.high, d.low))[0],
             best=margin - off.get(mode, (d.high, d.low))[1],
-            failing=failing,
+            instead=instead,
             phase=Phase.TRAVERSE,
             model=_NAME,
         )
@@ -150,7 +156,6 @@ def energy_finding(question: Question, energy: float) -> Finding:
     return Finding.certain(
         ENERGY,
         energy - question.energy_threshold(),
-        failing=Verdict.CAUTION,
         phase=Phase.TRAVERSE,
         model=_NAME,
     )

@@ -13,7 +13,7 @@ from kaidan.mechanics.grousers_in_turn import height_behind
 from kaidan.models.belts import bears, grousers_of, holds_otherwise, strength_margin
 from kaidan.models.findings import Finding
 from kaidan.models.traction_figures import TractionFigures
-from kaidan.modes import CONTACT, GROUSER_SPEED, Phase, Verdict
+from kaidan.modes import CONTACT, GROUSER_SPEED, Phase
 from kaidan.question import Question
 from kaidan.robot import Track
 from kaidan.robot.track import USUAL_GROUSERS
@@ -122,7 +122,7 @@ def too_fast_on_grousers(question: Question) -> list[Finding]:
     spare = FASTEST - (question.speed or 0.0)
     if not question.robot.track.has_grousers or spare > 0:
         return []
-    return [Finding.certain(GROUSER_SPEED, spare, failing=Verdict.CAUTION, model=CONTACT.name)]
+    return [Finding.certain(GROUSER_SPEED, spare, model=CONTACT.name)]
 
 
 def supplies(

@@ -62,7 +62,6 @@ def judge_range(question: Question, judge: Judge) -> Findings:
             mode=UNWEIGHED,
             worst=np.array([-math.inf]),
             best=np.array([math.inf]),
-            failing=Verdict.CAUTION,
             model=middle.found.model,
         )
     )
@@ -112,7 +111,7 @@ def _merit(found: Findings, risk: float) -> tuple[bool, bool, float]:
     fails = [one for one in found.each if one.margin(risk, best=True) <= 0]
     slopes = [one.margin(risk, best=True) for one in found.each if one.mode.unit == "rad"]
     known = [each for each in slopes if not math.isnan(each)]
-    arrives = not any(one.failing is Verdict.NO_GO for one in fails)
+    arrives = not any(one.if_fails.best is Verdict.NO_GO for one in fails)
     return arrives, not fails, min(known, default=-math.inf)
 
 
@@ -133,7 +132,7 @@ def _merged(mode: FailureMode, answered: list[Placed], best: Placed) -> Finding 
         worst,
         worst=np.asarray(np.fmin.reduce(samples)),
         best=np.array([math.inf]) if of_best is None else of_best.best,
-        failing=Verdict.CAUTION if of_best is None else of_best.failing,
+        instead=None if of_best is None else of_best.instead,
     )
 
 

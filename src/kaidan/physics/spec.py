@@ -45,7 +45,7 @@ _STEPS = {
     "driven-grousers": 1e-3,
     "shoe-chain": 2.5e-4,
 }
-_NO_PART = ("theta_d", "theta_M", "risk", "accept", "trials", "track", "uniform_across")
+_NO_PART = ("theta_d", "theta_M", "risk", "trials", "track", "uniform_across")
 """Fields of a question that play no part in a trial."""
 
 

@@ -10,7 +10,7 @@ from pydantic import Discriminator, Field, Tag, field_validator
 
 from kaidan.allowance import Allowance
 from kaidan.errors import InputError
-from kaidan.modes import CONTACT, Acceptance, Direction, Facing, Phase
+from kaidan.modes import CONTACT, Direction, Facing, Phase
 from kaidan.question.room import lane_of
 from kaidan.robot import Payload, Posture, PostureChange, Robot, Stance
 from kaidan.sheet import Sheet, quantity
@@ -109,7 +109,6 @@ class QuestionFields(Sheet):
         default=0.0,
     )
     risk: float = quantity("1", 1e-4, 0.5, "probability of failure that is accepted", default=0.01)
-    accept: Acceptance = Field(default=Acceptance.NO_ROTATION, description="what counts as holding")
     model: str = Field(default=CONTACT.name, description="which model answers")
     trials: int = Field(
         default=1,

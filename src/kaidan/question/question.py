@@ -10,7 +10,7 @@ from kaidan.errors import InputError
 from kaidan.mechanics import STANDARD_GRAVITY
 from kaidan.mechanics.measures import kinetic_energy_height, sudden_stop_height
 from kaidan.mechanics.yielding import drop_of_sag
-from kaidan.modes import MODELS, PHYSICS, Acceptance
+from kaidan.modes import MODELS, PHYSICS
 from kaidan.question.fields import FACINGS, TRACKS, QuestionFields
 from kaidan.question.refusals import refuse_impossible
 from kaidan.question.room import Needs, needs_of
@@ -84,7 +84,6 @@ class Question(QuestionFields):
         fall_reserve: Any = None,
         yaw: Any = 0.0,
         risk: Any = 0.01,
-        accept: str = "no-rotation",
         model: str = "contact",
         trials: Any = 1,
         track: str | None = None,
@@ -134,8 +133,6 @@ class Question(QuestionFields):
             Heading off the line of steepest ascent, to the left positive [rad]; or "10deg".
         risk : float
             Probability of failure that the operator accepts.
-        accept : {"no-rotation", "arrested"}
-            What counts as holding.
         model : {"contact", "closed-form", "support-polygon", "physics"}
             Which model answers.
         trials : int
@@ -190,7 +187,6 @@ class Question(QuestionFields):
             fall_reserve=_optional("fall_reserve", fall_reserve, "angle"),
             yaw=quantity_of("yaw", yaw, "angle"),
             risk=quantity_of("risk", risk, "number"),
-            accept=Acceptance(word_of("accept", accept, tuple(Acceptance))),
             model=model,
             trials=trials,
             track=None if track is None else word_of("track", track, TRACKS),

@@ -26,7 +26,6 @@ WORDS = (
     "facing",
     "flippers",
     "payload",
-    "accept",
     "model",
     "uniform_across",
     "override",
@@ -72,9 +71,7 @@ UNITS = {
     "speed": "m/s",
 }
 """SI unit of each of these kinds."""
-UNDRIVEN = frozenset(
-    ("surface", "friction", "theta_d", "theta_M", "risk", "accept", "fall_reserve", "speed")
-)
+UNDRIVEN = frozenset(("surface", "friction", "theta_d", "theta_M", "risk", "fall_reserve", "speed"))
 """Parameters that play no part in how the robot moves: cells that differ in them alone share a
 traverse."""
 _PAYLOAD = "payload"

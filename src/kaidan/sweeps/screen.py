@@ -19,7 +19,7 @@ from kaidan.errors import InputError
 from kaidan.mechanics.plane import contact_count
 from kaidan.models.drive_limits import steepest_for_drive
 from kaidan.models.regular_flight import gap_below
-from kaidan.modes import CONTACT, DRIVE, SLIDES_DOWN, SLIDES_UP, TIPS, Acceptance
+from kaidan.modes import CONTACT, DRIVE, SLIDES_DOWN, SLIDES_UP, TIPS
 from kaidan.question import FACINGS, Question
 from kaidan.sweeps.pairs import verdicts
 from kaidan.terrain.stairs import Stairs
@@ -38,7 +38,7 @@ def applies(question: Question) -> bool:
         return False
     if question.best_of or question.changes or question.yaw or question.uncertain:
         return False
-    if question.accept is not Acceptance.NO_ROTATION or question.robot.com_range is not None:
+    if question.robot.com_range is not None:
         return False
     if gap_below(question):
         return False

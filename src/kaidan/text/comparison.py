@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 SIGNS = {
     Verdict.GO: "+",
-    Verdict.CAUTION: "~",
+    Verdict.UNSURE: "~",
     Verdict.NO_GO: "x",
     Verdict.OUTSIDE_MODEL: "?",
 }

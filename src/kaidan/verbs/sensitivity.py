@@ -244,7 +244,6 @@ def _exact(question: Question) -> dict[str, Any]:
         "uniform_across": question.uniform_across,
         "fall_reserve": question.fall_reserve,
         "risk": question.risk,
-        "accept": question.accept.value,
         "model": question.model,
     }
     values |= {name: (each.low, each.high) for name, each in ends.items()}

@@ -64,7 +64,7 @@ def _tips(
         )
     if math.isnan(best):
         return f"It may fall {label}{at(conclusion)}, by its friction."
-    if finding.failing is Verdict.NO_GO:
+    if finding.if_fails.best is Verdict.NO_GO:
         if margin <= -90:
             return f"It falls {label}{at(conclusion)}."
         grades = figure_of(found, "grades")
@@ -292,7 +292,7 @@ def _stuck(
 def _changes(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
-    if finding.failing is Verdict.NO_GO:
+    if finding.if_fails.best is Verdict.NO_GO:
         return f"It does not stand while its flippers move{at(conclusion)}."
     return f"It rocks from one pose to another while its flippers move{at(conclusion)}."
 

@@ -34,7 +34,6 @@ def register(app: typer.Typer) -> None:
         "uncertainty",
         "yaw",
         "risk",
-        "accept",
         "model",
     ),
     flippers="stowed",

@@ -149,7 +149,7 @@ def _spec(
 _trial = shared(
     (question_options, _options),
     _spec,
-    without=("uniform_across", "theta_d", "theta_m", "uncertainty", "risk", "accept", "model"),
+    without=("uniform_across", "theta_d", "theta_m", "uncertainty", "risk", "model"),
     speed="0.1m/s",
     flippers="stowed",
 )

@@ -150,7 +150,7 @@ def _case(key: str, entry: Mapping[str, Any], flight: Stairs) -> Case:
 def _timed(tool: Tool, case: Case) -> Answered:
     start = time.perf_counter()
     said = tool(case)
-    return Answered(_VERDICTS.get(str(said), Verdict.CAUTION), time.perf_counter() - start)
+    return Answered(_VERDICTS.get(str(said), Verdict.UNSURE), time.perf_counter() - start)
 
 
 def _score(
@@ -161,7 +161,7 @@ def _score(
 ) -> Score:
     keys = [key for key, (of, _) in truth.items() if of == source]
     marks = [compared(truth[key][1], found[key].verdict) for key in keys]
-    decided = [found[key].verdict is not Verdict.CAUTION for key in keys]
+    decided = [found[key].verdict is not Verdict.UNSURE for key in keys]
     times = sorted(found[key].seconds for key in keys)
     return Score(
         tool=name,

@@ -29,7 +29,7 @@ Knowledge = Literal["source", "operator", "grip tried"]
 
 RIGHT: dict[Outcome, Verdict] = {
     "climbs": Verdict.GO,
-    "rocks": Verdict.CAUTION,
+    "rocks": Verdict.UNSURE,
     "falls": Verdict.NO_GO,
     "slides": Verdict.NO_GO,
     "sticks": Verdict.NO_GO,
@@ -178,7 +178,7 @@ def compared(outcome: Outcome, verdict: Verdict) -> Comparison:
         return "agrees"
     return {
         Verdict.GO: "wrong GO",
-        Verdict.CAUTION: "CAUTION",
+        Verdict.UNSURE: "CAUTION",
         Verdict.NO_GO: "wrong NO-GO",
         Verdict.OUTSIDE_MODEL: "no answer",
     }[verdict]  # type: ignore[return-value]

@@ -277,5 +277,5 @@ class BuildingAnswer(Answer):
         if not self.flights:
             return 3
         storeys = {way.storey for way in self.ways if way.verdict is not None}
-        reached = {way.storey for way in self.ways if way.verdict in (Verdict.GO, Verdict.CAUTION)}
+        reached = {way.storey for way in self.ways if way.verdict in (Verdict.GO, Verdict.UNSURE)}
         return 0 if storeys <= reached else 1

@@ -181,7 +181,7 @@ def _turning(
     shown = turn(lower.flight, upper.flight)
     if shown.holds:
         return
-    verdict = Verdict.NO_GO if shown.way == "none" else Verdict.CAUTION
+    verdict = Verdict.NO_GO if shown.way == "none" else Verdict.UNSURE
     yield Hindrance(verdict, "turning", floor.name, turning.turning(shown), -math.inf)
 
 
@@ -201,7 +201,7 @@ def _doors(robot: Robot, doors: Sequence[DoorShown], flippers: str) -> Iterator[
     if best.clear_width_m >= needed and not too_low:
         return
     fits = best.clear_width_m >= footprint.width and not too_low
-    verdict = Verdict.CAUTION if fits else Verdict.NO_GO
+    verdict = Verdict.UNSURE if fits else Verdict.NO_GO
     yield Hindrance(
         verdict, "doors", best.name, text.door(best, footprint.width, needed), -math.inf
     )

@@ -4,7 +4,7 @@ from typing import ClassVar, Literal
 
 from kaidan.answer import Answer, Part
 
-VerdictName = Literal["go", "caution", "no-go", "outside-model"]
+VerdictName = Literal["go", "rough", "unsure", "no-go", "outside-model"]
 
 
 class FreeFigure(Part):

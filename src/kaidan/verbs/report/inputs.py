@@ -72,7 +72,6 @@ def _manner(question: Question, assessment: Assessment) -> Iterator[InputRow]:
     if "fall_reserve" in stated and question.fall_reserve is not None:
         yield _row("manner", "fall reserve", human(question.fall_reserve, unit="rad"))
     yield _row("manner", "accepted risk", f"{question.risk:g}")
-    yield _row("manner", "what counts as holding", question.accept.value)
     yield _row("manner", "model", question.model)
 
 
