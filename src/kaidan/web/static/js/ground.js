@@ -77,10 +77,6 @@ export function groundPanel(current) {
     ],
   });
   const more = MORE.map((each) => number(...each));
-  const accept = h("input", {
-    type: "checkbox",
-    onchange: () => change({ accept: accept.checked ? "arrested" : "" }),
-  });
 
   return {
     node: h(
@@ -100,7 +96,6 @@ export function groundPanel(current) {
           { class: "figures" },
           more.map((each) => each.node),
         ),
-        h("label", { class: "check" }, accept, h("span", {}, t("ground.accept"))),
       ),
     ),
     update() {
@@ -111,7 +106,6 @@ export function groundPanel(current) {
       other.textContent = ["best", "flat", "stowed", "angles"].includes(state.flippers)
         ? ""
         : state.flippers;
-      accept.checked = state.accept === "arrested";
       for (const each of [surface, low, high, flippers, front, rear, facing, ...more])
         each.update();
     },

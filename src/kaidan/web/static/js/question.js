@@ -96,7 +96,6 @@ export function bodyOf(robot, stairs) {
   };
   if (Object.keys(state.robotFigures).length > 0) body.override = state.robotFigures;
   if (state.facing) body.facing = state.facing;
-  if (state.accept) body.accept = state.accept;
   for (const name of ["speed", "acceleration", "yaw", "risk", "flipper_tolerance"]) {
     if (numbers[name] !== undefined) body[name] = numbers[name];
   }
@@ -119,7 +118,7 @@ export function bodyOf(robot, stairs) {
 
 // The closed form takes one posture: a first estimate where the best is still to be found.
 export function quickBody(body) {
-  const { accept: _, yaw: __, flipper_tolerance: ___, ...rest } = body;
+  const { yaw: _, flipper_tolerance: __, ...rest } = body;
   return { ...rest, ...(body.flippers === "best" ? { flippers: "flat" } : {}) };
 }
 
@@ -133,12 +132,11 @@ export function marginBody(body) {
 
 export function planeBody(body) {
   const {
-    accept: _,
-    yaw: __,
-    risk: ___,
-    uncertainty: ____,
-    speed: _____,
-    flipper_tolerance: ______,
+    yaw: _,
+    risk: __,
+    uncertainty: ___,
+    speed: ____,
+    flipper_tolerance: _____,
     ...rest
   } = body;
   return rest.flippers === "best" ? { ...rest, flippers: "flat" } : rest;

@@ -8,7 +8,6 @@ const TEXTS = {
   flippers: "best",
   direction: "up",
   facing: "",
-  accept: "",
   tab: "side",
 };
 const NUMBERS = [

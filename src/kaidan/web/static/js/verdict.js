@@ -20,7 +20,7 @@ export function verdictPanel(current) {
     replace(light, symbol(kind, 64), h("div", {}, h("strong", { class: "word" }, word), rest));
     current.chip(kind, word);
     if (word !== spoken && kind !== "working") {
-      aloud.textContent = `${word}. ${kind in { go: 1, caution: 1, "no-go": 1, "outside-model": 1 } ? (current.answer ? said(current.answer.reason).textContent : "") : ""}`;
+      aloud.textContent = `${word}. ${kind === current.answer?.verdict ? said(current.answer.reason).textContent : ""}`;
     }
     if (kind !== "working") spoken = word;
   }
@@ -188,7 +188,7 @@ function turnsOf({ turns }) {
         turn.way === "none"
           ? "no-go"
           : turn.way === "unknown" || turn.tight || long(turn)
-            ? "caution"
+            ? "unsure"
             : "go";
       const landing =
         (language === "ja" ? japanese(turn.landing, "landing") : null) ?? turn.landing;
@@ -266,7 +266,7 @@ function numbers(answer) {
 
 function first(answer) {
   const measure = answer.to_measure.find((each) => each.share > 0.01);
-  if (!measure || answer.verdict !== "caution") return null;
+  if (!measure || answer.verdict !== "unsure") return null;
   return h(
     "p",
     { class: "measure" },
