@@ -19,10 +19,6 @@ h1 { font-size: 1.35em } h2 { font-size: 1.1em; margin: 1.1em 0 .3em }
 p { margin: .4em 0 }
 .verdict { border: 3px solid; border-radius: .4em; padding: .5em .8em; margin: .5em 0 }
 .verdict b { font-size: 1.7em; margin-right: .6em; white-space: nowrap }
-.go { border-color: #00664b; background: #e3f4ee }
-.caution { border-color: #7a5900; background: #fdf3d7 }
-.no-go { border-color: #a33b00; background: #fbe6d9 }
-.outside-model { border-color: #444; background: #ececec }
 table { border-collapse: collapse; width: 100%; margin: .4em 0; table-layout: fixed }
 th, td { border: 1px solid #888; padding: .25em .45em; text-align: left; vertical-align: top;
   overflow-wrap: anywhere }
@@ -42,6 +38,10 @@ ul { margin: .3em 0; padding-left: 1.4em }
   .verdict, thead th { print-color-adjust: exact; -webkit-print-color-adjust: exact }
 }
 """
+_VERDICTS = "\n".join(
+    f".{key} {{ border-color: {mark.edge}; background: {mark.tint} }}"
+    for key, mark in MARKS.items()
+)
 
 
 def page(document: of.Document, pictures: Mapping[str, bytes]) -> str:
@@ -57,7 +57,7 @@ def page(document: of.Document, pictures: Mapping[str, bytes]) -> str:
             f'<html lang="{document.language}"><head><meta charset="utf-8">',
             '<meta name="viewport" content="width=device-width, initial-scale=1">',
             f"<title>{title}</title>",
-            f"<style>{STYLE}</style></head><body><main>",
+            f"<style>{STYLE}{_VERDICTS}</style></head><body><main>",
             *body,
             f"</main><footer>{_text(document.foot)}</footer></body></html>",
             "",
@@ -71,7 +71,7 @@ def _part(part: "of.Block | of.Sheet", pictures: Mapping[str, bytes]) -> list[st
         return ['<section class="sheet">', *inner, "</section>"]
     match part:
         case of.Verdict():
-            label = f"{MARKS[part.key]} {Judged(part.key).label}"
+            label = f"{MARKS[part.key].sign} {Judged(part.key).label}"
             return [
                 f'<div class="verdict {part.key}"><h1><b>{label}</b> {_text(part.text)}</h1></div>'
             ]

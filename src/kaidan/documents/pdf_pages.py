@@ -25,8 +25,6 @@ _FACES = {"Sans": "DejaVuSans", "Sans-Bold": "DejaVuSans-Bold", "Mono": "DejaVuS
 _NOT_INSIDE = "HeiseiKakuGo-W5"
 """Japanese typeface that readers of PDF have, or replace; it is not in the file."""
 _KANA_AND_KANJI = re.compile("[\u3000-\u9fff\uff00-\uffef]+")
-_TINTS = {"go": "#e3f4ee", "caution": "#fdf3d7", "no-go": "#fbe6d9", "outside-model": "#ececec"}
-_EDGES = {"go": "#00664b", "caution": "#7a5900", "no-go": "#a33b00", "outside-model": "#444444"}
 _MARGIN = 13.0
 """Around a page [mm]."""
 _COLUMNS = 108
@@ -185,7 +183,7 @@ class _Setter:
         from reportlab.lib import colors
         from reportlab.platypus import Paragraph, Table, TableStyle
 
-        label = f"{MARKS[block.key]} {Judged(block.key).label}"
+        label = f"{MARKS[block.key].sign} {Judged(block.key).label}"
         share = 0.52 if block.key == "outside-model" else 0.3
         made = Table(
             [[Paragraph(label, self.verdict), Paragraph(_text(block.text), self.large)]],
@@ -195,8 +193,8 @@ class _Setter:
         made.setStyle(
             TableStyle(
                 [
-                    ("BOX", (0, 0), (-1, -1), 2, colors.HexColor(_EDGES[block.key])),
-                    ("BACKGROUND", (0, 0), (-1, -1), colors.HexColor(_TINTS[block.key])),
+                    ("BOX", (0, 0), (-1, -1), 2, colors.HexColor(MARKS[block.key].edge)),
+                    ("BACKGROUND", (0, 0), (-1, -1), colors.HexColor(MARKS[block.key].tint)),
                     ("VALIGN", (0, 0), (-1, -1), "MIDDLE"),
                     ("TOPPADDING", (0, 0), (-1, -1), 5),
                     ("BOTTOMPADDING", (0, 0), (-1, -1), 8),

@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
 from kaidan.figures import style as look
-from kaidan.modes import Verdict
 from kaidan.text.comparison import SIGNS
 
 if TYPE_CHECKING:
@@ -23,12 +22,6 @@ _AROUND = 1.3
 _MOST_HIGH = 4.2
 _SHOWN_POSES = 9
 _COLOURS = (look.VERMILION, look.BLUE, look.GREEN, look.PURPLE)
-_FILLS = {
-    Verdict.GO: "#c5e8dc",
-    Verdict.UNSURE: "#fbf1cc",
-    Verdict.NO_GO: "#f2c6af",
-    Verdict.OUTSIDE_MODEL: "#ffffff",
-}
 
 
 def building_figure(found: "BuildingAnswer") -> Figure:
@@ -113,7 +106,13 @@ def _flight(axes: Axes, found: "BuildingAnswer", flight: "FlightShown") -> None:
     cells = [each for each in found.cells if each.flight == flight.identity]
     worst = max((each.verdict for each in cells), key=lambda one: one.rank)
     axes.add_patch(
-        Polygon(flight.lane, facecolor=_FILLS[worst], edgecolor=look.BLACK, linewidth=0.8, zorder=2)
+        Polygon(
+            flight.lane,
+            facecolor=look.VERDICT_FILLS[worst][0],
+            edgecolor=look.BLACK,
+            linewidth=0.8,
+            zorder=2,
+        )
     )
     nosings = np.array(flight.nosings).reshape(-1, 2, 2)
     axes.add_collection(LineCollection(list(nosings), colors=look.GREY, linewidths=0.5, zorder=3))

@@ -19,15 +19,10 @@ _ROW, _COLUMN, _HEAD, _TOP = 0.36, 0.6, 0.5, 0.32
 _STRIP = 0.11
 """Share of a cell's width that carries the hatch."""
 
-_FILLS: dict[Verdict, dict[str, Any]] = {
-    Verdict.GO: {"facecolor": "#c5e8dc", "hatch": None},
-    Verdict.UNSURE: {"facecolor": "#fbf1cc", "hatch": "//////"},
-    Verdict.NO_GO: {"facecolor": "#f2c6af", "hatch": "xxxxxx"},
-    Verdict.OUTSIDE_MODEL: {"facecolor": "#ffffff", "hatch": "......"},
-}
 _SIGNS: dict[Verdict, dict[str, Any]] = {
     Verdict.GO: {"marker": "o", "markerfacecolor": look.BLACK},
-    Verdict.UNSURE: {"marker": "^", "markerfacecolor": "white"},
+    Verdict.ROUGH: {"marker": "^", "markerfacecolor": "white"},
+    Verdict.UNSURE: {"marker": "D", "markerfacecolor": "white", "markersize": 4.0},
     Verdict.NO_GO: {"marker": "X", "markerfacecolor": look.BLACK},
     Verdict.OUTSIDE_MODEL: {"marker": "s", "markerfacecolor": "white"},
 }
@@ -90,17 +85,19 @@ def _draw_cell(axes: Axes, row: int, column: int, cell: "Cell") -> None:
     axes.plot(
         sign,
         row + 0.72,
-        markersize=4.5,
-        markeredgecolor=look.BLACK,
-        markeredgewidth=0.8,
-        **_SIGNS[cell.verdict],
+        **_sign(cell.verdict),
     )
     axes.text(column + 0.94, row + 0.72, margin.replace("-", "−"), ha="right", va="center")
 
 
+def _sign(verdict: Verdict) -> dict[str, Any]:
+    edge = {"markersize": 4.5, "markeredgecolor": look.BLACK, "markeredgewidth": 0.8}
+    return edge | _SIGNS[verdict]
+
+
 def _draw_swatch(axes: Axes, row: float, column: float, width: float, verdict: Verdict) -> None:
-    fill = _FILLS[verdict]
-    axes.add_patch(Rectangle((column, row), width, 1.0, facecolor=fill["facecolor"], linewidth=0.0))
+    colour, hatch = look.VERDICT_FILLS[verdict]
+    axes.add_patch(Rectangle((column, row), width, 1.0, facecolor=colour, linewidth=0.0))
     axes.add_patch(
         Rectangle(
             (column, row),
@@ -108,7 +105,7 @@ def _draw_swatch(axes: Axes, row: float, column: float, width: float, verdict: V
             1.0,
             facecolor="none",
             edgecolor="#555555",
-            hatch=fill["hatch"],
+            hatch=None if hatch is None else 2 * hatch,
             linewidth=0.0,
         )
     )
@@ -131,11 +128,8 @@ def _draw_key(figure: Figure, bottom: float) -> None:
         axes.plot(
             place,
             0.5,
-            markersize=4.5,
-            markeredgecolor=look.BLACK,
-            markeredgewidth=0.8,
             clip_on=False,
-            **_SIGNS[verdict],
+            **_sign(verdict),
         )
         axes.text(place + 0.1, 0.5, verdict.label, va="center")
         place += 0.35 + look.extent(figure, verdict.label)[0]

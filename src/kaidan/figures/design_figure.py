@@ -15,12 +15,6 @@ if TYPE_CHECKING:
     from kaidan.verbs.design.answer import Design, DesignMap, FreeFigure
 
 _SHOWN = {"m": ("mm", 1e3), "rad": ("°", 180 / math.pi)}
-_FILLS = {
-    Verdict.GO: ("#c5e8dc", None),
-    Verdict.UNSURE: ("#fbf1cc", "////"),
-    Verdict.NO_GO: ("#f2c6af", "xxx"),
-    Verdict.OUTSIDE_MODEL: ("#ffffff", "..."),
-}
 _LINES = 7
 """Contours of the margin at most."""
 
@@ -62,7 +56,7 @@ def _draw_map(axes: Axes, found: "Design", drawn: "DesignMap") -> None:
         _shown(each, np.array(v)) for each, v in ((x, drawn.x_values), (y, drawn.y_values))
     )
     verdicts = np.array(drawn.verdicts, dtype=float)
-    for verdict, (colour, hatch) in _FILLS.items():
+    for verdict, (colour, hatch) in look.VERDICT_FILLS.items():
         if not (verdicts == verdict.rank).any():
             continue
         filled: dict[str, Any] = {"colors": [colour], "hatches": [hatch]}

@@ -13,13 +13,10 @@ from kaidan.text.stock import label as short
 if TYPE_CHECKING:
     from kaidan.verbs.stock.answer import StockStudy
 
-_VERDICTS = {
-    "go": ("GO", "#c5e8dc", None),
-    "caution": ("CAUTION", "#fbf1cc", "////"),
-    "not_go": ("no GO", "#f7dfc0", "\\\\\\\\"),
-    "no_go": ("NO-GO", "#f2c6af", "xxxx"),
-    "outside_model": ("OUTSIDE THE MODEL", "#ffffff", "...."),
-}
+_VERDICTS: dict[str, tuple[str, str, str | None]] = {
+    each.name.lower(): (each.label, *fill) for each, fill in look.VERDICT_FILLS.items()
+} | {"not_go": ("no GO", "#f7dfc0", "\\\\\\\\")}
+"""Word, tint and hatch of each share; a screen leaves open which verdict is not a GO."""
 _MODES = (
     ("#4c4c4c", None), ("#bdbdbd", None), ("#ffffff", "////"), ("#e0e0e0", "xxxx"),
     ("#ffffff", "...."), ("#8c8c8c", "\\\\\\\\"),

@@ -13,6 +13,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from kaidan.modes import Verdict
+
 Array = NDArray[np.float64]
 
 WIDTH = 7.0
@@ -44,6 +46,15 @@ def fill(kind: str) -> dict[str, Any]:
     """Filling of an area by its kind: a tint and a hatch, so that grey tells them apart too."""
     return {"linewidth": 0.0, **_FILLS[kind]}
 
+
+VERDICT_FILLS: dict[Verdict, tuple[str, str | None]] = {
+    Verdict.GO: ("#c5e8dc", None),
+    Verdict.ROUGH: ("#fbf1cc", "////"),
+    Verdict.UNSURE: ("#cfe3f5", "---"),
+    Verdict.NO_GO: ("#f2c6af", "xxxx"),
+    Verdict.OUTSIDE_MODEL: ("#ffffff", "...."),
+}
+"""Tint and hatch of a verdict."""
 
 _RC: dict[str, Any] = {
     "font.family": "DejaVu Sans",
