@@ -19,7 +19,7 @@ LARGEST = 100_000
 SHOWN = (1000, 1300)
 """Largest of a picture [pixels]."""
 QUESTION = "#/check?robot=absolem&stairs=ibc&surface=concrete-dry"
-ANSWERED = ".light[data-verdict=caution]"
+ANSWERED = ".light[data-verdict=unsure]"
 
 
 def desk(page: Page) -> None:
