@@ -22,7 +22,7 @@ def serious(page):
 def opened(page, address=QUESTION, theme="light"):
     page.add_init_script(f"localStorage.setItem('kaidan.theme', '{theme}')")
     page.goto(address)
-    page.wait_for_selector(".light[data-verdict=caution]")
+    page.wait_for_selector(".light[data-verdict=unsure]")
 
 
 @pytest.mark.slow
@@ -69,7 +69,7 @@ def test_the_keyboard_alone_gets_from_nothing_to_an_answer(desk):
     desk.keyboard.type("Rubber tracks on dry")
     to("Best found")
     desk.keyboard.press("ArrowRight")
-    desk.wait_for_selector(".light[data-verdict=caution]")
+    desk.wait_for_selector(".light[data-verdict=unsure]")
     desk.wait_for_selector("#tab-side svg.traverse .contact")
     to("Traverse")
     desk.keyboard.press("ArrowRight")

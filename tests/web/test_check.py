@@ -7,6 +7,7 @@ import httpx
 import pytest
 
 from kaidan.assessment.sentences import advice
+from kaidan.modes import Verdict
 from kaidan.text.japanese import japanese
 
 QUESTION = "#/check?robot=absolem&stairs=ibc&surface=concrete-dry&flippers=flat"
@@ -38,7 +39,7 @@ def test_an_operator_gets_from_nothing_to_a_printed_sheet(page):
     page.get_by_role("combobox", name="Stairs", exact=True).select_option("ibc")
     page.get_by_role("combobox", name="Surface", exact=True).select_option("concrete-dry")
     page.get_by_text("Flat", exact=True).click()
-    assert verdict(page, "caution") == "CAUTION"
+    assert verdict(page, "unsure") == "UNSURE"
     assert "Friction decides (enter, step 1)" in page.inner_text(".reason")
     assert "A surface with a friction of 0.92 or more" in page.inner_text(".do")
     page.wait_for_selector("#tab-side svg.traverse .force")
@@ -51,6 +52,17 @@ def test_an_operator_gets_from_nothing_to_a_printed_sheet(page):
     assert page.locator(".inputs").is_hidden()
     sheet = page.pdf(prefer_css_page_size=True, print_background=True)
     assert len(re.findall(rb"/Type\s*/Page\b", sheet)) == 1
+
+
+def test_each_verdict_has_a_shape_of_its_own(desk):
+    """Who sees no colour tells them apart."""
+    desk.goto("./")
+    desk.wait_for_selector("body.ready")
+    drawn = desk.evaluate("""async verdicts => {
+      const { symbol } = await import("/js/light.js");
+      return verdicts.map((each) => symbol(each).innerHTML);
+    }""", list(Verdict))  # fmt: skip
+    assert len(set(drawn)) == len(Verdict)
 
 
 @pytest.mark.slow
@@ -66,7 +78,7 @@ def test_a_sheet_with_a_plan_of_flippers_is_one_page(desk, language):
 
 def test_numbers_on_the_page_are_those_of_the_api(desk, server):
     desk.goto(QUESTION + "&u.com_height=0.005&tab=findings")
-    verdict(desk, "caution")
+    verdict(desk, "unsure")
     desk.wait_for_selector("#tab-findings table")
     body = BODY | {"uncertainty": {"com_height": 0.005}}
     answer = httpx.post(server.address + "api/assess", json=body, timeout=60).json()
@@ -84,7 +96,7 @@ def test_numbers_on_the_page_are_those_of_the_api(desk, server):
 @pytest.mark.slow
 def test_a_slider_changes_the_question_and_the_address_has_it(desk):
     desk.goto(QUESTION)
-    verdict(desk, "caution")
+    verdict(desk, "unsure")
     before = numbers(desk)["margin_deg"]
     desk.get_by_text("Its figures").first.click()
     slider = desk.get_by_role("slider", name="C_N, centroid above the underside")
@@ -97,18 +109,18 @@ def test_a_slider_changes_the_question_and_the_address_has_it(desk):
     shared = desk.url
     desk.goto("about:blank")
     desk.goto(shared)
-    desk.wait_for_selector(".light[data-verdict=caution], .light[data-verdict=no-go]")
+    desk.wait_for_selector(".light[data-verdict=unsure], .light[data-verdict=no-go]")
     assert numbers(desk)["margin_deg"] == after
 
 
 @pytest.mark.slow
 def test_back_and_forward_go_through_the_questions(desk):
     desk.goto(QUESTION)
-    verdict(desk, "caution")
+    verdict(desk, "unsure")
     desk.get_by_role("combobox", name="Stairs", exact=True).select_option("osha-ship")
     verdict(desk, "no-go")
     desk.go_back()
-    verdict(desk, "caution")
+    verdict(desk, "unsure")
     assert desk.get_by_role("combobox", name="Stairs", exact=True).input_value() == "ibc"
     desk.go_forward()
     verdict(desk, "no-go")
@@ -144,14 +156,14 @@ def test_charts_say_where_one_is(desk):
 def test_a_robot_that_nobody_weighed_is_marked_in_every_list(desk):
     desk.goto("#/check?robot=talon&stairs=ibc&surface=concrete-dry")
     group = desk.locator("optgroup", has=desk.locator("option[value=talon]"))
-    assert group.get_attribute("label") == "Catalogue, CAUTION until weighed"
-    assert verdict(desk, "caution") == "CAUTION"
+    assert group.get_attribute("label") == "Catalogue, UNSURE until weighed"
+    assert verdict(desk, "unsure") == "UNSURE"
     for tab in ("Traverse", "Margin chart", "Acceleration plane", "Map of poses"):
         desk.get_by_role("tab", name=tab).click()
         assert "Weigh it" in desk.inner_text("[role=tabpanel]:visible")
     for view in ("Building", "Jobs"):
         desk.get_by_role("link", name=view).click()
-        marked = desk.locator("label.check:visible", has_text="CAUTION until weighed")
+        marked = desk.locator("label.check:visible", has_text="UNSURE until weighed")
         assert marked.count() == 4
 
 
@@ -188,7 +200,7 @@ def test_no_verdict_stands_while_the_next_is_worked_out(desk):
     seen = []
     desk.expose_function("seen", lambda each: seen.append(each))
     desk.goto(QUESTION)
-    verdict(desk, "caution")
+    verdict(desk, "unsure")
     desk.evaluate(
         "new MutationObserver(() => seen(document.querySelector('.light').dataset.verdict))"
         ".observe(document.querySelector('.light'), {attributes: true})"
@@ -204,7 +216,7 @@ def test_japanese_has_the_verdict_why_where_and_what_to_do(desk, server):
     desk.goto(QUESTION)
     desk.get_by_text("Settings").click()
     desk.get_by_label("Language").select_option("ja")
-    assert verdict(desk, "caution") == "CAUTION 注意"
+    assert verdict(desk, "unsure") == "UNSURE 判定保留"
     assert desk.get_attribute("html", "lang") == "ja"
     assert "進入、1 段目" in desk.inner_text(".reason")
     assert "0.91" in desk.inner_text(".reason")
@@ -226,7 +238,7 @@ def test_inches(desk):
     desk.goto(QUESTION)
     desk.get_by_text("Settings").click()
     desk.get_by_label("Lengths").select_option("in")
-    verdict(desk, "caution")
+    verdict(desk, "unsure")
     figure = desk.locator('.answer data[data-of="nosing_spacing_m"]')
     assert figure.inner_text() == "13.03 in"
     assert json.loads(figure.get_attribute("value")) == 0.3309456148674582

@@ -42,14 +42,14 @@ def test_without_its_server_the_page_opens_and_says_what_it_cannot_do(desk, serv
     finally:
         server.start()
     desk.get_by_role("button", name="Ask again").click()
-    desk.wait_for_selector('.light[data-verdict="caution"]')
+    desk.wait_for_selector('.light[data-verdict="unsure"]')
     assert desk.locator(".banner").is_hidden()
 
 
 @pytest.mark.slow
 def test_saved_robots_stay_and_travel_as_a_file(desk, tmp_path):
     desk.goto(QUESTION + "&r.com_height=0.2")
-    desk.wait_for_selector(".light[data-verdict=caution]")
+    desk.wait_for_selector(".light[data-verdict=unsure]")
     desk.get_by_text("Its figures").first.click()
     desk.get_by_role("button", name="Save on this device").first.click()
     desk.get_by_role("link", name="Saved").click()
@@ -62,7 +62,7 @@ def test_saved_robots_stay_and_travel_as_a_file(desk, tmp_path):
     assert "Nothing is saved yet" in desk.inner_text(".saved")
     desk.get_by_label("Import a file").set_input_files(tmp_path / "sheets.json")
     desk.get_by_role("button", name="Use absolem*").click()
-    desk.wait_for_selector(".light[data-verdict=caution]")
+    desk.wait_for_selector(".light[data-verdict=unsure]")
     assert "robot=%7E" in desk.url
     assert "C_N 200 mm" in desk.locator(".drawing").first.text_content()
 
@@ -78,9 +78,8 @@ def test_a_robot_and_stairs_are_read_from_files(desk, tmp_path):
     desk.get_by_label("Read a file: TOML, URDF, SDF, MJCF").set_input_files(robot)
     desk.wait_for_url(re.compile("robot="))
     desk.get_by_label("Read a file: IFC").set_input_files(stairs)
-    desk.wait_for_selector(
-        ".light[data-verdict=go], .light[data-verdict=caution], .light[data-verdict=no-go]"
-    )
+    answers = ", ".join(f"[data-verdict={each}]" for each in ("go", "rough", "unsure", "no-go"))
+    desk.wait_for_selector(f".light:is({answers})")
     assert "profile" in desk.inner_text(".light")
 
 

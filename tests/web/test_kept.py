@@ -6,8 +6,8 @@ from contextlib import contextmanager
 import pytest
 
 QUESTION = "robot=absolem&stairs=ibc&surface=concrete-dry&flippers=flat"
-VERDICTS = ("go", "caution", "no-go", "outside-model")
-CAUTION = '.light[data-verdict="caution"]'
+VERDICTS = ("go", "rough", "unsure", "no-go", "outside-model")
+UNSURE = '.light[data-verdict="unsure"]'
 
 
 @contextmanager
@@ -62,8 +62,8 @@ def test_a_preference_keeps_the_verdict_and_the_place_in_it(page):
         prefer(page, "theme", "dark")
         prefer(page, "lengths", "in")
         prefer(page, "language", "ja")
-        page.wait_for_selector(CAUTION)
-        assert page.inner_text(".light .word") == "CAUTION 注意"
+        page.wait_for_selector(UNSURE)
+        assert page.inner_text(".light .word") == "UNSURE 判定保留"
         assert page.locator(".notes li").first.is_visible()
         assert page.locator(".figures").first.is_visible()
         assert page.locator('.answer data[data-of="nosing_spacing_m"]').inner_text() == "13.03 in"
@@ -74,7 +74,7 @@ def test_a_preference_keeps_the_verdict_and_the_place_in_it(page):
 
 def test_a_preference_keeps_what_was_typed_and_counts_it_in_its_unit(desk):
     desk.goto(f"#/check?{QUESTION}")
-    desk.wait_for_selector(CAUTION)
+    desk.wait_for_selector(UNSURE)
     stairs = desk.get_by_role("region", name="Stairs", exact=True)
     stairs.get_by_text("How to measure").click()
     stairs.get_by_label("Floor to floor").fill("1778")
@@ -124,18 +124,18 @@ def test_a_file_takes_back_the_verdict_of_the_stairs_before(page, tmp_path):
     page.locator("[aria-label=階段] [role=alert]").wait_for()  # refused, and said in the new page
     assert not stands(page)
     page.go_back()
-    page.wait_for_selector(CAUTION)
+    page.wait_for_selector(UNSURE)
 
 
 def test_what_is_chosen_while_a_file_is_read_is_not_replaced_by_it(desk, tmp_path):
     file = tmp_path / "stairs.csv"
     file.write_text("x,z\n0,0\n1,0\n1,0.17\n1.3,0.17\n1.3,0.34\n2,0.34\n")
     desk.goto(f"#/check?{QUESTION}")
-    desk.wait_for_selector(CAUTION)
+    desk.wait_for_selector(UNSURE)
     with held(desk, "api/sheets"):
         desk.locator("[aria-label=Stairs] input[type=file]").set_input_files(file)
         desk.get_by_role("combobox", name="Stairs", exact=True).select_option("ibc")
-    desk.wait_for_selector(CAUTION)
+    desk.wait_for_selector(UNSURE)
     desk.wait_for_timeout(500)
     assert "stairs=ibc" in desk.url
 

@@ -10,7 +10,7 @@ TURN = "&s.width=1&s.upper_turn=half&s.upper_landing=1.2&s.upper_landing_width=2
 
 def opened(page, address=QUESTION):
     page.goto(address)
-    page.wait_for_selector(".light[data-verdict=caution], .light[data-verdict=no-go]")
+    page.wait_for_selector(".light[data-verdict=unsure], .light[data-verdict=no-go]")
     stairs = page.get_by_role("region", name="Stairs")
     stairs.get_by_text("Its figures").click()
     stairs.get_by_text("Landings", exact=True).click()
@@ -65,7 +65,7 @@ def test_the_address_has_the_turn_and_a_passage_goes_with_it(desk):
     desk.wait_for_selector(".turns li")
     upper.get_by_text("None", exact=True).click()
     desk.wait_for_function("() => !document.querySelector('.turns')")
-    desk.wait_for_selector(".light[data-verdict=caution]")
+    desk.wait_for_selector(".light[data-verdict=unsure]")
     desk.go_back()
     desk.wait_for_selector(".turns li")
 

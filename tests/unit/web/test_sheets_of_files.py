@@ -33,7 +33,7 @@ def test_flights_of_a_building_model_become_stairs(client, pytestconfig):
     flights = found["stairs"][0]
     assert (flights[0]["rise"], flights[0]["going"], flights[0]["steps"]) == (0.15, 0.3, 10)
     body = {"robot": "kenaf", "stairs": flights, "friction": 1.0}
-    assert client.post("/api/assess", json=body).json()["verdict"] in ("go", "caution", "no-go")
+    assert client.post("/api/assess", json=body).json()["verdict"] != "outside-model"
 
 
 @pytest.mark.parametrize("content", [b"hello", b"a = " + b"[" * 20_000], ids=["text", "deep"])
