@@ -54,6 +54,19 @@ def test_an_operator_gets_from_nothing_to_a_printed_sheet(page):
     assert len(re.findall(rb"/Type\s*/Page\b", sheet)) == 1
 
 
+def test_rough_says_what_to_secure_and_unsure_what_to_measure(desk):
+    """Flat, Absolem drops onto the landing at 2.2 m/s; a centroid to 20 mm leaves the rest open."""
+    desk.goto(QUESTION.replace("surface=concrete-dry", "surface=own&mu_low=1.2&mu_high=1.2"))
+    assert verdict(desk, "rough") == "ROUGH"
+    assert "payload, arm and antennas" in desk.inner_text(".secure")
+    assert desk.locator(".measure").count() == 0
+    desk.goto("about:blank")
+    desk.goto(QUESTION + "&u.com_height=0.02")
+    assert verdict(desk, "unsure") == "UNSURE"
+    assert "%" in desk.inner_text(".measure")
+    assert desk.locator(".secure").count() == 0
+
+
 def test_each_verdict_has_a_shape_of_its_own(desk):
     """Who sees no colour tells them apart."""
     desk.goto("./")

@@ -50,7 +50,7 @@ def fill(kind: str) -> dict[str, Any]:
 VERDICT_FILLS: dict[Verdict, tuple[str, str | None]] = {
     Verdict.GO: ("#c5e8dc", None),
     Verdict.ROUGH: ("#fbf1cc", "////"),
-    Verdict.UNSURE: ("#cfe3f5", "---"),
+    Verdict.UNSURE: ("#d5dcf5", "---"),
     Verdict.NO_GO: ("#f2c6af", "xxxx"),
     Verdict.OUTSIDE_MODEL: ("#ffffff", "...."),
 }

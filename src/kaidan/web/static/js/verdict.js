@@ -264,7 +264,11 @@ function numbers(answer) {
   );
 }
 
+// What comes before driving: to secure what rocks, or to measure what is not known.
 function first(answer) {
+  if (answer.verdict === "rough") {
+    return h("p", { class: "secure" }, h("b", {}, `${t("answer.secure")}: `), t("answer.secured"));
+  }
   const measure = answer.to_measure.find((each) => each.share > 0.01);
   if (!measure || answer.verdict !== "unsure") return null;
   return h(
