@@ -9,11 +9,11 @@ const SHAPES = {
   ],
   rough: () => [
     s("path", { d: "M24 3L47 44H1Z" }),
-    s("path", { class: "mark", d: "M24 17v14M24 37v.5" }),
+    s("path", { class: "mark", d: "M13 34c3-6 7-6 11-2s8 4 11-2" }),
   ],
   unsure: () => [
     s("path", { d: "M24 1L47 24 24 47 1 24Z" }),
-    s("path", { class: "mark", d: "M17.5 18a6.5 6.5 0 1 1 9.5 6c-3 2-3 3-3 5M24 35v.5" }),
+    s("path", { class: "mark", d: "M24 12v15M24 35v.5" }),
   ],
   "no-go": () => [
     s("path", { d: "M15 2h18l13 13v18L33 46H15L2 33V15Z" }),
@@ -21,7 +21,7 @@ const SHAPES = {
   ],
   "outside-model": () => [
     s("rect", { x: 3, y: 3, width: 42, height: 42, rx: 4 }),
-    s("path", { class: "mark", d: "M14 34L34 14" }),
+    s("path", { class: "mark", d: "M17 18a7 7 0 1 1 10 6c-3 2-3 3-3 6M24 37v.5" }),
   ],
   working: () => [
     s("circle", { class: "open", cx: 24, cy: 24, r: 20 }),
