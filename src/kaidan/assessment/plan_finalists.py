@@ -102,7 +102,7 @@ def _to_steady(search: Search, first: Judged | None) -> Plan | None:
     if first is None:
         return None
     hoped, grips = first.conclusion.verdict, search.question.robot.track.has_grousers
-    if not (hoped is Verdict.GO or (grips and hoped is Verdict.UNSURE)):
+    if hoped.rank > (Verdict.UNSURE if grips else Verdict.GO).rank:
         return None
     at = first.question.postures
     return Plan(search.scores.facing, tuple((phase, at[phase]) for phase in search.scores.phases))

@@ -59,7 +59,7 @@ class Worth(NamedTuple):
 
 
 OUT = Worth(-len(Verdict), -90.0)
-SHORT_OF_GO = Worth(-Verdict.UNSURE.rank, ENOUGH)
+SHORT_OF_GO = Worth(-Verdict.ROUGH.rank, ENOUGH)
 """As much as a phase can come to that is no GO."""
 HOPELESS = Worth(-Verdict.UNSURE.rank, -3.0)
 """From which on no posture close by is tried."""
