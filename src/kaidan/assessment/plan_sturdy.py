@@ -333,10 +333,8 @@ def _most(score: Score) -> Worth:
 def _hope(score: Score) -> Worth:
     """What a phase of a score comes to at most."""
     if score == FAILED:  # how far a fall is off is no part of a score
-        return Worth(-Verdict.NO_GO.rank, ENOUGH)
-    verdict = Verdict.UNSURE if score.failing else Verdict.GO
-    margin = math.radians(score.margin + SLACK)
-    return _worth(verdict if score.passes else Verdict.NO_GO, margin)
+        return Worth(score.rank, ENOUGH)
+    return Worth(score.rank, min(score.margin + SLACK, ENOUGH))
 
 
 def _worth(verdict: Verdict, margin: float) -> Worth:

@@ -74,7 +74,7 @@ class Answered(NamedTuple):
 def bench(adapter: Path | None = None) -> Bench:
     """Run the tools over the frozen cases.
 
-    adapter: Python file with ``answer(case)``, which returns "GO", "ROUGH", "NO-GO" or anything else.
+    adapter: Python file with ``answer(case)``, which says "GO", "ROUGH", "NO-GO" or anything else.
 
     Raises
     ------

@@ -273,7 +273,7 @@ class BuildingAnswer(Answer):
 
     @property
     def exit_code(self) -> int:
-        """0 where every storey with flights is better than NO-GO for a robot, 1 else, 3 no flights."""
+        """0 where no storey with flights is a NO-GO for all robots, 1 else, 3 no flights."""
         if not self.flights:
             return 3
         storeys = {way.storey for way in self.ways if way.verdict is not None}
