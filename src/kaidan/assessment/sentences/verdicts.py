@@ -55,7 +55,7 @@ def reason(question: "Question", found: "Findings", conclusion: "Conclusion") ->
 
 
 def notes(question: "Question", found: "Findings", conclusion: "Conclusion") -> tuple[str, ...]:
-    """What to secure, other doubts than the governing one, what was assumed, what the sheet says."""
+    """What to secure, other doubts than the governing one, what was assumed, what the sheet has."""
     each = []
     if conclusion.verdict is Verdict.ROUGH:
         does = HOW_ROUGH.get(conclusion.governs, "rocks")
