@@ -113,7 +113,8 @@ def _with_falls(each: Sequence[Finding]) -> list[Finding]:
     known = {one.mode for one in each if one.mode in FALLS}
     return [
         replace(one, instead=OPEN)
-        if one.instead is None and _FALL_OF.get(one.mode, one.mode) not in (one.mode, *known)
+        if one.if_fails is one.mode.if_fails
+        and _FALL_OF.get(one.mode, one.mode) not in (one.mode, *known)
         else one
         for one in each
     ]
