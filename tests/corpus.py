@@ -111,7 +111,7 @@ def assessments(draw, count):
             ("--acceleration", ("0.3m/s2", "-0.5m/s2"), 0.15), ("--speed", ("0.1m/s",), 0.3),
             ("--theta-d", ("1deg", "0deg..2.6deg"), 0.2), ("--theta-m", ("1.2deg",), 0.2),
             ("--uncertainty", ("com_from_front=5mm", "rise=3mm", "friction=0.05"), 0.2),
-            ("--risk", ("0.1",), 0.1), ("--accept", ("arrested",), 0.1),
+            ("--risk", ("0.1",), 0.1),
             ("--payload", ("2kg@200mm,300mm",), 0.1), ("--yaw", ("5deg", "-20deg"), 0.1),
             ("--override", ("track.belt=grousers", "com_height=150mm"), 0.2),
         ):  # fmt: skip

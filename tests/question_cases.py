@@ -62,7 +62,6 @@ def random_question(rng: np.random.Generator, model: str) -> Question:
         "theta_d": None if rng.random() < 0.5 else float(rng.uniform(0.0, 0.06)),
         "theta_M": None if rng.random() < 0.5 else float(rng.uniform(0.0, 0.06)),
         "risk": float(rng.choice([0.01, 0.1])),
-        "accept": str(rng.choice(["no-rotation", "no-rotation", "arrested"])),
     }
     if robot.mass is not None and rng.random() < 0.2:
         manner["payload"] = f"{0.1 * robot.mass:.3f}kg@{1e3 * robot.com_from_front:.0f}mm,300mm"

@@ -158,8 +158,8 @@ IMPACT = failure_mode("impact", "m/s", "hitting the ground too fast", ROUGHLY)
 """After a drop that the path obliges to."""
 ENERGY = failure_mode("energy", "m", "too little energy margin for its speed", OPEN)
 HIGH_CENTRING = failure_mode("high_centring", "", "resting on its belly", ROUGHLY)
-POSTURE_CHANGE = failure_mode("posture_change", "", "rotating while its flippers move", ROUGHLY)
-"""Between two postures of a plan, the robot standing."""
+POSTURE_CHANGE = failure_mode("posture_change", "", "rotating while its flippers move", OPEN)
+"""Between two postures of a plan, the robot standing: nothing tells how far from a fall."""
 FLIPPER_TORQUE = failure_mode(
     "flipper_torque", "N m", "too little torque to move its flippers", FAILS
 )

@@ -159,7 +159,7 @@ def test_a_screened_sweep_has_every_go_of_the_whole_one():
 
 @pytest.mark.parametrize(
     "changes",
-    [{"yaw": 0.1}, {"accept": "arrested"}, {"model": "closed-form"}, {"flippers": "best"},
+    [{"yaw": 0.1}, {"model": "closed-form"}, {"flippers": "best"},
      {"uncertainty": "com_height=5mm"}, {"stairs": UNEVEN}, {"steps": 2}],
     ids=lambda changes: "".join(changes),
 )  # fmt: skip

@@ -15,7 +15,7 @@ from amounts import fast_and_slow
 from kaidan import Assessment
 from kaidan.assessment import answer_to
 from kaidan.catalog import names
-from kaidan.modes import FAILURE_MODES, FORMULAS, MODELS, TIPS, Undecided
+from kaidan.modes import FAILURE_MODES, FORMULAS, MODELS, ROUGHLY, TIPS, Undecided
 from kaidan.question import Question
 from kaidan.robot import Robot
 from question_cases import FRICTIONS, SHARES, of_catalogue, random_questions
@@ -23,6 +23,7 @@ from question_cases import FRICTIONS, SHARES, of_catalogue, random_questions
 ON_THE_LIMIT = 1e-9
 """Margin at which rounding decides [deg]."""
 SLIP_OR_TIP = {mode.key for mode in (*FORMULAS, *TIPS)}
+ROUGH = {key for key, mode in FAILURE_MODES.items() if mode.if_fails is ROUGHLY}
 UNDECIDED = {str(each) for each in Undecided}
 
 
@@ -85,16 +86,17 @@ def contradictions(answer: Assessment) -> list[str]:
         found.append(f"no-go with a margin of {margin}")
     if margin is not None and best is not None and best < margin - ON_THE_LIMIT:
         found.append(f"margin {margin} better than {best} in the best case")
-    # a go: nothing fails, friction stated; a caution says why
+    # a go: nothing fails, friction stated; rough and unsure say why
     failing = [key for key, one in answer.findings.items() if one.holds is False]
     if answer.verdict == "go" and (failing or answer.friction is None):
-        if answer.question.accept == "no-rotation":
-            found.append(f"go although {failing} fails")
-        elif answer.friction is None:
-            found.append("go without friction")
-    if answer.verdict == "caution" and not answer.doubts and answer.governs not in UNDECIDED:
-        certain = answer.failure_probability is None
-        found += ["caution without a doubt"] if certain else []
+        found.append(f"go although {failing} fails")
+    if answer.verdict in ("rough", "unsure") and not answer.doubts:
+        certain = answer.failure_probability is None and answer.governs not in UNDECIDED
+        found += [f"{answer.verdict} without a doubt"] if certain else []
+    if answer.verdict == "rough":
+        found += [f"rough although {key} fails" for key in failing if key not in ROUGH]
+        if answer.friction is None:
+            found.append("rough without friction")
     if answer.verdict == "outside-model" and (answer.findings or margin is not None):
         found.append("numbers outside the model")
     if not answer.reason.endswith("."):
@@ -132,7 +134,12 @@ def test_pairs_of_the_catalogue_by_the_closed_form():
 def test_random_questions(count):
     seen = assert_consistent(random_questions(count, seed=1))
     assert {model for model, _ in seen} == set(SHARES)
-    assert {verdict for model, verdict in seen if model == "contact"} >= {"go", "caution", "no-go"}
+    assert {verdict for model, verdict in seen if model == "contact"} >= {
+        "go",
+        "rough",
+        "unsure",
+        "no-go",
+    }
 
 
 @pytest.mark.slow
@@ -149,7 +156,7 @@ def test_five_thousand_random_questions():
     seen = assert_consistent(random_questions(5000, seed=8))
     assert sum(seen.values()) == 5000
     for model in SHARES:
-        assert min(seen.get((model, verdict), 0) for verdict in ("go", "caution", "no-go")) > 10
+        assert min(seen.get((model, verdict), 0) for verdict in ("go", "unsure", "no-go")) > 10
 
 
 @pytest.mark.slow

@@ -149,15 +149,6 @@ def test_a_robot_that_takes_less_of_an_impact_is_never_better(seed, speed, share
     assert_no_better(tolerating(max(share * speed, 0.05)), tolerating(speed))
 
 
-@always(30, seeds)
-def test_who_accepts_an_arrest_is_never_worse_off(seed):
-    strict = answered(question_of(seed, accept="no-rotation"))
-    accepting = answered(question_of(seed, accept="arrested"))
-    assert Verdict(accepting.verdict).rank <= Verdict(strict.verdict).rank
-    assert accepting.findings == strict.findings
-    assert set(accepting.doubts) <= set(strict.doubts)
-
-
 @always(20, seeds)
 def test_less_risk_is_never_better(seed):
     each = [answered(question_of(seed, risk=risk)) for risk in (0.3, 0.1, 0.01)]

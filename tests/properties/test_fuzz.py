@@ -51,7 +51,6 @@ GOOD = {
     "allowance": [0.01, (0.0, 0.04), "1..2.6deg", "1deg", None],
     "direction": ["up", "down"],
     "facing": ["nose-first", "tail-first"],
-    "accept": ["no-rotation", "arrested"],
     "model": ["contact", "closed-form", "support-polygon"],
     "number": [0.5, 1, 2.0, "0.5"],
     "text": ["a", "kenaf", "180mm"],
@@ -65,7 +64,7 @@ GOOD = {
 INPUTS = dict.fromkeys([*SYMBOLS, "x"], "number")
 MANNER = {
     **dict.fromkeys(("acceleration", "speed", "flippers", "payload", "direction", "facing")),
-    **{name: name for name in ("friction", "surface", "accept", "model", "override")},
+    **{name: name for name in ("friction", "surface", "model", "override")},
     **dict.fromkeys(("theta_d", "theta_M"), "allowance"),
     "yaw": "angle",
     "flipper_tolerance": "angle",

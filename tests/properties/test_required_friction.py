@@ -61,7 +61,7 @@ def test_the_margin_is_zero_at_the_friction_that_is_needed_of_all(friction):
     assert sum(agrees(*case, friction) for case in MANY) > len(MANY) / 2
 
 
-RANKS = {"go": 2, "caution": 1, "no-go": 0}
+RANKS = {"go": 3, "rough": 2, "unsure": 1, "no-go": 0}
 
 
 def verdicts(robot, flight, belt, direction, frictions):
@@ -72,7 +72,7 @@ def verdicts(robot, flight, belt, direction, frictions):
 
 def test_a_plan_that_is_found_with_less_friction_is_not_passed_over_with_more():
     """The best plan by the scores at 0.8 leads tail first, and slides on its way."""
-    assert verdicts("marv", "ada", "grousers", "down", (0.6, 0.7, 0.8, 0.9)) == [2, 2, 2, 2]
+    assert verdicts("marv", "ada", "grousers", "down", (0.6, 0.7, 0.8, 0.9)) == [3, 3, 3, 3]
 
 
 @pytest.mark.slow

@@ -26,7 +26,6 @@ WORDS = [
     *modes.FAILURE_MODES,
     *modes.Undecided,
     *modes.Phase,
-    *modes.Acceptance,
     *modes.MODELS,
     *(verdict.label for verdict in modes.Verdict),
 ]

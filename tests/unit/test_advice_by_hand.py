@@ -63,12 +63,12 @@ def concluded(verdict, margin=0.1):
 @pytest.mark.parametrize(
     ("then", "now", "better"),
     [
-        (Verdict.GO, Verdict.CAUTION, True),
-        (Verdict.CAUTION, Verdict.NO_GO, True),
-        (Verdict.NO_GO, Verdict.CAUTION, False),
+        (Verdict.GO, Verdict.UNSURE, True),
+        (Verdict.UNSURE, Verdict.NO_GO, True),
+        (Verdict.NO_GO, Verdict.UNSURE, False),
         (Verdict.OUTSIDE_MODEL, Verdict.NO_GO, False),
         (Verdict.NO_GO, Verdict.OUTSIDE_MODEL, False),  # a refusal known is no help
-        (Verdict.CAUTION, Verdict.OUTSIDE_MODEL, True),
+        (Verdict.UNSURE, Verdict.OUTSIDE_MODEL, True),
     ],
 )
 def test_a_better_verdict_is_help(then, now, better):
@@ -77,18 +77,18 @@ def test_a_better_verdict_is_help(then, now, better):
 
 def test_a_larger_margin_is_no_help_where_something_else_decides():
     """Momentum, in metres, is not mended by degrees; if then something else decides, it is."""
-    now = concluded(Verdict.CAUTION, 0.1)._replace(governs="momentum")
-    then = concluded(Verdict.CAUTION, 0.2)._replace(governs="momentum")
+    now = concluded(Verdict.UNSURE, 0.1)._replace(governs="momentum")
+    then = concluded(Verdict.UNSURE, 0.2)._replace(governs="momentum")
     assert not _is_better(then, now)
     assert _is_better(then._replace(governs="tip_downhill"), now)
     assert _is_better(then._replace(verdict=Verdict.GO), now)
 
 
 def test_of_one_verdict_a_margin_worth_telling_is_help():
-    now = concluded(Verdict.CAUTION, 0.1)
+    now = concluded(Verdict.UNSURE, 0.1)
     for gain, better in ((2 * WORTH_TELLING, True), (0.5 * WORTH_TELLING, False), (0.0, False)):
-        assert _is_better(concluded(Verdict.CAUTION, 0.1 + gain), now) is better
-    assert not _is_better(concluded(Verdict.CAUTION, math.nan), now)
+        assert _is_better(concluded(Verdict.UNSURE, 0.1 + gain), now) is better
+    assert not _is_better(concluded(Verdict.UNSURE, math.nan), now)
 
 
 @pytest.mark.parametrize(
@@ -196,7 +196,7 @@ def test_less_friction_is_looked_for_with_other_plans(least, asked, told, sturdy
     looked = []
 
     def better_than(verdict, question, *, drives, other_frictions):
-        assert (verdict, drives, other_frictions) == (Verdict.CAUTION, search.drives, False)
+        assert (verdict, drives, other_frictions) == (Verdict.UNSURE, search.drives, False)
         assert question.best_of == search.best_of
         looked.append(question.friction[0])
         if looked[-1] < least:
@@ -351,7 +351,7 @@ def test_closer_angles_are_tried_where_they_are_not_asked_for(monkeypatch, toler
     question = Question.of("absolem", KENAF.terrain, friction=1.0).changed(
         best_of=(), posture={"front": 0.1, "rear": 0.1}, flipper_tolerance=tolerance
     )
-    now = concluded(Verdict.CAUTION)._replace(governs=POSTURE_TOLERANCE.key)
+    now = concluded(Verdict.UNSURE)._replace(governs=POSTURE_TOLERANCE.key)
     each = list(advice._candidates(question, Findings(model="by hand"), now, object()))
     told = [(one.change, one.question.tolerance, one.holds, one.certain) for one in each]
     assert told == [(text.set_closer(CLOSER), CLOSER, True, False)] * tries
@@ -369,7 +369,7 @@ def test_of_frictions_the_least_is_tried_first(governs, monkeypatch):
     monkeypatch.setattr(
         advice, "with_less_friction", lambda *given: enough.append(given[3]) or [less]
     )
-    now = concluded(Verdict.CAUTION)._replace(governs=governs)
+    now = concluded(Verdict.UNSURE)._replace(governs=governs)
     each = list(advice._candidates(PLANNED, Findings(model="by hand"), now, object()))
     frictions = [one for one in each if one.friction is not None]
     assert frictions == ([less, other] if governs == "high_centring" else [less, other, own])
@@ -437,9 +437,9 @@ FLIPPERS = Question.of(Robot.named("absolem"), KENAF.terrain, friction=1.0).chan
     ("at_them", "off", "verdict"),
     [
         (0.2, (0.2, 0.1), Verdict.GO),
-        (0.2, (0.2, -0.1), Verdict.CAUTION),  # off its angles it is none
-        (0.2, (-0.1, 0.1), Verdict.CAUTION),
-        (-0.1, (0.2, 0.1), Verdict.CAUTION),
+        (0.2, (0.2, -0.1), Verdict.UNSURE),  # off its angles it is none
+        (0.2, (-0.1, 0.1), Verdict.UNSURE),
+        (-0.1, (0.2, 0.1), Verdict.UNSURE),
     ],
 )
 def test_flippers_stowed_on_a_short_landing(at_them, off, verdict, monkeypatch):
@@ -449,8 +449,8 @@ def test_flippers_stowed_on_a_short_landing(at_them, off, verdict, monkeypatch):
     def findings(margin):
         return Findings(
             model="by hand",
-            each=(Finding.certain(TIP_DOWNHILL, margin, model="", failing=Verdict.CAUTION),
-                  Finding.certain(LANDING_ROOM, -0.3, model="", failing=Verdict.CAUTION)),
+            each=(Finding.certain(TIP_DOWNHILL, margin, model=""),
+                  Finding.certain(LANDING_ROOM, -0.3, model="")),
         )  # fmt: skip
 
     def judge(question):
@@ -461,7 +461,7 @@ def test_flippers_stowed_on_a_short_landing(at_them, off, verdict, monkeypatch):
         rooms = [one.worst.tolist() for one in found.each if one.mode is LANDING_ROOM]
         assert rooms == [[0.25]]
         tips = [one.worst[0] for one in found.each if one.mode is TIP_DOWNHILL]
-        return concluded(Verdict.GO if tips[0] > 0 else Verdict.CAUTION, tips[0])
+        return concluded(Verdict.GO if tips[0] > 0 else Verdict.UNSURE, tips[0])
 
     monkeypatch.setattr(clearance, "room_when_stowed", lambda question: 0.25)
     monkeypatch.setattr(plans, "off_angles", lambda question: off)
@@ -475,7 +475,7 @@ def test_flippers_stowed_on_a_short_landing(at_them, off, verdict, monkeypatch):
 
 def test_where_stowed_flippers_are_no_help_on_a_landing(monkeypatch):
     """No flippers, a landing in between, and no room with them stowed either."""
-    monkeypatch.setattr(advice, "conclude", lambda question, found: concluded(Verdict.CAUTION))
+    monkeypatch.setattr(advice, "conclude", lambda question, found: concluded(Verdict.UNSURE))
 
     def helps(question, room):
         monkeypatch.setattr(clearance, "room_when_stowed", lambda question: room)
@@ -508,7 +508,7 @@ def test_straight_on_and_at_a_steady_speed():
     robot = KENAF.robot
     gauged = robot.model_copy(update={"track": robot.track.model_copy(update={"gauge": 0.4})})
     asked = KENAF.changed(robot=gauged, yaw=0.2, acceleration=0.3)
-    concluded_ = concluded(Verdict.CAUTION)._replace(governs="drive")
+    concluded_ = concluded(Verdict.UNSURE)._replace(governs="drive")
     search = came_upon()
     straight, steady = list(advice._candidates(asked, Findings(model=""), concluded_, search))
     assert (straight.change, straight.question) == (text.STRAIGHT, asked.changed(yaw=0.0))
@@ -536,13 +536,13 @@ def test_flat_flippers_are_tried_unless_they_are_flat_or_there_are_none():
 
 
 def test_of_what_is_measured_a_verdict_or_a_margin_that_holds_must_come():
-    go, caution = (concluded(each, 0.1) for each in (Verdict.GO, Verdict.CAUTION))
+    go, caution = (concluded(each, 0.1) for each in (Verdict.GO, Verdict.UNSURE))
     assert _settles(go, caution)
     assert not _settles(caution, caution)
     for now, then, settles in ((-0.1, 0.1, True), (0.0, 0.1, True), (0.0, 0.0, False),
                                (-0.1, 0.0, False), (-0.2, -0.1, False), (0.1, 0.2, False),
                                (0.5, 0.6, False)):  # fmt: skip
-        pair = concluded(Verdict.CAUTION, then), concluded(Verdict.CAUTION, now)
+        pair = concluded(Verdict.UNSURE, then), concluded(Verdict.UNSURE, now)
         assert _settles(*pair) is settles
 
 
@@ -597,12 +597,12 @@ def test_the_largest_radius_of_the_nosings_by_hand(low, high, up_to, told):
         robot=KENAF.robot.model_copy(update={"track": gripping}),
         terrain=Stairs(rise=0.1, going=0.15, nosing_radius_low=low, nosing_radius_high=high),
     )
-    slips = concluded(Verdict.CAUTION)._replace(governs="slides_down")
+    slips = concluded(Verdict.UNSURE)._replace(governs="slides_down")
 
     def judged(question):
         smallest, largest = question.terrain.nosing_radii
         assert smallest <= largest
-        return concluded(Verdict.GO if 1e3 * largest < up_to + 0.5 else Verdict.CAUTION)
+        return concluded(Verdict.GO if 1e3 * largest < up_to + 0.5 else Verdict.UNSURE)
 
     each = list(nosings(asked, slips, judged))
     radii = [round(1e3 * one.question.terrain.nosing_radius_high) for one in each]
@@ -628,7 +628,7 @@ def test_nosings_as_round_as_they_may_be_have_failed_already(high, told):
         robot=KENAF.robot.model_copy(update={"track": gripping}),
         terrain=Stairs(rise=0.1, going=0.15, nosing_radius_low=0.0035, nosing_radius_high=high),
     )
-    slips = concluded(Verdict.CAUTION)._replace(governs="slides_down")
+    slips = concluded(Verdict.UNSURE)._replace(governs="slides_down")
     each = list(nosings(asked, slips, lambda question: concluded(Verdict.GO)))
     radii = [1e3 * one.question.terrain.nosing_radius_high for one in each]
     assert radii == [pytest.approx(told)] * (told is not None)
@@ -656,7 +656,7 @@ def test_an_allowance_by_default_is_measured():
 def test_a_robot_is_weighed_at_its_best_place(monkeypatch):
     """By the verdict, then the margin; what is not known counts as none."""
     conclusions = {
-        0.1: concluded(Verdict.CAUTION, 0.9), 0.2: concluded(Verdict.GO, 0.1),
+        0.1: concluded(Verdict.UNSURE, 0.9), 0.2: concluded(Verdict.GO, 0.1),
         0.3: concluded(Verdict.GO, 0.3), 0.4: concluded(Verdict.GO, math.nan),
         0.5: concluded(Verdict.GO, 0.8),
     }  # fmt: skip
@@ -695,7 +695,7 @@ def helps(monkeypatch):
     """Changes that help, of candidates by name: what they come to, and off their angles."""
 
     def of(candidates, now=None, *, off=None, trials=1, com_range=None, tolerance=0.0):
-        now = now or concluded(Verdict.CAUTION, 0.1)
+        now = now or concluded(Verdict.UNSURE, 0.1)
         known, loose = [], []
 
         def judge(question, *, known):
@@ -737,7 +737,7 @@ def helps(monkeypatch):
 def test_changes_that_help_the_best_first(helps):
     go, better, same = (
         concluded(*each)
-        for each in ((Verdict.GO, 0.2), (Verdict.CAUTION, 0.3), (Verdict.CAUTION, 0.1))
+        for each in ((Verdict.GO, 0.2), (Verdict.UNSURE, 0.3), (Verdict.UNSURE, 0.1))
     )
     each = {
         "refused": None,
@@ -764,7 +764,7 @@ def test_of_frictions_that_make_it_a_go_the_least_is_advised(monkeypatch):
     """Whatever its margin; one that helps and makes it none leaves a greater one to be told."""
     go, better, same = (
         concluded(*each)
-        for each in ((Verdict.GO, 0.2), (Verdict.CAUTION, 0.3), (Verdict.CAUTION, 0.1))
+        for each in ((Verdict.GO, 0.2), (Verdict.UNSURE, 0.3), (Verdict.UNSURE, 0.1))
     )
 
     def helps(*each, another=False):
@@ -809,7 +809,7 @@ def test_sharper_nosings_are_judged_of_the_plan_at_hand(monkeypatch):
         advice, "nosings",
         lambda question, now, judged: [Candidate("sharper", question, then=judged(question))],
     )  # fmt: skip
-    (change,) = advice.what_would_help(KENAF, "found", concluded(Verdict.CAUTION))
+    (change,) = advice.what_would_help(KENAF, "found", concluded(Verdict.UNSURE))
     assert (change.change, change.verdict) == ("sharper", "go")  # and not "with another plan"
     assert anew_ones == [False]
 
@@ -817,7 +817,7 @@ def test_sharper_nosings_are_judged_of_the_plan_at_hand(monkeypatch):
 def test_a_plan_off_its_angles_and_another_one(monkeypatch):
     then = concluded(Verdict.GO, 0.2)
     best = concluded(Verdict.GO, 0.1)
-    caution = then._replace(verdict=Verdict.CAUTION)
+    caution = then._replace(verdict=Verdict.UNSURE)
 
     def of(ends=2, *, now=then, holds=False, sturdy=True, own=best, com_range=None, anew=False):
         asked = []
@@ -845,11 +845,11 @@ def test_a_plan_off_its_angles_and_another_one(monkeypatch):
 
     assert of(None, holds=True) == of(holds=True) == ((then, False), [])
     assert of(None) == of(com_range="range") == ((caution, False), [])
-    assert of() == ((best, True), [(Verdict.CAUTION, ("flippers", "facing"), "drives")])
-    assert of(1) == ((best, True), [(Verdict.CAUTION, ("flippers",), "drives")])
+    assert of() == ((best, True), [(Verdict.UNSURE, ("flippers", "facing"), "drives")])
+    assert of(1) == ((best, True), [(Verdict.UNSURE, ("flippers",), "drives")])
     assert of(own=None)[0] == (caution, False)  # no plan has a better verdict
     assert of(sturdy=False)[0] == (caution, False)
-    assert of(own=concluded(Verdict.CAUTION, 0.1))[0] == (caution, False)
+    assert of(own=concluded(Verdict.UNSURE, 0.1))[0] == (caution, False)
     # no GO at its angles: only where another plan may be the best
     assert of(now=caution) == ((caution, False), [])
     assert of(now=caution, anew=True)[0] == (best, True)

@@ -21,7 +21,6 @@ from kaidan.modes import (
     TIP_DOWNHILL,
     TIP_UPHILL,
     Phase,
-    Verdict,
 )
 from kaidan.terrain.stairs import Stairs
 from kaidan.traversal import Fall, FirstRock
@@ -82,7 +81,7 @@ def test_tips_are_the_first_rock_of_whichever_phase_less_the_allowances():
     phases = (SimpleNamespace(phase=Phase.ENTER), ON, LANDS)  # entering it never rocks
     down, up = _tips(ASKED, ASKED, found(first_rock=first_rock, phases=phases), over, None)
     assert (down.mode, down.phase, down.step) == (TIP_DOWNHILL, Phase.TRAVERSE, 2)
-    assert (down.failing, up.failing, up.mode) == (Verdict.CAUTION, Verdict.CAUTION, TIP_UPHILL)
+    assert (down.instead, up.instead, up.mode) == (None, None, TIP_UPHILL)
     assert down.worst == pytest.approx(np.array([0.2, 0.16, 0.1]) - 0.07)
     assert down.best == pytest.approx(np.array([0.2, 0.16, 0.1]) - 0.04)
     assert up.worst == pytest.approx(np.array([0.3, 0.3, 0.29]) - 0.02)
@@ -174,9 +173,7 @@ def test_how_hard_rotations_end_and_what_momentum_is_left():
     ]
     hit, momentum = _hits(ASKED, found(), chains)
     assert (hit.mode, hit.worst, hit.step) == (IMPACT, pytest.approx(-0.2), 2)
-    assert (momentum.mode, momentum.failing, momentum.phase) == (
-        MOMENTUM, Verdict.CAUTION, Phase.ENTER,
-    )  # fmt: skip
+    assert (momentum.mode, momentum.instead, momentum.phase) == (MOMENTUM, None, Phase.ENTER)
     # downhill theta_d and theta_M, uphill theta_d; stop and sag take 0.015
     assert momentum.worst.tolist() == pytest.approx([0.0300005 - 0.07 - 0.002 - 0.015])
     assert momentum.best.tolist() == pytest.approx([0.05 - 0.04 - 0.001])
@@ -195,7 +192,7 @@ def test_how_hard_rotations_end_and_what_momentum_is_left():
 def test_without_any_rotation(status, margin):
     (hit,) = _hits(ASKED, found(status=status), [])
     assert hit.worst.tolist() == pytest.approx([margin], nan_ok=True)
-    assert (hit.failing, hit.phase, hit.step) == (Verdict.CAUTION, None, None)
+    assert (hit.instead, hit.phase, hit.step) == (None, None, None)
 
 
 def test_rocking_is_what_was_seen_or_is_foretold():
@@ -245,7 +242,7 @@ def test_the_least_energy_of_the_phases_by_hand():
     def energy(*, held=None, of=phases, **more):
         figures = {key: more.pop(key) for key in ("status", "descending") if key in more}
         each = _energy(ASKED, found(**figures), over, of, held, **more)
-        assert (each.mode, each.failing) == (ENERGY, Verdict.CAUTION)
+        assert (each.mode, each.instead) == (ENERGY, None)
         margins = [(0.01 + side).tolist() for side in (each.worst, each.best)]
         return each.phase, each.step, *margins
 
@@ -298,7 +295,7 @@ def test_which_findings_there_are(monkeypatch):
     # at a yaw the support polygon judges the flight, and energy beside it
     rise = [0.2]
     polygon = SimpleNamespace(
-        tips=lambda question, flight, *, failing: (given(TIP_UPHILL, [0.5], failing=failing),),
+        tips=lambda question, flight: (given(TIP_UPHILL, [0.5]),),
         energy_of=lambda question, flight, psi: np.array(rise) * psi,
         energy_finding=lambda question, rise: given(ENERGY, [rise], phase=Phase.TRAVERSE),
     )

@@ -18,7 +18,7 @@ from kaidan.models.traction import (
     figures_of,
     too_fast_on_grousers,
 )
-from kaidan.modes import GROUSER_SPEED, Phase, Verdict
+from kaidan.modes import GROUSER_SPEED, OPEN, Phase
 from kaidan.robot import Track
 from kaidan.terrain.stairs import NOSING_RADII
 
@@ -106,7 +106,7 @@ def test_grousers_as_fast_as_they_spun(speed, grousers, spare):
     found = too_fast_on_grousers(asked(speed=speed, belt="grousers" if grousers else "smooth"))
     assert len(found) == (spare is not None)
     for one in found:
-        assert (one.mode, one.failing) == (GROUSER_SPEED, Verdict.CAUTION)
+        assert (one.mode, one.if_fails) == (GROUSER_SPEED, OPEN)
         assert one.worst == pytest.approx([spare])
 
 

@@ -20,6 +20,7 @@ from kaidan import Payload, Posture, Robot, Stairs, Surface, assess
 from kaidan.cli import app
 from kaidan.cli import run as command_line
 from kaidan.cli import run as ended_with
+from kaidan.modes import Verdict
 
 KENAF_40 = ["kenaf", "--angle", "40deg", "--nosing-spacing", "150mm"]
 GRIP = ["--friction", "2"]
@@ -42,7 +43,7 @@ def by_default(*words):
 def run_json(*words):
     code, text = run(*words, "--json")
     document = json.loads(text)
-    assert code == {"go": 0, "caution": 0, "no-go": 1, "outside-model": 3}[document["verdict"]]
+    assert code == Verdict(document["verdict"]).exit_code
     return document
 
 
@@ -66,19 +67,24 @@ def flight(angle, p, **more):
 
 
 @pytest.mark.parametrize(
-    ("angle", "word", "code", "strict"),
-    [("40deg", "GO", 0, 0), ("56deg", "CAUTION", 0, 1), ("62deg", "NO-GO", 1, 1)],
+    ("angle", "reserve", "word", "code"),
+    [
+        ("40deg", "8deg", "GO", 0),
+        ("56deg", "2deg", "ROUGH", 4),
+        ("56deg", "8deg", "UNSURE", 5),
+        ("62deg", "8deg", "NO-GO", 1),
+    ],
 )
-def test_exit_codes(angle, word, code, strict):
+def test_exit_codes(angle, reserve, word, code):
     words = ["kenaf", "--angle", angle, "--nosing-spacing", "150mm", *GRIP]
+    words += ["--fall-reserve", reserve]
     for extra in ([], ["--json"]):
         assert run(*words, *extra)[0] == code
-        assert run(*words, *extra, "--strict")[0] == strict
     assert run(*words)[1].split()[0] == word
 
 
 def test_outside_the_model_is_three():
-    for extra in ([], ["--strict"], ["--json"]):
+    for extra in ([], ["--json"]):
         assert run("kenaf", "ibc", *extra)[0] == 3
     assert run("kenaf", "ibc")[1].startswith("OUTSIDE THE MODEL  kenaf on ibc, up nose first\n")
 
@@ -574,5 +580,5 @@ def test_points_that_are_no_stairs_and_points_that_are_not_built_across(tmp_path
     blocks = [(-3, 0), (0, 0), (0, 0.05), (0.2, 0.05), (0.2, 0.01), (0.4, 0.01), (0.4, 0.06)]
     blocks += [(0.6, 0.06), (0.6, 0), (3, 0)]
     assert asked(floor) == (3, "OUTSIDE THE MODEL")
-    assert asked(blocks) == (0, "CAUTION")
+    assert asked(blocks) == (0, "UNSURE")
     assert asked(blocks, "--uniform-across") == (0, "GO")

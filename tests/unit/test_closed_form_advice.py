@@ -73,7 +73,7 @@ def test_moving_the_centroid_as_told_helps(facing, load):
 
 def test_no_advice_for_a_go_and_only_better_advice_else():
     assert kenaf(40, 0.150).what_would_help == ()
-    rank = ("go", "caution", "no-go", "outside-model")
+    rank = ("go", "unsure", "no-go", "outside-model")
     for angle in (35, 48, 56, 58, 62, 70, 80):
         for friction in (0.4, GRIP, None):
             answer = kenaf(angle, 0.200, friction=friction, direction="down")

@@ -12,10 +12,10 @@ from kaidan import Surface
 
 
 @pytest.mark.parametrize(
-    ("angle", "verdict"), [(55.00, "go"), (55.01, "caution"), (60.20, "caution"), (60.21, "no-go")]
+    ("angle", "verdict"), [(55.00, "go"), (55.01, "unsure"), (60.20, "unsure"), (60.21, "no-go")]
 )
 def test_verdict_with_unmeasured_allowances(angle, verdict):
-    # hand: 60.2054 - 2 x 2.6 = 55.0054; GO with both subtracted, CAUTION if they may be zero
+    # hand: 60.2054 - 2 x 2.6 = 55.0054; GO with both subtracted, UNSURE if they may be zero
     assert kenaf(angle, 0.150).verdict == verdict
 
 
@@ -30,7 +30,7 @@ def test_verdict_where_only_the_friction_is_in_doubt():
         return {"surface": Surface(friction_low=low, friction_high=high), "friction": None}
 
     wide = kenaf(35, 0.150, **ground(0.6, 1.0))
-    assert (wide.verdict, wide.governs) == ("caution", "slides_down")
+    assert (wide.verdict, wide.governs) == ("unsure", "slides_down")
     assert wide.margin_deg == pytest.approx(degrees(atan(0.6)) - 35, **ANGLE)
     assert wide.margin_best_deg == pytest.approx(45 - 35, **ANGLE)
     assert wide.friction == (0.6, 1.0)
@@ -40,7 +40,7 @@ def test_verdict_where_only_the_friction_is_in_doubt():
 
 def test_unknown_friction_is_at_best_caution():
     answer = kenaf(30, 0.150, friction=None)
-    assert (answer.verdict, answer.governs) == ("caution", "friction_unknown")
+    assert (answer.verdict, answer.governs) == ("unsure", "friction_unknown")
     # hand: the margin is the tip's: 60.205 - 5.2 - 30
     assert answer.margin_deg == pytest.approx(degrees(atan(124 / 71)) - 35.2, **ANGLE)
     assert answer.friction is answer.question.surface is None
@@ -49,7 +49,7 @@ def test_unknown_friction_is_at_best_caution():
     assert found.a_slides_down is found.a_slides_up is found.paper.a_S is None
     assert found.a_max == found.a_tip_downhill
     assert found.a_min == found.a_tip_uphill
-    assert kenaf(58, 0.150, friction=None).verdict == "caution"  # tips only in the worst case
+    assert kenaf(58, 0.150, friction=None).verdict == "unsure"  # tips only in the worst case
     assert kenaf(61, 0.150, friction=None).verdict == "no-go"
     # tan 30 deg, and a little more
     assert answer.required_friction == pytest.approx(tan(radians(30)), rel=1e-12)

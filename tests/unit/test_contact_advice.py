@@ -104,12 +104,12 @@ def test_the_nosings_up_to_which_grousers_hold():
     robot, _ = changed(Robot.named("ozbot-atr"), "Belts with grousers of 10 mm every 40 mm", {})
     stairs = Stairs.named("uk-general")
     answer = assess(robot, stairs, surface="concrete-dry")
-    assert answer.verdict == "caution"
+    assert answer.verdict == "unsure"
     (told,) = (each for each in answer.what_would_help if "nosings" in each.change)
     radius = int(
         re.fullmatch(r"Make sure that the nosings' radius is (\d+) mm or less", told.change)[1]
     )
-    for more, verdict in ((0, "go"), (1, "caution")):
+    for more, verdict in ((0, "go"), (1, "unsure")):
         known = stairs.model_copy(update={"nosing_radius_high": 1e-3 * (radius + more)})
         then = assess(robot, known, surface="concrete-dry")
         assert then.verdict == verdict
@@ -167,7 +167,7 @@ def test_the_friction_that_a_found_plan_needs_off_its_angles_too(no_other_plan):
     needed = float(re.search(r"(\d\.\d\d) or more", first.change)[1])
     assert (first.verdict, needed > answer.required_friction + 0.02) == ("go", True)
     plan = {"flippers": answer.question.flippers, "facing": answer.question.facing}
-    for friction, verdict in ((needed, "go"), (answer.required_friction + 0.02, "caution")):
+    for friction, verdict in ((needed, "go"), (answer.required_friction + 0.02, "unsure")):
         then = kaidan.assess("absolem", short, **plan, flipper_tolerance="2deg", friction=friction)
         assert then.verdict == verdict
 
@@ -199,7 +199,7 @@ def test_a_go_has_no_advice():
 
 
 def test_the_best_comes_first():
-    rank = ["go", "caution", "no-go", "outside-model"]
+    rank = ["go", "unsure", "no-go", "outside-model"]
     for robot, stairs, question in QUESTIONS.values():
         changes = assess(robot, stairs, **question).what_would_help
         keys = [(rank.index(each.verdict), -(each.margin_deg or 0.0)) for each in changes]
@@ -210,7 +210,7 @@ def test_a_payload_stays_where_it_is():
     load = Payload(mass=5.0, from_front=0.9, height=0.4)
     answer = assess(ABSOLEM, at(44, p=0.28), friction=2.5, flippers="flat", payload=load)
     for change in answer.what_would_help:
-        assert change.verdict in ("go", "caution", "no-go")
+        assert change.verdict in ("go", "unsure", "no-go")
 
 
 # The default
@@ -238,7 +238,7 @@ def test_where_tipping_governs_the_centroid_may_be_moved():
     """61.5 deg lies between the paper's 60.2 and grade two's 62.5: the closed form says how far."""
     stairs = Stairs.inclined(angle=math.radians(61.5), nosing_spacing=0.150)
     answer = kaidan.assess("kenaf", stairs, friction=3.0, fall_reserve=0.0)
-    assert (answer.verdict, answer.governs) == ("caution", "tip_downhill")
+    assert (answer.verdict, answer.governs) == ("unsure", "tip_downhill")
     assert [(each.change, each.verdict) for each in answer.what_would_help] == [
         ("Move the centroid 43 mm towards the front", "go")
     ]
@@ -260,7 +260,7 @@ def test_where_a_landing_is_too_short_it_stows_its_flippers_there():
     """Absolem is 965 mm long in the posture in which it lands, 684 mm with its flippers stowed."""
     short = Stairs(rise=0.178, going=0.279, upper_landing=0.9)
     found = kaidan.assess("absolem", short, friction=1.1)
-    assert (found.verdict, found.governs) == ("caution", "landing_room")
+    assert (found.verdict, found.governs) == ("unsure", "landing_room")
     (told,) = found.what_would_help
     assert told.verdict == "go"
     assert told.change == "Stow the flippers on the landings, 100 mm clear of the nosings"
@@ -273,14 +273,14 @@ def test_where_a_landing_is_too_short_it_stows_its_flippers_there():
 def test_a_plan_at_just_its_angles_is_helped_by_friction_or_by_closer_angles(no_other_plan):
     """Absolem on the steepest flight of DIN 18065 at 0.8: off the flat its flippers slide."""
     answer = kaidan.assess("absolem", "din-general", friction=0.8)
-    assert (answer.verdict, answer.governs) == ("caution", "posture_tolerance")
+    assert (answer.verdict, answer.governs) == ("unsure", "posture_tolerance")
     friction, closer = answer.what_would_help
     assert friction.change.startswith("A surface with a friction of ")
     assert closer.change == "Keep the flippers within 1 deg of their angles, with another plan"
     assert (friction.verdict, closer.verdict) == ("go", "go")
     enough = float(friction.change.split()[-3])
     asked = {"flippers": answer.question.flippers, "flipper_tolerance": "2deg"}
-    for more, verdict in ((0.0, "go"), (-0.03, "caution")):
+    for more, verdict in ((0.0, "go"), (-0.03, "unsure")):
         again = kaidan.assess("absolem", "din-general", friction=enough + more, **asked)
         assert again.verdict == verdict
     asked = {"friction": 0.8, "flipper_tolerance": "1deg"}
@@ -313,7 +313,7 @@ def test_friction_is_enough_for_the_energy_of_a_slip_onto_grousers(manner):
     asked = {"override": "track.belt=grousers"}
     (told,) = kaidan.assess("ozbot-atr", "ibc", **manner, **asked).what_would_help
     enough = float(re.search(r"(\d\.\d\d) or more", told.change)[1])
-    for friction, verdict in ((enough, "go"), (enough - 0.01, "caution")):
+    for friction, verdict in ((enough, "go"), (enough - 0.01, "unsure")):
         then = kaidan.assess("ozbot-atr", "ibc", friction=friction, **asked)
         assert then.verdict == verdict
 
@@ -331,7 +331,7 @@ def test_on_grousers_the_plan_without_a_stated_friction_is_one_that_some_frictio
     """MARV going down: by what holds without any friction it would rest on its belly."""
     asked = {"direction": "down", "override": "track.belt=grousers"}
     answer = kaidan.assess("marv", "uk-general", **asked)
-    assert (answer.verdict, answer.governs) == ("caution", "friction_unknown")
+    assert (answer.verdict, answer.governs) == ("unsure", "friction_unknown")
     first = answer.what_would_help[0]
     assert first.verdict == "go"
     enough = float(first.change.split()[-3])

@@ -107,7 +107,7 @@ CASES = {
     ),
     "slides_down by the range of friction": (
         (KENAF, at(50), SURE | {"friction": (1.1, 1.3)}),
-        ("caution", "slides_down", "traverse"),
+        ("unsure", "slides_down", "traverse"),
         degrees(atan(1.1)) - 50,
         "Friction decides (traverse, step 3): 1.19 is required, 1.10 to 1.30 is stated.",
     ),
@@ -166,28 +166,28 @@ CASES = {
     ),
     "tip_downhill, arrested by the next nosing": (
         (KENAF, at(61.5), SURE | {"speed": 0.001, "fall_reserve": radians(0.5)}),
-        ("caution", "tip_downhill", "traverse"),
+        ("unsure", "tip_downhill", "traverse"),
         sup(150) - 61.5,
         "It rocks by 0.2 deg until the next contact arrests it (traverse, step 1), 1.1 deg from "
         "falling.",
     ),
     "tip_downhill, by the allowances": (
         (UNMEASURED, at(57), {"friction": 2.5}),
-        ("caution", "tip_downhill", "traverse"),
+        ("unsure", "tip_downhill", "traverse"),
         sup(150) - 57 - 5.2,
         "The margin against tipping over its downhill end is -2.0 to +3.2 deg, by the ranges of "
         "what is not measured (traverse, step 1).",
     ),
     "tip_uphill, the nose drops between nosings": (
         (KENAF, at(15, p=0.220), SURE),
-        ("caution", "tip_uphill", "traverse"),
+        ("unsure", "tip_uphill", "traverse"),
         15 - inf(220),
         "It rocks by 0.05 deg until the next contact arrests it (traverse, step 8), more than 30 "
         "deg from falling.",
     ),
     "tip_uphill, by the allowances": (
         (UNMEASURED, at(20, p=0.220), {"friction": 2.5}),
-        ("caution", "tip_uphill", "traverse"),
+        ("unsure", "tip_uphill", "traverse"),
         20 - inf(220) - 2.6,
         "The margin against tipping over its uphill end is -1.3 to +1.3 deg, by the ranges of what "
         "is not measured (traverse, step 8).",
@@ -195,7 +195,7 @@ CASES = {
     "tip_sideways at a yaw": (
         # tan(limit) sin(yaw) = gauge / (2 C_N) = 0.5
         (NARROW, at(45, steps=20), SURE | {"yaw": radians(31), "speed": 0.001}),
-        ("caution", "tip_sideways", "traverse"),
+        ("unsure", "tip_sideways", "traverse"),
         degrees(atan(0.5 / sin(radians(31)))) - 45,
         "It arrives, but by the criterion it tips over its side, 0.8 deg beyond the limit "
         "(traverse).",
@@ -203,7 +203,7 @@ CASES = {
     "rotation that a longer robot would be spared": (
         # a ditch of 400 mm under a flat of 470 mm: see test_rotations for the angle
         (KENAF, DITCH, SURE | {"friction": 3.0}),
-        ("caution", "rotation", "enter"),
+        ("unsure", "rotation", "enter"),
         None,
         "It rocks by 14.2 deg until the next contact arrests it (enter, step 0), more than 30 deg "
         "from falling.",
@@ -216,7 +216,7 @@ CASES = {
     ),
     "tip_downhill, fewer than two nosings under the track": (
         (robot(), at(15, p=0.3), SURE),
-        ("caution", "tip_downhill", "traverse"),
+        ("unsure", "tip_downhill", "traverse"),
         sup(300, C_L=250, C_N=100, L=500) - 15,
         "It rocks by 5.6 deg until the next contact arrests it (traverse, step 1), 18.4 deg from "
         "falling.",
@@ -224,32 +224,32 @@ CASES = {
     "momentum, off a kerb": (
         # docs: the centroid drops by 34.6 mm, 24.7 mm are left to climb
         (KENAF, kerb(0.2), SURE | {"direction": "down"}),
-        ("caution", "momentum", "enter"),
+        ("unsure", "momentum", "enter"),
         None,
         "Only the impact that ends its rotation takes enough momentum to hold it (enter, step 1).",
     ),
     "impact on the upper landing": (
         (robot(impact=1.0), at(40, p=0.12), SURE),
-        ("caution", "impact", "land"),
+        ("unsure", "impact", "land"),
         None,
         "It drops and hits at 1.1 m/s (land, step 8); 1.0 m/s are tolerated.",
     ),
     "energy on the flight": (
         (KENAF, at(44, p=0.200), SURE),
-        ("caution", "energy", "traverse"),
+        ("unsure", "energy", "traverse"),
         rise(470 - 200 - 196, 44) - ROCK,
         "The energy margin of 0.07 mm is below the 0.12 mm of a sudden stop or start: the robot "
         "may rock (traverse, step 1).",
     ),
     "high_centring on a kerb": (
         (robot(gap=0.2, belly_clearance=0.02), kerb(0.1), SURE),
-        ("caution", "high_centring", "land"),
+        ("unsure", "high_centring", "land"),
         None,
         "It rests on its belly in places (land), where the tracks may lose grip.",
     ),
     "landing_room": (
         (KENAF, at(50, upper_landing=0.3), SURE),
-        ("caution", "landing_room", None),
+        ("unsure", "landing_room", None),
         300 - (470 + 2 * 65),
         "A landing is 300 mm shorter than the robot.",
     ),
@@ -430,7 +430,7 @@ def test_a_centroid_far_ahead_enters_with_less_friction(C_L):
 # What a mode depends on
 
 
-@pytest.mark.parametrize(("tolerated", "verdict"), [(1.1, "caution"), (1.2, "go")])
+@pytest.mark.parametrize(("tolerated", "verdict"), [(1.1, "unsure"), (1.2, "go")])
 def test_the_tolerated_impact_is_the_robots(tolerated, verdict):
     answer = assess(robot(impact=tolerated), at(40, p=0.12), **SURE)
     assert answer.verdict == verdict
@@ -497,7 +497,7 @@ def test_off_a_kerb_the_momentum_decides(height):
     if left > drop:
         assert answer.verdict == "go"
     else:
-        assert (answer.verdict, answer.governs) == ("caution", "momentum")
+        assert (answer.verdict, answer.governs) == ("unsure", "momentum")
 
 
 @pytest.mark.parametrize(("p", "angle"), [(0.150, 50), (0.180, 45), (0.200, 44), (0.220, 30)])
@@ -521,7 +521,7 @@ def test_energy_is_judged_at_the_speed(speed):
     assert answer.contact.energy_threshold_mm == pytest.approx(height, rel=1e-12)
     assert answer.contact.speed_stated
     assert answer.findings["energy"].margin == pytest.approx(rise(74, 44) - height, abs=1e-6)
-    assert answer.verdict == ("go" if speed < 0.0779 else "caution")
+    assert answer.verdict == ("go" if speed < 0.0779 else "unsure")
 
 
 @pytest.mark.parametrize("yaw", [5, 10, 20, 29])
@@ -557,7 +557,7 @@ def test_a_door_that_opens_onto_the_landing_takes_its_leaf(end, other, direction
     sizes = {f"{end}_landing": 1.4, f"{end}_leaf": 0.9, f"{other}_landing": 2.5}
     answer = assess(KENAF, at(20, p=0.2, **sizes), **SURE, direction=direction)
     assert answer.findings["landing_room"].margin == pytest.approx(-100, abs=1e-6)
-    assert answer.verdict == "caution"
+    assert answer.verdict == "unsure"
     assert "landing_room" in answer.doubts
     if direction == "up":  # down it rocks too
         said = "A landing, less the leaf of its door, is 100 mm shorter than the robot."
@@ -602,5 +602,5 @@ def test_a_robot_with_a_gap_on_stairs():
     # deg: an arc stays in touch with a nosing that it leaves for some micrometres
     assert degrees(flight[0].tilt_downhill[0]) == pytest.approx(expected, abs=0.01)
     answer = assess(question)
-    assert (answer.verdict, answer.doubts) == ("caution", ("gap_jam",))
+    assert (answer.verdict, answer.doubts) == ("unsure", ("gap_jam",))
     assert answer.contact.grades.no_rotation

@@ -61,7 +61,7 @@ def test_allowances_come_off():
 
 def test_unknown_friction_is_never_a_go():
     answer = assess(KENAF, at(50), theta_d=0.0, theta_M=0.0)
-    assert (answer.verdict, answer.governs) == ("caution", "friction_unknown")
+    assert (answer.verdict, answer.governs) == ("unsure", "friction_unknown")
 
 
 def test_lack_of_friction_is_a_no_go():
@@ -72,19 +72,16 @@ def test_lack_of_friction_is_a_no_go():
     assert answer.margin_deg == pytest.approx(by_hand, abs=1e-4)
 
 
-def test_past_the_papers_limit_an_arrested_rotation_is_at_best_a_caution():
+def test_past_the_papers_limit_an_arrested_rotation_is_at_best_rough():
     """docs/theory/contact.md: between 60.2 deg and 62.48 deg, grade two, it is arrested."""
     few = assess(KENAF, at(61.5), **sure())
     assert (few.verdict, few.governs) == ("no-go", "fall_downhill")
     answer = assess(KENAF, at(61.5), **sure(fall_reserve=math.radians(0.5)))
-    assert (answer.verdict, answer.governs) == ("caution", "tip_downhill")
+    assert (answer.verdict, answer.governs) == ("rough", "tip_downhill")
     assert answer.margin_deg == pytest.approx(60.205 - 61.5, abs=AS_PRINTED)
     assert answer.contact.grades.no_rotation is False
     assert answer.contact.grades.arrested
     assert "deg from falling" in answer.reason
-    accepted = assess(KENAF, at(61.5), **sure(accept="arrested", fall_reserve="0.5deg"))
-    assert accepted.verdict in ("go", "caution")
-    assert accepted.question.accept == "arrested"
 
 
 def test_a_fall_is_a_no_go():
@@ -103,24 +100,24 @@ def test_fewer_than_two_nosings_rock():
         track=Track(flat_length=0.5, front_radius=0.1, rear_radius=0.1),
     )
     answer = assess(flat, at(15, p=0.3), **sure())
-    assert answer.verdict == "caution"
+    assert answer.verdict == "unsure"
     assert answer.contact.grades.no_rotation is False
     assert any("p > L/2" in note for note in answer.notes)
 
 
-def test_little_energy_is_a_caution():
+def test_little_energy_is_unsure():
     """docs/theory/measures.md: at (200 mm, 44 deg) 0.07 mm of energy margin are left."""
     answer = assess(KENAF, at(44, p=0.200), **sure())
-    assert (answer.verdict, answer.governs) == ("caution", "energy")
+    assert (answer.verdict, answer.governs) == ("unsure", "energy")
     assert answer.contact.phases[1].energy_margin_mm == pytest.approx(0.07, abs=5e-3)
     slowly = assess(KENAF, at(44, p=0.200), **sure(speed=0.01))  # v^2/2g = 0.005 mm
     assert slowly.verdict == "go"
 
 
-def test_a_landing_shorter_than_the_robot_is_a_caution():
+def test_a_landing_shorter_than_the_robot_is_unsure():
     short = at(50).model_copy(update={"upper_landing": 0.3})
     answer = assess(KENAF, short, **sure())
-    assert answer.verdict == "caution"
+    assert answer.verdict == "unsure"
     # by hand: Kenaf is 470 + 2 x 65 mm long
     assert answer.findings["landing_room"].margin == pytest.approx(300 - 600, abs=1e-6)
     assert answer.reason == "A landing is 300 mm shorter than the robot."
@@ -279,7 +276,7 @@ def test_a_small_risk_takes_more_samples_at_a_yaw_too(risk):
     assert answer.margin_interval_deg[0] < answer.margin_interval_deg[1]
 
 
-def test_at_best_is_never_less_than_the_margin_where_an_arrest_is_accepted():
-    asked = {"friction": 3.0, "flippers": "flat", "accept": "arrested"}
+def test_at_best_is_never_less_than_the_margin():
+    asked = {"friction": 3.0, "flippers": "flat"}
     answer = assess("absolem", "ibc", **asked)
     assert answer.margin_best_deg == pytest.approx(answer.margin_deg, abs=1e-9)  # friction's

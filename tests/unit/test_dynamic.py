@@ -54,7 +54,7 @@ def outcomes(answer):
 @pytest.mark.parametrize("facing", ["nose-first", "tail-first"])
 def test_a_robot_that_arrives_is_caution_because_no_margin_is_known(direction, facing):
     answer = ask(friction=1.0, direction=direction, facing=facing)
-    assert (answer.verdict, answer.governs) == ("caution", "margin_unknown")
+    assert (answer.verdict, answer.governs) == ("unsure", "margin_unknown")
     assert answer.reason == "Nothing fails, but the trial in MuJoCo knows no margin."
     assert answer.findings == {}
     assert (answer.margin_deg, answer.margin_best_deg, answer.required_friction) == (None,) * 3
@@ -67,7 +67,7 @@ def test_a_robot_that_arrives_is_caution_because_no_margin_is_known(direction, f
 
 def test_without_a_friction_nothing_better_than_friction_unknown():
     answer = ask()
-    assert (answer.verdict, answer.governs) == ("caution", "friction_unknown")
+    assert (answer.verdict, answer.governs) == ("unsure", "friction_unknown")
     assert answer.reason == "Friction decides: none is stated."
     assert [trial.friction for trial in answer.physics.trials] == [3.0]
 
@@ -92,7 +92,7 @@ def test_too_little_friction_is_no_go_and_a_range_caution():
     assert (short.verdict, short.governs) == ("no-go", "slides_down")
     assert short.reason.startswith("With a friction of 0.2 it slides (")
     ranged = ask(friction=(0.2, 1.0))
-    assert (ranged.verdict, ranged.governs) == ("caution", "slides_down")
+    assert (ranged.verdict, ranged.governs) == ("unsure", "slides_down")
     assert outcomes(ranged) == ["slid", "climbed"]
     assert ranged.reason.endswith("; with 1 it arrives.")
 
@@ -189,7 +189,7 @@ def test_the_command():
              "physics", "--friction", "1"]  # fmt: skip
     done = CliRunner().invoke(app, words)
     assert done.exit_code == 0
-    assert done.stdout.startswith("CAUTION  kenaf on 100mm x 200mm, up nose first\n")
+    assert done.stdout.startswith("UNSURE  kenaf on 100mm x 200mm, up nose first\n")
     lines = CliRunner().invoke(app, [*words, "--details"]).stdout.splitlines()
     assert "  trial           friction 1.00: climbed" in lines
     assert "    A mass of 20 kg is assumed: the sheet states none." in lines

@@ -157,14 +157,14 @@ def test_a_manoeuvre_of_many_moves_is_no_go_yet(most):
         "turns on the spot, more than 9 (turning_moves of its sheet): try it, or turn elsewhere."
     )
     assert (said in (answer.reason, *answer.notes)) == (most is None)
-    assert (answer.verdict == "caution") == (most is None)
+    assert (answer.verdict == "unsure") == (most is None)
     assert japanese(said) is not None
 
 
 def test_a_turn_that_nobody_measured_is_no_go_yet():
     answer = kaidan.assess(BOX, flight(upper_turn="unknown"), **SURE)
     assert (answer.turns[0].way, answer.turns[0].turn_deg) == ("unknown", None)
-    assert (answer.verdict, answer.governs) == ("caution", "turning")
+    assert (answer.verdict, answer.governs) == ("unsure", "turning")
     with pytest.raises(InputError, match="upper_passage goes with upper_turn"):
         flight(upper_turn="unknown", upper_passage=1.0)
 
@@ -208,7 +208,7 @@ def test_with_a_plan_that_is_found_it_is_said_too(flippers):
 def test_without_room_to_be_off_it_is_no_go_yet():
     sizes = {"upper_landing": 1.32, "upper_landing_width": 3.0, "width": 1.5}
     answer = kaidan.assess(BOX, flight(**HALF | sizes), **SURE)
-    assert answer.verdict == "caution"
+    assert answer.verdict == "unsure"
     assert "turning" in answer.doubts
     said = "It can turn by 180 deg on the upper landing only where it is less than 30 mm off: "
     assert any(each.startswith(said) for each in (answer.reason, *answer.notes))

@@ -107,11 +107,11 @@ def trials_of(question, fails):
     ("trials", "failing", "verdict"),
     [
         # 95 % interval of none of 20: 0 to 17 %; of 1 of 20: 0.13 to 25 %; of 3: 3.2 to 38 %
-        (20, 0, Verdict.CAUTION),
-        (20, 1, Verdict.CAUTION),
+        (20, 0, Verdict.UNSURE),
+        (20, 1, Verdict.UNSURE),
         (20, 3, Verdict.NO_GO),
         # within the accepted 1 %: nothing is told to fail, but no margin is known either
-        (200, 2, Verdict.CAUTION),
+        (200, 2, Verdict.UNSURE),
     ],
 )
 def test_a_share_is_a_no_go_where_its_interval_lies_above_the_risk(trials, failing, verdict):
@@ -130,7 +130,7 @@ def test_a_share_is_a_no_go_where_its_interval_lies_above_the_risk(trials, faili
 
 def test_the_answer_says_how_sure_it_is():
     answer = kaidan.assess(robot(), GENTLE, friction=1.0, model="physics", trials=3)
-    assert answer.verdict == "caution"
+    assert answer.verdict == "unsure"
     assert answer.reason == (
         "None of 3 trials fails: 71 % or less would, with 95 % confidence; trials know no margin."
     )

@@ -23,7 +23,7 @@ from kaidan.terrain.profile import Profile
 from kaidan.traversal.rating import Rated
 from kaidan.traversal.rotations import ROCKING
 
-GO, CAUTION, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.CAUTION, Verdict.NO_GO))
+GO, UNSURE, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.UNSURE, Verdict.NO_GO))
 ONE = Robot.model_validate(Robot.named("absolem").model_dump() | {"rear_flippers": None})
 FLIGHT = Stairs(rise=0.17, going=0.29, steps=6)
 RATED = Rated(
@@ -382,45 +382,45 @@ def sturdiest(monkeypatch):
 def test_the_sturdiest_of_candidates(sturdiest):
     """The best off its angles, the first of those alike; what cannot be better is not judged."""
     assert sturdiest((GO, GO, True), (GO, GO, True))[0] == "0"
-    assert sturdiest((GO, CAUTION, True), (GO, GO, True))[0] == "1"
-    assert sturdiest((GO, CAUTION, True), (GO, GO, False), (GO, GO, True))[0] == "2"
-    low = judged(CAUTION).merit
+    assert sturdiest((GO, UNSURE, True), (GO, GO, True))[0] == "1"
+    assert sturdiest((GO, UNSURE, True), (GO, GO, False), (GO, GO, True))[0] == "2"
+    low = judged(UNSURE).merit
     assert sturdiest((GO, GO, False), beaten=low)[:2] == (None, [low])
     # what there is to beat, and of the best one what it promised, where it came to that
-    _, bars, promised = sturdiest((CAUTION, CAUTION, True), (GO, CAUTION, True), (GO, GO, True))
-    assert [bar[0] for bar in bars] == [CAUTION, CAUTION]
+    _, bars, promised = sturdiest((UNSURE, UNSURE, True), (GO, UNSURE, True), (GO, GO, True))
+    assert [bar[0] for bar in bars] == [UNSURE, UNSURE]
     assert promised[-1] == "0"
-    assert sturdiest((GO, CAUTION, True), (GO, GO, True))[2] == [None]
+    assert sturdiest((GO, UNSURE, True), (GO, GO, True))[2] == [None]
 
 
 def test_a_plan_that_is_go_at_its_angles_alone_is_made_sturdier(sturdiest):
-    assert sturdiest((GO, CAUTION, True), sturdier=(GO, GO))[0] == "sturdier"
-    assert sturdiest((GO, CAUTION, True), sturdier=(GO, NO_GO))[0] == "0"
-    assert sturdiest((GO, CAUTION, True))[0] == "0"
+    assert sturdiest((GO, UNSURE, True), sturdier=(GO, GO))[0] == "sturdier"
+    assert sturdiest((GO, UNSURE, True), sturdier=(GO, NO_GO))[0] == "0"
+    assert sturdiest((GO, UNSURE, True))[0] == "0"
     assert sturdiest((GO, GO, True), sturdier=(GO, GO))[0] == "0"  # it holds already
     # one that is no GO is worth it on grousers only
-    assert sturdiest((CAUTION, CAUTION, True), sturdier=(GO, GO))[0] == "0"
-    assert sturdiest((CAUTION, CAUTION, True), sturdier=(GO, GO), grousers=True)[0] == "sturdier"
+    assert sturdiest((UNSURE, UNSURE, True), sturdier=(GO, GO))[0] == "0"
+    assert sturdiest((UNSURE, UNSURE, True), sturdier=(GO, GO), grousers=True)[0] == "sturdier"
     assert sturdiest((NO_GO, NO_GO, True), sturdier=(GO, GO), grousers=True)[0] == "0"
     # of those that do not hold off them one that does is sought first; they are judged without it
     grips = {"grousers": True, "doubtful": ("0", "1")}
-    name, bars, _ = sturdiest((CAUTION, CAUTION, True), sturdier=(GO, GO), **grips)
+    name, bars, _ = sturdiest((UNSURE, UNSURE, True), sturdier=(GO, GO), **grips)
     assert (name, bars) == ("sturdier", [])
-    name, bars, _ = sturdiest((CAUTION, CAUTION, True), sturdier=(GO, NO_GO), **grips)
+    name, bars, _ = sturdiest((UNSURE, UNSURE, True), sturdier=(GO, NO_GO), **grips)
     assert (name, bars[0][0]) == ("0", NO_GO)
     assert sturdiest((NO_GO, NO_GO, True), sturdier=(GO, GO), **grips)[0] == "0"
-    assert sturdiest((CAUTION, CAUTION, True), **grips)[0] == "0"
-    each = (CAUTION, CAUTION, True), (GO, CAUTION, True), (GO, GO, True)
+    assert sturdiest((UNSURE, UNSURE, True), **grips)[0] == "0"
+    each = (UNSURE, UNSURE, True), (GO, UNSURE, True), (GO, GO, True)
     name, bars, _ = sturdiest(*each, sturdier=(GO, GO), **grips)
     assert (name, bars) == ("2", [])
-    name, bars, _ = sturdiest(*each[:2], sturdier=(CAUTION, CAUTION), **grips)
-    assert [bar[0] for bar in bars] == [CAUTION, CAUTION]
-    low = judged(CAUTION).merit
+    name, bars, _ = sturdiest(*each[:2], sturdier=(UNSURE, UNSURE), **grips)
+    assert [bar[0] for bar in bars] == [UNSURE, UNSURE]
+    low = judged(UNSURE).merit
     name, bars, _ = sturdiest((GO, NO_GO, False), sturdier=(GO, GO), beaten=low, **grips)
     assert (name, bars) == ("sturdier", [])
     # the best of all at its angles is what counts
     assert sturdiest(
-        (CAUTION, CAUTION, True), (GO, NO_GO, True), sturdier=(GO, GO)
+        (UNSURE, UNSURE, True), (GO, NO_GO, True), sturdier=(GO, GO)
     )[0] == "sturdier"  # fmt: skip
 
 

@@ -142,7 +142,7 @@ def test_where_no_friction_is_stated_the_plan_is_the_best_at_one():
     unstated = kaidan.assess("absolem", "ibc")
     assert unstated.governs == "friction_unknown"
     plan = {"facing": unstated.plan.facing, "flippers": unstated.plan.flippers}
-    for friction, verdict in ((1.0, "go"), (0.97, "caution")):
+    for friction, verdict in ((1.0, "go"), (0.97, "unsure")):
         stated = kaidan.assess(
             "absolem", "ibc", friction=friction, flipper_tolerance="2deg", **plan
         )
@@ -275,9 +275,7 @@ def test_compare_finds_a_plan_for_each_pair(absolem):
     assert "with the better end first" in str(found)
 
 
-@pytest.mark.parametrize(
-    ("friction", "verdict"), [("0.6..1.0", "no-go"), ("0.6..1.001", "caution")]
-)
+@pytest.mark.parametrize(("friction", "verdict"), [("0.6..1.0", "no-go"), ("0.6..1.001", "unsure")])
 def test_friction_that_is_just_required_is_not_enough_whatever_is_rounded(friction, verdict):
     """Of 45 degrees it is 1.00, on the few steps of the search and on all of them."""
     for robot, flippers in (("absolem-flat", "stowed"), ("absolem", "flat")):
@@ -327,10 +325,10 @@ def test_a_plan_of_a_better_verdict_or_none(monkeypatch):
     grippy = Question.of("absolem", STAIRS, friction=1.2)
     assert found_of(slippery).findings is not None
     assert better_than(Verdict.NO_GO, slippery).question == found_of(slippery).question
-    assert better_than(Verdict.CAUTION, grippy).question == found_of(grippy).question
+    assert better_than(Verdict.UNSURE, grippy).question == found_of(grippy).question
     judged = []
     monkeypatch.setattr(Drives, "judge", lambda self, question: judged.append(question))
-    assert better_than(Verdict.CAUTION, slippery) is None
+    assert better_than(Verdict.UNSURE, slippery) is None
     assert better_than(Verdict.GO, grippy) is None
     assert not judged  # their scores tell
 
@@ -377,7 +375,7 @@ def test_advice_about_a_plan_that_was_found_holds_off_its_angles(monkeypatch):
     robot = on_grousers(answer.question.robot, grouser_height=None)  # as its sheet would say it
     planned = answer.question.changed(robot=robot)
     assert kaidan.assess(planned, flipper_tolerance=0.0).verdict == "go"
-    assert kaidan.assess(planned).verdict == "caution"
+    assert kaidan.assess(planned).verdict == "unsure"
     assert not holds_off_its_angles(planned)
     own = kaidan.assess(robot, "ibc", surface="concrete-dry")
     assert (own.verdict, own.margin_deg) == (help_.verdict, help_.margin_deg)
@@ -391,7 +389,7 @@ def test_advice_of_what_holds_the_robot_seeks_another_plan(monkeypatch):
     help_, *_ = answer.what_would_help
     assert help_.change.endswith(", with another plan")
     robot = on_grousers(answer.question.robot, grouser_height=None)
-    assert kaidan.assess(answer.question.changed(robot=robot)).verdict == "caution"
+    assert kaidan.assess(answer.question.changed(robot=robot)).verdict == "unsure"
     own = kaidan.assess(robot, "ibc", surface="concrete-dry")
     assert (
         (own.verdict, own.margin_deg) == (help_.verdict, help_.margin_deg) == ("go", own.margin_deg)
@@ -418,7 +416,7 @@ def test_long_robots_climb_on_their_grousers(name, stairs, manner, monkeypatch):
     assert answer.verdict == "go"
     for each in off_angles(answer.question):
         assert kaidan.assess(each).verdict == "go"
-    assert kaidan.assess(sheet, stairs, surface="concrete-dry", **manner).verdict == "caution"
+    assert kaidan.assess(sheet, stairs, surface="concrete-dry", **manner).verdict == "unsure"
     slippery = answer.question.changed(surface=Surface.named("petg-on-plywood"))
     assert kaidan.assess(slippery).verdict == "no-go"
 

@@ -23,7 +23,7 @@ from kaidan.robot import Posture
 
 ABSOLEM = Robot.named("absolem")
 STAIRS = Stairs(rise=0.17, going=0.29, steps=6)
-GO, CAUTION, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.CAUTION, Verdict.NO_GO))
+GO, UNSURE, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.UNSURE, Verdict.NO_GO))
 ENTER, TRAVERSE, LAND = Phase
 
 
@@ -169,7 +169,7 @@ def off(verdict, value, *, sturdy=True):
 
 def test_the_other_end_is_tried_where_the_nose_is_no_sturdy_go(searched):
     go, loose = off(Verdict.GO, 5.0), off(Verdict.GO, 9.0, sturdy=False)
-    caution = off(Verdict.CAUTION, 3.0)
+    caution = off(Verdict.UNSURE, 3.0)
     for first, second, ends in (
         (go, None, 1), (loose, go, 2), (caution, go, 2), (go, caution, 1), (None, caution, 2),
         (None, None, 2),
@@ -186,9 +186,9 @@ def test_the_other_end_is_tried_where_the_nose_is_no_sturdy_go(searched):
 @pytest.mark.parametrize(
     ("verdict", "plan", "better"),
     [
-        (Verdict.CAUTION, Verdict.GO, True),
-        (Verdict.CAUTION, Verdict.CAUTION, False),
-        (Verdict.NO_GO, Verdict.CAUTION, True),
+        (Verdict.UNSURE, Verdict.GO, True),
+        (Verdict.UNSURE, Verdict.UNSURE, False),
+        (Verdict.NO_GO, Verdict.UNSURE, True),
         (Verdict.NO_GO, None, False),
         (None, Verdict.NO_GO, True),
     ],
@@ -196,8 +196,8 @@ def test_the_other_end_is_tried_where_the_nose_is_no_sturdy_go(searched):
 def test_a_verdict_is_exceeded_by_a_better_one_alone(searched, verdict, plan, better):
     """Of one verdict no margin is enough."""
     one = None if plan is None else off(plan, 80.0, sturdy=plan is Verdict.GO)
-    if plan is Verdict.CAUTION:
-        one.worst = (CAUTION, True, 0, 80.0)
+    if plan is Verdict.UNSURE:
+        one.worst = (UNSURE, True, 0, 80.0)
     found, ranked = searched((3, one), best_of=("flippers",), verdict=verdict)
     assert (found is not None) == better
     assert ranked == ([one] if better else [])
@@ -263,8 +263,8 @@ def standing(rank, margin=0.0):
 
 def test_where_no_plan_is_a_go_those_of_other_frictions_are_tried(at_frictions):
     """On grousers: of 1.0, then of 0.7 and 1.3; the best counts as it is at the friction stated."""
-    low, middle = standing(CAUTION, 1.0), standing(CAUTION, 2.0)
-    bar = CAUTION, True, 0, math.inf
+    low, middle = standing(UNSURE, 1.0), standing(UNSURE, 2.0)
+    bar = UNSURE, True, 0, math.inf
     sought = [(0.5, None), (1.0, bar), (0.7, bar), (1.3, bar)]
     go = standing(GO, 3.0)
     found, searched, tried = at_frictions({0.5: low, 1.0: go, 0.7: go}, {1.0: middle, 0.7: go})
@@ -289,14 +289,14 @@ def test_where_no_plan_is_a_go_those_of_other_frictions_are_tried(at_frictions):
     assert searched == sought[:3]  # what needs more than 1.0 is no help
     found, searched, _ = at_frictions({0.5: middle, 1.3: go}, {1.3: low})
     assert [each.posture.front for each in found.others] == [1.3]
-    # a CAUTION at another friction, where the own plan is a NO-GO, is no GO anywhere
+    # a UNSURE at another friction, where the own plan is a NO-GO, is no GO anywhere
     bad = standing(NO_GO)
     found, _, tried = at_frictions({0.5: bad, 1.0: middle}, {1.0: low})
     assert (found.question.posture.front, found.others, tried) == (1.0, (), [1.0])
 
 
 def test_of_another_friction_the_better_end_counts_and_any_plan_where_there_is_none(at_frictions):
-    low, middle = standing(CAUTION, 1.0), standing(CAUTION, 2.0)
+    low, middle = standing(UNSURE, 1.0), standing(UNSURE, 2.0)
     for nose, tail, facing in ((low, middle, "tail-first"), (middle, low, "nose-first")):
         at = {0.5: standing(NO_GO), (1.0, "nose-first"): nose, (1.0, "tail-first"): tail}
         found, _, tried = at_frictions(at, {1.0: low}, best_of=("flippers", "facing"))
@@ -309,14 +309,14 @@ def test_of_another_friction_the_better_end_counts_and_any_plan_where_there_is_n
 
 @pytest.mark.parametrize("friction", [1.0, 0.7, 1.3])
 def test_the_friction_stated_is_no_other_one(at_frictions, friction):
-    low = standing(CAUTION)
+    low = standing(UNSURE)
     _, searched, _ = at_frictions({friction: low}, {}, friction=friction)
     others = [mu for mu in (1.0, 0.7, 1.3) if mu != friction]
     assert [mu for mu, _ in searched] == [friction, *others]
 
 
 def test_other_frictions_are_tried_on_grousers_of_postures_to_choose_where_asked_for(at_frictions):
-    low = {0.5: standing(CAUTION)}
+    low = {0.5: standing(UNSURE)}
     flat = Robot.named("kenaf")
     teeth = flat.model_copy(update={"track": flat.track.model_copy(update={"belt": "grousers"})})
     for robot in (ABSOLEM, teeth):
@@ -324,16 +324,16 @@ def test_other_frictions_are_tried_on_grousers_of_postures_to_choose_where_asked
     assert len(at_frictions(low, {}, other_frictions=False)[1]) == 1
     assert len(at_frictions(low, {})[1]) == 4
     # of a verdict that is to be exceeded, at other frictions too
-    beaten = (CAUTION, True, 0, math.inf)
-    found, searched, _ = at_frictions({}, {}, verdict=Verdict.CAUTION)
+    beaten = (UNSURE, True, 0, math.inf)
+    found, searched, _ = at_frictions({}, {}, verdict=Verdict.UNSURE)
     assert found is None
     assert searched == [(mu, beaten) for mu in (0.5, 1.0, 0.7, 1.3)]
     assert len(at_frictions({}, {}, verdict=Verdict.GO)[1]) == 1
-    found, _, _ = at_frictions({0.7: standing(GO)}, {0.7: standing(GO)}, verdict=Verdict.CAUTION)
+    found, _, _ = at_frictions({0.7: standing(GO)}, {0.7: standing(GO)}, verdict=Verdict.UNSURE)
     assert found.question.posture.front == 0.7
 
 
-@pytest.mark.parametrize("verdict", [None, Verdict.CAUTION])
+@pytest.mark.parametrize("verdict", [None, Verdict.UNSURE])
 @pytest.mark.parametrize("surface", ["unknown", "known"])
 def test_without_a_friction_the_best_at_one_is_taken(monkeypatch, verdict, surface):
     stated = SimpleNamespace(
@@ -369,8 +369,8 @@ def test_at_an_unknown_friction_it_holds_as_it_does_at_one_or_without(monkeypatc
     assert told.question.surface is told.short.surface is None
 
 
-@pytest.mark.parametrize("than", [Verdict.GO, Verdict.CAUTION, Verdict.NO_GO])
-@pytest.mark.parametrize("comes_to", [Verdict.CAUTION, Verdict.NO_GO])
+@pytest.mark.parametrize("than", [Verdict.GO, Verdict.UNSURE, Verdict.NO_GO])
+@pytest.mark.parametrize("comes_to", [Verdict.UNSURE, Verdict.NO_GO])
 def test_without_a_friction_no_plan_is_a_go(monkeypatch, than, comes_to):
     """So it is better than a NO-GO alone, by what it comes to where none is stated."""
     question, sought = Question.of(ABSOLEM, STAIRS), []
@@ -381,7 +381,7 @@ def test_without_a_friction_no_plan_is_a_go(monkeypatch, than, comes_to):
         module, "conclude", lambda asked, findings: SimpleNamespace(verdict=comes_to)
     )
     told = module._at_unknown_friction(than, question, (-1.0, 1.0), "drives")
-    assert (told is not None) == (than is Verdict.NO_GO and comes_to is Verdict.CAUTION)
+    assert (told is not None) == (than is Verdict.NO_GO and comes_to is Verdict.UNSURE)
     assert bool(sought) == (than is Verdict.NO_GO)
 
 
@@ -393,7 +393,7 @@ def test_where_no_plan_may_hold_the_best_at_its_angles_is_steadied(monkeypatch):
         def question(self, asked):
             return self.verdict
 
-    plans = [OfVerdict(each) for each in (Verdict.CAUTION, Verdict.GO, Verdict.NO_GO)]
+    plans = [OfVerdict(each) for each in (Verdict.UNSURE, Verdict.GO, Verdict.NO_GO)]
     each = [finalists.Candidate(plan, (True, 0, 0.0), (True, 0, 0.0)) for plan in plans]
     search, steadied = SimpleNamespace(may_hold=lambda plan: False, question="asked"), []
     monkeypatch.setattr(finalists, "_candidates", lambda search: each)
@@ -410,7 +410,7 @@ def test_where_no_plan_may_hold_the_best_at_its_angles_is_steadied(monkeypatch):
     ("merit", "verdict", "stated", "whole"),
     [
         ((True, 0, 5.0), Verdict.GO, {}, True),
-        ((True, 0, 5.0), Verdict.CAUTION, {}, False),
+        ((True, 0, 5.0), Verdict.UNSURE, {}, False),
         ((True, -1, 5.0), Verdict.GO, {}, False),
         ((False, 0, 5.0), Verdict.GO, {}, False),
         ((True, 0, 5.0), Verdict.GO, None, False),
@@ -450,7 +450,7 @@ def test_of_two_plans_alike_the_second_is_not_judged(monkeypatch):
     # nothing is judged to say that: off its angles it promises as much
     assert may(candidate(9.0), best)
     rocks = finalists.Candidate("plan", (True, -1, 9.0), (True, -1, 0.0))
-    assert finalists._may_be_better(search, rocks, (CAUTION, True, -2, 0.0), None, None)
+    assert finalists._may_be_better(search, rocks, (UNSURE, True, -2, 0.0), None, None)
 
 
 def test_any_worse_verdict_tells_that_a_plan_does_not_hold(monkeypatch):
@@ -461,16 +461,16 @@ def test_any_worse_verdict_tells_that_a_plan_does_not_hold(monkeypatch):
         return SimpleNamespace(sturdy="sturdy")
 
     monkeypatch.setattr(
-        plan_off_angles, "judged_of", lambda question, found: judged(Verdict.CAUTION)
+        plan_off_angles, "judged_of", lambda question, found: judged(Verdict.UNSURE)
     )
     monkeypatch.setattr(plan_off_angles, "judged_off", judged_off)
     question = Question.in_one_posture(ABSOLEM, STAIRS, friction=1.0)
     plan = SimpleNamespace(robot=SimpleNamespace(middle=ABSOLEM), changed=lambda *, robot: question)
     with monkeypatch.context() as patch:
-        patch.setattr(Judged, "merit", property(lambda self: (CAUTION, True, 0, 5.0)))
+        patch.setattr(Judged, "merit", property(lambda self: (UNSURE, True, 0, 5.0)))
         assert holds_off_its_angles(plan, SimpleNamespace(judge=lambda short: None)) == "sturdy"
     (worse,) = beaten
-    assert (NO_GO, True, 0, 1e9) <= worse < (CAUTION, False, -9, -90.0)
+    assert (NO_GO, True, 0, 1e9) <= worse < (UNSURE, False, -9, -90.0)
 
 
 @pytest.mark.parametrize(
@@ -497,16 +497,16 @@ def test_as_many_plans_as_asked_are_the_best_off_their_angles():
 
 
 def test_what_is_no_failure_may_still_be_less_than_go(monkeypatch):
-    """It is passed over only where the worst is a CAUTION already."""
+    """It is passed over only where the worst is a UNSURE already."""
     asked = []
     drives = SimpleNamespace(
-        is_no_failure=lambda k: True, rank=lambda k: (asked.append(k), CAUTION)[1]
+        is_no_failure=lambda k: True, rank=lambda k: (asked.append(k), UNSURE)[1]
     )
     monkeypatch.setattr(plan_off_angles, "off_angles", lambda question: range(3))
     question = Question.in_one_posture(ABSOLEM, STAIRS, friction=1.0)
     plan = judged(question=question)
     found = judged_off(plan, None, drives)
-    assert (found.worst[0], asked) == (CAUTION, [0])
+    assert (found.worst[0], asked) == (UNSURE, [0])
 
 
 @pytest.mark.parametrize("model", ["contact", "physics"])

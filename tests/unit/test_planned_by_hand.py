@@ -15,8 +15,11 @@ from kaidan.models.quasi_static import profile_of
 from kaidan.models.traction import Standing
 from kaidan.modes import (
     ENERGY,
+    FAILS,
     FLIPPER_TORQUE,
+    OPEN,
     POSTURE_CHANGE,
+    ROUGHLY,
     SLIDES_DOWN,
     TIP_DOWNHILL,
     Phase,
@@ -27,7 +30,7 @@ from kaidan.surface import Surface
 from kaidan.traversal.moves import Move
 from kaidan.traversal.rotations import ROCKING
 
-CAUTION, NO_GO = Verdict.CAUTION, Verdict.NO_GO
+UNSURE, NO_GO = Verdict.UNSURE, Verdict.NO_GO
 QUESTION = Question.of(Robot.named("absolem"), "ibc", friction=0.9).changed(
     best_of=(), posture=Posture(front=0.1), changes=({"before": "land", "posture": {"front": 0.5}},)
 )
@@ -124,9 +127,19 @@ def test_a_tilt_on_the_way_of_a_change_counts_less_the_allowances():
         (tips,) = [each for each in found if each.mode is TIP_DOWNHILL] or [None]
         assert (tips is None) == (least is None)
         if tips is not None:
-            assert (tips.phase, tips.failing) == (before, CAUTION)
+            assert (tips.phase, tips.instead) == (before, None)
             assert tips.worst == pytest.approx([least])
             assert tips.best > tips.worst
+
+
+@pytest.mark.parametrize(("tilt", "row"), [(0.0, OPEN), (1.0, ROUGHLY)])
+def test_of_a_rock_on_the_way_nothing_tells_how_far_from_a_fall(tilt, row):
+    (tips,) = [
+        each
+        for each in _of_move(QUESTION, change(tilt=lambda side: tilt), None)
+        if each.mode is TIP_DOWNHILL
+    ]
+    assert tips.if_fails is row
 
 
 def test_a_tilt_on_the_way_less_the_least_of_the_allowances_is_the_best_case():
@@ -165,20 +178,22 @@ def test_of_a_mode_the_smallest_margin_of_all_parts_counts():
     """Sample by sample, at the place of the smallest; the earliest of those alike."""
     nan = math.nan
     some = [
-        finding(TIP_DOWNHILL, [nan, nan], failing=NO_GO, step=9),
-        finding(TIP_DOWNHILL, [0.2, 0.1], [0.3, 0.4], failing=CAUTION, step=1),
-        finding(TIP_DOWNHILL, [0.0500001, 0.3], [0.5, 0.2], failing=CAUTION, step=2),
-        finding(TIP_DOWNHILL, [0.05, nan], [0.6, nan], failing=CAUTION, step=3),
+        finding(TIP_DOWNHILL, [nan, nan], instead=FAILS, step=9),
+        finding(TIP_DOWNHILL, [0.2, 0.1], [0.3, 0.4], step=1),
+        finding(TIP_DOWNHILL, [0.0500001, 0.3], [0.5, 0.2], step=2),
+        finding(TIP_DOWNHILL, [0.05, nan], [0.6, nan], step=3),
     ]
     found = _smallest(some)
-    assert (found.step, found.failing) == (2, CAUTION)
+    assert (found.step, found.if_fails) == (2, ROUGHLY)
     assert found.worst.tolist() == [0.05, 0.1]
     assert found.best.tolist() == [0.3, 0.2]
-    severe = [*some, finding(TIP_DOWNHILL, [0.9, 0.9], failing=NO_GO)]
-    assert _smallest(severe).failing is NO_GO
+    severe = [*some, finding(TIP_DOWNHILL, [0.9, 0.9], instead=OPEN)]
+    assert _smallest(severe).if_fails is OPEN
+    severe += [finding(TIP_DOWNHILL, [0.9, 0.9], instead=FAILS)]
+    assert _smallest(severe).if_fails is FAILS
     assert _smallest(some[:1]) is some[0]
     unknown = _smallest([some[0], some[0]])
-    assert (unknown.step, unknown.failing) == (9, NO_GO)
+    assert (unknown.step, unknown.if_fails) == (9, FAILS)
     assert np.isnan(unknown.worst).all()
     one, other = finding(TIP_DOWNHILL, [0.2], step=1), finding(TIP_DOWNHILL, [0.1], step=2)
     assert _smallest([one, other]).step == 2
@@ -196,27 +211,27 @@ def test_findings_of_a_change():
     found = of_move()
     assert list(found) == [POSTURE_CHANGE, SLIDES_DOWN, ENERGY]
     assert {one.phase for one in found.values()} == {Phase.LAND}
-    assert (found[POSTURE_CHANGE].worst, found[POSTURE_CHANGE].failing) == (math.inf, CAUTION)
+    assert (found[POSTURE_CHANGE].worst, found[POSTURE_CHANGE].if_fails) == (math.inf, OPEN)
     slides = found[SLIDES_DOWN]
     assert (slides.worst.tolist(), slides.best.tolist()) == ([0.1], [0.3])
-    assert (found[ENERGY].worst.tolist(), found[ENERGY].failing) == ([pytest.approx(0.04)], CAUTION)
+    assert (found[ENERGY].worst.tolist(), found[ENERGY].if_fails) == ([pytest.approx(0.04)], OPEN)
     assert of_move(spare_torque=-3.0)[FLIPPER_TORQUE].worst == -3.0
     assert list(of_move(None)) == [POSTURE_CHANGE]
 
 
 @pytest.mark.parametrize(
-    ("stands", "rocks", "margin", "failing"),
+    ("stands", "rocks", "margin", "if_fails"),
     [
-        (True, ROCKING, math.inf, CAUTION),
-        (True, math.nextafter(ROCKING, 1), -math.inf, CAUTION),
-        (False, 0.0, -math.inf, NO_GO),
-        (False, 1.0, -math.inf, NO_GO),
+        (True, ROCKING, math.inf, OPEN),
+        (True, math.nextafter(ROCKING, 1), -math.inf, OPEN),
+        (False, 0.0, -math.inf, FAILS),
+        (False, 1.0, -math.inf, FAILS),
     ],
 )
-def test_where_it_does_not_stand_or_rocks(stands, rocks, margin, failing):
+def test_where_it_does_not_stand_or_rocks(stands, rocks, margin, if_fails):
     found = of_move(stands=stands, rocks=rocks)[POSTURE_CHANGE]
     assert (found.worst.tolist(), found.best.tolist()) == ([margin], [margin])
-    assert found.failing is failing
+    assert found.if_fails is if_fails
 
 
 def test_findings_of_parts_and_changes(monkeypatch):

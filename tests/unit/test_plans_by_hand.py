@@ -34,11 +34,11 @@ from kaidan.assessment.plans import (
     words,
 )
 from kaidan.models.findings import Finding, Findings
-from kaidan.modes import FALL_DOWNHILL, POSTURE_TOLERANCE, Acceptance, Phase, Verdict
+from kaidan.modes import FALL_DOWNHILL, POSTURE_TOLERANCE, Phase, Verdict
 from kaidan.robot import Posture, Robot
 from kaidan.surface import Surface
 
-GO, CAUTION, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.CAUTION, Verdict.NO_GO))
+GO, UNSURE, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.UNSURE, Verdict.NO_GO))
 ABSOLEM = Robot.named("absolem")
 ONE = Robot.model_validate(ABSOLEM.model_dump() | {"rear_flippers": None})
 TWO = math.radians(2.0)
@@ -164,7 +164,7 @@ def sturdier(monkeypatch):
     def of(holds, limits=(-90.0, 90.0), tolerance=2.0, promised=None):
         def worth(angle):
             at = math.degrees(angle) if isinstance(angle, float) else -50.0
-            return Worth(GO if holds[0] <= at <= holds[1] else CAUTION, -abs(at - sum(holds) / 2))
+            return Worth(GO if holds[0] <= at <= holds[1] else UNSURE, -abs(at - sum(holds) / 2))
 
         def judge(self, phase, posture):
             angle = posture.front
@@ -236,9 +236,7 @@ def gripping(sturdier):
         search.question = asked(robot, tolerance=math.radians(tolerance))
 
         def score(phase, posture):
-            return Score(
-                passes=False, failing=-fails(math.degrees(posture.front)), margin=0, drop=0
-            )
+            return Score(rank=NO_GO, failing=-fails(math.degrees(posture.front)), margin=0, drop=0)
 
         search.scores = SimpleNamespace(
             work_out=list, of=score, off=score, about=lambda posture: [posture]
@@ -293,18 +291,18 @@ def test_what_promises_too_little_is_not_judged_and_changes_nothing(sturdier, ho
 def test_the_worst_is_looked_at_until_it_is_beaten(sturdier):
     search, judged = sturdier((10.0, 30.0))
     (posture,) = degrees(40.0)
-    assert search._worst(Phase.ENTER, posture, OUT) == Worth(CAUTION, pytest.approx(-22.0))
+    assert search._worst(Phase.ENTER, posture, OUT) == Worth(UNSURE, pytest.approx(-22.0))
     assert judged == [40, 42, 38]
     judged.clear()
     (posture,) = degrees(50.0)  # upwards was the worst: it is enough
-    assert search._worst(Phase.ENTER, posture, Worth(CAUTION, -30.0)).margin == pytest.approx(-32.0)
+    assert search._worst(Phase.ENTER, posture, Worth(UNSURE, -30.0)).margin == pytest.approx(-32.0)
     assert judged == [52]
     judged.clear()
-    assert search._worst(Phase.LAND, posture, Worth(CAUTION, -30.0)).margin == pytest.approx(-30.0)
+    assert search._worst(Phase.LAND, posture, Worth(UNSURE, -30.0)).margin == pytest.approx(-30.0)
     assert judged == [50]
     assert search._worst(Phase.LAND, degrees(20.0)[0], OUT) == Worth(GO, pytest.approx(-2.0))
     assert Worth(GO, 0.0).holds
-    assert not Worth(CAUTION, 9.0).holds
+    assert not Worth(UNSURE, 9.0).holds
 
 
 def test_a_grid_from_the_lowest_angle_to_the_highest(sturdier):
@@ -379,11 +377,11 @@ def test_which_postures_are_looked_at_more_closely(sturdier, monkeypatch):
 def test_a_posture_stays_where_another_is_no_better(sturdier, monkeypatch):
     search, _ = sturdier((0.0, 1.0))
     (posture,) = degrees(3.0)
-    worth = Worth(CAUTION, 2.0)
+    worth = Worth(UNSURE, 2.0)
     monkeypatch.setattr(Sturdier, "_most", lambda self, phase, about: [ANY] * len(about))
     monkeypatch.setattr(Sturdier, "_worst", lambda self, phase, posture, beaten: worth)
     assert search._best_about(Phase.ENTER, posture, worth) == (posture, worth)
-    other, found = search._best_about(Phase.ENTER, posture, Worth(CAUTION, 1.0))
+    other, found = search._best_about(Phase.ENTER, posture, Worth(UNSURE, 1.0))
     assert (other == posture, found) == (False, worth)
 
 
@@ -392,7 +390,7 @@ def test_what_a_phase_may_come_to_by_its_scores():
     score = Score(True, 0, 3.0, 0.0, 5.0)
     assert plan_sturdy._most(score) == Worth(GO, pytest.approx(5.0 + plan_sturdy.SLACK))
     assert plan_sturdy._hope(score) == Worth(GO, pytest.approx(3.0 + plan_sturdy.SLACK))
-    assert plan_sturdy._hope(score._replace(failing=-1)).rank == CAUTION
+    assert plan_sturdy._hope(score._replace(failing=-1)).rank == UNSURE
     assert plan_sturdy._hope(score._replace(passes=False)).rank == NO_GO
     assert plan_sturdy._hope(FAILED) == Worth(NO_GO, ENOUGH)
 
@@ -412,11 +410,9 @@ def test_scores_tell_where_nothing_but_the_flat_and_one_friction_count():
         friction_low=0.6, friction_high=0.9,
         treads={"low": 0.4, "high": 0.9},
     )  # fmt: skip
-    plain = question.changed(accept=Acceptance.NO_ROTATION)
-    assert scored(plain)
-    assert not scored(question.changed(accept=Acceptance.ARRESTED))
-    assert not scored(plain.changed(robot=uncertain))
-    assert not scored(plain.changed(surface=parts))
+    assert scored(question)
+    assert not scored(question.changed(robot=uncertain))
+    assert not scored(question.changed(surface=parts))
 
 
 def test_angles_about_a_posture(sturdier):
@@ -434,7 +430,7 @@ def judging(monkeypatch):
     """A search about a plan of a phase with a margin of sliding and one of all; what it drives."""
     asked_for = []
 
-    def of(sliding, margin, verdict=Verdict.CAUTION):
+    def of(sliding, margin, verdict=Verdict.UNSURE):
         def over(*given, **how):
             asked_for.append((given, how))
 
@@ -463,7 +459,7 @@ def test_what_a_phase_comes_to(margin, worth, judging):
     """Driven over its part of the terrain, judged by the policy."""
     search, asked_for = judging(math.inf, margin)
     found = search._of(Phase.LAND, HIGH, OUT)
-    assert found == Worth(CAUTION, pytest.approx(worth))
+    assert found == Worth(UNSURE, pytest.approx(worth))
     (given, how), most = asked_for
     assert (given[0], given[1].posture, given[1].facing) == ("ground", HIGH, "tail-first")
     assert how == {"start": Phase.LAND, "until": 2.0}
@@ -476,7 +472,7 @@ def test_what_a_phase_comes_to(margin, worth, judging):
     [
         (Verdict.GO, True, [{}, {"step": contact.STEP}]),
         (Verdict.GO, False, [{}]),
-        (Verdict.CAUTION, True, [{}]),
+        (Verdict.UNSURE, True, [{}]),
     ],
 )
 def test_a_go_on_grousers_is_driven_once_more_pose_by_pose(verdict, grousers, drives, judging):
@@ -491,7 +487,7 @@ def test_a_go_on_grousers_is_driven_once_more_pose_by_pose(verdict, grousers, dr
     assert how == [{"start": Phase.LAND, "until": 2.0} | each for each in drives]
 
 
-@pytest.mark.parametrize(("sliding", "verdict"), [(0.05, GO), (0.0, CAUTION), (-0.1, CAUTION)])
+@pytest.mark.parametrize(("sliding", "verdict"), [(0.05, GO), (0.0, UNSURE), (-0.1, UNSURE)])
 def test_what_slides_too_early_is_judged_no_further(sliding, verdict, judging):
     """It has no more margin than that of sliding, and where that is gone no GO."""
     search, asked_for = judging(sliding, math.radians(-90.0))
@@ -499,7 +495,7 @@ def test_what_slides_too_early_is_judged_no_further(sliding, verdict, judging):
     assert search._of(Phase.LAND, HIGH, Worth(GO, 9.0)) == most
     assert len(asked_for) == 1
     below = Worth(verdict, math.degrees(sliding) - 0.1)
-    assert search._of(Phase.LAND, HIGH, below) == Worth(CAUTION, pytest.approx(-90.0))
+    assert search._of(Phase.LAND, HIGH, below) == Worth(UNSURE, pytest.approx(-90.0))
     unknown, _ = judging(math.nan, 0.2, Verdict.GO)
     assert unknown._of(Phase.LAND, HIGH, Worth(GO, 9.0)).margin == pytest.approx(math.degrees(0.2))
 
@@ -576,14 +572,14 @@ def test_the_merit_of_a_plan():
     change = cost_of(ONE, [LOW, HIGH])
     changed = judged(GO, 0.5, question=asked(changes=(land,)))
     assert changed.merit[3] == pytest.approx(ENOUGH - change)
-    assert judged(CAUTION, math.nan, doubts=(1, 2), arrives=False).merit == (
-        CAUTION,
+    assert judged(UNSURE, math.nan, doubts=(1, 2), arrives=False).merit == (
+        UNSURE,
         False,
         -2,
         -90,
     )
     assert judged(NO_GO, -0.1, governs=FALL_DOWNHILL.key).merit[3] == -90.0
-    assert judged(CAUTION, -0.1, governs=FALL_DOWNHILL.key).merit[3] > -90.0
+    assert judged(UNSURE, -0.1, governs=FALL_DOWNHILL.key).merit[3] > -90.0
     assert judged(NO_GO, -0.1).merit[3] > -90.0
 
 
@@ -607,20 +603,20 @@ def test_off_its_angles_the_worst_verdict_counts(ways):
     plan = judged(GO)
     assert ways([], plan) == (OffAngles(plan, plan.merit, True), 0)
     assert ways([GO] * 3, plan) == (OffAngles(plan, plan.merit, True), 3)
-    worst = (CAUTION, *plan.merit[1:])
-    found, count = ways([GO, CAUTION, GO], plan)
+    worst = (UNSURE, *plan.merit[1:])
+    found, count = ways([GO, UNSURE, GO], plan)
     assert (found.worst, found.tested, found.sturdy, count) == (worst, True, False, 3)
-    found, count = ways([CAUTION, NO_GO, GO], plan)
+    found, count = ways([UNSURE, NO_GO, GO], plan)
     assert (found.worst[0], found.tested, count) == (NO_GO, True, 2)  # there is nothing worse
     bad = judged(NO_GO)
     # a NO-GO is no worse off its angles
     assert ways([NO_GO, NO_GO], bad) == (OffAngles(bad, bad.merit, True), 0)
     assert OffAngles(bad, bad.merit, True).sturdy
-    # where the worst is a CAUTION what is no NO-GO for certain is not judged
-    found, count = ways([GO, CAUTION, GO, NO_GO], plan, passes=(0, 2))
+    # where the worst is a UNSURE what is no NO-GO for certain is not judged
+    found, count = ways([GO, UNSURE, GO, NO_GO], plan, passes=(0, 2))
     assert (found.worst[0], found.tested, count) == (NO_GO, True, 3)
     # what is no better than what is beaten is judged no farther
-    assert ways([CAUTION, GO, GO], plan, worst) == (OffAngles(plan, worst, False), 1)
+    assert ways([UNSURE, GO, GO], plan, worst) == (OffAngles(plan, worst, False), 1)
     assert ways([GO, GO], plan, plan.merit) == (OffAngles(plan, plan.merit, False), 0)
     less = (GO, True, 0, plan.merit[3] - 0.1)
     assert ways([GO, GO], plan, less)[0].tested
@@ -644,18 +640,18 @@ def candidate(hope=10.0, *, passes=True, failing=0, off=None):
 
 def test_which_verdict_scores_promise():
     each = [(True, 0, 1.0), (True, -1, 1.0), (False, 0, 1.0)]
-    assert [-_rank(searching(), one) for one in each] == [GO, CAUTION, NO_GO]
+    assert [-_rank(searching(), one) for one in each] == [GO, UNSURE, NO_GO]
     assert [-_rank(searching(grousers=True), one) for one in each] == [GO] * 3
 
 
 def test_which_plans_may_be_better(monkeypatch):
-    """Than a CAUTION; than a GO of 9 deg by its scores or by those of the best."""
+    """Than a UNSURE; than a GO of 9 deg by its scores or by those of the best."""
     monkeypatch.setattr(plan_finalists, "off_angles", lambda question: question)
 
     def may(each, bar, of_best=None, drives=None, **more):
         return _may_be_better(searching(**more), each, bar, of_best, drives)
 
-    caution, go = (CAUTION, True, -1, 9.0), (GO, True, 0, 9.0)
+    caution, go = (UNSURE, True, -1, 9.0), (GO, True, 0, 9.0)
     assert may(candidate(), caution)
     assert not may(candidate(failing=-1), go)
     assert not may(candidate(passes=False), caution)
@@ -669,16 +665,16 @@ def test_which_plans_may_be_better(monkeypatch):
         assert may(candidate(hope), go, candidate(10.0)) is better
     # where it fails off its angles the weakest way tells
     fails = candidate(off=(True, -1, 0.0))
-    for rank, better in ((GO, True), (CAUTION, False)):
+    for rank, better in ((GO, True), (UNSURE, False)):
         drives = SimpleNamespace(rank=lambda one, rank=rank: rank)
         assert may(fails, go, questions=["way"], drives=drives) is better
     assert may(fails, go)
     worse = candidate(failing=-1, off=(True, -2, 0.0))
-    assert may(worse, (CAUTION, True, -1, 0.0))
+    assert may(worse, (UNSURE, True, -1, 0.0))
 
 
 def test_the_larger_of_two_merits_is_to_be_beaten():
-    plan = judged(CAUTION)
+    plan = judged(UNSURE)
     best = OffAngles(plan, plan.merit, True)
     go = judged(GO).merit
     assert _better(None, None) is None
@@ -730,7 +726,7 @@ def test_the_whole_terrain_decides_among_plans(monkeypatch):
         return round(10 * found.question.posture.front), len(looked_at), found.sturdy
 
     assert chosen((GO, GO), (GO, GO)) == (0, 1, True)
-    assert chosen((GO, CAUTION), (CAUTION, CAUTION)) == (0, 2, True)
-    assert chosen((GO, NO_GO), (CAUTION, CAUTION)) == (1, 2, True)
+    assert chosen((GO, UNSURE), (UNSURE, UNSURE)) == (0, 2, True)
+    assert chosen((GO, NO_GO), (UNSURE, UNSURE)) == (1, 2, True)
     assert chosen((GO, NO_GO)) == (0, 1, True)
     assert chosen((GO, GO), tested=False) == (0, 1, False)

@@ -33,15 +33,17 @@ from kaidan.models.spread import Spread
 from kaidan.models.support_polygon import along_heading
 from kaidan.modes import (
     DRIVE,
+    FAILS,
     FALL_DOWNHILL,
     FALL_UPHILL,
     HIGH_CENTRING,
     LANDING_ROOM,
+    OPEN,
+    ROUGHLY,
     SLIDES_DOWN,
     SLIDES_UP,
     STUCK,
     Phase,
-    Verdict,
 )
 from kaidan.robot import Track
 
@@ -212,7 +214,7 @@ def test_room_on_the_landings_is_the_least_of_both():
     """1 m of robot: 2.0 - 0.7 and 3.0 - 0.9 m deep; driven down the doors change places."""
     assert list(obstacles()) == [LANDING_ROOM]
     room = obstacles()[LANDING_ROOM]
-    assert (room.worst.tolist(), room.failing) == ([pytest.approx(0.3)], Verdict.CAUTION)
+    assert (room.worst.tolist(), room.if_fails) == ([pytest.approx(0.3)], OPEN)
     assert obstacles(descending=True)[LANDING_ROOM].worst == pytest.approx(0.1)
     # a part of a plan that sets out from the flight, or ends there, stands on the other landing
     assert obstacles(part=("there", None))[LANDING_ROOM].worst == pytest.approx(1.1)
@@ -244,7 +246,7 @@ def test_landings_between_flights_need_room_too(landings, room):
 def test_where_it_is_stuck():
     stuck = obstacles(status=Status.STUCK)[STUCK]
     assert (stuck.worst.tolist(), stuck.phase, stuck.step) == ([-math.pi / 2], Phase.TRAVERSE, 4)
-    assert stuck.failing is Verdict.NO_GO
+    assert stuck.if_fails is FAILS
     assert STUCK in obstacles(status=Status.STUCK, phase=Phase.TRAVERSE)
     assert STUCK not in obstacles(status=Status.STUCK, phase=Phase.LAND)
     assert STUCK not in obstacles(status=Status.FELL_BACKWARD)
@@ -255,7 +257,7 @@ def test_where_its_belly_touches():
     assert (free.worst.tolist(), free.phase) == ([math.inf], None)
     found = obstacles(belly=0.05, touches=(Phase.TRAVERSE, Phase.LAND))[HIGH_CENTRING]
     assert (found.worst.tolist(), found.phase) == ([-math.inf], Phase.TRAVERSE)
-    assert found.failing is Verdict.CAUTION
+    assert found.if_fails is ROUGHLY
     assert HIGH_CENTRING not in obstacles(touches=(Phase.LAND,))
 
 

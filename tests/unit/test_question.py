@@ -12,7 +12,7 @@ import kaidan
 from kaidan import InputError, Payload, Posture, Profile, Question, Robot, Stairs, Surface
 from kaidan.allowance import UNMEASURED, Allowance
 from kaidan.mechanics.yielding import yielding_loss
-from kaidan.modes import MODELS, Acceptance
+from kaidan.modes import MODELS
 from kaidan.robot import Track
 
 GAUGED = Robot.model_validate(
@@ -47,7 +47,6 @@ QUESTIONS = {
         theta_M=0.01,
         yaw="10deg",
         risk=0.05,
-        accept="arrested",
         model="support-polygon",
         override="com_height=210mm,mass=40kg",
         uncertainty="angle=0.5deg,com_height=5mm,friction=0.05",
@@ -163,7 +162,6 @@ def test_text_that_is_no_json_is_refused():
         ),
         ({"override": {"mass": np.float32(40)}}, {"override": {"mass": "40kg"}}),
         ({"uncertainty": {"angle": math.radians(0.5)}}, {"uncertainty": "angle=0.5deg"}),
-        ({"accept": "arrested"}, {"accept": Acceptance.ARRESTED}),
         ({"surface": "concrete-wet"}, {"surface": Surface.named("concrete-wet")}),
         ({"direction": "up"}, {"direction": None}),
     ],
@@ -487,10 +485,6 @@ REFUSED = {
         {"facing": "nose"},
         "facing = 'nose' is not known; known: nose-first, tail-first",
     ),
-    "accept": (
-        {"accept": "caught"},
-        "accept = 'caught' is not known; known: no-rotation, arrested",
-    ),
     "flippers": ({"flippers": 5}, "flippers = 5 is not known; known: flat, stowed, or angles"),
     "no flippers": ({"flippers": "flat"}, "robot 'kenaf' has no flippers"),
     "payload": ({"payload": 5}, "payload = 5 is not a Payload or a list of them"),
@@ -629,14 +623,6 @@ def test_an_array_is_no_end_that_leads():
         InputError, match=r"^facing = array\(\[0.5, 0.6\]\) is not known; known: nose-"
     ):
         Question.of("kenaf", "ibc", facing=np.array([0.5, 0.6]))
-
-
-@pytest.mark.parametrize(("given", "shown"), [(1, "1"), ("both", '"both"'), (None, "None")])
-def test_an_acceptance_that_is_none_is_refused_to_the_letter(given, shown):
-    sheets = {"robot": Robot.named("kenaf"), "terrain": Stairs.named("ibc")}
-    with pytest.raises(InputError) as error:
-        Question.model_validate({**sheets, "accept": given})
-    assert str(error.value) == f"question: accept = {shown} is not one of no-rotation, arrested"
 
 
 def test_momentum_threshold_by_hand():

@@ -70,7 +70,7 @@ def asked(robot, *clear, **how):
     ("above", "verdict", "reason"),
     [
         (0.86, "", ""),
-        (0.65, "caution", "The flight is 650 mm wide;"),
+        (0.65, "unsure", "The flight is 650 mm wide;"),
         (0.5, "no-go", "The flight is 500 mm wide;"),
     ],
 )
@@ -91,7 +91,7 @@ def test_a_lower_one_passes_under_them():
     narrow = answer.findings["narrow"]
     assert narrow.margin_best == pytest.approx((1.0 - 0.594) * 1e3, abs=1.0)
     assert narrow.margin == pytest.approx((0.5 - 0.716) * 1e3, abs=1.0)
-    assert (answer.verdict, answer.governs) == ("caution", "narrow")
+    assert (answer.verdict, answer.governs) == ("unsure", "narrow")
 
 
 def test_what_hangs_over_all_is_told_as_headroom():

@@ -182,7 +182,7 @@ def test_shares_are_those_of_single_answers():
             assess(each.robot, Stairs(rise=r, going=g, steps=14), **CLOSED)
             for r, g in zip(rise, going, strict=True)
         ]  # fmt: skip
-        for verdict, share in {"go": each.go, "caution": each.caution, "no-go": each.no_go,
+        for verdict, share in {"go": each.go, "rough": each.rough, "unsure": each.unsure, "no-go": each.no_go,
                                "outside-model": each.outside_model}.items():  # fmt: skip
             expected = sum(w for w, a in zip(weights, answers, strict=True) if a.verdict == verdict)
             assert share == pytest.approx(expected / 10)
@@ -202,8 +202,8 @@ def test_only_go_keeps_the_share_of_go():
     for each in whole.robots:
         other = next(one for one in part.robots if one.robot == each.robot)
         assert (each.go, each.steepest_go_deg) == (other.go, other.steepest_go_deg)
-        assert each.caution + each.no_go == pytest.approx(
-            other.caution + other.no_go + other.not_go
+        assert each.rough + each.unsure + each.no_go == pytest.approx(
+            other.rough + other.unsure + other.no_go + other.not_go
         )
     assert sum(each.not_go for each in part.robots) > 0
 

@@ -20,13 +20,13 @@ from kaidan.models.support_polygon import (
 )
 from kaidan.modes import (
     DRIVE,
+    FAILS,
     SLIDES_DOWN,
     SLIDES_UP,
     TIP_DOWNHILL,
     TIP_SIDEWAYS,
     TIP_UPHILL,
     Phase,
-    Verdict,
 )
 from kaidan.question import LARGEST_YAW
 from kaidan.robot import Drive
@@ -88,14 +88,14 @@ def test_tips_are_margins_less_the_allowances(monkeypatch):
     """The grousers' angle counts downhill alone."""
     margins = np.array([[[0.3, 0.2]], [[0.4, 0.5]], [[0.6, 0.7]]])
     monkeypatch.setattr(module, "margins_of", lambda question, flight, psi: margins)
-    each = tips(asked(), FLIGHT, failing=Verdict.CAUTION)
+    each = tips(asked(), FLIGHT, instead=FAILS)
     assert [one.mode for one in each] == [TIP_DOWNHILL, TIP_UPHILL, TIP_SIDEWAYS]
     for one, row, (worst, best) in zip(
         each, margins[:, 0], ((0.07, 0.04), (0.02, 0.01), (0.02, 0.01)), strict=True
     ):
         assert one.worst == pytest.approx(row - worst)
         assert one.best == pytest.approx(row - best)
-        assert (one.failing, one.phase) == (Verdict.CAUTION, Phase.TRAVERSE)
+        assert (one.instead, one.phase) == (FAILS, Phase.TRAVERSE)
 
 
 def test_of_several_kinds_of_steps_the_worst_counts():

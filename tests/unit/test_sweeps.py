@@ -71,8 +71,8 @@ def test_names_units_and_meanings():
     assert table.angle.attrs["units"] == "rad"
     assert all(table[name].attrs["long_name"] for name, unit in units.items() if unit is not None)
     assert table.verdict.attrs == {
-        "flag_values": [0, 1, 2, 3],
-        "flag_meanings": "go caution no-go outside-model",
+        "flag_values": [0, 1, 2, 3, 4],
+        "flag_meanings": "go rough unsure no-go outside-model",
     }
     assert table.governs.attrs == {
         "flag_values": [0, 1, 2, 3, 4],
@@ -138,7 +138,7 @@ def test_own_figures_of_the_robot():
 
 
 def test_allowances_unless_swept():
-    # hand: unmeasured 2.6 deg each, given back at best: CAUTION between; measured, GO or NO-GO
+    # hand: unmeasured 2.6 deg each, given back at best: UNSURE between; measured, GO or NO-GO
     angles = np.radians([54, 58, 61])
     rest = {"nosing_spacing": 0.150, "friction": 3.0}
     assert sweep(RIG, angle=angles, **rest).verdict.values.tolist() == [0, 1, 2]
@@ -160,7 +160,7 @@ def test_a_sweep_without_stairs_reaches_as_far_as_its_parameters():
 
 def test_unknown_friction_gives_no_go():
     table = sweep("kenaf", angle=math.radians(40), nosing_spacing=0.150)
-    assert int(table.verdict) == Verdict.CAUTION.rank
+    assert int(table.verdict) == Verdict.UNSURE.rank
     assert np.isnan(table.slides_down_deg)
     assert int(sweep("kenaf", **SHAPE).verdict) == Verdict.GO.rank
 

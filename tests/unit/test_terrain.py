@@ -228,7 +228,7 @@ def test_a_drop_that_only_the_impact_softens_is_no_go_ahead():
     }
     assert by_height[0.15].verdict == "go"
     high = by_height[0.20]
-    assert (high.verdict, high.governs) == ("caution", "momentum")
+    assert (high.verdict, high.governs) == ("unsure", "momentum")
     assert (high.phase, high.step) == ("enter", 1)
     assert high.contact.grades.arrested_with_momentum
     assert high.reason == (
@@ -314,7 +314,7 @@ def test_what_is_not_built_across_is_no_go_before_somebody_says_so(line, mirrore
     """Left and right track may meet other blocks; nothing else keeps it from a GO."""
     line = [(-x, z) for x, z in reversed(line)] if mirrored else line
     answer = assess("absolem", Profile.of_points(line), **ASKED)
-    assert (answer.verdict, answer.governs) == ("caution", "across")
+    assert (answer.verdict, answer.governs) == ("unsure", "across")
     assert answer.reason == (
         "The profile is no flight of steps, single step, ramp or threshold. One track may meet "
         "other ground than the other."

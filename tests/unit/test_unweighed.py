@@ -69,7 +69,7 @@ def test_ranges_without_meaning_are_refused(fields, text):
 
 
 def test_it_is_caution_until_weighed(answer):
-    assert (answer.verdict, answer.governs) == ("caution", "unweighed")
+    assert (answer.verdict, answer.governs) == ("unsure", "unweighed")
     assert answer.reason == (
         "Until weighed: nobody measured its centroid, C_L 240 to 480 mm and C_N 100 to 240 mm "
         "assumed."
@@ -127,7 +127,7 @@ def test_where_every_place_holds_it_is_caution_all_the_same():
     gentle = Stairs(name="gentle", rise=0.1, going=0.3, steps=6)
     span = {"from_front": (0.38, 0.42), "height": (0.05, 0.06)}
     found = assess(robot(com_range=span), gentle, friction=1.2)
-    assert (found.verdict, found.governs) == ("caution", "unweighed")
+    assert (found.verdict, found.governs) == ("unsure", "unweighed")
     assert {each.verdict for each in found.centroid.stretches} == {"go"}
     assert "GO all over it" in str(found)
 
@@ -143,7 +143,7 @@ def test_an_override_takes_the_place_of_the_range(model):
         robot(), FLIGHT, friction=1.2, model=model, override="com_height=100mm"
     )
     assert question.robot.com_range == CentroidRange(from_front=(0.24, 0.48), height=(0.1, 0.1))
-    assert conclude(question, judge(question)).verdict == "caution"
+    assert conclude(question, judge(question)).verdict == "unsure"
     both = "com_height=100mm,com_from_front=350mm"
     question = Question.in_one_posture(robot(), FLIGHT, friction=1.2, model=model, override=both)
     assert question.robot.com_range is None
@@ -164,7 +164,7 @@ def test_what_needs_one_centroid_says_so():
 
 def test_they_can_be_compared():
     cells = compare([robot(), robot().with_centroid(0.35, 0.1)], [FLIGHT], friction=1.2).cells
-    assert [cell.verdict for cell in cells] == ["caution", "go"]
+    assert [cell.verdict for cell in cells] == ["unsure", "go"]
 
 
 @pytest.mark.parametrize("name", catalog.names("unweighed"))
@@ -174,7 +174,7 @@ def test_catalogue_robots_that_nobody_weighed_get_an_answer(name):
     assert json.loads(sheet.to_json())["com_range"] is not None
     flippers = "flat" if sheet.flippers() else "stowed"
     found = assess(name, "ada", friction=1.2, flippers=flippers)
-    assert (found.verdict, found.governs) == ("caution", "unweighed")
+    assert (found.verdict, found.governs) == ("unsure", "unweighed")
 
 
 def test_the_assumed_ranges_hold_the_robots_whose_centroid_is_known():

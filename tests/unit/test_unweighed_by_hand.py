@@ -16,10 +16,13 @@ from kaidan.models.sentences import unweighed as text
 from kaidan.models.unweighed import HEIGHTS, PLACES, Placed, judge_range, places
 from kaidan.modes import (
     ENERGY,
+    FAILS,
     IMPACT,
     MOMENTUM,
+    OPEN,
     POSTURE_TOLERANCE,
     SLIDES_DOWN,
+    STUCK,
     TIP_DOWNHILL,
     TIP_UPHILL,
     UNWEIGHED,
@@ -68,7 +71,7 @@ def test_the_worst_place_decides_the_worst_case_and_the_best_place_the_best_one(
         down = [0.5 - along - height, 0.4 - along - height]
         tips = finding(TIP_DOWNHILL, down, [0.9 - along, 0.9 - along], phase=Phase.LAND,
                        step=round(100 * along))  # fmt: skip
-        up = finding(TIP_UPHILL, along - 0.3, along - 0.2, failing=Verdict.CAUTION)
+        up = finding(TIP_UPHILL, along - 0.3, along - 0.2)
         return judged(tips, up, required_friction=along + height, notes=(f"{along:.2f}",))
 
     found, modes = over(judge)
@@ -85,7 +88,7 @@ def test_the_worst_place_decides_the_worst_case_and_the_best_place_the_best_one(
     assert len(found.basis) == HEIGHTS * PLACES
     nobody = modes[UNWEIGHED]
     assert (nobody.worst.tolist(), nobody.best.tolist()) == ([-math.inf], [math.inf])
-    assert nobody.failing is Verdict.CAUTION
+    assert nobody.if_fails is OPEN
 
 
 def test_the_best_place_is_where_it_arrives_then_where_nothing_fails_then_by_its_margin():
@@ -94,13 +97,12 @@ def test_the_best_place_is_where_it_arrives_then_where_nothing_fails_then_by_its
 
     def best(*, low_fails=(), high_fails=(), margins=(0.1, 0.2), by=-0.1):
         def judge(along, height):
-            margin, fails = (-1.0, (TIP_UPHILL,))
+            margin, fails = (-1.0, (STUCK,))
             if along in (low, high):
                 k = int(along == high)
                 margin, fails = margins[k], (low_fails, high_fails)[k]
             tips = finding(TIP_DOWNHILL, margin, step=round(100 * along))
-            failing = {MOMENTUM: Verdict.CAUTION}
-            each = [finding(mode, by, failing=failing.get(mode, Verdict.NO_GO)) for mode in fails]
+            each = [finding(mode, by) for mode in fails]
             return judged(tips, *each)
 
         return over(judge)[1][TIP_DOWNHILL].best.tolist()[0]
@@ -108,11 +110,11 @@ def test_the_best_place_is_where_it_arrives_then_where_nothing_fails_then_by_its
     assert best() == 0.2
     assert best(margins=(0.3, 0.2)) == 0.3
     assert best(high_fails=(MOMENTUM,)) == 0.1
-    assert best(low_fails=(IMPACT,), high_fails=(MOMENTUM,)) == 0.2
-    assert best(low_fails=(MOMENTUM,), high_fails=(IMPACT,)) == 0.1
+    assert best(low_fails=(STUCK,), high_fails=(MOMENTUM,)) == 0.2
+    assert best(low_fails=(MOMENTUM,), high_fails=(STUCK,)) == 0.1
     assert best(low_fails=(MOMENTUM,), high_fails=(MOMENTUM,)) == 0.2
     assert best(margins=(0.0, -0.1)) == 0.0  # zero fails, by less
-    assert best(low_fails=(IMPACT,), margins=(0.3, 0.2), by=0.0) == 0.2
+    assert best(low_fails=(STUCK,), margins=(0.3, 0.2), by=0.0) == 0.2
     assert best(margins=(0.3, math.nan)) == 0.3  # what is not known is the least
     assert best(low_fails=(MOMENTUM,), margins=(0.3, math.nan)) == pytest.approx(
         math.nan, nan_ok=True
@@ -126,16 +128,16 @@ def test_what_only_some_places_know():
     first, *_, last = places((0.24, 0.48), PLACES)
 
     def judge(along, height):
-        tips = finding(TIP_DOWNHILL, 0.5 if along == last else 0.1, failing=Verdict.CAUTION)
+        tips = finding(TIP_DOWNHILL, 0.5 if along == last else 0.1, instead=FAILS)
         low = [-0.01, math.nan] if along == last else [math.nan, math.nan]
         energy = finding(ENERGY, low, step=round(100 * along))
         impact = [finding(IMPACT, -0.2)] if along == first else []
         return judged(tips, energy, *impact)
 
     _, modes = over(judge)
-    assert (modes[IMPACT].best.tolist(), modes[IMPACT].failing) == ([math.inf], Verdict.CAUTION)
+    assert (modes[IMPACT].best.tolist(), modes[IMPACT].instead) == ([math.inf], None)
     assert (modes[ENERGY].worst[0], modes[ENERGY].step) == (-0.01, 48)
-    assert modes[TIP_DOWNHILL].failing is Verdict.CAUTION
+    assert modes[TIP_DOWNHILL].instead is FAILS
     assert SLIDES_DOWN not in modes
 
 
@@ -227,18 +229,18 @@ def test_the_verdict_changes_where_it_is_halved_out(stretches):
     def verdict(along, height):
         if along < 0.3131:
             return Verdict.NO_GO
-        return Verdict.CAUTION if height > 0.15 or along < 0.4242 else Verdict.GO
+        return Verdict.UNSURE if height > 0.15 or along < 0.4242 else Verdict.GO
 
     rows = [(along, height) for height in (0.1, 0.2) for along in (0.24, 0.30, 0.36, 0.42, 0.48)]
     first, second, third, fourth, fifth = stretches(verdict, *rows)
     near = module.FINE
     assert first == (0.1, 0.24, pytest.approx(0.3131, abs=near), "no-go", "no-go at 0.24")
     assert second == (
-        0.1, first[2], pytest.approx(0.4242, abs=near), "caution", "caution at 0.36",
+        0.1, first[2], pytest.approx(0.4242, abs=near), "unsure", "caution at 0.36",
     )  # fmt: skip
     assert third == (0.1, second[2], 0.48, "go", "go at 0.48")
     assert fourth == (0.2, 0.24, first[2], "no-go", "no-go at 0.24")
-    assert fifth == (0.2, first[2], 0.48, "caution", "caution at 0.36")
+    assert fifth == (0.2, first[2], 0.48, "unsure", "caution at 0.36")
 
 
 def test_one_verdict_all_along_is_one_stretch(stretches):
@@ -250,7 +252,7 @@ def test_one_verdict_all_along_is_one_stretch(stretches):
 def test_where_the_robot_cannot_have_the_place_between(stretches):
     rows = [(0.24, 0.1), (0.48, 0.1)]
     first, second = stretches(
-        lambda along, height: Verdict.GO if along < 0.3 else Verdict.CAUTION, *rows,
+        lambda along, height: Verdict.GO if along < 0.3 else Verdict.UNSURE, *rows,
         refused=[(0.25, 0.47)],
     )  # fmt: skip
     assert (first[2], second[1]) == (0.36, 0.36)
@@ -301,9 +303,7 @@ def test_what_does_not_hold_off_its_angles_is_a_finding_more(monkeypatch):
     assert assessment.off_plan(loose, found) is found
     one, off = assessment.off_plan(loose, found).each
     assert one is found.each[0]
-    assert (off.mode, off.worst.tolist(), off.failing) == (
-        POSTURE_TOLERANCE, [-math.inf], Verdict.CAUTION,
-    )  # fmt: skip
+    assert (off.mode, off.worst.tolist(), off.if_fails) == (POSTURE_TOLERANCE, [-math.inf], OPEN)
     for sturdy, count in ((True, 1), (False, 2)):
         search = SimpleNamespace(sturdy=sturdy)
         assert len(assessment.off_plan(loose, found, search).each) == count

@@ -213,7 +213,7 @@ def test_a_ceiling_that_is_too_low_binds(folder):
 
 def test_friction_that_nobody_stated_binds(house):
     found = cell(building(house, ["absolem"], flippers="35deg,-13deg"), "absolem", "A1")
-    assert (found.verdict, found.governs) == ("caution", "friction_unknown")
+    assert (found.verdict, found.governs) == ("unsure", "friction_unknown")
     assert found.binds == "friction"
 
 

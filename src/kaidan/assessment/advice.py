@@ -122,20 +122,19 @@ def _planned(
     """Conclusion of a plan with the verdict that it has off its angles, or that of another plan.
 
     search: what found the plan; without it no other one is sought.
-    anew: whether another plan is sought where this one is no GO at its angles, not only where it is
-        none off them.
+    anew: whether another plan is sought where this one is no GO at its angles, not only where its
+        verdict does not hold off them.
     """
-    is_go = then.verdict is Verdict.GO
-    if (is_go and not question.tolerance) or not (is_go or (anew and search is not None)):
-        return then, False
     from kaidan.assessment.plan_off_angles import holds_off_its_angles
     from kaidan.assessment.plan_search import better_than
 
     drives = None if search is None else search.drives
-    if is_go and holds_off_its_angles(question, drives):
-        return then, False
-    if is_go:
+    may_lower = question.tolerance and then.verdict in (Verdict.GO, Verdict.ROUGH)
+    lowered = may_lower and not holds_off_its_angles(question, drives)
+    if lowered:
         then = then._replace(verdict=Verdict.UNSURE)
+    elif then.verdict is Verdict.GO or not anew:
+        return then, False
     if search is not None and question.robot.com_range is None:
         asked = question.changed(best_of=search.best_of)
         own = better_than(then.verdict, asked, drives=drives, other_frictions=anew)
@@ -273,8 +272,9 @@ def _stowed_on_landings(question: Question, found: Findings) -> Iterator[Candida
         return conclude(asked, replace(findings, each=tuple(each)))
 
     at_them = then(question, found)
-    if at_them.verdict is Verdict.GO and not all(
-        then(each, judge(each)).verdict is Verdict.GO for each in off_angles(question)
+    arrives = at_them.verdict in (Verdict.GO, Verdict.ROUGH)
+    if arrives and any(
+        then(each, judge(each)).verdict.rank > at_them.verdict.rank for each in off_angles(question)
     ):
         at_them = at_them._replace(verdict=Verdict.UNSURE)
     yield Candidate(text.STOWED, question, certain=True, then=at_them)

@@ -103,8 +103,9 @@ class Assessment(Answer):
     text_module: ClassVar[str] = "kaidan.text.assessment"
 
     verdict: VerdictName
-    """go: nothing fails in the worst case, friction known, at the chosen risk. caution: something
-    fails in the worst case, or friction is not known. no-go: something fails in the best case too.
+    """At the chosen risk. go: nothing fails in the worst case, friction known. rough: it arrives in
+    every case known of, but rocks, lands hard or rests on its belly. unsure: a case of something
+    that is not known fails, or friction is not known. no-go: it fails in the best case too.
     outside-model: the model says nothing."""
     governs: str
     """What decides: a failure mode, a key of `findings`; else friction_unknown, margin_unknown or
@@ -209,7 +210,7 @@ class Assessment(Answer):
 
     @property
     def exit_code(self) -> int:
-        """0 go or caution, 1 no-go, 3 outside the model."""
+        """By `kaidan.modes.EXIT_CODES`."""
         return Verdict(self.verdict).exit_code
 
     @property

@@ -102,7 +102,7 @@ def _to_steady(search: Search, first: Judged | None) -> Plan | None:
     if first is None:
         return None
     hoped, grips = first.conclusion.verdict, search.question.robot.track.has_grousers
-    if not (hoped is Verdict.GO or (grips and hoped is Verdict.UNSURE)):
+    if hoped.rank > (Verdict.UNSURE if grips else Verdict.GO).rank:
         return None
     at = first.question.postures
     return Plan(search.scores.facing, tuple((phase, at[phase]) for phase in search.scores.phases))
@@ -124,8 +124,8 @@ def _judged_at(each: Candidate, search: Search, drives: Drives, stated: Question
     As a rule it is one, and needs no other judgement at its angles.
     """
     question = each.plan.question(search.question)
-    passes, failing, _ = each.off
-    if stated is not None and stated.model == CONTACT.name and passes and not failing:
+    goes = each.off[0] == -Verdict.GO.rank
+    if stated is not None and stated.model == CONTACT.name and goes:
         whole = question.changed(terrain=stated.terrain)
         judged = judged_of(question, judge(whole))._replace(whole=True)
         if judged.conclusion.verdict is Verdict.GO:
@@ -152,10 +152,7 @@ def _candidates(search: Search) -> list[Candidate]:
 
 def _rank(search: Search, merit: Merit) -> int:
     """Rank of the verdict that a merit promises; grousers may do better than friction alone."""
-    passes, failing, _ = merit
-    if search.question.robot.track.has_grousers or (passes and not failing):
-        return Verdict.GO.rank
-    return Verdict.UNSURE.rank if passes else Verdict.NO_GO.rank
+    return Verdict.GO.rank if search.question.robot.track.has_grousers else -merit[0]
 
 
 def _may_be_better(

@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 from kaidan.assessment.plan_scores import ENOUGH, Score, Scores
 from kaidan.assessment.plans import Plan, cost_of, cost_of_drop, costs_of_changes, pressed, words
 from kaidan.models.traction import gripping
-from kaidan.modes import Facing, Phase
+from kaidan.modes import Facing, Phase, Verdict
 from kaidan.question import Question
 from kaidan.robot import Posture
 from kaidan.traversal.moves import angles_of
 
 Array = NDArray[np.float64]
-Merit = tuple[bool, int, float]
+Merit = tuple[int, int, float]
 
 LIMITS = (math.radians(-75.0), math.radians(90.0))
 """Angles tried where nobody states any [rad]: from pushed down to upright."""
@@ -86,8 +86,7 @@ class Search:
         """Whether a plan may be a GO off its angles, by its grousers where they are known."""
         if self._on_belts is None:
             return True
-        passes, failing, _ = self._off(plan, self._on_belts)
-        return passes and not failing
+        return self._off(plan, self._on_belts)[0] == -Verdict.GO.rank
 
     def _off(self, plan: Plan, scores: Scores) -> Merit:
         scores.work_out(
@@ -108,14 +107,14 @@ class Search:
         scores = [self.scores.known.get((phase, at[phase])) for phase in self.scores.phases]
         known = [each for each in scores if each is not None]
         if len(known) < len(scores):
-            return True, (True, 0, 0.0)
+            return True, (-Verdict.GO.rank, 0, 0.0)
         return False, self._merit(known, list(at.values()))
 
     def _merit(self, scores: Iterable[Score], postures: Sequence[Posture]) -> Merit:
         """What the scores of a plan's phases come to."""
         cost = cost_of(self.question.robot, postures)
-        passes, failing, value = _order([_figures([each])[:, 0] for each in scores], cost)
-        return bool(passes), int(failing), float(value)
+        rank, failing, value = _order([_figures([each])[:, 0] for each in scores], cost)
+        return int(rank), int(failing), float(value)
 
     def _together(self, choices: Sequence[Sequence[Posture]]) -> list[Hope]:
         """The most promising of all plans of some choices for each phase."""
@@ -135,7 +134,7 @@ class Search:
             numbers = np.unravel_index(at, changes.shape)
             postures = (some[k] for some, k in zip(choices, numbers, strict=True))
             plan = Plan(self.scores.facing, tuple(zip(phases, postures, strict=True)))
-            merit = bool(merits[0][at]), int(merits[1][at]), float(merits[2][at])
+            merit = int(merits[0][at]), int(merits[1][at]), float(merits[2][at])
             found.append(Hope(plan, merit))
         return found
 
@@ -200,8 +199,8 @@ def _along(axis: int, count: int) -> tuple[int, ...]:
 
 
 def _figures(scores: Iterable[Score]) -> Array:
-    """Whether each passes, what fails, margin, drop and value (5, n)."""
-    each = [(one.passes, one.failing, one.margin, one.drop, one.value) for one in scores]
+    """Rank, what fails, margin, drop and value of each (5, n)."""
+    each = [(one.rank, one.failing, one.margin, one.drop, one.value) for one in scores]
     return np.array(each, dtype=np.float64).T
 
 
@@ -211,7 +210,7 @@ def _order(figures: Sequence[Array], cost: Array | float) -> tuple[Array, Array,
     figures: of each phase, see `_figures`.
     cost: what the changes have to gain [deg].
     """
-    passes, _, margin, drop, _ = reduce(np.minimum, figures)
+    rank, _, margin, drop, _ = reduce(np.minimum, figures)
     failing, value = (sum(each[k] for each in figures) for k in (1, 4))
     worth = margin - cost_of_drop(-drop) + A_PHASE * value / len(figures) - cost
-    return passes, np.asarray(failing), np.round(worth, 6)
+    return rank, np.asarray(failing), np.round(worth, 6)

@@ -15,7 +15,7 @@ from kaidan.models import planned
 from kaidan.models.findings import ROUNDING as NO_MARGIN
 from kaidan.models.gap import most_friction
 from kaidan.models.quasi_static import profile_of
-from kaidan.modes import Facing, Phase
+from kaidan.modes import Facing, Phase, Verdict
 from kaidan.outline import Outline
 from kaidan.question import Question
 from kaidan.robot import Posture
@@ -39,8 +39,8 @@ TERRAINS = 16
 class Score(NamedTuple):
     """What a drive of one phase lets one hope for; larger is better."""
 
-    passes: bool
-    """Whether the robot gets through, with the friction stated."""
+    rank: int
+    """Of the verdict that it comes to at most, with its sign turned; it knows no fall."""
     failing: int
     """Ways in which it fails in the worst case, with its sign turned."""
     margin: float
@@ -57,15 +57,16 @@ class Score(NamedTuple):
 
     def does(self, margin: float) -> bool:
         """Whether no other posture has to be tried for such a margin [deg]."""
-        return self.passes and not self.failing and self.margin >= margin and -self.drop <= GENTLE
+        goes = self.rank == -Verdict.GO.rank
+        return goes and self.margin >= margin and -self.drop <= GENTLE
 
     @property
-    def merit(self) -> tuple[bool, int, float]:
+    def merit(self) -> tuple[int, int, float]:
         """Order of postures in one phase; larger is better."""
-        return self.passes, self.failing, round(self.value, 2)
+        return self.rank, self.failing, round(self.value, 2)
 
 
-FAILED = Score(passes=False, failing=-9, margin=-90.0, drop=-90.0)
+FAILED = Score(rank=-Verdict.NO_GO.rank, failing=-9, margin=-90.0, drop=-90.0)
 
 
 @lru_cache(maxsize=TERRAINS)
@@ -255,17 +256,20 @@ class Scores:
         if self.belts is not None:
             slides, slides_at_best = rated.held, rated.held_at_best
         tips = rated.downhill - downhill, rated.uphill - uphill
-        failing = (
-            slides < NO_MARGIN,
+        rough = (
             min(tips) <= 0,
             rated.rocking > ROCKING,
             rated.impact_speed >= self.question.robot.tolerated_impact,
-            rated.spare <= self._threshold,
             rated.belly_touches,
         )
+        unsure = slides < NO_MARGIN, rated.spare <= self._threshold
+        verdict = Verdict.ROUGH if any(rough) else Verdict.GO
+        verdict = Verdict.UNSURE if any(unsure) else verdict
+        if slides_at_best < NO_MARGIN:
+            verdict = Verdict.NO_GO
         return Score(
-            passes=slides_at_best >= NO_MARGIN,
-            failing=-sum(failing),
+            rank=-verdict.rank,
+            failing=-sum((*rough, *unsure)),
             margin=min(math.degrees(min(slides, *tips)), ENOUGH),
             drop=-math.degrees(rated.rotation),
             tipping=min(math.degrees(min(tips)), ENOUGH),

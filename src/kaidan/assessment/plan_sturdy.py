@@ -59,7 +59,7 @@ class Worth(NamedTuple):
 
 
 OUT = Worth(-len(Verdict), -90.0)
-SHORT_OF_GO = Worth(-Verdict.UNSURE.rank, ENOUGH)
+SHORT_OF_GO = Worth(-Verdict.ROUGH.rank, ENOUGH)
 """As much as a phase can come to that is no GO."""
 HOPELESS = Worth(-Verdict.UNSURE.rank, -3.0)
 """From which on no posture close by is tried."""
@@ -333,10 +333,8 @@ def _most(score: Score) -> Worth:
 def _hope(score: Score) -> Worth:
     """What a phase of a score comes to at most."""
     if score == FAILED:  # how far a fall is off is no part of a score
-        return Worth(-Verdict.NO_GO.rank, ENOUGH)
-    verdict = Verdict.UNSURE if score.failing else Verdict.GO
-    margin = math.radians(score.margin + SLACK)
-    return _worth(verdict if score.passes else Verdict.NO_GO, margin)
+        return Worth(score.rank, ENOUGH)
+    return Worth(score.rank, min(score.margin + SLACK, ENOUGH))
 
 
 def _worth(verdict: Verdict, margin: float) -> Worth:

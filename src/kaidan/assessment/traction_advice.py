@@ -111,7 +111,7 @@ def with_less_friction(
     while enough - low > MUCH_FRICTION:
         middle = round((low + enough) / 2, 2)
         at_that = asked.changed(surface=Surface.of_friction(middle))
-        other = better_than(Verdict.UNSURE, at_that, drives=search.drives, other_frictions=False)
+        other = better_than(Verdict.ROUGH, at_that, drives=search.drives, other_frictions=False)
         if other is None or not other.sturdy:
             low = middle
             continue

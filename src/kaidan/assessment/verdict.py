@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import reduce
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
@@ -16,10 +17,14 @@ import numpy as np
 from kaidan.models.findings import Array, Finding, Findings, at_risk, smallest
 from kaidan.modes import (
     FAILURE_MODES,
+    FALL_DOWNHILL,
+    FALL_UPHILL,
     FALLS,
     GAP,
     OPEN,
     ROTATION,
+    TIP_DOWNHILL,
+    TIP_UPHILL,
     TIPS,
     UNWEIGHED,
     Phase,
@@ -28,8 +33,8 @@ from kaidan.modes import (
 )
 from kaidan.question import Question
 
-ROCKS = (*TIPS, ROTATION)
-"""Modes of which only the tilt to the fall tells whether the robot arrives."""
+_FALL_OF = {TIP_DOWNHILL: FALL_DOWNHILL, TIP_UPHILL: FALL_UPHILL, ROTATION: FALL_DOWNHILL}
+"""Modes of a robot that rocks, and which tilt to the fall tells whether it arrives."""
 FALL = math.pi / 2
 """Margin of a robot of which no slope makes it fail [rad]."""
 
@@ -84,13 +89,12 @@ def conclude(question: Question, found: Findings) -> Conclusion:
     known = any(math.isfinite(one.margin(question.risk)) for one in slopes)
     if verdict is Verdict.NO_GO:
         governing: Finding | None = _deciding(each, question)
-    elif doubts:
-        governing = doubts[0]
-    elif verdict is not Verdict.GO:  # something is not known
-        governing = next(one for one in each if verdict_of([one], question.risk) is verdict)
-    else:
+    elif verdict is Verdict.GO:
         governing = _nearest(each, question)
-        verdict = Verdict.GO if known and question.surface is not None else Verdict.UNSURE
+    else:
+        governing = _undecided(each, doubts, question.risk, verdict)
+    if verdict.rank < Verdict.UNSURE.rank and not (known and question.surface is not None):
+        verdict, governing = Verdict.UNSURE, None
     key = _key(governing, question, verdict)
     if verdict is Verdict.NO_GO and not margin_best <= 0:  # no slope of the stairs would do
         margin = margin_best = -FALL
@@ -106,35 +110,41 @@ def verdict_of(each: Sequence[Finding], risk: float) -> Verdict:
 
 def _with_falls(each: Sequence[Finding]) -> list[Finding]:
     """Findings, those of rocking open where nothing tells whether the robot falls."""
-    if any(one.mode in FALLS for one in each):
-        return list(each)
+    known = {one.mode for one in each if one.mode in FALLS}
     return [
-        replace(one, instead=OPEN) if one.mode in ROCKS and one.if_fails is one.mode.if_fails
+        replace(one, instead=OPEN)
+        if one.if_fails is one.mode.if_fails
+        and _FALL_OF.get(one.mode, one.mode) not in (one.mode, *known)
         else one
         for one in each
-    ]  # fmt: skip
+    ]
 
 
 def _key(governing: Finding | None, question: Question, verdict: Verdict) -> str:
-    """What governs: a failure mode, or what is not known."""
-    if governing is None:
-        return Undecided.MARGIN_UNKNOWN.value
-    if verdict is not Verdict.UNSURE or governing.fails().any():
+    """What governs: a failure mode, or what is not known; without any, nothing is known."""
+    if governing is not None and (verdict is not Verdict.UNSURE or governing.fails().any()):
         return governing.mode.key
-    unstated = question.surface is None and not _tipping_unknown(governing)
+    tips = governing is not None and governing.mode in TIPS
+    unstated = question.surface is None and not tips
     return (Undecided.FRICTION_UNKNOWN if unstated else Undecided.MARGIN_UNKNOWN).value
 
 
-def _tipping_unknown(one: Finding) -> bool:
-    """Whether it is the margin against tipping, and not known."""
-    return one.mode in TIPS and bool(np.isnan(one.worst).all())
+def _undecided(
+    each: Sequence[Finding], doubts: Sequence[Finding], risk: float, verdict: Verdict
+) -> Finding:
+    """What decides a verdict between GO and NO-GO: what comes to it alone, else with others."""
+    some = (*doubts, *each)
+    alone = (one for one in some if verdict_of([one], risk) is verdict)
+    together = (one for one in some if one.verdicts().max() >= verdict.rank)
+    return next(chain(alone, together))
 
 
 def _doubts(each: Sequence[Finding], question: Question) -> list[Finding]:
     """What fails beyond the risk alone; where nothing does, what fails beyond it together."""
     risk = question.risk
     some = [one for one in each if _fails_alone(one, risk)]
-    if not some and verdict_of(each, risk) is not Verdict.GO:
+    alone = max((verdict_of([one], risk).rank for one in each), default=Verdict.GO.rank)
+    if verdict_of(each, risk).rank > alone:
         some = [one for one in each if one.fails().any()]
     return sorted(some, key=lambda one: (-verdict_of([one], risk).rank, *_order(one, question)))
 

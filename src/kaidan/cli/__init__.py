@@ -1,7 +1,7 @@
 """The command line: degrees and millimetres in, verdicts and pictures out.
 
-Exit codes: 0 go or caution, 1 no-go, 2 bad input, 3 outside the model, or a file that holds nothing
-to judge, 70 a fault of kaidan's own, 130 after Ctrl-C.
+Exit codes: those of `kaidan.modes.EXIT_CODES`, 3 also for a file that holds nothing to judge, 70 a
+fault of kaidan's own, 130 after Ctrl-C.
 """
 
 import errno

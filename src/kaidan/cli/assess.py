@@ -6,6 +6,7 @@ import typer
 
 from kaidan.cli import options, output
 from kaidan.cli.question import question
+from kaidan.modes import EXIT_CODES
 
 if TYPE_CHECKING:
     from kaidan.question import Question
@@ -25,12 +26,11 @@ Track = Annotated[
 ]
 Details = Annotated[bool, typer.Option("--details", help="Print everything that was found.")]
 Short = Annotated[bool, typer.Option("--short", help="Print one line.")]
-Strict = Annotated[bool, typer.Option("--strict", help="Exit with 1 on caution too.")]
 
 
 def register(app: typer.Typer) -> None:
     """Add ``assess`` to the command line."""
-    app.command("assess")(assess)
+    app.command("assess", epilog=f"Exit code: {EXIT_CODES}.")(assess)
 
 
 @question()
@@ -40,14 +40,10 @@ def assess(
     track: Track = None,
     details: Details = False,
     short: Short = False,
-    strict: Strict = False,
     figure: output.FigureFiles = None,
     as_json: options.AsJson = False,
 ) -> None:
-    """Say whether ROBOT can take STAIRS, by how much, what governs and what would help.
-
-    Exit code: 0 go or caution (--strict: caution is 1), 1 no-go, 2 bad input, 3 outside the model.
-    """
+    """Say whether ROBOT can take STAIRS, by how much, what governs and what would help."""
     from kaidan.assessment import answer_to
     from kaidan.question import Question
 
@@ -72,7 +68,7 @@ def assess(
         drawable = answer.verdict == "no-go" and answer.centroid is None
         see = _see() if drawable else ""
         output.put_text(f"{answer}{see}", files, verdict=answer.verdict)
-    raise typer.Exit(1 if strict and answer.verdict == "caution" else answer.exit_code)
+    raise typer.Exit(answer.exit_code)
 
 
 def _see() -> str:
@@ -83,5 +79,5 @@ def _see() -> str:
     words = sys.argv[2:]
     if sys.argv[1:2] != ["assess"] or "--model" in words:
         return ""
-    kept = [word for word in words if word not in ("--strict", "--details")]
+    kept = [word for word in words if word != "--details"]
     return f"\n  see             kaidan traverse {shlex.join(kept)} --figure traverse.png"

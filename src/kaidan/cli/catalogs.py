@@ -72,7 +72,7 @@ def robots(name: Name = None, figure: output.FigureFiles = None, as_json: AsJson
             },
             below="title",
         )
-        echo("\nNobody measured the centroid, a range is stated: CAUTION until weighed:")
+        echo("\nNobody measured the centroid, a range is stated: UNSURE until weighed:")
         echo_table(
             unweighed,
             {

@@ -7,6 +7,7 @@ import typer
 from kaidan.cli import options, output
 from kaidan.cli.question import question_options, shared
 from kaidan.cli.sweep import Scheduler, Workers, values_of
+from kaidan.modes import EXIT_CODES
 
 FreeText = Annotated[
     list[str],
@@ -44,7 +45,7 @@ Seed = Annotated[int, typer.Option(min=0, help="Seed of the search.")]
 
 def register(app: typer.Typer) -> None:
     """Add ``design`` to the command line."""
-    app.command("design")(design)
+    app.command("design", epilog=f"Exit code: {EXIT_CODES}.")(design)
 
 
 @shared((question_options,), values_of)
@@ -64,8 +65,7 @@ def design(
 ) -> None:
     """Find figures of ROBOT with which it takes STAIRS best, or with the least change.
 
-    STAIRS may be several, joined by commas: the design is judged by the worst of them. Exit code: 0
-    GO or CAUTION, 1 NO-GO, 2 bad input, 3 outside the model.
+    STAIRS may be several, joined by commas: the design is judged by the worst of them.
     """
     from kaidan.modes import Verdict
     from kaidan.verbs.design.designing import design as find

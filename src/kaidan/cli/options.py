@@ -138,12 +138,6 @@ Model = Annotated[
     str,
     typer.Option(help="Which model answers: contact, closed-form, support-polygon or physics."),
 ]
-Accept = Annotated[
-    str,
-    typer.Option(
-        help="What counts as holding: no-rotation, or arrested by the next contact with momentum."
-    ),
-]
 Risk = Annotated[float, typer.Option(help="Probability of failure that is accepted.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 

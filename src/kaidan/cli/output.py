@@ -99,4 +99,10 @@ def _say(contents: Contents, aside: bool) -> None:
         typer.echo(f"wrote {path}{size}", err=aside)
 
 
-_COLOURS = {"go": "green", "caution": "yellow", "no-go": "red", "outside-model": "magenta"}
+_COLOURS = {
+    "go": "green",
+    "rough": "yellow",
+    "unsure": "cyan",
+    "no-go": "red",
+    "outside-model": "magenta",
+}

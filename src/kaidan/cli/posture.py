@@ -6,6 +6,7 @@ import typer
 
 from kaidan.cli import options, output
 from kaidan.cli.question import question
+from kaidan.modes import EXIT_CODES
 
 if TYPE_CHECKING:
     from kaidan.question import Question
@@ -17,7 +18,7 @@ Limits = Annotated[
 
 def register(app: typer.Typer) -> None:
     """Add ``posture`` to the command line."""
-    app.command("posture")(posture)
+    app.command("posture", epilog=f"Exit code, by the best plan: {EXIT_CODES}.")(posture)
 
 
 @question(without=("yaw", "model", "facing"), flippers="stowed")
@@ -27,10 +28,7 @@ def posture(
     facing: options.Facing = None,
     as_json: options.AsJson = False,
 ) -> None:
-    """Find the leading end and the posture in each phase with which ROBOT takes STAIRS best.
-
-    Exit code, by the best plan: 0 go or caution, 1 no-go, 2 bad input, 3 outside the model.
-    """
+    """Find the leading end and the posture in each phase with which ROBOT takes STAIRS best."""
     from kaidan.units import parse_range
     from kaidan.verbs.posture import posture as find
 

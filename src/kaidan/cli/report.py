@@ -8,6 +8,7 @@ import typer
 
 from kaidan.cli import options, output
 from kaidan.cli.question import question_of, question_options, shared
+from kaidan.modes import EXIT_CODES
 
 if TYPE_CHECKING:
     from kaidan.question import Question
@@ -43,7 +44,7 @@ Language = Annotated[Literal["en", "ja"], typer.Option(help="Language of the tex
 
 def register(app: typer.Typer) -> None:
     """Add ``report`` to the command line."""
-    app.command("report")(report)
+    app.command("report", epilog=f"Exit code, by the worst verdict: {EXIT_CODES}.")(report)
 
 
 def _asking(**values: Any) -> Ask:
@@ -60,10 +61,7 @@ def report(
     language: Language = "en",
     as_json: options.AsJson = False,
 ) -> None:
-    """Write a document: a page for the field, then inputs, margins, figures and limits.
-
-    Exit code, by the worst verdict: 0 go or caution, 1 no-go, 2 bad input, 3 outside the model.
-    """
+    """Write a document: a page for the field, then inputs, margins, figures and limits."""
     from kaidan.documents import document_format, report_bytes
     from kaidan.errors import InputError
     from kaidan.verbs.report import report as find

@@ -7,6 +7,7 @@ import typer
 
 from kaidan.cli import options, output
 from kaidan.cli.question import question
+from kaidan.modes import EXIT_CODES
 
 if TYPE_CHECKING:
     from kaidan.question import Question
@@ -40,7 +41,7 @@ AnimationFile = Annotated[
 
 def register(app: typer.Typer) -> None:
     """Add ``traverse`` to the command line."""
-    app.command("traverse")(traverse)
+    app.command("traverse", epilog=f"Exit code: {EXIT_CODES}.")(traverse)
 
 
 @question(without=("uncertainty", "yaw", "risk", "model"))
@@ -53,10 +54,7 @@ def traverse(
     animation: AnimationFile = None,
     as_json: options.AsJson = False,
 ) -> None:
-    """Follow ROBOT over STAIRS from landing to landing: phases, events, pictures.
-
-    Exit code: 0 go or caution, 1 no-go, 2 bad input, 3 outside the model.
-    """
+    """Follow ROBOT over STAIRS from landing to landing: phases, events, pictures."""
     from kaidan.assessment import found_plan
     from kaidan.errors import InputError
     from kaidan.films import film_format

@@ -8,7 +8,7 @@ from kaidan.mechanics import STANDARD_GRAVITY, Number
 from kaidan.mechanics.margins import margins
 from kaidan.modes import FORMULAS, SLIDES_DOWN, Verdict
 
-CAUTION, NO_GO = Verdict.UNSURE.rank, Verdict.NO_GO.rank
+UNSURE, NO_GO = Verdict.UNSURE.rank, Verdict.NO_GO.rank
 _SLIDES_DOWN = FORMULAS.index(SLIDES_DOWN)
 """Code of sliding down; sliding up has the next, tipping the first two."""
 
@@ -55,9 +55,10 @@ def judged(
 ) -> Judged:
     """Verdict and every margin of a pair of robot and stairs.
 
-    GO where the smallest margin is positive and friction known; CAUTION where it is positive but
+    GO where the smallest margin is positive and friction known; UNSURE where it is positive but
     friction unknown, or where it would be positive with the spare given back; NO-GO else; outside
-    the model where p > L / 2. Area E, which needs a controlled acceleration, counts as NO-GO.
+    the model where p > L / 2. Area E, which needs a controlled acceleration, counts as NO-GO, and
+    nothing as ROUGH: the formulas do not tell whether the next contact arrests a rotation.
 
     Parameters
     ----------
@@ -79,11 +80,11 @@ def judged(
     >>> allowance = np.radians(2.6)
     >>> unmeasured = dict(theta_d=allowance, spare_d=allowance)
     >>> judged(theta_s=slopes, theta_M=allowance, spare_M=allowance, **unmeasured, **kenaf).verdict
-    array([0, 1, 2])
+    array([0, 2, 3])
 
     References
     ----------
-    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y; the words GO, CAUTION, NO-GO are ours.
+    Endo & Nagatani 2016, doi:10.1186/s40648-016-0058-y; the words GO, UNSURE, NO-GO are ours.
     """
     m = margins(
         L=L,
@@ -102,8 +103,8 @@ def judged(
     at_best = np.fmin(np.minimum(downhill_at_best, uphill_at_best), slip)
     holds, holds_at_best = m.worst > 0, at_best > 0
     unknown, outside = m.slides_down != m.slides_down, m.worst != m.worst
-    verdict = holds * unknown * CAUTION + (1 - holds) * (
-        holds_at_best * CAUTION + (1 - holds_at_best) * (NO_GO + outside)
+    verdict = holds * unknown * UNSURE + (1 - holds) * (
+        holds_at_best * UNSURE + (1 - holds_at_best) * (NO_GO + outside)
     )
     # a NO-GO is decided by what is smallest in the best case
     fails = at_best <= 0

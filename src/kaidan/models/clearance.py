@@ -46,7 +46,7 @@ def findings_of(question: Question, room: Room, model: str) -> tuple[Finding, ..
 
 
 def with_gap(question: Question, found: Findings, flight: Stairs, gap: Gap) -> Findings:
-    """Findings with whether an end of the robot fits into a gap: at most CAUTION then.
+    """Findings with whether an end of the robot fits into a gap: at most UNSURE then.
 
     A round end rolls over a gap that is shorter than it is wide; into a longer one it may drop,
     and no trial has been driven over one. Where no floor was found nobody knows what is there.

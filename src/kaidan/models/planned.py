@@ -23,6 +23,7 @@ from kaidan.modes import (
     ENERGY,
     FAILS,
     FLIPPER_TORQUE,
+    OPEN,
     POSTURE_CHANGE,
     SLIDES_DOWN,
     TIP_DOWNHILL,
@@ -211,11 +212,13 @@ def _tips_on_the_way(question: Question, each: Move) -> list[Finding]:
     if math.isinf(tilt):
         return []
     d, M = question.allowance_d, question.allowance_M
+    worst = tilt - d.high - M.high
     return [
         Finding(
             mode=TIP_DOWNHILL,
-            worst=np.array([tilt - d.high - M.high]),
+            worst=np.array([worst]),
             best=np.array([tilt - d.low - M.low]),
+            instead=OPEN if worst <= 0 else None,  # nothing tells how far from a fall
             phase=each.before,
             model=CONTACT.name,
         )

@@ -4,7 +4,7 @@ On a uniform flight the criterion of the contact model while the flat lies on th
 closed form: the margins against tipping are the same, required friction and traction are no less,
 and every other finding can only lower a verdict. So a margin of the closed form that is not
 positive excludes a GO, whatever entering and landing come to. The contrary does not hold: a GO, and
-whether it is a CAUTION or a NO-GO, is for the contact model.
+whether it is ROUGH, UNSURE or NO-GO, is for the contact model.
 
 Where the end that leads is to be found, both have to be excluded. Where the flippers' posture is,
 nothing is: pressed down or raised they touch what the closed form knows nothing of.

@@ -73,7 +73,10 @@ def text(answer: "Assessment") -> str:
 
 def _tried_changes(answer: "Assessment") -> bool:
     """Whether changes were tried: not where nothing fails, and not many trials for each."""
-    fails = answer.verdict in ("caution", "no-go") and answer.governs != Undecided.MARGIN_UNKNOWN
+    fails = (
+        answer.verdict in ("rough", "unsure", "no-go")
+        and answer.governs != Undecided.MARGIN_UNKNOWN
+    )
     return fails and answer.question.trials == 1
 
 

@@ -21,7 +21,8 @@ _STYLE = """
 body { font: 15px/1.45 system-ui, sans-serif; max-width: 70em; margin: 2em auto; padding: 0 1em }
 table { border-collapse: collapse; margin: 1em 0 }
 th, td { border: 1px solid #999; padding: .3em .6em; text-align: left; vertical-align: top }
-.go { background: #c5e8dc } .caution { background: #fbf1cc } .no-go { background: #f2c6af }
+.go { background: #c5e8dc } .rough { background: #fbf1cc } .unsure { background: #d5dcf5 }
+.no-go { background: #f2c6af }
 svg { max-width: 100%; height: auto }
 """
 

@@ -11,7 +11,8 @@ if TYPE_CHECKING:
 
 SIGNS = {
     Verdict.GO: "+",
-    Verdict.UNSURE: "~",
+    Verdict.ROUGH: "~",
+    Verdict.UNSURE: "!",
     Verdict.NO_GO: "x",
     Verdict.OUTSIDE_MODEL: "?",
 }

@@ -14,7 +14,7 @@ class Verdict(NamedTuple):
     """Verdict in large letters, with a mark: the colour is never alone."""
 
     key: str
-    """go, caution, no-go or outside-model."""
+    """go, rough, unsure, no-go or outside-model."""
     text: str
     """For whom on what."""
 

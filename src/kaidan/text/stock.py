@@ -27,7 +27,7 @@ def text(found: "StockStudy") -> str:
     ]
     heads = {"robot": "robot", "go": "GO [%]"}
     heads |= {"not_go": "no GO [%]"} if found.go_only else {}
-    heads |= {"caution": "CAUTION [%]", "no_go": "NO-GO [%]"}
+    heads |= {"rough": "ROUGH [%]", "unsure": "UNSURE [%]", "no_go": "NO-GO [%]"}
     if any(each.outside_model for each in found.robots):
         heads["outside"] = "OUTSIDE [%]"
     heads |= {"steepest": "steepest GO [deg]", "governs": "decides where it is no GO [%]"}
@@ -47,7 +47,8 @@ def _row(each: "RobotOnStock") -> dict[str, str]:
         "robot": each.robot,
         "go": share(each.go),
         "not_go": share(each.not_go),
-        "caution": share(each.caution),
+        "rough": share(each.rough),
+        "unsure": share(each.unsure),
         "no_go": share(each.no_go),
         "outside": share(each.outside_model),
         "steepest": steepest,

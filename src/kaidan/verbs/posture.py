@@ -65,7 +65,7 @@ class PostureAnswer(Answer):
 
     @property
     def exit_code(self) -> int:
-        """Of the best plan: 0 go or caution, 1 no-go, 3 outside the model."""
+        """Of the best plan, by `kaidan.modes.EXIT_CODES`."""
         return Verdict(self.after.verdict).exit_code
 
 

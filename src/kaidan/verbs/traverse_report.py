@@ -289,7 +289,7 @@ class TraverseReport(Answer):
 
     @property
     def exit_code(self) -> int:
-        """0 go or caution, 1 no-go, 3 outside the model."""
+        """By `kaidan.modes.EXIT_CODES`."""
         return self.assessment.exit_code
 
     @property

@@ -13,7 +13,7 @@ from kaidan.lab.cross_check.bands import Band
 from kaidan.lab.cross_check.common_question import FlightTraverse, common
 from kaidan.lab.cross_check.comparison import of_friction
 from kaidan.models.findings import Finding, Findings
-from kaidan.modes import ENERGY, SLIDES_UP, STUCK, TIP_SIDEWAYS, TIP_UPHILL, Verdict
+from kaidan.modes import ENERGY, FALL_UPHILL, SLIDES_UP, STUCK, TIP_SIDEWAYS, TIP_UPHILL
 from kaidan.question import Question
 from kaidan.terrain.stairs import Stairs
 from physics_cases import robot
@@ -41,8 +41,13 @@ def finding(mode, margin, **fields):
         ((finding(SLIDES_UP, -0.1),), "slides"),
         ((finding(STUCK, -1.5),), "gets stuck"),
         ((finding(TIP_UPHILL, -0.1), finding(SLIDES_UP, -0.2)), "slides"),
-        ((finding(TIP_UPHILL, -0.1, failing=Verdict.CAUTION),), "tips"),
-        ((finding(ENERGY, -1.0, failing=Verdict.CAUTION),), "holds"),
+        ((finding(TIP_UPHILL, -0.1), finding(FALL_UPHILL, 0.1)), "holds"),  # ROUGH: arrested
+        ((finding(TIP_UPHILL, -0.1), finding(FALL_UPHILL, -0.1)), "tips"),
+        (
+            (finding(TIP_UPHILL, -0.1), finding(FALL_UPHILL, 0.1), finding(SLIDES_UP, -0.2)),
+            "slides",
+        ),
+        ((finding(ENERGY, -1.0),), "holds"),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )

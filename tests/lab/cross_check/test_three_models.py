@@ -141,9 +141,9 @@ def test_uncertainties_and_allowances_play_no_part():
     plain = Question.in_one_posture(robot(), inclined(58.0, 0.150), friction=2.0)
     doubted = Question.in_one_posture(
         robot(), inclined(58.0, 0.150), friction=(2.0, 2.5), theta_d="3deg",
-        uncertainty="com_from_front=20mm,angle=2deg", risk=0.3, accept="arrested",
+        uncertainty="com_from_front=20mm,angle=2deg", risk=0.3,
     )  # fmt: skip
-    assert common(doubted) == common(plain).changed(risk=0.3, accept="arrested")
+    assert common(doubted) == common(plain).changed(risk=0.3)
 
 
 def test_the_excess_is_read_from_what_was_measured():

@@ -22,7 +22,8 @@ def found():
 
 
 def test_no_go_where_a_robot_failed_or_rocked(found):
-    assert [pair for pair in found.pairs if pair.comparison == "wrong GO"] == []
+    wrong = ("wrong GO", "wrong ROUGH")
+    assert [pair for pair in found.pairs if pair.comparison in wrong] == []
 
 
 def test_no_no_go_where_a_real_robot_climbed_asked_as_the_source_has_it(found):
@@ -30,12 +31,12 @@ def test_no_no_go_where_a_real_robot_climbed_asked_as_the_source_has_it(found):
     assert [pair for pair in tests if pair.comparison == "wrong NO-GO"] == []
 
 
-def test_rocking_of_fig_14_is_caution(found):
+def test_rocking_of_fig_14_is_no_go_ahead(found):
     rocks = [pair for pair in found.pairs if pair.outcome == "rocks"]
     (rocked,) = (pair for pair in rocks if pair.knowledge == "source")
     # paper, Fig. 14: 200 mm, 44.0 deg
     assert (1e3 * rocked.nosing_spacing_m, rocked.angle_deg) == pytest.approx(MEASURED.rotated_at)
-    assert rocked.verdict is Verdict.CAUTION
+    assert rocked.verdict is Verdict.UNSURE
 
 
 def test_falls_that_the_text_prints_are_pairs(found):
@@ -50,8 +51,8 @@ def test_falls_that_the_text_prints_are_pairs(found):
 def test_every_pair_is_counted_once(found):
     assert sum(tally.pairs for tally in found.tallies) == len(found.pairs)
     for tally in found.tallies:
-        counts = (tally.agree, tally.wrong_go, tally.wrong_no_go, tally.caution, tally.no_answer)
-        assert sum(counts) == tally.pairs
+        wrong = tally.wrong_go + tally.wrong_rough + tally.wrong_no_go
+        assert tally.agree + wrong + tally.undecided + tally.no_answer == tally.pairs
 
 
 def test_answer_reads_back_equal_and_says_the_counts(found):

@@ -69,12 +69,12 @@ def test_gravity_is_passed_on():
     ("angle", "mu_s", "spare", "expected"),
     [
         (54.9, 2.0, 0.0, Verdict.GO),
-        (54.9, math.nan, 0.0, Verdict.CAUTION),
+        (54.9, math.nan, 0.0, Verdict.UNSURE),
         (55.1, 2.0, 0.0, Verdict.NO_GO),
         (55.1, math.nan, 0.0, Verdict.NO_GO),
-        (55.1, 2.0, 2.6, Verdict.CAUTION),
-        (55.1, math.nan, 2.6, Verdict.CAUTION),
-        (60.1, 2.0, 2.6, Verdict.CAUTION),
+        (55.1, 2.0, 2.6, Verdict.UNSURE),
+        (55.1, math.nan, 2.6, Verdict.UNSURE),
+        (60.1, 2.0, 2.6, Verdict.UNSURE),
         (60.3, 2.0, 2.6, Verdict.NO_GO),
         (57.5, 1.5, 2.6, Verdict.NO_GO),  # atan 1.5 = 56.3 deg: slips however kind the rest
     ],
@@ -95,7 +95,7 @@ def test_only_theta_d_is_given_back_at_the_uphill_end():
     assert word(found) is Verdict.NO_GO
     assert FORMULAS[int(found.governs)] is TIP_UPHILL
     above = judged(**at | {"theta_s": math.radians(19.0)}, theta_d=0.04, spare_d=0.04)
-    assert word(above) is Verdict.CAUTION
+    assert word(above) is Verdict.UNSURE
 
 
 def test_outside_the_model():
@@ -105,7 +105,7 @@ def test_outside_the_model():
 
 
 def test_a_margin_of_exactly_zero_is_no_go():
-    # the paper: equality is in none of its areas; here it is never GO, nor CAUTION
+    # the paper: equality is in none of its areas; here it is never GO, nor UNSURE
     slope = judged(**KENAF, p=0.150, theta_s=0.5, mu_s=9.0).theta_s_sup
     found = judged(**KENAF, p=0.150, theta_s=slope, mu_s=9.0)
     assert found.tip_downhill == found.margin == 0.0
@@ -179,7 +179,7 @@ def test_what_governs(changes, mode, worst):
         ({"theta_s": 0.1 - math.pi / 4, "spare_d": 0.15}, SLIDES_UP),
         # theta_M is no matter of the uphill end
         ({"theta_s": 0.1 - math.pi / 4, "spare_M": 0.15}, TIP_UPHILL),
-        # a CAUTION is in doubt by the smallest margin, although it may hold
+        # a UNSURE is in doubt by the smallest margin, although it may hold
         ({"theta_s": math.pi / 4 - 0.1, "mu_s": 2.0, "spare_d": 0.15}, TIP_DOWNHILL),
         # hand: p = L/2, both limits level: -0.5 downhill, at best +0.1; -0.3 uphill, -0.1
         (

@@ -147,7 +147,7 @@ def test_of_a_range_of_friction_the_low_end_counts():
 
 
 def test_what_plays_no_part_in_a_trial_makes_no_other_trial():
-    asked = spec(50.0, theta_d=0.02, theta_M=(0.0, 0.01), risk=0.05, accept="arrested")
+    asked = spec(50.0, theta_d=0.02, theta_M=(0.0, 0.01), risk=0.05)
     assert asked == spec(50.0)
     assert asked.model_dump_json() == spec(50.0, model="closed-form").model_dump_json()
 

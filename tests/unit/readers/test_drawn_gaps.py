@@ -92,7 +92,7 @@ def test_a_joint_is_no_gap(tmp_path, gap):
 def test_a_gap_that_an_end_may_drop_into_is_named_and_no_go(tmp_path, direction):
     """Absolem's flippers end in a radius of 29 mm, 58 mm across: they would drop in."""
     cell, notes = judged(flight(gap=0.3), tmp_path, direction=direction)
-    assert (cell.verdict, cell.governs, cell.binds) == ("caution", "gap", "gap")
+    assert (cell.verdict, cell.governs, cell.binds) == ("unsure", "gap", "gap")
     assert cell.reason == (
         "A gap of 300 mm lies before step 10: an end of the robot, 58 mm across, may drop in."
     )
@@ -101,7 +101,7 @@ def test_a_gap_that_an_end_may_drop_into_is_named_and_no_go(tmp_path, direction)
 
 def test_a_gap_before_the_first_riser(tmp_path):
     cell, notes = judged(flight(foot=0.3), tmp_path)
-    assert (cell.verdict, cell.governs) == ("caution", "gap")
+    assert (cell.verdict, cell.governs) == ("unsure", "gap")
     assert notes == ("a gap of 300 mm, 1.50 m deep, lies before the first riser",)
     assert spans(drawn(flight(foot=0.1), tmp_path)) == [pytest.approx((-0.1, 0.0), abs=NEAR)]
     assert spans(drawn(flight(foot=0.02), tmp_path)) == []
@@ -117,7 +117,7 @@ def test_a_gap_before_the_first_riser(tmp_path):
 )
 def test_a_floor_that_is_not_drawn_is_a_doubt(tmp_path, how, where):
     cell, notes = judged(flight(**how), tmp_path)
-    assert (cell.verdict, cell.governs) == ("caution", "gap")
+    assert (cell.verdict, cell.governs) == ("unsure", "gap")
     assert cell.reason == f"No floor was found {where}: look there before you drive."
     assert f"no floor was found {where}" in notes
 
@@ -151,7 +151,7 @@ def test_a_hole_in_the_floor_at_the_head(tmp_path):
     assert found.gaps[0].beside == 0.0
 
 
-@pytest.mark.parametrize(("width", "verdict"), [(1.0, "caution"), (1.6, "go")])
+@pytest.mark.parametrize(("width", "verdict"), [(1.0, "unsure"), (1.6, "go")])
 def test_the_way_past_a_hole(tmp_path, width, verdict):
     """The hole takes the left half: 0.5 or 0.8 m are left, and Absolem needs 716 mm off line."""
     house = flight(width=width, hole=(HOLE, (0.0, width / 2)))
@@ -164,7 +164,7 @@ def test_the_way_past_a_hole(tmp_path, width, verdict):
 def test_a_landing_ends_at_a_hole_that_lies_beyond_it(tmp_path):
     """Landing with its flippers down Absolem is longer than the 0.8 m before the hole."""
     cell, _ = judged(flight(hole=((0.8, 1.2), (-0.6, 0.6))), tmp_path)
-    assert (cell.verdict, cell.governs) == ("caution", "landing_room")
+    assert (cell.verdict, cell.governs) == ("unsure", "landing_room")
 
 
 def test_one_tread_that_is_missing_is_a_gap_of_both_parts(tmp_path):

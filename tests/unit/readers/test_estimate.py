@@ -214,7 +214,7 @@ def test_a_turn_by_another_angle_is_no_quarter_and_no_half(degrees, turn):
     if turn != "unknown":
         assert "turning" not in answer.doubts
         return
-    assert (answer.verdict, answer.governs) == ("caution", "turning")
+    assert (answer.verdict, answer.governs) == ("unsure", "turning")
     assert answer.turns[0].turn_deg is None
     assert answer.reason == (
         "Whether it can turn on the landing above stairs-1 is not known: its angle or sizes are "

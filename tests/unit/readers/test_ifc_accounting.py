@@ -461,7 +461,7 @@ def test_a_floor_without_its_finish_is_a_doubt_and_named(tmp_path, schema, unit)
     answer = verb(path, ["absolem"], friction=1.0)
     (flight,), (cell,) = answer.flights, answer.cells
     assert (flight.first_rise_m, flight.last_rise_m) == pytest.approx((0.32, 0.17), abs=NEAR)
-    assert (cell.verdict, cell.governs, cell.binds) == ("caution", "floor_finish", "drawing")
+    assert (cell.verdict, cell.governs, cell.binds) == ("unsure", "floor_finish", "drawing")
     assert cell.reason == (
         "Drawn 1.85 m, stated 1.70 m: floor finish missing? Measure it: first riser 320 mm drawn, "
         "170 mm stated."
@@ -491,7 +491,7 @@ def test_finishes_missing_at_both_ends_leave_the_height_as_it_is(tmp_path):
     answer = verb(path, ["absolem"], friction=1.0)
     (flight,), (cell,) = answer.flights, answer.cells
     assert (flight.first_rise_m, flight.last_rise_m) == pytest.approx((0.25, 0.09), abs=NEAR)
-    assert cell.verdict == "caution"
+    assert cell.verdict == "unsure"
     assert cell.reason == (
         "Floor finish missing? Measure it: first riser 250 mm drawn, 170 mm stated, last riser 90 "
         "mm drawn, 170 mm stated."

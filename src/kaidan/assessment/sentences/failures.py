@@ -60,7 +60,7 @@ def _tips(
     if best > 0:
         return (
             f"The margin against tipping {label} is {margin:+.1f} to {best:+.1f} deg, by the "
-            f"ranges of what is not measured{at(conclusion)}."
+            f"ranges of what is not measured{at(conclusion)}{_to_fall(found)}."
         )
     if math.isnan(best):
         return f"It may fall {label}{at(conclusion)}, by its friction."
@@ -132,11 +132,19 @@ def _falls(
     tilt = None if figure is None else figure.to_fall_deg
     if tilt is None:  # of several traverses the worst
         tilt = math.degrees(finding.margin(question.risk) + question.reserve)
+    reserve = math.degrees(question.reserve)
+    if finding.margin(question.risk, best=True) > 0:  # in the worst case only
+        if tilt <= 0:
+            return f"It may fall {label}{at(conclusion)}, by the ranges of what is not measured."
+        return (
+            f"It may rock to {tilt:.1f} deg from falling {label}{at(conclusion)}; {reserve:.1f} "
+            "deg of reserve must be kept."
+        )
     if tilt <= 0:
         return f"It falls {label}{at(conclusion)}."
     return (
         f"It rocks, and is {tilt:.1f} deg from falling {label}{at(conclusion)}: expect a fall, "
-        f"because {math.degrees(question.reserve):.1f} deg of reserve must be kept."
+        f"because {reserve:.1f} deg of reserve must be kept."
     )
 
 

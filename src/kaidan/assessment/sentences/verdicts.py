@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from kaidan.assessment.sentences import failures
 from kaidan.models.sentences import dynamic, terrain, turning
-from kaidan.modes import FAILURE_MODES, MODELS, Undecided, Verdict
+from kaidan.modes import FAILURE_MODES, HIGH_CENTRING, IMPACT, MODELS, Undecided, Verdict
 from kaidan.readers.sentences.robot_file import BELT_ASSUMED
 
 if TYPE_CHECKING:
@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from kaidan.models.findings import Findings
     from kaidan.question import Question
     from kaidan.robot import Robot, Stance
+
+
+HOW_ROUGH = {IMPACT.key: "lands hard", HIGH_CENTRING.key: "rests on its belly"}
+"""What a ROUGH robot does by these modes; by the others it rocks."""
 
 
 def reason(question: "Question", found: "Findings", conclusion: "Conclusion") -> str:
@@ -27,7 +31,8 @@ def reason(question: "Question", found: "Findings", conclusion: "Conclusion") ->
     if conclusion.governs == Undecided.FRICTION_UNKNOWN:
         return failures.of_friction(question, found, conclusion, "none is stated")
     if conclusion.governs == Undecided.MARGIN_UNKNOWN:
-        return f"Nothing fails, but the {MODELS[found.model].label} knows no margin."
+        but = "T" if conclusion.doubts else "Nothing fails, but t"
+        return f"{but}he {MODELS[found.model].label} knows no margin."
     mode = FAILURE_MODES[conclusion.governs]
     if conclusion.verdict is Verdict.GO:
         return (
@@ -50,8 +55,13 @@ def reason(question: "Question", found: "Findings", conclusion: "Conclusion") ->
 
 
 def notes(question: "Question", found: "Findings", conclusion: "Conclusion") -> tuple[str, ...]:
-    """Other doubts than the governing one, what was assumed or not stated, what the sheet says."""
+    """What to secure, other doubts than the governing one, what was assumed, what the sheet has."""
     each = []
+    if conclusion.verdict is Verdict.ROUGH:
+        does = HOW_ROUGH.get(conclusion.governs, "rocks")
+        each.append(
+            f"Secure payload, arm and antennas: it {does}. Keep people off the flight below."
+        )
     for finding in conclusion.doubts:
         say = failures.SAYINGS.get(finding.mode.key)
         fails = not finding.margin(question.risk) > 0  # by itself

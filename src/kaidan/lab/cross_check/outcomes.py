@@ -18,7 +18,6 @@ from kaidan.modes import (
     TIP_DOWNHILL,
     TIP_UPHILL,
     TIPS,
-    Acceptance,
     FailureMode,
     Verdict,
 )
@@ -43,8 +42,8 @@ def outcome(question: Question, found: Findings) -> str:
     if conclusion.verdict is Verdict.OUTSIDE_MODEL:
         return OUTSIDE
     mode = FAILURE_MODES.get(conclusion.governs)
-    fails = conclusion.verdict is Verdict.NO_GO or bool(conclusion.doubts)
-    return WORDS[mode] if fails and mode is not None else HOLDS
+    holds = conclusion.verdict in (Verdict.GO, Verdict.ROUGH)
+    return HOLDS if holds or mode is None else WORDS[mode]
 
 
 def by_closed_form(question: Question) -> str:
@@ -66,7 +65,7 @@ def by_static_criterion(question: Question, required_friction: float) -> str:
 
 
 def by_traverse(question: Question, traverse: FlightTraverse) -> str:
-    """Of the contact model on the flight alone, a rotation that is arrested accepted."""
+    """Of the contact model on the flight alone; a rotation that is arrested holds."""
     status = traverse.status
     if status is Status.OK:
         found = _found(_supply(question, traverse.required_friction))
@@ -83,9 +82,9 @@ def by_traverse(question: Question, traverse: FlightTraverse) -> str:
 
 
 def from_the_landing(question: Question) -> str:
-    """Of the contact model from landing to landing, a rotation that is arrested accepted."""
-    accepting = question.changed(accept=Acceptance.ARRESTED, fall_reserve=0.0)
-    return outcome(accepting, contact_model.judge(accepting))
+    """Of the contact model from landing to landing; a rotation that is arrested holds."""
+    without = question.changed(fall_reserve=0.0)
+    return outcome(without, contact_model.judge(without))
 
 
 def by_trial(question: Question, result: TrialResult) -> str:

@@ -24,7 +24,7 @@ from kaidan.terrain.stairs import Stairs
 
 Case = Mapping[str, Any]
 Tool = Callable[[Case], str]
-_VERDICTS = {"GO": Verdict.GO, "NO-GO": Verdict.NO_GO}
+_VERDICTS = {each.label: each for each in (Verdict.GO, Verdict.ROUGH, Verdict.NO_GO)}
 _STEEPEST, _HIGHEST = 1.0, 0.12
 """Critical values of slope [rad] and step [m] of a navigation layer: those that
 `traversability_estimation` of ETH Zurich ships (`config/robot_filter_parameter.yaml`)."""
@@ -42,13 +42,15 @@ class Score(Part):
     cases: int
     """How many."""
     right: int
-    """GO and it climbed, NO-GO and it failed."""
+    """GO and it climbed, ROUGH and it climbed or rocked, NO-GO and it failed."""
     wrong_go: int
     """GO, and the robot failed or rocked."""
+    wrong_rough: int
+    """ROUGH, and the robot failed."""
     wrong_no_go: int
     """NO-GO, and it did not fail."""
     undecided: int
-    """Neither GO nor NO-GO."""
+    """None of these words."""
     ms: float
     """Time of an answer, the median of all cases [ms]."""
 
@@ -72,7 +74,7 @@ class Answered(NamedTuple):
 def bench(adapter: Path | None = None) -> Bench:
     """Run the tools over the frozen cases.
 
-    adapter: Python file with ``answer(case)``, which returns "GO", "NO-GO" or anything else.
+    adapter: Python file with ``answer(case)``, which says "GO", "ROUGH", "NO-GO" or anything else.
 
     Raises
     ------
@@ -161,16 +163,16 @@ def _score(
 ) -> Score:
     keys = [key for key, (of, _) in truth.items() if of == source]
     marks = [compared(truth[key][1], found[key].verdict) for key in keys]
-    decided = [found[key].verdict is not Verdict.UNSURE for key in keys]
     times = sorted(found[key].seconds for key in keys)
     return Score(
         tool=name,
         truth=source,
         cases=len(keys),
-        right=sum(mark == "agrees" and sure for mark, sure in zip(marks, decided, strict=True)),
+        right=marks.count("agrees"),
         wrong_go=marks.count("wrong GO"),
+        wrong_rough=marks.count("wrong ROUGH"),
         wrong_no_go=marks.count("wrong NO-GO"),
-        undecided=decided.count(False),
+        undecided=marks.count("undecided"),
         ms=1e3 * times[len(times) // 2],
     )
 

@@ -13,6 +13,7 @@ _COLUMNS = {
     "cases": "cases",
     "right": "right",
     "wrong_go": "wrong GO",
+    "wrong_rough": "wrong ROUGH",
     "wrong_no_go": "wrong NO-GO",
     "undecided": "undecided",
     "ms": "ms",

@@ -24,17 +24,17 @@ from kaidan.units import value_of
 
 Outcome = Literal["climbs", "rocks", "falls", "slides", "sticks"]
 Evidence = Literal["test", "simulation"]
-Comparison = Literal["agrees", "wrong GO", "wrong NO-GO", "CAUTION", "no answer"]
+Comparison = Literal["agrees", "wrong GO", "wrong ROUGH", "wrong NO-GO", "undecided", "no answer"]
 Knowledge = Literal["source", "operator", "grip tried"]
 
-RIGHT: dict[Outcome, Verdict] = {
-    "climbs": Verdict.GO,
-    "rocks": Verdict.UNSURE,
-    "falls": Verdict.NO_GO,
-    "slides": Verdict.NO_GO,
-    "sticks": Verdict.NO_GO,
+RIGHT: dict[Outcome, tuple[Verdict, ...]] = {
+    "climbs": (Verdict.GO, Verdict.ROUGH),
+    "rocks": (Verdict.ROUGH,),
+    "falls": (Verdict.NO_GO,),
+    "slides": (Verdict.NO_GO,),
+    "sticks": (Verdict.NO_GO,),
 }
-"""Verdict that agrees with each outcome."""
+"""Verdicts that agree with each outcome."""
 QUANTILE = 1.959964
 """Of the normal distribution, for intervals of 95 %."""
 _ESTIMATED = {"com_from_front": "5mm", "com_height": "5mm"}
@@ -98,17 +98,19 @@ class Tally(Part):
     pairs: int
     """How many."""
     agree: int
-    """GO and it climbed, CAUTION and it rocked, NO-GO and it failed."""
+    """GO and it climbed, ROUGH and it climbed or rocked, NO-GO and it failed."""
     agree_share: tuple[float, float]
     """Between which shares that lies, were the pairs independent (95 %, Wilson)."""
     wrong_go: int
     """GO, and the robot failed or rocked."""
     wrong_go_share: tuple[float, float]
     """Between which shares that lies, likewise."""
+    wrong_rough: int
+    """ROUGH, and the robot failed."""
     wrong_no_go: int
     """NO-GO, and the robot did not fail."""
-    caution: int
-    """CAUTION, and the robot neither failed nor rocked, or failed."""
+    undecided: int
+    """UNSURE."""
     no_answer: int
     """Outside the model."""
 
@@ -174,11 +176,12 @@ def compared(outcome: Outcome, verdict: Verdict) -> Comparison:
     >>> compared("climbs", Verdict.GO), compared("rocks", Verdict.GO)
     ('agrees', 'wrong GO')
     """
-    if verdict is RIGHT[outcome]:
+    if verdict in RIGHT[outcome]:
         return "agrees"
     return {
         Verdict.GO: "wrong GO",
-        Verdict.UNSURE: "CAUTION",
+        Verdict.ROUGH: "wrong ROUGH",
+        Verdict.UNSURE: "undecided",
         Verdict.NO_GO: "wrong NO-GO",
         Verdict.OUTSIDE_MODEL: "no answer",
     }[verdict]  # type: ignore[return-value]
@@ -266,7 +269,8 @@ def _tallies(pairs: list[Pair]) -> Iterator[Tally]:
             agree_share=share(agree, len(found)),
             wrong_go=wrong_go,
             wrong_go_share=share(wrong_go, len(found)),
+            wrong_rough=found.count("wrong ROUGH"),
             wrong_no_go=found.count("wrong NO-GO"),
-            caution=found.count("CAUTION"),
+            undecided=found.count("undecided"),
             no_answer=found.count("no answer"),
         )

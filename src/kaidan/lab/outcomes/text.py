@@ -7,7 +7,7 @@ from kaidan.tables import table
 if TYPE_CHECKING:
     from kaidan.lab.outcomes.known_outcomes import KnownOutcomes, Pair, Tally
 
-AIM = "Aim, over tests: no wrong GO, at least 80 % agree, at most 15 % CAUTION."
+AIM = "Aim, over tests: no wrong GO, no wrong ROUGH, at least 80 % agree, at most 15 % undecided."
 _EVIDENCE = {"test": "real robot", "simulation": "simulation of others"}
 _COLUMNS = {
     "robot": "robot",
@@ -64,8 +64,9 @@ def _counted(tally: "Tally") -> dict[str, str]:
         "pairs": str(tally.pairs),
         "agree": f"{tally.agree} {_span(tally.agree_share)}",
         "wrong GO": f"{tally.wrong_go} {_span(tally.wrong_go_share)}",
+        "wrong ROUGH": str(tally.wrong_rough),
         "wrong NO-GO": str(tally.wrong_no_go),
-        "CAUTION": str(tally.caution),
+        "undecided": str(tally.undecided),
         "outside": str(tally.no_answer),
     }
 

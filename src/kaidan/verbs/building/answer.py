@@ -273,9 +273,10 @@ class BuildingAnswer(Answer):
 
     @property
     def exit_code(self) -> int:
-        """0 where some robot gets to every storey that flights lead to, 1 else, 3 no flights."""
+        """0 where no storey with flights is a NO-GO for all robots, 1 else, 3 no flights."""
         if not self.flights:
             return 3
         storeys = {way.storey for way in self.ways if way.verdict is not None}
-        reached = {way.storey for way in self.ways if way.verdict in (Verdict.GO, Verdict.UNSURE)}
+        may = (Verdict.GO, Verdict.ROUGH, Verdict.UNSURE)
+        reached = {way.storey for way in self.ways if way.verdict in may}
         return 0 if storeys <= reached else 1

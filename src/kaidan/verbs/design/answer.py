@@ -53,7 +53,8 @@ class DesignMap(Part):
     y_values: tuple[float, ...]
     """Values of y, in its SI unit."""
     verdicts: tuple[tuple[int, ...], ...]
-    """Worst verdict of each place, row by row: 0 go, 1 caution, 2 no-go, 3 outside the model."""
+    """Worst verdict of each place, row by row, by rank: 0 GO, 1 ROUGH, 2 UNSURE, 3 NO-GO, 4
+    outside the model."""
     margins_deg: tuple[tuple[float | None, ...], ...]
     """Smallest margin on any of the stairs [deg]; null where one is not known."""
     share_go: float

@@ -102,7 +102,7 @@ class Report(Answer):
 
     @property
     def exit_code(self) -> int:
-        """That of the worst verdict: 0 go or caution, 1 no-go, 3 outside the model."""
+        """That of the worst verdict, by `kaidan.modes.EXIT_CODES`."""
         worst = max((Verdict(each.assessment.verdict) for each in self.missions), key=_rank)
         return worst.exit_code
 

@@ -12,8 +12,10 @@ class RobotOnStock(Part):
     """Name of the robot."""
     go: float
     """Share of flights that are a GO."""
-    caution: float
-    """Share that is CAUTION."""
+    rough: float
+    """Share that is ROUGH."""
+    unsure: float
+    """Share that is UNSURE."""
     no_go: float
     """Share that is NO-GO."""
     outside_model: float
@@ -60,7 +62,8 @@ class StockStudy(Answer):
 
     def columns(self) -> dict[str, list[Any]]:
         """Columns of a table with one line a robot."""
-        names = ("robot", "go", "caution", "no_go", "outside_model", "not_go", "steepest_go_deg")
+        names = ("robot", "go", "rough", "unsure", "no_go", "outside_model", "not_go",
+                 "steepest_go_deg")  # fmt: skip
         found = {name: [getattr(each, name) for each in self.robots] for name in names}
         modes = dict.fromkeys(key for each in self.robots for key in each.governs)
         return found | {

@@ -163,7 +163,8 @@ def _of_robot(
     return RobotOnStock(
         robot=name,
         go=float(shares[Verdict.GO.rank]),
-        caution=float(shares[Verdict.UNSURE.rank]),
+        rough=float(shares[Verdict.ROUGH.rank]),
+        unsure=float(shares[Verdict.UNSURE.rank]),
         no_go=float(shares[Verdict.NO_GO.rank]),
         outside_model=float(shares[Verdict.OUTSIDE_MODEL.rank]),
         not_go=float(shares[NOT_GO]),
