@@ -264,10 +264,11 @@ function numbers(answer) {
   );
 }
 
-// What comes before driving: to secure what rocks, or to measure what is not known.
+// What comes before driving: to secure what rocks, which the first note of a ROUGH answer says, or to
+// measure what is not known.
 function first(answer) {
   if (answer.verdict === "rough") {
-    return h("p", { class: "secure" }, h("b", {}, `${t("answer.secure")}: `), t("answer.secured"));
+    return h("p", { class: "secure" }, h("b", {}, said(answer.notes[0])));
   }
   const measure = answer.to_measure.find((each) => each.share > 0.01);
   if (!measure || answer.verdict !== "unsure") return null;
@@ -282,17 +283,18 @@ function first(answer) {
 }
 
 function notes(answer) {
-  if (answer.notes.length === 0) return null;
+  const all = answer.verdict === "rough" ? answer.notes.slice(1) : answer.notes;
+  if (all.length === 0) return null;
   return h(
     "div",
     { class: "notes" },
     fold(
       "notes",
-      `${t("answer.notes")} (${answer.notes.length})`,
+      `${t("answer.notes")} (${all.length})`,
       h(
         "ul",
         {},
-        answer.notes.map((note) => said(note, "li")),
+        all.map((note) => said(note, "li")),
       ),
     ),
   );
