@@ -196,7 +196,7 @@ def test_less_friction_is_looked_for_with_other_plans(least, asked, told, sturdy
     looked = []
 
     def better_than(verdict, question, *, drives, other_frictions):
-        assert (verdict, drives, other_frictions) == (Verdict.UNSURE, search.drives, False)
+        assert (verdict, drives, other_frictions) == (Verdict.ROUGH, search.drives, False)
         assert question.best_of == search.best_of
         looked.append(question.friction[0])
         if looked[-1] < least:

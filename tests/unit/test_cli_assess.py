@@ -580,5 +580,5 @@ def test_points_that_are_no_stairs_and_points_that_are_not_built_across(tmp_path
     blocks = [(-3, 0), (0, 0), (0, 0.05), (0.2, 0.05), (0.2, 0.01), (0.4, 0.01), (0.4, 0.06)]
     blocks += [(0.6, 0.06), (0.6, 0), (3, 0)]
     assert asked(floor) == (3, "OUTSIDE THE MODEL")
-    assert asked(blocks) == (0, "UNSURE")
+    assert asked(blocks) == (5, "UNSURE")
     assert asked(blocks, "--uniform-across") == (0, "GO")

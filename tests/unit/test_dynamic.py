@@ -188,7 +188,7 @@ def test_the_command():
     words = ["assess", "kenaf", "--rise", "100mm", "--going", "200mm", "--steps", "3", "--model",
              "physics", "--friction", "1"]  # fmt: skip
     done = CliRunner().invoke(app, words)
-    assert done.exit_code == 0
+    assert done.exit_code == 5
     assert done.stdout.startswith("UNSURE  kenaf on 100mm x 200mm, up nose first\n")
     lines = CliRunner().invoke(app, [*words, "--details"]).stdout.splitlines()
     assert "  trial           friction 1.00: climbed" in lines

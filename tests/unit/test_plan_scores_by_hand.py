@@ -23,7 +23,7 @@ from kaidan.terrain.profile import Profile
 from kaidan.traversal.rating import Rated
 from kaidan.traversal.rotations import ROCKING
 
-GO, UNSURE, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.UNSURE, Verdict.NO_GO))
+GO, ROUGH, UNSURE, NO_GO, _ = (-each.rank for each in Verdict)
 ONE = Robot.model_validate(Robot.named("absolem").model_dump() | {"rear_flippers": None})
 FLIGHT = Stairs(rise=0.17, going=0.29, steps=6)
 RATED = Rated(
@@ -53,14 +53,14 @@ def test_the_score_of_a_drive():
     of = scores()._score
     slides = math.degrees(math.atan(0.6) - math.atan(0.5))
     drop, tips = (pytest.approx(math.degrees(each)) for each in (-0.2, 0.25 - 0.02))
-    assert of(RATED) == Score(True, 0, pytest.approx(slides), drop, tips)
+    assert of(RATED) == Score(GO, 0, pytest.approx(slides), drop, tips)
     for given, margin in (({"downhill": 0.1}, 0.03), ({"uphill": 0.05}, 0.03)):
         assert of(RATED._replace(**given)).margin == pytest.approx(math.degrees(margin))
         assert of(RATED._replace(**given)).tipping == pytest.approx(math.degrees(margin))
     easy = RATED._replace(required_friction=0.1, downhill=math.inf, uphill=math.inf)
     assert of(easy).margin == ENOUGH
-    assert of(RATED._replace(required_friction=1.0)).passes is False
-    assert of(RATED._replace(required_friction=0.99)).passes is True
+    assert of(RATED._replace(required_friction=1.0)).rank == NO_GO
+    assert of(RATED._replace(required_friction=0.99)).rank == UNSURE
 
 
 def test_grousers_hold_in_place_of_friction():
@@ -69,8 +69,8 @@ def test_grousers_hold_in_place_of_friction():
     assert of(RATED).margin == pytest.approx(math.degrees(0.2))
     assert of(RATED._replace(held=-0.01)).margin == pytest.approx(math.degrees(-0.01))
     assert of(RATED._replace(held=-0.01)).failing == -1
-    assert of(RATED._replace(held_at_best=-0.01)).passes is False
-    assert of(RATED._replace(held=-0.01, required_friction=1.2)).passes is True
+    assert of(RATED._replace(held_at_best=-0.01)).rank == NO_GO
+    assert of(RATED._replace(held=-0.01, required_friction=1.2)).rank == UNSURE
 
 
 def test_what_one_friction_rated_serves_another(monkeypatch):
@@ -270,9 +270,9 @@ def test_plans_put_together_of_two_phases():
     found = search._together([[low, high], [low, high]])
     fronts = [[round(math.degrees(one.front)) for _, one in each.plan.postures] for each in found]
     assert fronts == [[6, 6], [4, 4], [4, 6], [6, 4]]
-    assert found[0].merit == (True, 0, pytest.approx(6 + 0.05 * 6))
+    assert found[0].merit == (GO, 0, pytest.approx(6 + 0.05 * 6))
     cost = 1.5 + 0.005 * 2
-    assert found[2].merit == (True, 0, pytest.approx(4 + 0.05 * 5 - cost))
+    assert found[2].merit == (GO, 0, pytest.approx(4 + 0.05 * 5 - cost))
     assert [phase for phase, _ in found[0].plan.postures] == [Phase.ENTER, Phase.LAND]
     assert search.off(found[0].plan) == found[0].merit
 
@@ -291,14 +291,14 @@ def test_which_plans_may_hold_on_their_grousers():
 
     def may(**off):
         def score(phase, posture):
-            return Score(**({"passes": True, "failing": 0, "margin": 1.0, "drop": 0.0} | off))
+            return Score(**({"rank": GO, "failing": 0, "margin": 1.0, "drop": 0.0} | off))
 
         search._on_belts = SimpleNamespace(work_out=list, about=lambda one: [one], off=score)
         return search.may_hold(plan)
 
     assert may()
-    assert not may(failing=-1)
-    assert not may(passes=False)
+    assert not may(rank=ROUGH, failing=-1)
+    assert not may(rank=NO_GO)
 
 
 # plans judged

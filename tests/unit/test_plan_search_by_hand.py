@@ -23,7 +23,7 @@ from kaidan.robot import Posture
 
 ABSOLEM = Robot.named("absolem")
 STAIRS = Stairs(rise=0.17, going=0.29, steps=6)
-GO, UNSURE, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.UNSURE, Verdict.NO_GO))
+GO, ROUGH, UNSURE, NO_GO, _ = (-each.rank for each in Verdict)
 ENTER, TRAVERSE, LAND = Phase
 
 

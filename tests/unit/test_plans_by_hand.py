@@ -38,7 +38,7 @@ from kaidan.modes import FALL_DOWNHILL, POSTURE_TOLERANCE, Phase, Verdict
 from kaidan.robot import Posture, Robot
 from kaidan.surface import Surface
 
-GO, UNSURE, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.UNSURE, Verdict.NO_GO))
+GO, ROUGH, UNSURE, NO_GO, _ = (-each.rank for each in Verdict)
 ABSOLEM = Robot.named("absolem")
 ONE = Robot.model_validate(ABSOLEM.model_dump() | {"rear_flippers": None})
 TWO = math.radians(2.0)
@@ -390,8 +390,8 @@ def test_what_a_phase_may_come_to_by_its_scores():
     score = Score(True, 0, 3.0, 0.0, 5.0)
     assert plan_sturdy._most(score) == Worth(GO, pytest.approx(5.0 + plan_sturdy.SLACK))
     assert plan_sturdy._hope(score) == Worth(GO, pytest.approx(3.0 + plan_sturdy.SLACK))
-    assert plan_sturdy._hope(score._replace(failing=-1)).rank == UNSURE
-    assert plan_sturdy._hope(score._replace(passes=False)).rank == NO_GO
+    assert plan_sturdy._hope(score._replace(rank=ROUGH)).rank == ROUGH
+    assert plan_sturdy._hope(score._replace(rank=NO_GO)).rank == NO_GO
     assert plan_sturdy._hope(FAILED) == Worth(NO_GO, ENOUGH)
 
 
@@ -503,8 +503,8 @@ def test_what_slides_too_early_is_judged_no_further(sliding, verdict, judging):
 # plans put together of phases
 
 
-def score(margin, drop=0.0, *, passes=True, failing=0):
-    return Score(passes, failing, margin, drop)
+def score(margin, drop=0.0, *, rank=GO, failing=0):
+    return Score(rank, failing, margin, drop)
 
 
 def test_scores_of_a_phase():
@@ -513,7 +513,7 @@ def test_scores_of_a_phase():
     assert score(8.0, -4.0).merit == (True, 0, 8.0)
     assert score(8.004, -15.0, failing=-1).merit == (True, -1, 7.0)
     assert score(3.0, -5.0).does(3.0)
-    for other in (score(2.9), score(3.0, -5.1), score(3.0, failing=-1), score(3.0, passes=False)):
+    for other in (score(2.9), score(3.0, -5.1), score(3.0, rank=ROUGH), score(3.0, rank=NO_GO)):
         assert not other.does(3.0)
 
 
@@ -521,8 +521,8 @@ def test_the_weakest_phase_counts_and_a_little_the_others():
     """Two phases, three plans: margins and drops of the weakest, a twentieth of the mean value."""
     first = np.array([[1, 1, 1], [0, -1, 0], [9.0, 9.0, 9.0], [0.0, 0, -25.0], [9.0, 9.0, 7.0]])
     second = np.array([[1, 1, 0], [0, -2, 0], [3.0, 10.0, 3.0], [-15.0, 0, 0], [2.0, 10.0, 3.0]])
-    passes, failing, value = _order([first, second], np.array([0.0, 1.5, 0.0]))
-    assert passes.tolist() == [1, 1, 0]
+    ranks, failing, value = _order([first, second], np.array([0.0, 1.5, 0.0]))
+    assert ranks.tolist() == [GO, GO, NO_GO]
     assert failing.tolist() == [0, -3, 0]
     assert value == pytest.approx([3 - 1 + 0.05 * 5.5, 9 - 1.5 + 0.05 * 9.5, 3 - 2 + 0.05 * 5.0])
     assert _along(1, 3) == (1, -1, 1)
@@ -633,8 +633,8 @@ def searching(*, grousers=False, off=None, questions=()):
 PLAN = SimpleNamespace(question=lambda question: "plan")
 
 
-def candidate(hope=10.0, *, passes=True, failing=0, off=None):
-    merit = (passes, failing, hope)
+def candidate(hope=10.0, *, rank=GO, failing=0, off=None):
+    merit = (rank, failing, hope)
     return Candidate(PLAN, merit, off or (True, 0, 0.0))
 
 
@@ -651,10 +651,11 @@ def test_which_plans_may_be_better(monkeypatch):
     def may(each, bar, of_best=None, drives=None, **more):
         return _may_be_better(searching(**more), each, bar, of_best, drives)
 
-    caution, go = (UNSURE, True, -1, 9.0), (GO, True, 0, 9.0)
-    assert may(candidate(), caution)
-    assert not may(candidate(failing=-1), go)
-    assert not may(candidate(passes=False), caution)
+    unsure, go = (UNSURE, True, -1, 9.0), (GO, True, 0, 9.0)
+    assert may(candidate(), unsure)
+    assert not may(candidate(rank=ROUGH, failing=-1), go)
+    assert may(candidate(rank=ROUGH, failing=-1), unsure)
+    assert not may(candidate(rank=NO_GO), unsure)
     assert may(candidate(8.6), go)
     for hope in (8.5, 8.4):  # by half a degree it may be better than its scores
         assert not may(candidate(hope), go)
@@ -669,7 +670,7 @@ def test_which_plans_may_be_better(monkeypatch):
         drives = SimpleNamespace(rank=lambda one, rank=rank: rank)
         assert may(fails, go, questions=["way"], drives=drives) is better
     assert may(fails, go)
-    worse = candidate(failing=-1, off=(True, -2, 0.0))
+    worse = candidate(rank=UNSURE, failing=-1, off=(UNSURE, -2, 0.0))
     assert may(worse, (UNSURE, True, -1, 0.0))
 
 
