@@ -8,7 +8,7 @@ import pytest
 from kaidan import Profile, Question, Robot, Stairs
 from kaidan.assessment import judged
 from kaidan.models.findings import Finding, Findings
-from kaidan.modes import ENERGY, SLIDES_DOWN, TIP_DOWNHILL
+from kaidan.modes import ENERGY, FALL_DOWNHILL, FALL_UPHILL, SLIDES_DOWN, TIP_DOWNHILL
 
 G = 9.80665
 KENAF = Robot.model_validate(Robot.named("kenaf").model_dump() | {"mass": 20.0})

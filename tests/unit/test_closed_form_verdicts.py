@@ -38,7 +38,7 @@ def test_verdict_where_only_the_friction_is_in_doubt():
     assert kenaf(35, 0.150, **ground(0.6, 0.69)).verdict == "no-go"
 
 
-def test_unknown_friction_is_at_best_caution():
+def test_unknown_friction_is_at_best_unsure():
     answer = kenaf(30, 0.150, friction=None)
     assert (answer.verdict, answer.governs) == ("unsure", "friction_unknown")
     # hand: the margin is the tip's: 60.205 - 5.2 - 30

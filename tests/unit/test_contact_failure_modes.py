@@ -176,7 +176,7 @@ CASES = {
         ("rough", "tip_downhill", "traverse"),
         sup(150) - 57 - 5.2,
         "The margin against tipping over its downhill end is -2.0 to +3.2 deg, by the ranges of "
-        "what is not measured (traverse, step 1).",
+        "what is not measured (traverse, step 1), 5.6 deg from falling.",
     ),
     "tip_uphill, the nose drops between nosings": (
         (KENAF, at(15, p=0.220), SURE),
@@ -190,7 +190,7 @@ CASES = {
         ("rough", "tip_uphill", "traverse"),
         20 - inf(220) - 2.6,
         "The margin against tipping over its uphill end is -1.3 to +1.3 deg, by the ranges of what "
-        "is not measured (traverse, step 8).",
+        "is not measured (traverse, step 8), more than 30 deg from falling.",
     ),
     "tip_sideways at a yaw": (
         # tan(limit) sin(yaw) = gauge / (2 C_N) = 0.5

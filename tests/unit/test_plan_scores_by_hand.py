@@ -181,7 +181,7 @@ def test_off_its_angles_a_posture_is_as_good_as_the_worst():
     assert math.degrees(up.front) == pytest.approx(12.0)
     assert math.degrees(down.front) == pytest.approx(8.0)
     for each, margin in ((posture, 5.0), (up, 3.0), (down, 4.0)):
-        found.known[Phase.LAND, each] = Score(True, 0, margin, 0.0)
+        found.known[Phase.LAND, each] = Score(GO, 0, margin, 0.0)
     assert found.off(Phase.LAND, posture).margin == 3.0
     assert found.of(Phase.LAND, posture).margin == 5.0
 
@@ -212,7 +212,7 @@ def searching(value, limits=(-60.0, 60.0), **given):
         angle = posture.front
         at = math.degrees(angle) if isinstance(angle, float) else None
         asked_for.append(at)
-        return Score(True, 0, -70.0 if at is None else value(at), 0.0)
+        return Score(GO, 0, -70.0 if at is None else value(at), 0.0)
 
     search.scores = SimpleNamespace(
         of=known, off=known, work_out=list, about=lambda posture: [posture],
@@ -240,7 +240,7 @@ def test_what_is_good_enough_is_not_refined():
 
     def tries(margin, off, enough=5.0, bound=ENOUGH):
         search, _ = searching(lambda at: margin)
-        search.scores.off = lambda phase, each: Score(True, 0, off, 0.0)
+        search.scores.off = lambda phase, each: Score(GO, 0, off, 0.0)
         search.scores.bound = lambda phase: bound
         search._better(Phase.ENTER, posture, "front", [0.5], enough)
         return len(search._allowed[Phase.ENTER]) > 1
@@ -344,7 +344,7 @@ def sturdiest(monkeypatch):
             )  # fmt: skip
 
         candidates = [
-            Candidate(plan(str(k)), (True, 0, 0.0), (True, 0 if one[0] == GO else -1, 0.0))
+            Candidate(plan(str(k)), (GO, 0, 0.0), (one[0], 0 if one[0] == GO else -1, 0.0))
             for k, one in enumerate(each)
         ]
 
@@ -426,8 +426,12 @@ def test_a_plan_that_is_go_at_its_angles_alone_is_made_sturdier(sturdiest):
 
 def test_which_plans_are_judged_and_in_which_order():
     """The two best off their angles and the best at them; by the verdict that they promise."""
-    merits = {"a": (True, 0, 9.0), "b": (True, 0, 8.0), "c": (True, 0, 7.0), "d": (True, 0, 6.0)}
-    off = {"a": (False, 0, 0.0), "b": (True, -1, 0.0), "c": (True, 0, 1.0), "d": (True, -2, 0.0)}
+    merits = {
+        name: (GO, 0, value) for name, value in zip("abcd", (9.0, 8.0, 7.0, 6.0), strict=True)
+    }
+    off = {
+        "a": (NO_GO, 0, 0.0), "b": (ROUGH, -1, 0.0), "c": (GO, 0, 1.0), "d": (UNSURE, -2, 0.0),
+    }  # fmt: skip
     search = SimpleNamespace(
         hopes=lambda: [Hope(name, merit) for name, merit in merits.items()], off=off.get,
         question=SimpleNamespace(

@@ -387,7 +387,7 @@ def test_a_posture_stays_where_another_is_no_better(sturdier, monkeypatch):
 
 def test_what_a_phase_may_come_to_by_its_scores():
     """A tenth of a degree better than those of coarse drives; of a failure nothing is known."""
-    score = Score(True, 0, 3.0, 0.0, 5.0)
+    score = Score(GO, 0, 3.0, 0.0, 5.0)
     assert plan_sturdy._most(score) == Worth(GO, pytest.approx(5.0 + plan_sturdy.SLACK))
     assert plan_sturdy._hope(score) == Worth(GO, pytest.approx(3.0 + plan_sturdy.SLACK))
     assert plan_sturdy._hope(score._replace(rank=ROUGH)).rank == ROUGH
@@ -510,8 +510,10 @@ def score(margin, drop=0.0, *, rank=GO, failing=0):
 def test_scores_of_a_phase():
     """Of the drop what is beyond 5 deg counts, a tenth of it."""
     assert score(8.0, -15.0).value == pytest.approx(7.0)
-    assert score(8.0, -4.0).merit == (True, 0, 8.0)
-    assert score(8.004, -15.0, failing=-1).merit == (True, -1, 7.0)
+    assert score(8.0, -4.0).merit == (GO, 0, 8.0)
+    assert score(8.004, -15.0, rank=ROUGH, failing=-1).merit == (ROUGH, -1, 7.0)
+    # what may arrive comes before what is not known to, however much fails
+    assert score(1.0, rank=ROUGH, failing=-2).merit > score(9.0, rank=UNSURE, failing=-1).merit
     assert score(3.0, -5.0).does(3.0)
     for other in (score(2.9), score(3.0, -5.1), score(3.0, rank=ROUGH), score(3.0, rank=NO_GO)):
         assert not other.does(3.0)
@@ -519,10 +521,14 @@ def test_scores_of_a_phase():
 
 def test_the_weakest_phase_counts_and_a_little_the_others():
     """Two phases, three plans: margins and drops of the weakest, a twentieth of the mean value."""
-    first = np.array([[1, 1, 1], [0, -1, 0], [9.0, 9.0, 9.0], [0.0, 0, -25.0], [9.0, 9.0, 7.0]])
-    second = np.array([[1, 1, 0], [0, -2, 0], [3.0, 10.0, 3.0], [-15.0, 0, 0], [2.0, 10.0, 3.0]])
+    first = np.array(
+        [[GO, ROUGH, GO], [0, -1, 0], [9.0, 9.0, 9.0], [0.0, 0, -25.0], [9.0, 9.0, 7.0]]
+    )
+    second = np.array(
+        [[GO, UNSURE, NO_GO], [0, -2, 0], [3.0, 10.0, 3.0], [-15.0, 0, 0], [2.0, 10.0, 3.0]]
+    )
     ranks, failing, value = _order([first, second], np.array([0.0, 1.5, 0.0]))
-    assert ranks.tolist() == [GO, GO, NO_GO]
+    assert ranks.tolist() == [GO, UNSURE, NO_GO]
     assert failing.tolist() == [0, -3, 0]
     assert value == pytest.approx([3 - 1 + 0.05 * 5.5, 9 - 1.5 + 0.05 * 9.5, 3 - 2 + 0.05 * 5.0])
     assert _along(1, 3) == (1, -1, 1)
@@ -635,13 +641,13 @@ PLAN = SimpleNamespace(question=lambda question: "plan")
 
 def candidate(hope=10.0, *, rank=GO, failing=0, off=None):
     merit = (rank, failing, hope)
-    return Candidate(PLAN, merit, off or (True, 0, 0.0))
+    return Candidate(PLAN, merit, off or (GO, 0, 0.0))
 
 
 def test_which_verdict_scores_promise():
-    each = [(True, 0, 1.0), (True, -1, 1.0), (False, 0, 1.0)]
-    assert [-_rank(searching(), one) for one in each] == [GO, UNSURE, NO_GO]
-    assert [-_rank(searching(grousers=True), one) for one in each] == [GO] * 3
+    each = [(rank, 0, 1.0) for rank in (GO, ROUGH, UNSURE, NO_GO)]
+    assert [-_rank(searching(), one) for one in each] == [GO, ROUGH, UNSURE, NO_GO]
+    assert [-_rank(searching(grousers=True), one) for one in each] == [GO] * 4
 
 
 def test_which_plans_may_be_better(monkeypatch):
@@ -665,8 +671,8 @@ def test_which_plans_may_be_better(monkeypatch):
     for hope, better in ((10.05, False), (10.2, True)):  # nearly alike
         assert may(candidate(hope), go, candidate(10.0)) is better
     # where it fails off its angles the weakest way tells
-    fails = candidate(off=(True, -1, 0.0))
-    for rank, better in ((GO, True), (UNSURE, False)):
+    fails = candidate(off=(ROUGH, -1, 0.0))
+    for rank, better in ((GO, True), (ROUGH, False), (UNSURE, False)):
         drives = SimpleNamespace(rank=lambda one, rank=rank: rank)
         assert may(fails, go, questions=["way"], drives=drives) is better
     assert may(fails, go)
