@@ -55,13 +55,13 @@ def questions() -> dict[str, Callable[[], object]]:
         "go, payload and flippers flat": lambda: assess(
             absolem, ibc, surface=grippy, flippers="flat", speed=0.1
         ),
-        "caution, with advice": lambda: assess(kenaf, doubtful, surface=grippy),
+        "unsure, with advice": lambda: assess(kenaf, doubtful, surface=grippy),
         "no-go, with advice": lambda: assess(kenaf, steep, surface=grippy),
         "no-go, with more advice": lambda: assess(kenaf, long, surface=slippery, acceleration=0.2),
         "outside-model": lambda: assess(kenaf, ibc, surface=grippy),
         "go, uncertain": lambda: assess(doubted, easy, surface=grippy),
         "no-go, uncertain, with advice": lambda: assess(doubted, steep, surface=grippy),
-        "caution, names of the catalogue": lambda: assess(
+        "unsure, names of the catalogue": lambda: assess(
             "absolem", "ibc", surface="concrete-dry", flippers="flat"
         ),
     }
@@ -74,12 +74,12 @@ def contact_questions() -> dict[str, tuple[Callable[[], object], float]]:
     ask = partial(kaidan.assess, stairs=ibc)
     return {
         "go, posture stated": (lambda: ask(hull, friction=2.0, flippers="stowed"), STATED),
-        "caution, posture stated, with advice": (
+        "unsure, posture stated, with advice": (
             lambda: ask(absolem, surface=concrete, flippers="flat"),
             FOUND,
         ),
         "go, best posture": (lambda: ask(absolem, friction=1.2), FOUND),
-        "caution, best posture, with advice": (lambda: ask(absolem, surface=concrete), FOUND),
+        "unsure, best posture, with advice": (lambda: ask(absolem, surface=concrete), FOUND),
     }
 
 

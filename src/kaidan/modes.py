@@ -170,7 +170,7 @@ POSTURE_TOLERANCE = failure_mode(
 GROUSER_SPEED = failure_mode("grouser_speed", "m/s", "driving too fast on grousers", OPEN)
 """Faster, grousers hooked a nosing or spun at a riser in simulations."""
 LANDING_ROOM = failure_mode("landing_room", "m", "a landing shorter than the robot", OPEN)
-TURNING = failure_mode("turning", "", "too little room to turn on a landing", OPEN)
+TURNING = failure_mode("turning", "", "too little room to turn on a landing", FAILS)
 NARROW = failure_mode("narrow", "m", "a flight narrower than the robot needs", FAILS)
 FOOT_UNSEEN = failure_mode("foot_unseen", "", "a first riser that nobody saw", OPEN)
 """Of a scan: the flight may begin lower, or with a higher riser."""
@@ -183,7 +183,7 @@ FLOOR_FINISH = failure_mode(
 )
 """Of a building model: a floor or the steps may be drawn without their finish."""
 LOW = failure_mode("low", "m", "a ceiling lower than the robot needs", FAILS)
-TWIST = failure_mode("twist", "rad", "tipping on nosings that differ from left to right", OPEN)
+TWIST = failure_mode("twist", "rad", "tipping on nosings that differ from left to right", FAILS)
 UNWEIGHED = failure_mode("unweighed", "", "a centroid that nobody measured", OPEN)
 """The sheet has a range: no GO before the robot is weighed."""
 

@@ -196,7 +196,7 @@ def test_less_friction_is_looked_for_with_other_plans(least, asked, told, sturdy
     looked = []
 
     def better_than(verdict, question, *, drives, other_frictions):
-        assert (verdict, drives, other_frictions) == (Verdict.UNSURE, search.drives, False)
+        assert (verdict, drives, other_frictions) == (Verdict.ROUGH, search.drives, False)
         assert question.best_of == search.best_of
         looked.append(question.friction[0])
         if looked[-1] < least:
@@ -536,9 +536,9 @@ def test_flat_flippers_are_tried_unless_they_are_flat_or_there_are_none():
 
 
 def test_of_what_is_measured_a_verdict_or_a_margin_that_holds_must_come():
-    go, caution = (concluded(each, 0.1) for each in (Verdict.GO, Verdict.UNSURE))
-    assert _settles(go, caution)
-    assert not _settles(caution, caution)
+    go, unsure = (concluded(each, 0.1) for each in (Verdict.GO, Verdict.UNSURE))
+    assert _settles(go, unsure)
+    assert not _settles(unsure, unsure)
     for now, then, settles in ((-0.1, 0.1, True), (0.0, 0.1, True), (0.0, 0.0, False),
                                (-0.1, 0.0, False), (-0.2, -0.1, False), (0.1, 0.2, False),
                                (0.5, 0.6, False)):  # fmt: skip
@@ -817,7 +817,7 @@ def test_sharper_nosings_are_judged_of_the_plan_at_hand(monkeypatch):
 def test_a_plan_off_its_angles_and_another_one(monkeypatch):
     then = concluded(Verdict.GO, 0.2)
     best = concluded(Verdict.GO, 0.1)
-    caution = then._replace(verdict=Verdict.UNSURE)
+    unsure = then._replace(verdict=Verdict.UNSURE)
 
     def of(ends=2, *, now=then, holds=False, sturdy=True, own=best, com_range=None, anew=False):
         asked = []
@@ -844,12 +844,12 @@ def test_a_plan_off_its_angles_and_another_one(monkeypatch):
         return advice._planned(question, now, search, anew=anew), asked
 
     assert of(None, holds=True) == of(holds=True) == ((then, False), [])
-    assert of(None) == of(com_range="range") == ((caution, False), [])
+    assert of(None) == of(com_range="range") == ((unsure, False), [])
     assert of() == ((best, True), [(Verdict.UNSURE, ("flippers", "facing"), "drives")])
     assert of(1) == ((best, True), [(Verdict.UNSURE, ("flippers",), "drives")])
-    assert of(own=None)[0] == (caution, False)  # no plan has a better verdict
-    assert of(sturdy=False)[0] == (caution, False)
-    assert of(own=concluded(Verdict.UNSURE, 0.1))[0] == (caution, False)
+    assert of(own=None)[0] == (unsure, False)  # no plan has a better verdict
+    assert of(sturdy=False)[0] == (unsure, False)
+    assert of(own=concluded(Verdict.UNSURE, 0.1))[0] == (unsure, False)
     # no GO at its angles: only where another plan may be the best
-    assert of(now=caution) == ((caution, False), [])
-    assert of(now=caution, anew=True)[0] == (best, True)
+    assert of(now=unsure) == ((unsure, False), [])
+    assert of(now=unsure, anew=True)[0] == (best, True)

@@ -8,7 +8,7 @@ import pytest
 from kaidan import Profile, Question, Robot, Stairs
 from kaidan.assessment import judged
 from kaidan.models.findings import Finding, Findings
-from kaidan.modes import ENERGY, SLIDES_DOWN, TIP_DOWNHILL, TIP_UPHILL
+from kaidan.modes import ENERGY, FALL_DOWNHILL, FALL_UPHILL, SLIDES_DOWN, TIP_DOWNHILL
 
 G = 9.80665
 KENAF = Robot.model_validate(Robot.named("kenaf").model_dump() | {"mass": 20.0})
@@ -96,9 +96,9 @@ def test_with_a_sample_that_has_no_margin_there_is_no_interval():
 @pytest.mark.parametrize(
     ("each", "end"),
     [
-        ((finding(TIP_DOWNHILL, -0.1),), "tail"),
-        ((finding(TIP_UPHILL, -0.1),), "nose"),
-        ((finding(TIP_DOWNHILL, -0.1, 0.1),), None),  # a caution
+        ((finding(FALL_DOWNHILL, -0.1),), "tail"),
+        ((finding(FALL_UPHILL, -0.1),), "nose"),
+        ((finding(FALL_DOWNHILL, -0.1, 0.1),), None),  # may fall
         ((finding(TIP_DOWNHILL, 0.3), finding(SLIDES_DOWN, -0.1)), None),  # slides, and falls not
     ],
 )

@@ -80,6 +80,7 @@ ASKED = [
     ("kenaf", flight(40, 0.1, steps=2), {"direction": "down", "facing": "tail-first"}),
     (GAUGED, flight(35, 0.15), {"friction": 1.0, "yaw": 0.2}),
     (GAUGED, flight(50, 0.15), {"friction": (0.6, 2.0)}),
+    ("kenaf", flight(61.5, 0.15), {"friction": 3.0, "fall_reserve": 0.0}),
     (GAUGED, [flight(40, 0.15), flight(30, 0.15)], {"friction": 2.0}),
     (GAUGED, Profile.of_points(POINTS, name="measured"), {"friction": 2.0}),
     (GAUGED, Profile.of_points([(0.0, 0.0), (4.0, 0.0)], name="floor"), {"friction": 2.0}),

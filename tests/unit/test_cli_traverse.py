@@ -27,7 +27,7 @@ def refusal(*arguments):
 
 def test_the_page_for_people():
     result = run("marmotte", *SHORT, "--fall-reserve", "3deg")
-    assert result.exit_code == 0
+    assert result.exit_code == 5
     assert result.stdout.startswith("UNSURE  marmotte on 178mm x 279mm, up nose first\n")
     text = result.stdout
     assert "without rotation: no   arrested: yes   arrested with momentum: yes" in text

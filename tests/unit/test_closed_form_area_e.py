@@ -19,7 +19,7 @@ def controlled(**limits):
 
 @pytest.mark.parametrize("direction", ["up", "down"])
 @pytest.mark.parametrize("angle", [47, 52, 57])
-def test_area_e_is_caution_with_a_plan_that_holds(angle, direction):
+def test_area_e_is_unsure_with_a_plan_that_holds(angle, direction):
     question = {"friction": GRIP, "direction": direction, **BARE}
     question |= {"facing": "nose-first" if direction == "up" else "tail-first"}
     stairs = flight(angle, 0.200)

@@ -298,7 +298,7 @@ def test_an_uncertain_slope_goes_off_every_margin_of_slope(angle, sigma):
     assert high - low == pytest.approx(2 * 1.96 * sigma, rel=0.02)
 
 
-@pytest.mark.parametrize(("risk", "verdict"), [(0.5, "go"), (0.05, "go"), (0.001, "unsure")])
+@pytest.mark.parametrize(("risk", "verdict"), [(0.5, "go"), (0.05, "go"), (0.001, "rough")])
 def test_the_accepted_risk_decides(risk, verdict):
     """By hand: 60.205 deg at 57 deg, known to 1.5 deg: 1.6 % tip, and are arrested."""
     stairs = at(57).model_copy(update={"uncertainty": StairsUncertainty(angle=radians(1.5))})
@@ -373,7 +373,7 @@ PHASED = {
     ("name", "enter", "traverse", "land"),
     [
         ("dry steps, flippers flat", ("no-go", "slides_down"), ("go", "slides_down"),
-         ("unsure", "impact")),
+         ("rough", "impact")),
         ("steep", ("go", "slides_down"), ("go", "tip_downhill"), ("go", "tip_downhill")),
         ("rotates", ("go", "tip_downhill"), ("no-go", "fall_downhill"),
          ("unsure", "tip_downhill")),
@@ -456,7 +456,7 @@ def test_the_rotation_is_arrested_up_to_grade_two(p, grade_two):
     """docs/theory/contact.md, to 0.01 deg: the robot on the flight alone, extra turn 45 deg."""
     sup = limits(p, "up", "nose-first")[0]
     answer = assess(KENAF, at(grade_two - 0.02, p / 1e3), **SURE, fall_reserve=0.0)
-    assert answer.verdict == "unsure"
+    assert answer.verdict == "rough"
     grades = answer.contact.grades
     assert (grades.no_rotation, grades.arrested) == (False, True)
     assert answer.findings["tip_downhill"].margin == pytest.approx(

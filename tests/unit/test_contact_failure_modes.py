@@ -166,44 +166,43 @@ CASES = {
     ),
     "tip_downhill, arrested by the next nosing": (
         (KENAF, at(61.5), SURE | {"speed": 0.001, "fall_reserve": radians(0.5)}),
-        ("unsure", "tip_downhill", "traverse"),
+        ("rough", "tip_downhill", "traverse"),
         sup(150) - 61.5,
         "It rocks by 0.2 deg until the next contact arrests it (traverse, step 1), 1.1 deg from "
         "falling.",
     ),
     "tip_downhill, by the allowances": (
-        (UNMEASURED, at(57), {"friction": 2.5}),
-        ("unsure", "tip_downhill", "traverse"),
+        (UNMEASURED, at(57), {"friction": 2.5, "fall_reserve": 0.0, "speed": 0.001}),
+        ("rough", "tip_downhill", "traverse"),
         sup(150) - 57 - 5.2,
         "The margin against tipping over its downhill end is -2.0 to +3.2 deg, by the ranges of "
-        "what is not measured (traverse, step 1).",
+        "what is not measured (traverse, step 1), 5.6 deg from falling.",
     ),
     "tip_uphill, the nose drops between nosings": (
         (KENAF, at(15, p=0.220), SURE),
-        ("unsure", "tip_uphill", "traverse"),
+        ("rough", "tip_uphill", "traverse"),
         15 - inf(220),
         "It rocks by 0.05 deg until the next contact arrests it (traverse, step 8), more than 30 "
         "deg from falling.",
     ),
     "tip_uphill, by the allowances": (
-        (UNMEASURED, at(20, p=0.220), {"friction": 2.5}),
-        ("unsure", "tip_uphill", "traverse"),
+        (UNMEASURED, at(20, p=0.220), {"friction": 2.5, "speed": 0.001}),
+        ("rough", "tip_uphill", "traverse"),
         20 - inf(220) - 2.6,
         "The margin against tipping over its uphill end is -1.3 to +1.3 deg, by the ranges of what "
-        "is not measured (traverse, step 8).",
+        "is not measured (traverse, step 8), more than 30 deg from falling.",
     ),
     "tip_sideways at a yaw": (
         # tan(limit) sin(yaw) = gauge / (2 C_N) = 0.5
         (NARROW, at(45, steps=20), SURE | {"yaw": radians(31), "speed": 0.001}),
-        ("unsure", "tip_sideways", "traverse"),
+        ("no-go", "tip_sideways", "traverse"),
         degrees(atan(0.5 / sin(radians(31)))) - 45,
-        "It arrives, but by the criterion it tips over its side, 0.8 deg beyond the limit "
-        "(traverse).",
+        "It tips over its side, 0.8 deg beyond the limit (traverse).",
     ),
     "rotation that a longer robot would be spared": (
         # a ditch of 400 mm under a flat of 470 mm: see test_rotations for the angle
-        (KENAF, DITCH, SURE | {"friction": 3.0}),
-        ("unsure", "rotation", "enter"),
+        (KENAF, DITCH, SURE | {"friction": 3.0, "uniform_across": True}),
+        ("rough", "rotation", "enter"),
         None,
         "It rocks by 14.2 deg until the next contact arrests it (enter, step 0), more than 30 deg "
         "from falling.",
@@ -216,7 +215,7 @@ CASES = {
     ),
     "tip_downhill, fewer than two nosings under the track": (
         (robot(), at(15, p=0.3), SURE),
-        ("unsure", "tip_downhill", "traverse"),
+        ("rough", "tip_downhill", "traverse"),
         sup(300, C_L=250, C_N=100, L=500) - 15,
         "It rocks by 5.6 deg until the next contact arrests it (traverse, step 1), 18.4 deg from "
         "falling.",
@@ -230,7 +229,7 @@ CASES = {
     ),
     "impact on the upper landing": (
         (robot(impact=1.0), at(40, p=0.12), SURE),
-        ("unsure", "impact", "land"),
+        ("rough", "impact", "land"),
         None,
         "It drops and hits at 1.1 m/s (land, step 8); 1.0 m/s are tolerated.",
     ),
@@ -243,7 +242,7 @@ CASES = {
     ),
     "high_centring on a kerb": (
         (robot(gap=0.2, belly_clearance=0.02), kerb(0.1), SURE),
-        ("unsure", "high_centring", "land"),
+        ("rough", "high_centring", "land"),
         None,
         "It rests on its belly in places (land), where the tracks may lose grip.",
     ),
@@ -285,7 +284,7 @@ def test_its_doubts_are_what_fails(name, answers):
     # of the two margins of a robot that rocks the tilt to the first rock is never the larger
     first = next(key for key in answer.doubts if key == answer.governs or "tip" not in key)
     assert first == answer.governs
-    assert answer.exit_code == (1 if answer.verdict == "no-go" else 0)
+    assert answer.exit_code == {"rough": 4, "unsure": 5, "no-go": 1}[answer.verdict]
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -430,7 +429,7 @@ def test_a_centroid_far_ahead_enters_with_less_friction(C_L):
 # What a mode depends on
 
 
-@pytest.mark.parametrize(("tolerated", "verdict"), [(1.1, "unsure"), (1.2, "go")])
+@pytest.mark.parametrize(("tolerated", "verdict"), [(1.1, "rough"), (1.2, "go")])
 def test_the_tolerated_impact_is_the_robots(tolerated, verdict):
     answer = assess(robot(impact=tolerated), at(40, p=0.12), **SURE)
     assert answer.verdict == verdict

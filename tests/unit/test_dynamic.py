@@ -52,7 +52,7 @@ def outcomes(answer):
 
 @pytest.mark.parametrize("direction", ["up", "down"])
 @pytest.mark.parametrize("facing", ["nose-first", "tail-first"])
-def test_a_robot_that_arrives_is_caution_because_no_margin_is_known(direction, facing):
+def test_a_robot_that_arrives_is_unsure_because_no_margin_is_known(direction, facing):
     answer = ask(friction=1.0, direction=direction, facing=facing)
     assert (answer.verdict, answer.governs) == ("unsure", "margin_unknown")
     assert answer.reason == "Nothing fails, but the trial in MuJoCo knows no margin."
@@ -87,7 +87,7 @@ def test_the_end_over_which_it_falls_is_the_downhill_one_whichever_leads():
     assert judge(question.changed(model="physics")).each[0].mode.key == "tip_downhill"
 
 
-def test_too_little_friction_is_no_go_and_a_range_caution():
+def test_too_little_friction_is_no_go_and_a_range_unsure():
     short = ask(friction=0.2)
     assert (short.verdict, short.governs) == ("no-go", "slides_down")
     assert short.reason.startswith("With a friction of 0.2 it slides (")
@@ -188,7 +188,7 @@ def test_the_command():
     words = ["assess", "kenaf", "--rise", "100mm", "--going", "200mm", "--steps", "3", "--model",
              "physics", "--friction", "1"]  # fmt: skip
     done = CliRunner().invoke(app, words)
-    assert done.exit_code == 0
+    assert done.exit_code == 5
     assert done.stdout.startswith("UNSURE  kenaf on 100mm x 200mm, up nose first\n")
     lines = CliRunner().invoke(app, [*words, "--details"]).stdout.splitlines()
     assert "  trial           friction 1.00: climbed" in lines

@@ -34,7 +34,7 @@ def vocabulary():
 
 @pytest.fixture
 def wind(vocabulary):
-    return modes.failure_mode("wind", "rad", "being blown off the stairs")
+    return modes.failure_mode("wind", "rad", "being blown off the stairs", modes.FAILS_IF_KNOWN)
 
 
 @pytest.fixture
@@ -131,7 +131,7 @@ def test_it_has_a_probability_where_inputs_are_uncertain(wind, ask):
     ],
 )
 def test_it_may_have_any_unit(vocabulary, ask, unit, shown, margin, value):
-    mode = modes.failure_mode("wind", unit, "being blown off the stairs")
+    mode = modes.failure_mode("wind", unit, "being blown off the stairs", modes.OPEN)
     tips = finding(modes.TIP_DOWNHILL, 0.3)
     answer = ask(tips, finding(mode, margin))
     assert (answer.verdict, answer.governs) == ("unsure", "wind")

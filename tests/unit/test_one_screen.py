@@ -40,7 +40,7 @@ def shown(*words):
         patch.setattr("sys.argv", ["kaidan", "assess", *words])
         each_once(patch)
         result = CliRunner().invoke(app, ["assess", *words])
-    assert result.exit_code in (0, 1, 3), result.output
+    assert result.exit_code in (0, 1, 3, 4, 5), result.output
     return result.stdout.splitlines()
 
 
@@ -126,6 +126,6 @@ def test_of_a_robot_that_falls_before_a_step_no_friction_of_zero_is_shown():
 def test_no_line_names_a_step_that_nobody_knows():
     # what a belly lies on has a phase and no step
     answer = kaidan.assess("marv", "ibc", friction=0.8)
-    assert answer.phase == "land"
-    assert answer.step is None
+    belly = answer.findings["high_centring"]
+    assert (belly.holds, belly.step) == (False, None)
     assert "None" not in text.short(answer) + text.text(answer) + text.details(answer)

@@ -23,7 +23,7 @@ from kaidan.terrain.profile import Profile
 from kaidan.traversal.rating import Rated
 from kaidan.traversal.rotations import ROCKING
 
-GO, UNSURE, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.UNSURE, Verdict.NO_GO))
+GO, ROUGH, UNSURE, NO_GO, _ = (-each.rank for each in Verdict)
 ONE = Robot.model_validate(Robot.named("absolem").model_dump() | {"rear_flippers": None})
 FLIGHT = Stairs(rise=0.17, going=0.29, steps=6)
 RATED = Rated(
@@ -53,14 +53,14 @@ def test_the_score_of_a_drive():
     of = scores()._score
     slides = math.degrees(math.atan(0.6) - math.atan(0.5))
     drop, tips = (pytest.approx(math.degrees(each)) for each in (-0.2, 0.25 - 0.02))
-    assert of(RATED) == Score(True, 0, pytest.approx(slides), drop, tips)
+    assert of(RATED) == Score(GO, 0, pytest.approx(slides), drop, tips)
     for given, margin in (({"downhill": 0.1}, 0.03), ({"uphill": 0.05}, 0.03)):
         assert of(RATED._replace(**given)).margin == pytest.approx(math.degrees(margin))
         assert of(RATED._replace(**given)).tipping == pytest.approx(math.degrees(margin))
     easy = RATED._replace(required_friction=0.1, downhill=math.inf, uphill=math.inf)
     assert of(easy).margin == ENOUGH
-    assert of(RATED._replace(required_friction=1.0)).passes is False
-    assert of(RATED._replace(required_friction=0.99)).passes is True
+    assert of(RATED._replace(required_friction=1.0)).rank == NO_GO
+    assert of(RATED._replace(required_friction=0.99)).rank == UNSURE
 
 
 def test_grousers_hold_in_place_of_friction():
@@ -69,8 +69,8 @@ def test_grousers_hold_in_place_of_friction():
     assert of(RATED).margin == pytest.approx(math.degrees(0.2))
     assert of(RATED._replace(held=-0.01)).margin == pytest.approx(math.degrees(-0.01))
     assert of(RATED._replace(held=-0.01)).failing == -1
-    assert of(RATED._replace(held_at_best=-0.01)).passes is False
-    assert of(RATED._replace(held=-0.01, required_friction=1.2)).passes is True
+    assert of(RATED._replace(held_at_best=-0.01)).rank == NO_GO
+    assert of(RATED._replace(held=-0.01, required_friction=1.2)).rank == UNSURE
 
 
 def test_what_one_friction_rated_serves_another(monkeypatch):
@@ -181,7 +181,7 @@ def test_off_its_angles_a_posture_is_as_good_as_the_worst():
     assert math.degrees(up.front) == pytest.approx(12.0)
     assert math.degrees(down.front) == pytest.approx(8.0)
     for each, margin in ((posture, 5.0), (up, 3.0), (down, 4.0)):
-        found.known[Phase.LAND, each] = Score(True, 0, margin, 0.0)
+        found.known[Phase.LAND, each] = Score(GO, 0, margin, 0.0)
     assert found.off(Phase.LAND, posture).margin == 3.0
     assert found.of(Phase.LAND, posture).margin == 5.0
 
@@ -212,7 +212,7 @@ def searching(value, limits=(-60.0, 60.0), **given):
         angle = posture.front
         at = math.degrees(angle) if isinstance(angle, float) else None
         asked_for.append(at)
-        return Score(True, 0, -70.0 if at is None else value(at), 0.0)
+        return Score(GO, 0, -70.0 if at is None else value(at), 0.0)
 
     search.scores = SimpleNamespace(
         of=known, off=known, work_out=list, about=lambda posture: [posture],
@@ -240,7 +240,7 @@ def test_what_is_good_enough_is_not_refined():
 
     def tries(margin, off, enough=5.0, bound=ENOUGH):
         search, _ = searching(lambda at: margin)
-        search.scores.off = lambda phase, each: Score(True, 0, off, 0.0)
+        search.scores.off = lambda phase, each: Score(GO, 0, off, 0.0)
         search.scores.bound = lambda phase: bound
         search._better(Phase.ENTER, posture, "front", [0.5], enough)
         return len(search._allowed[Phase.ENTER]) > 1
@@ -270,9 +270,9 @@ def test_plans_put_together_of_two_phases():
     found = search._together([[low, high], [low, high]])
     fronts = [[round(math.degrees(one.front)) for _, one in each.plan.postures] for each in found]
     assert fronts == [[6, 6], [4, 4], [4, 6], [6, 4]]
-    assert found[0].merit == (True, 0, pytest.approx(6 + 0.05 * 6))
+    assert found[0].merit == (GO, 0, pytest.approx(6 + 0.05 * 6))
     cost = 1.5 + 0.005 * 2
-    assert found[2].merit == (True, 0, pytest.approx(4 + 0.05 * 5 - cost))
+    assert found[2].merit == (GO, 0, pytest.approx(4 + 0.05 * 5 - cost))
     assert [phase for phase, _ in found[0].plan.postures] == [Phase.ENTER, Phase.LAND]
     assert search.off(found[0].plan) == found[0].merit
 
@@ -291,14 +291,14 @@ def test_which_plans_may_hold_on_their_grousers():
 
     def may(**off):
         def score(phase, posture):
-            return Score(**({"passes": True, "failing": 0, "margin": 1.0, "drop": 0.0} | off))
+            return Score(**({"rank": GO, "failing": 0, "margin": 1.0, "drop": 0.0} | off))
 
         search._on_belts = SimpleNamespace(work_out=list, about=lambda one: [one], off=score)
         return search.may_hold(plan)
 
     assert may()
-    assert not may(failing=-1)
-    assert not may(passes=False)
+    assert not may(rank=ROUGH, failing=-1)
+    assert not may(rank=NO_GO)
 
 
 # plans judged
@@ -344,7 +344,7 @@ def sturdiest(monkeypatch):
             )  # fmt: skip
 
         candidates = [
-            Candidate(plan(str(k)), (True, 0, 0.0), (True, 0 if one[0] == GO else -1, 0.0))
+            Candidate(plan(str(k)), (GO, 0, 0.0), (one[0], 0 if one[0] == GO else -1, 0.0))
             for k, one in enumerate(each)
         ]
 
@@ -426,8 +426,12 @@ def test_a_plan_that_is_go_at_its_angles_alone_is_made_sturdier(sturdiest):
 
 def test_which_plans_are_judged_and_in_which_order():
     """The two best off their angles and the best at them; by the verdict that they promise."""
-    merits = {"a": (True, 0, 9.0), "b": (True, 0, 8.0), "c": (True, 0, 7.0), "d": (True, 0, 6.0)}
-    off = {"a": (False, 0, 0.0), "b": (True, -1, 0.0), "c": (True, 0, 1.0), "d": (True, -2, 0.0)}
+    merits = {
+        name: (GO, 0, value) for name, value in zip("abcd", (9.0, 8.0, 7.0, 6.0), strict=True)
+    }
+    off = {
+        "a": (NO_GO, 0, 0.0), "b": (ROUGH, -1, 0.0), "c": (GO, 0, 1.0), "d": (UNSURE, -2, 0.0),
+    }  # fmt: skip
     search = SimpleNamespace(
         hopes=lambda: [Hope(name, merit) for name, merit in merits.items()], off=off.get,
         question=SimpleNamespace(

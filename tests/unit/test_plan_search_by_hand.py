@@ -23,7 +23,7 @@ from kaidan.robot import Posture
 
 ABSOLEM = Robot.named("absolem")
 STAIRS = Stairs(rise=0.17, going=0.29, steps=6)
-GO, UNSURE, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.UNSURE, Verdict.NO_GO))
+GO, ROUGH, UNSURE, NO_GO, _ = (-each.rank for each in Verdict)
 ENTER, TRAVERSE, LAND = Phase
 
 
@@ -43,7 +43,7 @@ class Stated:
     def of(self, phase, posture):
         angle = posture.front
         at = round(math.degrees(angle)) if isinstance(angle, float) else angle
-        return Score(True, 0, self.margins[phase].get(at, -80.0), 0.0)
+        return Score(GO, 0, self.margins[phase].get(at, -80.0), 0.0)
 
     off = of
 
@@ -107,7 +107,7 @@ def test_the_leading_pair_is_turned_first_from_the_best_posture(facing, order):
 def test_those_that_are_not_scored_in_every_phase_come_last():
     search = searching({ENTER: {}, LAND: {}})
     search.scores.known = {
-        (phase, posture): Score(True, 0, margin, 0.0)
+        (phase, posture): Score(GO, 0, margin, 0.0)
         for posture, margin in zip(degrees(10.0, 20.0), (3.0, 1.0), strict=True)
         for phase in (ENTER, LAND)
     }
@@ -169,9 +169,9 @@ def off(verdict, value, *, sturdy=True):
 
 def test_the_other_end_is_tried_where_the_nose_is_no_sturdy_go(searched):
     go, loose = off(Verdict.GO, 5.0), off(Verdict.GO, 9.0, sturdy=False)
-    caution = off(Verdict.UNSURE, 3.0)
+    unsure = off(Verdict.UNSURE, 3.0)
     for first, second, ends in (
-        (go, None, 1), (loose, go, 2), (caution, go, 2), (go, caution, 1), (None, caution, 2),
+        (go, None, 1), (loose, go, 2), (unsure, go, 2), (go, unsure, 1), (None, unsure, 2),
         (None, None, 2),
     ):  # fmt: skip
         found, ranked = searched((30, first), (4, second))
@@ -179,7 +179,7 @@ def test_the_other_end_is_tried_where_the_nose_is_no_sturdy_go(searched):
         assert found.tried == (30, 34)[ends - 1]
         plans = [each for each in (first, second)[:ends] if each is not None]
         assert ranked == sorted(plans, key=lambda each: each.worst, reverse=True)
-    found, _ = searched((30, caution), best_of=("flippers",), known=True)
+    found, _ = searched((30, unsure), best_of=("flippers",), known=True)
     assert (found.ends, found.tried) == (("nose-first",), 30)
 
 
@@ -394,7 +394,7 @@ def test_where_no_plan_may_hold_the_best_at_its_angles_is_steadied(monkeypatch):
             return self.verdict
 
     plans = [OfVerdict(each) for each in (Verdict.UNSURE, Verdict.GO, Verdict.NO_GO)]
-    each = [finalists.Candidate(plan, (True, 0, 0.0), (True, 0, 0.0)) for plan in plans]
+    each = [finalists.Candidate(plan, (GO, 0, 0.0), (GO, 0, 0.0)) for plan in plans]
     search, steadied = SimpleNamespace(may_hold=lambda plan: False, question="asked"), []
     monkeypatch.setattr(finalists, "_candidates", lambda search: each)
     monkeypatch.setattr(
@@ -409,11 +409,11 @@ def test_where_no_plan_may_hold_the_best_at_its_angles_is_steadied(monkeypatch):
 @pytest.mark.parametrize(
     ("merit", "verdict", "stated", "whole"),
     [
-        ((True, 0, 5.0), Verdict.GO, {}, True),
-        ((True, 0, 5.0), Verdict.UNSURE, {}, False),
-        ((True, -1, 5.0), Verdict.GO, {}, False),
-        ((False, 0, 5.0), Verdict.GO, {}, False),
-        ((True, 0, 5.0), Verdict.GO, None, False),
+        ((GO, 0, 5.0), Verdict.GO, {}, True),
+        ((GO, 0, 5.0), Verdict.UNSURE, {}, False),
+        ((ROUGH, -1, 5.0), Verdict.GO, {}, False),
+        ((NO_GO, 0, 5.0), Verdict.GO, {}, False),
+        ((GO, 0, 5.0), Verdict.GO, None, False),
     ],
 )
 def test_what_promises_go_is_judged_on_the_whole_terrain(
@@ -439,7 +439,7 @@ def test_of_two_plans_alike_the_second_is_not_judged(monkeypatch):
     search = SimpleNamespace(question=SimpleNamespace(surface="known", robot=robot))
 
     def candidate(hope, *, failing=0):
-        return finalists.Candidate("plan", (True, 0, hope), (True, failing, 0.0))
+        return finalists.Candidate("plan", (GO, 0, hope), (GO, failing, 0.0))
 
     def may(each, of_best=None):
         return finalists._may_be_better(search, each, (GO, True, 0, 0.0), of_best, None)
@@ -449,7 +449,7 @@ def test_of_two_plans_alike_the_second_is_not_judged(monkeypatch):
     assert may(candidate(finalists.NEARLY + 1e-9 + finalists.SLACK), best)
     # nothing is judged to say that: off its angles it promises as much
     assert may(candidate(9.0), best)
-    rocks = finalists.Candidate("plan", (True, -1, 9.0), (True, -1, 0.0))
+    rocks = finalists.Candidate("plan", (ROUGH, -1, 9.0), (ROUGH, -1, 0.0))
     assert finalists._may_be_better(search, rocks, (UNSURE, True, -2, 0.0), None, None)
 
 
@@ -489,10 +489,10 @@ def test_friction_off_the_angles_is_the_most_that_is_known(each, most, monkeypat
 
 def test_as_many_plans_as_asked_are_the_best_off_their_angles():
     """Of the three best the third is to be beaten, not the second."""
-    hopes = [SimpleNamespace(plan=name, merit=(True, 0, value))
+    hopes = [SimpleNamespace(plan=name, merit=(GO, 0, value))
              for name, value in zip("abcd", (10.0, 9.0, 8.0, 7.0), strict=True)]  # fmt: skip
     at = {"a": 9.5, "b": 8.5, "c": 1.0, "d": 6.0}
-    search = SimpleNamespace(off=lambda plan: (True, 0, at[plan]))
+    search = SimpleNamespace(off=lambda plan: (GO, 0, at[plan]))
     assert finalists._best_off(search, hopes, 3) == ["a", "b", "d"]
 
 

@@ -38,7 +38,7 @@ from kaidan.modes import FALL_DOWNHILL, POSTURE_TOLERANCE, Phase, Verdict
 from kaidan.robot import Posture, Robot
 from kaidan.surface import Surface
 
-GO, UNSURE, NO_GO = (-each.rank for each in (Verdict.GO, Verdict.UNSURE, Verdict.NO_GO))
+GO, ROUGH, UNSURE, NO_GO, _ = (-each.rank for each in Verdict)
 ABSOLEM = Robot.named("absolem")
 ONE = Robot.model_validate(ABSOLEM.model_dump() | {"rear_flippers": None})
 TWO = math.radians(2.0)
@@ -387,11 +387,11 @@ def test_a_posture_stays_where_another_is_no_better(sturdier, monkeypatch):
 
 def test_what_a_phase_may_come_to_by_its_scores():
     """A tenth of a degree better than those of coarse drives; of a failure nothing is known."""
-    score = Score(True, 0, 3.0, 0.0, 5.0)
+    score = Score(GO, 0, 3.0, 0.0, 5.0)
     assert plan_sturdy._most(score) == Worth(GO, pytest.approx(5.0 + plan_sturdy.SLACK))
     assert plan_sturdy._hope(score) == Worth(GO, pytest.approx(3.0 + plan_sturdy.SLACK))
-    assert plan_sturdy._hope(score._replace(failing=-1)).rank == UNSURE
-    assert plan_sturdy._hope(score._replace(passes=False)).rank == NO_GO
+    assert plan_sturdy._hope(score._replace(rank=ROUGH)).rank == ROUGH
+    assert plan_sturdy._hope(score._replace(rank=NO_GO)).rank == NO_GO
     assert plan_sturdy._hope(FAILED) == Worth(NO_GO, ENOUGH)
 
 
@@ -503,26 +503,32 @@ def test_what_slides_too_early_is_judged_no_further(sliding, verdict, judging):
 # plans put together of phases
 
 
-def score(margin, drop=0.0, *, passes=True, failing=0):
-    return Score(passes, failing, margin, drop)
+def score(margin, drop=0.0, *, rank=GO, failing=0):
+    return Score(rank, failing, margin, drop)
 
 
 def test_scores_of_a_phase():
     """Of the drop what is beyond 5 deg counts, a tenth of it."""
     assert score(8.0, -15.0).value == pytest.approx(7.0)
-    assert score(8.0, -4.0).merit == (True, 0, 8.0)
-    assert score(8.004, -15.0, failing=-1).merit == (True, -1, 7.0)
+    assert score(8.0, -4.0).merit == (GO, 0, 8.0)
+    assert score(8.004, -15.0, rank=ROUGH, failing=-1).merit == (ROUGH, -1, 7.0)
+    # what may arrive comes before what is not known to, however much fails
+    assert score(1.0, rank=ROUGH, failing=-2).merit > score(9.0, rank=UNSURE, failing=-1).merit
     assert score(3.0, -5.0).does(3.0)
-    for other in (score(2.9), score(3.0, -5.1), score(3.0, failing=-1), score(3.0, passes=False)):
+    for other in (score(2.9), score(3.0, -5.1), score(3.0, rank=ROUGH), score(3.0, rank=NO_GO)):
         assert not other.does(3.0)
 
 
 def test_the_weakest_phase_counts_and_a_little_the_others():
     """Two phases, three plans: margins and drops of the weakest, a twentieth of the mean value."""
-    first = np.array([[1, 1, 1], [0, -1, 0], [9.0, 9.0, 9.0], [0.0, 0, -25.0], [9.0, 9.0, 7.0]])
-    second = np.array([[1, 1, 0], [0, -2, 0], [3.0, 10.0, 3.0], [-15.0, 0, 0], [2.0, 10.0, 3.0]])
-    passes, failing, value = _order([first, second], np.array([0.0, 1.5, 0.0]))
-    assert passes.tolist() == [1, 1, 0]
+    first = np.array(
+        [[GO, ROUGH, GO], [0, -1, 0], [9.0, 9.0, 9.0], [0.0, 0, -25.0], [9.0, 9.0, 7.0]]
+    )
+    second = np.array(
+        [[GO, UNSURE, NO_GO], [0, -2, 0], [3.0, 10.0, 3.0], [-15.0, 0, 0], [2.0, 10.0, 3.0]]
+    )
+    ranks, failing, value = _order([first, second], np.array([0.0, 1.5, 0.0]))
+    assert ranks.tolist() == [GO, UNSURE, NO_GO]
     assert failing.tolist() == [0, -3, 0]
     assert value == pytest.approx([3 - 1 + 0.05 * 5.5, 9 - 1.5 + 0.05 * 9.5, 3 - 2 + 0.05 * 5.0])
     assert _along(1, 3) == (1, -1, 1)
@@ -633,15 +639,15 @@ def searching(*, grousers=False, off=None, questions=()):
 PLAN = SimpleNamespace(question=lambda question: "plan")
 
 
-def candidate(hope=10.0, *, passes=True, failing=0, off=None):
-    merit = (passes, failing, hope)
-    return Candidate(PLAN, merit, off or (True, 0, 0.0))
+def candidate(hope=10.0, *, rank=GO, failing=0, off=None):
+    merit = (rank, failing, hope)
+    return Candidate(PLAN, merit, off or (GO, 0, 0.0))
 
 
 def test_which_verdict_scores_promise():
-    each = [(True, 0, 1.0), (True, -1, 1.0), (False, 0, 1.0)]
-    assert [-_rank(searching(), one) for one in each] == [GO, UNSURE, NO_GO]
-    assert [-_rank(searching(grousers=True), one) for one in each] == [GO] * 3
+    each = [(rank, 0, 1.0) for rank in (GO, ROUGH, UNSURE, NO_GO)]
+    assert [-_rank(searching(), one) for one in each] == [GO, ROUGH, UNSURE, NO_GO]
+    assert [-_rank(searching(grousers=True), one) for one in each] == [GO] * 4
 
 
 def test_which_plans_may_be_better(monkeypatch):
@@ -651,10 +657,11 @@ def test_which_plans_may_be_better(monkeypatch):
     def may(each, bar, of_best=None, drives=None, **more):
         return _may_be_better(searching(**more), each, bar, of_best, drives)
 
-    caution, go = (UNSURE, True, -1, 9.0), (GO, True, 0, 9.0)
-    assert may(candidate(), caution)
-    assert not may(candidate(failing=-1), go)
-    assert not may(candidate(passes=False), caution)
+    unsure, go = (UNSURE, True, -1, 9.0), (GO, True, 0, 9.0)
+    assert may(candidate(), unsure)
+    assert not may(candidate(rank=ROUGH, failing=-1), go)
+    assert may(candidate(rank=ROUGH, failing=-1), unsure)
+    assert not may(candidate(rank=NO_GO), unsure)
     assert may(candidate(8.6), go)
     for hope in (8.5, 8.4):  # by half a degree it may be better than its scores
         assert not may(candidate(hope), go)
@@ -664,12 +671,12 @@ def test_which_plans_may_be_better(monkeypatch):
     for hope, better in ((10.05, False), (10.2, True)):  # nearly alike
         assert may(candidate(hope), go, candidate(10.0)) is better
     # where it fails off its angles the weakest way tells
-    fails = candidate(off=(True, -1, 0.0))
-    for rank, better in ((GO, True), (UNSURE, False)):
+    fails = candidate(off=(ROUGH, -1, 0.0))
+    for rank, better in ((GO, True), (ROUGH, False), (UNSURE, False)):
         drives = SimpleNamespace(rank=lambda one, rank=rank: rank)
         assert may(fails, go, questions=["way"], drives=drives) is better
     assert may(fails, go)
-    worse = candidate(failing=-1, off=(True, -2, 0.0))
+    worse = candidate(rank=UNSURE, failing=-1, off=(UNSURE, -2, 0.0))
     assert may(worse, (UNSURE, True, -1, 0.0))
 
 

@@ -182,8 +182,9 @@ def test_shares_are_those_of_single_answers():
             assess(each.robot, Stairs(rise=r, going=g, steps=14), **CLOSED)
             for r, g in zip(rise, going, strict=True)
         ]  # fmt: skip
-        for verdict, share in {"go": each.go, "rough": each.rough, "unsure": each.unsure, "no-go": each.no_go,
-                               "outside-model": each.outside_model}.items():  # fmt: skip
+        shares = {"go": each.go, "rough": each.rough, "unsure": each.unsure,
+                  "no-go": each.no_go, "outside-model": each.outside_model}  # fmt: skip
+        for verdict, share in shares.items():
             expected = sum(w for w, a in zip(weights, answers, strict=True) if a.verdict == verdict)
             assert share == pytest.approx(expected / 10)
         best |= [answer.verdict == "go" for answer in answers]

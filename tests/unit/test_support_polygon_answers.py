@@ -104,7 +104,7 @@ def test_the_drive_climbs_the_slope_along_the_heading():
     assert aslant.margins_deg["drive"] == pytest.approx(30 - inclination, **ANGLE)
 
 
-def test_little_energy_is_a_caution():
+def test_little_energy_is_unsure():
     # hand: v^2 / 2g of 0.5 m/s is 12.7 mm, of which a sudden stop leaves 45 % to a rotation: the
     # centroid is 0.1 m high; half the inertia of an even box of 0.5 by 0.2 m
     answer = assess(GAUGED, flight(35, 0.15), friction=GRIP, speed=0.5, **BARE)

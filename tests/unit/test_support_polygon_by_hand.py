@@ -53,7 +53,7 @@ def found(monkeypatch):
     """Findings beside tipping, friction in doubt by 0.1 and -0.9, the slope by 0 and 30 mrad."""
     samples = np.array([0.1, -0.9]), np.array([0.0, 0.03])
     monkeypatch.setattr(module, "_supply_samples", lambda question, at: samples)
-    monkeypatch.setattr(module, "tips", lambda question, flight, *, failing: ())
+    monkeypatch.setattr(module, "tips", lambda question, flight, *, instead: ())
     monkeypatch.setattr(module, "energy_of", lambda question, flight, psi: 0.1 * psi)
     monkeypatch.setattr(module, "figures_of", lambda question, flight, energy: energy)
 

@@ -68,7 +68,7 @@ def test_ranges_without_meaning_are_refused(fields, text):
     assert str(caught.value).splitlines()[0].startswith(text)
 
 
-def test_it_is_caution_until_weighed(answer):
+def test_it_is_unsure_until_weighed(answer):
     assert (answer.verdict, answer.governs) == ("unsure", "unweighed")
     assert answer.reason == (
         "Until weighed: nobody measured its centroid, C_L 240 to 480 mm and C_N 100 to 240 mm "
@@ -123,7 +123,7 @@ def test_where_no_place_holds_it_is_no_go():
     assert {each.verdict for each in found.centroid.stretches} == {"no-go"}
 
 
-def test_where_every_place_holds_it_is_caution_all_the_same():
+def test_where_every_place_holds_it_is_unsure_all_the_same():
     gentle = Stairs(name="gentle", rise=0.1, going=0.3, steps=6)
     span = {"from_front": (0.38, 0.42), "height": (0.05, 0.06)}
     found = assess(robot(com_range=span), gentle, friction=1.2)

@@ -236,11 +236,11 @@ def test_the_verdict_changes_where_it_is_halved_out(stretches):
     near = module.FINE
     assert first == (0.1, 0.24, pytest.approx(0.3131, abs=near), "no-go", "no-go at 0.24")
     assert second == (
-        0.1, first[2], pytest.approx(0.4242, abs=near), "unsure", "caution at 0.36",
+        0.1, first[2], pytest.approx(0.4242, abs=near), "unsure", "unsure at 0.36",
     )  # fmt: skip
     assert third == (0.1, second[2], 0.48, "go", "go at 0.48")
     assert fourth == (0.2, 0.24, first[2], "no-go", "no-go at 0.24")
-    assert fifth == (0.2, first[2], 0.48, "unsure", "caution at 0.36")
+    assert fifth == (0.2, first[2], 0.48, "unsure", "unsure at 0.36")
 
 
 def test_one_verdict_all_along_is_one_stretch(stretches):

@@ -69,7 +69,7 @@ STANDS = finding(FALL_DOWNHILL, 0.4), finding(FALL_UPHILL, 0.4)
 
 TABLE = {
     (NO_GO, UNSURE, UNSURE): """tip_sideways fall_downhill fall_uphill slides_down slides_up stuck
-        flipper_torque narrow low""",
+        flipper_torque turning twist narrow low""",
     (NO_GO, UNSURE, GO): "drive",
     (ROUGH, ROUGH, UNSURE): "tip_downhill tip_uphill rotation impact high_centring",
     (
@@ -77,7 +77,7 @@ TABLE = {
         UNSURE,
         UNSURE,
     ): """gap_jam momentum energy posture_change posture_tolerance grouser_speed
-        landing_room turning foot_unseen gap across floor_finish twist unweighed""",
+        landing_room foot_unseen gap across floor_finish unweighed""",
 }
 """Verdicts in the best case, in the worst only, and unknown. What does not arrive is a NO-GO; what
 arrives is ROUGH, how far from a fall being known; what no model follows to its end is UNSURE."""

@@ -45,7 +45,7 @@ class Assessed(NamedTuple):
     """Answer of the service."""
 
     success: bool
-    """Whether the verdict is go or caution."""
+    """Whether the verdict is GO; ROUGH and UNSURE are for a person to decide."""
     message: str
     """The answer as JSON; the reason where there is none."""
 
@@ -97,7 +97,7 @@ class Climb:
             answer = kaidan.assess(self.question)
         except KaidanError as error:
             return Assessed(False, str(error))
-        return Assessed(answer.verdict in ("go", "caution"), answer.to_json())
+        return Assessed(answer.verdict == "go", answer.to_json())
 
     def feed(self, message: Any, now: float) -> LiveState:
         """Take an Imu message that came at a time [s]."""

@@ -125,15 +125,18 @@ def _planned(
     anew: whether another plan is sought where this one is no GO at its angles, not only where its
         verdict does not hold off them.
     """
+    may_lower = question.tolerance and then.verdict in (Verdict.GO, Verdict.ROUGH)
+    seeks = anew and search is not None and then.verdict is not Verdict.GO
+    if not (may_lower or seeks):
+        return then, False
     from kaidan.assessment.plan_off_angles import holds_off_its_angles
     from kaidan.assessment.plan_search import better_than
 
     drives = None if search is None else search.drives
-    may_lower = question.tolerance and then.verdict in (Verdict.GO, Verdict.ROUGH)
     lowered = may_lower and not holds_off_its_angles(question, drives)
     if lowered:
         then = then._replace(verdict=Verdict.UNSURE)
-    elif then.verdict is Verdict.GO or not anew:
+    elif not seeks:
         return then, False
     if search is not None and question.robot.com_range is None:
         asked = question.changed(best_of=search.best_of)

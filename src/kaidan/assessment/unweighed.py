@@ -10,7 +10,6 @@ from kaidan.errors import InputError
 from kaidan.models import judge
 from kaidan.models.findings import Findings
 from kaidan.models.unweighed import Placed, at
-from kaidan.modes import Verdict
 from kaidan.question import Question
 
 FINE = 1e-3
@@ -62,12 +61,11 @@ def _along(question: Question, row: list[Placed]) -> Iterator[Stretch]:
     known = [(placed.com_from_front, conclude(placed.question, placed.found)) for placed in row]
     height = row[0].com_height
     begins, (_, now) = known[0][0], known[0]
-    for (low, first), (high, then) in pairwise(known):
-        if then.verdict is first.verdict:
-            continue
-        change = _change(question, height, low, high, first.verdict)
-        yield _stretch(height, begins, change, now)
-        begins, now = change, then
+    for (low, _), (high, then) in pairwise(known):
+        while now.verdict is not then.verdict:  # others may lie in between
+            change, low, beyond = _change(question, height, (low, high), now, then)
+            yield _stretch(height, begins, change, now)
+            begins, now = change, then if beyond.verdict is then.verdict else beyond
     yield _stretch(height, begins, known[-1][0], now)
 
 
@@ -81,16 +79,27 @@ def _stretch(height: float, low: float, high: float, conclusion: Conclusion) -> 
     )
 
 
-def _change(question: Question, height: float, low: float, high: float, verdict: Verdict) -> float:
-    """Place between two at which the verdict is no longer the first one's [m]."""
+def _change(
+    question: Question,
+    height: float,
+    between: tuple[float, float],
+    now: Conclusion,
+    then: Conclusion,
+) -> tuple[float, float, Conclusion]:
+    """Place between two at which the verdict is no longer the first one's, and a place beyond [m].
+
+    The last is the conclusion there.
+    """
+    low, high = between
     while high - low > FINE:
         middle = (low + high) / 2
         try:
             placed = at(question, middle, height, judge)
         except InputError:  # where the robot cannot have it
-            return middle
-        if conclude(placed.question, placed.found).verdict is verdict:
+            return middle, high, then
+        found = conclude(placed.question, placed.found)
+        if found.verdict is now.verdict:
             low = middle
         else:
-            high = middle
-    return (low + high) / 2
+            high, then = middle, found
+    return (low + high) / 2, high, then

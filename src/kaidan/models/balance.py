@@ -81,7 +81,7 @@ def balance(
         *tips,
         *falls,
         rotation,
-        *_hits(driven, found, chains),
+        *_hits(driven, found, chains, phase),
         *([] if any(one.fails(best=True).all() for one in tips) else [energy]),
     ]
 
@@ -190,14 +190,17 @@ def _over_its_downhill_end(found: Traverse) -> bool:
     return (found.status is Status.FELL_BACKWARD) is not found.descending
 
 
-def _hits(question: Question, found: Traverse, chains: list[Chain]) -> list[Finding]:
+def _hits(
+    question: Question, found: Traverse, chains: list[Chain], phase: Phase | None = None
+) -> list[Finding]:
     """Rotations that are arrested: how hard they end, and whether momentum topples.
 
     Those that the rubber takes up have none; the energy margin judges their poses. Gravity is
     tilted by the allowances; a sudden stop adds to the drop, and sag going down.
     """
     tolerated = question.robot.tolerated_impact
-    each = [_of_smallest(IMPACT, [tolerated - one.impact_speed for one in chains], chains, found)]
+    spare = [tolerated - one.impact_speed for one in chains]
+    each = [_of_smallest(IMPACT, spare, chains, _falls_in(found, phase))]
     chains = [each for each in chains if each.angle > TAKEN_UP]
     if chains:
         d, M = question.allowance_d, question.allowance_M
@@ -224,7 +227,8 @@ def _hits(question: Question, found: Traverse, chains: list[Chain]) -> list[Find
 def _rocking(found: Traverse, over: Spread, phase: Phase | None) -> Finding:
     """Largest rocking, seen or foretold, of all or of one phase."""
     chains = [each for each in found.chains if each.arrested and phase in (None, each.phase)]
-    seen = _of_smallest(ROTATION, [ROCKING - one.rocking for one in chains], chains, found)
+    spare = [ROCKING - one.rocking for one in chains]
+    seen = _of_smallest(ROTATION, spare, chains, _falls_in(found, phase))
     if phase not in (None, Phase.TRAVERSE) or not found.whole:
         return seen
     rocking = found.criterion.rocking + over.rocking
@@ -237,11 +241,14 @@ def _rocking(found: Traverse, over: Spread, phase: Phase | None) -> Finding:
     return replace(seen, worst=margin, best=margin, phase=Phase.TRAVERSE, step=None)
 
 
-def _of_smallest(
-    mode: FailureMode, margins: list[float], of: list[Chain], found: Traverse
-) -> Finding:
+def _falls_in(found: Traverse, phase: Phase | None) -> bool:
+    """Whether it falls, of all or in one phase."""
+    return found.status in _FELL and phase in (None, found.end[0])
+
+
+def _of_smallest(mode: FailureMode, margins: list[float], of: list[Chain], falls: bool) -> Finding:
     """Finding of the smallest of some margins; without any infinite, or not known if it falls."""
-    if not margins and found.status in _FELL:
+    if not margins and falls:
         return Finding.certain(mode, math.nan, model=_NAME)
     if not margins:
         return Finding.certain(mode, math.inf, model=_NAME)
