@@ -42,19 +42,18 @@ print(f"GO up to a standard uncertainty of {last:.0f} mm")
 
 figure, axes = plt.subplots(figsize=(7, 3.5), layout="constrained")
 axes.plot(1e3 * sigmas, margins, color="black")
-fill = {"go": "black", "unsure": "grey", "no-go": "white"}
+fill = {"go": "black", "rough": "grey", "no-go": "white"}
 for answer, sigma, margin in zip(answers, sigmas, margins, strict=True):
     axes.plot(1e3 * sigma, margin, "o", color="black", markerfacecolor=fill[answer.verdict])
 axes.axhline(0, color="black", linewidth=0.8)
 axes.set_xlabel("standard uncertainty of the centroid along the track [mm]")
 axes.set_ylabel("margin at a risk of 1 % [°]")
-axes.set_title("filled: GO; grey: UNSURE; open: NO-GO", fontsize=10)
+axes.set_title("filled: GO; grey: ROUGH; open: NO-GO", fontsize=10)
 plt.show()
 
 # %%
-# A grey circle is UNSURE and not NO-GO: of theta_M the sheet gives a range, the worst case takes its
-# larger end, and with the smaller one the robot holds. With a stated uncertainty every failure mode
-# has a probability, too.
+# A grey circle is ROUGH and not NO-GO: more than 1 % of the robots rock, and no more than 1 % keep
+# less than the reserve to a fall. With a stated uncertainty every failure mode has a probability, too.
 
 answer = judged(0.012)
 print(

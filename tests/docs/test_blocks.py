@@ -33,6 +33,7 @@ from markdown_it import MarkdownIt
 
 from answered import each_once
 from kaidan.cli import run
+from kaidan.modes import Verdict
 
 ROOT = Path(__file__).parents[2]
 PAGES = sorted(
@@ -206,6 +207,8 @@ def environment() -> dict[str, str]:
 
 
 IMPORTS = ast.Import | ast.ImportFrom
+ENDS = {2, *(each.exit_code for each in Verdict)}
+"""Exit codes that are no fault of kaidan."""
 
 SHELL = re.compile(r"[|<>;&$`*?\\]")
 """What only a shell understands."""
@@ -257,7 +260,7 @@ def run_console(fence: Fence, folder: Path, *, as_processes: bool) -> None:
                 + "\n--- printed\n"
                 + "\n".join(printed)
             )
-        assert code in (0, 1, 2, 3), f"line {fence.line}: {command}\n{text}"
+        assert code in ENDS, f"line {fence.line}: {command}\n{text}"
     assert code != 2, f"line {fence.line}: the last command is refused, and no echo $? says so"
 
 
