@@ -91,7 +91,7 @@ def test_both_engines_agree(pairs):
     plain, fast = verdicts(pairs, engine="numpy"), verdicts(pairs, engine="compiled")
     assert_alike(plain, fast, pairs["angle"] + pairs["theta_d"] + pairs["theta_M"])
     kinds = set(plain.verdict.tolist())
-    assert kinds == {verdict.rank for verdict in Verdict}
+    assert kinds == set(WORDS)
     governing = set(plain.governs[plain.verdict != Verdict.OUTSIDE_MODEL.rank].tolist())
     assert governing == set(range(len(FORMULAS)))
     # a positive margin of a known friction is what GO means, in both
@@ -105,7 +105,8 @@ def test_both_engines_agree(pairs):
             assert np.isnan(getattr(answer, name)[outside]).all(), name
 
 
-WORDS = {verdict.rank: verdict.value for verdict in Verdict}
+WORDS = {verdict.rank: verdict.value for verdict in Verdict if verdict is not Verdict.ROUGH}
+"""What the closed form may answer: it knows no next contact, so that none is ROUGH."""
 
 
 def random_robot(draw):

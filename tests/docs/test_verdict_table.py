@@ -1,11 +1,11 @@
-"""The table of `docs/decisions.md` is the one that decides."""
+"""The table in the page of decisions is the one that decides."""
 
 import re
 from pathlib import Path
 
 from kaidan.modes import FAILURE_MODES, IfFails, Verdict
 
-PAGE = Path(__file__).parents[2] / "docs" / "decisions.md"
+PAGE = Path(__file__).parents[2] / "docs/decisions.md"
 
 
 def written() -> dict[str, IfFails]:

@@ -23,6 +23,7 @@ from ifc_cases import (
 )
 from kaidan import InputError, Stairs
 from kaidan.cli import app
+from kaidan.modes import Verdict
 from kaidan.text.building_page import page
 from kaidan.verbs.building import building
 from kaidan.verbs.building.answer import BuildingAnswer
@@ -261,11 +262,30 @@ def test_the_command(house, tmp_path):
     words = ["building", str(house), "--robots", "absolem", "--friction", "1.0"]
     done = CliRunner().invoke(app, [*words, "--html", str(tmp_path / "h.html"),
                                     "--csv", str(tmp_path / "h.csv")])  # fmt: skip
-    assert done.exit_code in (0, 1)
+    assert done.exit_code in {each.exit_code for each in Verdict}
     assert "A1" in done.stdout
     assert "Ways from Ground" in done.stdout
     assert (tmp_path / "h.html").read_text().startswith("<!DOCTYPE html>")
     assert (tmp_path / "h.csv").exists()
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "code"),
+    [
+        ((Verdict.GO, Verdict.NO_GO), (Verdict.GO,), 0),  # one robot is enough for each storey
+        ((Verdict.GO,), (Verdict.ROUGH, Verdict.UNSURE), 4),
+        ((Verdict.ROUGH,), (Verdict.UNSURE, Verdict.NO_GO), 5),
+        ((Verdict.UNSURE,), (Verdict.NO_GO,), 1),
+    ],
+)
+def test_the_storey_that_is_reached_worst_decides_the_exit_code(answer, first, second, code):
+    way = next(each for each in answer.ways if each.verdict is not None)
+    ways = [
+        way.model_copy(update={"storey": storey, "verdict": verdict})
+        for storey, some in (("1", first), ("2", second))
+        for verdict in some
+    ]
+    assert answer.model_copy(update={"ways": tuple(ways)}).exit_code == code
 
 
 def test_a_building_without_stairs(folder):

@@ -103,7 +103,7 @@ def verdicts(
     >>> kenaf = dict(flat_length=0.470, com_from_uphill=0.196, com_height=0.071)
     >>> slopes = np.radians([50.0, 59.0, 62.0])
     >>> verdicts({**kenaf, "angle": slopes, "nosing_spacing": 0.15, "friction": 2.0}).verdict
-    array([0, 0, 2], dtype=int8)
+    array([0, 0, 3], dtype=int8)
     """
     arrays, shape = _broadcast(inputs)
     word_of("engine", engine, get_args(Engine))

@@ -273,10 +273,13 @@ class BuildingAnswer(Answer):
 
     @property
     def exit_code(self) -> int:
-        """0 where no storey with flights is a NO-GO for all robots, 1 else, 3 no flights."""
+        """That of the storey which the robots reach worst, each by the best way; 3 no flights."""
+        best: dict[str, Verdict] = {}
+        for way in self.ways:
+            if way.verdict is not None:
+                best[way.storey] = min(
+                    best.get(way.storey, way.verdict), way.verdict, key=lambda one: one.rank
+                )
         if not self.flights:
-            return 3
-        storeys = {way.storey for way in self.ways if way.verdict is not None}
-        may = (Verdict.GO, Verdict.ROUGH, Verdict.UNSURE)
-        reached = {way.storey for way in self.ways if way.verdict in may}
-        return 0 if storeys <= reached else 1
+            return Verdict.OUTSIDE_MODEL.exit_code
+        return max(best.values(), key=lambda one: one.rank, default=Verdict.GO).exit_code
