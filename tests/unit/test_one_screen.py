@@ -21,6 +21,7 @@ CASES = {
         "kenaf", "--angle", "45deg", "--nosing-spacing", "150mm", "--friction", "2",
         "--uncertainty", "com_from_front=5mm,angle=0.5deg",
     ],
+    "ROUGH": ["absolem", "ibc", "--friction", "1", "--flippers", "24deg,-7.5deg"],
     "UNSURE by friction": ["absolem", "ibc", "--flippers", "flat", "--surface", "concrete-dry"],
     "UNSURE, no friction stated": ["absolem", "ada", "--flippers", "flat"],
     "UNSURE until weighed": ["taurob-tracker", "ibc", "--friction", "1.2"],
@@ -52,6 +53,14 @@ def test_it_fits_one_screen_and_the_verdict_comes_first(case):
     assert len(lines) <= LINES
     assert len(shown(*CASES[case], "--short")) == 1
     assert len(shown(*CASES[case], "--details")) > LINES
+
+
+def test_a_rough_answer_says_what_to_secure_before_anything_else():
+    lines = shown(*CASES["ROUGH"])
+    assert lines[2].split() == [
+        "first", "Secure", "payload,", "arm", "and", "antennas:", "it", "rocks.",
+        "Keep", "people", "off", "the", "flight", "below.",
+    ]  # fmt: skip
 
 
 def test_of_what_is_no_go_even_so_nothing_is_to_be_measured_or_done():

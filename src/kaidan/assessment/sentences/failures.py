@@ -168,7 +168,7 @@ def _momentum(
     question: "Question", found: "Findings", conclusion: "Conclusion", finding: "Finding"
 ) -> str:
     if finding.margin(question.risk, best=True) <= 0:
-        return f"The momentum of its rotation topples it{at(conclusion)}."
+        return f"The momentum of its rotation may topple it{at(conclusion)}."
     return (
         f"Only the impact that ends its rotation takes enough momentum to hold it{at(conclusion)}."
     )
