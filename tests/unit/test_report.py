@@ -13,6 +13,7 @@ from kaidan.cli import app, run
 from kaidan.documents import html_page, report_bytes, report_file
 from kaidan.documents.pdf_pages import pages
 from kaidan.errors import MissingExtraError
+from kaidan.text.document import Facts
 from kaidan.text.report import document
 from kaidan.verbs.report import back
 from kaidan.verbs.report.answer import Report
@@ -117,6 +118,13 @@ def test_the_page_for_the_field_says_what_to_do(page):
     )
     assert any("there is less friction than 0.91" in each for each in stop)
     assert page.table("Flippers")[1] == ["enter", "before the start", "-10 deg", "-10 deg", "flat"]
+
+
+def test_before_a_rough_drive_the_page_for_the_field_says_what_to_secure_first():
+    rough = kaidan.report("absolem", "ibc", friction=1.0, flippers="24deg,-7.5deg")
+    (facts,) = (each for each in document(rough).parts[0].blocks if isinstance(each, Facts))
+    said = "Secure payload, arm and antennas: it rocks. Keep people off the flight below."
+    assert facts.rows[0] == ("First", said)
 
 
 def test_a_robot_that_cannot_go_is_not_to_be_driven():

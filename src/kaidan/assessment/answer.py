@@ -214,6 +214,11 @@ class Assessment(Answer):
         return Verdict(self.verdict).exit_code
 
     @property
+    def to_secure(self) -> str:
+        """What to secure before a rough drive, the first of the notes; empty for other verdicts."""
+        return self.notes[0] if self.verdict == "rough" and self.notes else ""
+
+    @property
     def margins_deg(self) -> dict[str, float | None]:
         """Margin of every failure mode that has one in degrees."""
         return {key: one.margin for key, one in self.findings.items() if one.unit == "deg"}

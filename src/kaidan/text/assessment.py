@@ -36,8 +36,8 @@ NO_FRICTION = 0.005
 def text(answer: "Assessment") -> str:
     """Answer on one screen: the verdict, why, what to do, what decides, what is not known."""
     lines = [headline(answer), f"  {answer.reason}"]
-    if answer.verdict == "rough" and answer.notes:
-        lines.append(_row("first", answer.notes[0]))
+    if answer.to_secure:
+        lines.append(_row("first", answer.to_secure))
     if assumed := belt_assumed(answer.question.robot):
         lines.append(_row("assumed", assumed))
     if answer.plan is not None and plan.line(answer.plan):

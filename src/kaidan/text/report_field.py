@@ -57,6 +57,8 @@ def _facts(mission: "Mission") -> list[tuple[str, str]]:
         ("Go", f"{question.direction}, {question.facing.replace('-', ' ')}"),
         ("Speed", _speed(card.speed, card.judged_speed)),
     ]
+    if answer.to_secure:
+        rows.insert(0, ("First", answer.to_secure))
     names = (change_name(answer), "Or")
     for name, change in zip(names, answer.what_would_help[:2], strict=False):
         rows.append((name, change_line(change, answer)))
