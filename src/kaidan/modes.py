@@ -166,7 +166,7 @@ FLIPPER_TORQUE = failure_mode(
 POSTURE_TOLERANCE = failure_mode(
     "posture_tolerance", "", "flippers some degrees off their angles", OPEN
 )
-"""Of a plan that was found: off its angles its verdict is worse."""
+"""Of a plan that was found: its verdict is worse when it is perturbed."""
 GROUSER_SPEED = failure_mode("grouser_speed", "m/s", "driving too fast on grousers", OPEN)
 """Faster, grousers hooked a nosing or spun at a riser in simulations."""
 LANDING_ROOM = failure_mode("landing_room", "m", "a landing shorter than the robot", OPEN)

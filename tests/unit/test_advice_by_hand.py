@@ -190,8 +190,8 @@ def test_other_plans_are_named_with_the_friction_that_they_need(monkeypatch):
         (0.9, [0.75, 0.88], []),
     ],
 )
-@pytest.mark.parametrize("sturdy", [True, False])
-def test_less_friction_is_looked_for_with_other_plans(least, asked, told, sturdy, monkeypatch):
+@pytest.mark.parametrize("robust", [True, False])
+def test_less_friction_is_looked_for_with_other_plans(least, asked, told, robust, monkeypatch):
     """Until less than 0.15 is left, at the frictions that are told."""
     looked = []
 
@@ -200,7 +200,7 @@ def test_less_friction_is_looked_for_with_other_plans(least, asked, told, sturdy
         assert question.best_of == search.best_of
         looked.append(question.friction[0])
         if looked[-1] < least:
-            return None if sturdy else plan_search.Found(question, None, False, None, drives)
+            return None if robust else plan_search.Found(question, None, False, None, drives)
         return plan_search.Found(question, None, True, None, drives)
 
     monkeypatch.setattr(plan_search, "better_than", better_than)
@@ -819,13 +819,13 @@ def test_a_plan_off_its_angles_and_another_one(monkeypatch):
     best = concluded(Verdict.GO, 0.1)
     unsure = then._replace(verdict=Verdict.UNSURE)
 
-    def of(ends=2, *, now=then, holds=False, sturdy=True, own=best, com_range=None, anew=False):
+    def of(ends=2, *, now=then, holds=False, robust=True, own=best, com_range=None, anew=False):
         asked = []
 
         def better_than(verdict, question, *, drives, other_frictions):
             assert other_frictions is anew
             asked.append((verdict, question, drives))
-            return own and SimpleNamespace(question="own", findings="its", sturdy=sturdy)
+            return own and SimpleNamespace(question="own", findings="its", robust=robust)
 
         def holds_off(question, drives):
             assert drives == (None if search is None else "drives")
@@ -848,7 +848,7 @@ def test_a_plan_off_its_angles_and_another_one(monkeypatch):
     assert of() == ((best, True), [(Verdict.UNSURE, ("flippers", "facing"), "drives")])
     assert of(1) == ((best, True), [(Verdict.UNSURE, ("flippers",), "drives")])
     assert of(own=None)[0] == (unsure, False)  # no plan has a better verdict
-    assert of(sturdy=False)[0] == (unsure, False)
+    assert of(robust=False)[0] == (unsure, False)
     assert of(own=concluded(Verdict.UNSURE, 0.1))[0] == (unsure, False)
     # no GO at its angles: only where another plan may be the best
     assert of(now=unsure) == ((unsure, False), [])

@@ -161,14 +161,14 @@ def searched(monkeypatch):
     return of
 
 
-def off(verdict, value, *, sturdy=True):
+def off(verdict, value, *, robust=True):
     plan = judged(verdict)
-    worst = (-verdict.rank if sturdy else NO_GO, True, 0, value)
-    return SimpleNamespace(judged=plan, worst=worst, sturdy=sturdy)
+    worst = (-verdict.rank if robust else NO_GO, True, 0, value)
+    return SimpleNamespace(judged=plan, worst=worst, robust=robust)
 
 
 def test_the_other_end_is_tried_where_the_nose_is_no_sturdy_go(searched):
-    go, loose = off(Verdict.GO, 5.0), off(Verdict.GO, 9.0, sturdy=False)
+    go, loose = off(Verdict.GO, 5.0), off(Verdict.GO, 9.0, robust=False)
     unsure = off(Verdict.UNSURE, 3.0)
     for first, second, ends in (
         (go, None, 1), (loose, go, 2), (unsure, go, 2), (go, unsure, 1), (None, unsure, 2),
@@ -195,7 +195,7 @@ def test_the_other_end_is_tried_where_the_nose_is_no_sturdy_go(searched):
 )
 def test_a_verdict_is_exceeded_by_a_better_one_alone(searched, verdict, plan, better):
     """Of one verdict no margin is enough."""
-    one = None if plan is None else off(plan, 80.0, sturdy=plan is Verdict.GO)
+    one = None if plan is None else off(plan, 80.0, robust=plan is Verdict.GO)
     if plan is Verdict.UNSURE:
         one.worst = (UNSURE, True, 0, 80.0)
     found, ranked = searched((3, one), best_of=("flippers",), verdict=verdict)
@@ -218,7 +218,7 @@ def at_frictions(monkeypatch):
 
         def plan(question, merit):
             one = judged(question=question)._replace(drop=merit[3])
-            return SimpleNamespace(judged=one, worst=merit, sturdy=merit[0] == GO)
+            return SimpleNamespace(judged=one, worst=merit, robust=merit[0] == GO)
 
         def sturdiest(search, beaten, drives, stated):
             mu = round(search.question.friction[0], 6)
@@ -355,16 +355,16 @@ def test_without_a_friction_the_best_at_one_is_taken(monkeypatch, verdict, surfa
 
 
 @pytest.mark.parametrize(
-    ("sturdy", "holds"), [(True, False), (False, True), (False, False), (True, True)]
+    ("robust", "holds"), [(True, False), (False, True), (False, False), (True, True)]
 )
-def test_at_an_unknown_friction_it_holds_as_it_does_at_one_or_without(monkeypatch, sturdy, holds):
+def test_at_an_unknown_friction_it_holds_as_it_does_at_one_or_without(monkeypatch, robust, holds):
     question = Question.of(ABSOLEM, STAIRS)
-    found = module.Found(question, "at one", sturdy, question, "drives")
+    found = module.Found(question, "at one", robust, question, "drives")
     monkeypatch.setattr(module, "found_of", lambda *given, **named: found)
     monkeypatch.setattr(module, "holds_off_its_angles", lambda asked, drives: holds)
     monkeypatch.setattr(module, "judge", lambda asked: ("judged", asked.surface))
     told = module._at_unknown_friction(None, question, (-1.0, 1.0), "drives")
-    assert told.sturdy == (sturdy or holds)
+    assert told.robust == (robust or holds)
     assert told.findings == ("judged", None)
     assert told.question.surface is told.short.surface is None
 
@@ -458,7 +458,7 @@ def test_any_worse_verdict_tells_that_a_plan_does_not_hold(monkeypatch):
 
     def judged_off(plan, worse, drives):
         beaten.append(worse)
-        return SimpleNamespace(sturdy="sturdy")
+        return SimpleNamespace(robust="robust")
 
     monkeypatch.setattr(
         plan_off_angles, "judged_of", lambda question, found: judged(Verdict.UNSURE)
@@ -468,7 +468,7 @@ def test_any_worse_verdict_tells_that_a_plan_does_not_hold(monkeypatch):
     plan = SimpleNamespace(robot=SimpleNamespace(middle=ABSOLEM), changed=lambda *, robot: question)
     with monkeypatch.context() as patch:
         patch.setattr(Judged, "merit", property(lambda self: (UNSURE, True, 0, 5.0)))
-        assert holds_off_its_angles(plan, SimpleNamespace(judge=lambda short: None)) == "sturdy"
+        assert holds_off_its_angles(plan, SimpleNamespace(judge=lambda short: None)) == "robust"
     (worse,) = beaten
     assert (NO_GO, True, 0, 1e9) <= worse < (UNSURE, False, -9, -90.0)
 
@@ -524,5 +524,5 @@ def test_a_model_of_one_posture_takes_the_best_word(model, monkeypatch):
     found = module._fixed(question, ("nose-first", "tail-first"), drives)
     assert (found.question.facing, found.question.posture) == ("nose-first", Posture(front="flat"))
     assert found.findings == ("fine" if model == "contact" else "coarse")
-    assert (found.sturdy, found.tried) == (True, 4)
+    assert (found.robust, found.tried) == (True, 4)
     assert found.ends == ("nose-first", "tail-first")

@@ -611,13 +611,13 @@ def test_off_its_angles_the_worst_verdict_counts(ways):
     assert ways([GO] * 3, plan) == (OffAngles(plan, plan.merit, True), 3)
     worst = (UNSURE, *plan.merit[1:])
     found, count = ways([GO, UNSURE, GO], plan)
-    assert (found.worst, found.tested, found.sturdy, count) == (worst, True, False, 3)
+    assert (found.worst, found.tested, found.robust, count) == (worst, True, False, 3)
     found, count = ways([UNSURE, NO_GO, GO], plan)
     assert (found.worst[0], found.tested, count) == (NO_GO, True, 2)  # there is nothing worse
     bad = judged(NO_GO)
     # a NO-GO is no worse off its angles
     assert ways([NO_GO, NO_GO], bad) == (OffAngles(bad, bad.merit, True), 0)
-    assert OffAngles(bad, bad.merit, True).sturdy
+    assert OffAngles(bad, bad.merit, True).robust
     # where the worst is a UNSURE what is no NO-GO for certain is not judged
     found, count = ways([GO, UNSURE, GO, NO_GO], plan, passes=(0, 2))
     assert (found.worst[0], found.tested, count) == (NO_GO, True, 3)
@@ -730,7 +730,7 @@ def test_the_whole_terrain_decides_among_plans(monkeypatch):
             lambda plan, beaten, drives: OffAngles(plan, (NO_GO, *plan.merit[1:]), True),
         )  # fmt: skip
         found = _on_the_whole(asked(), plans, "drives")
-        return round(10 * found.question.posture.front), len(looked_at), found.sturdy
+        return round(10 * found.question.posture.front), len(looked_at), found.robust
 
     assert chosen((GO, GO), (GO, GO)) == (0, 1, True)
     assert chosen((GO, UNSURE), (UNSURE, UNSURE)) == (0, 2, True)

@@ -268,7 +268,7 @@ def test_a_plan_is_that_of_the_middle_judged_all_over_the_range(monkeypatch):
     def found_of(question, limits):
         plans.append((question.robot.com_range, limits))
         found = question.changed(facing="tail-first", best_of=())
-        return SimpleNamespace(question=found, findings="of the search", sturdy=True)
+        return SimpleNamespace(question=found, findings="of the search", robust=True)
 
     def judge(question):
         judged_.append(question.robot)
@@ -304,7 +304,7 @@ def test_what_does_not_hold_off_its_angles_is_a_finding_more(monkeypatch):
     one, off = assessment.off_plan(loose, found).each
     assert one is found.each[0]
     assert (off.mode, off.worst.tolist(), off.if_fails) == (POSTURE_TOLERANCE, [-math.inf], OPEN)
-    for sturdy, count in ((True, 1), (False, 2)):
-        search = SimpleNamespace(sturdy=sturdy)
+    for robust, count in ((True, 1), (False, 2)):
+        search = SimpleNamespace(robust=robust)
         assert len(assessment.off_plan(loose, found, search).each) == count
     assert len(asked) == 2

@@ -112,7 +112,7 @@ def found_plan(
 
 
 def off_plan(question: Question, found: Findings, search: "Found | None" = None) -> Findings:
-    """Findings of a plan, with one more where its verdict does not hold off its angles.
+    """Findings of a plan, with one more where its verdict is worse when it is perturbed.
 
     question: with the plan; its `tolerance` is how far off the angles may be.
     """
@@ -120,7 +120,7 @@ def off_plan(question: Question, found: Findings, search: "Found | None" = None)
         return found
     from kaidan.assessment.plan_off_angles import holds_off_its_angles
 
-    if holds_off_its_angles(question) if search is None else search.sturdy:
+    if holds_off_its_angles(question) if search is None else search.robust:
         return found
     off = Finding.certain(POSTURE_TOLERANCE, -math.inf, model=question.model)
     return replace(found, each=(*found.each, off))

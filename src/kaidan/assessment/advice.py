@@ -59,7 +59,7 @@ if TYPE_CHECKING:
 RAISED = math.radians(45.0)
 """Angle of leading flippers that reach for a first riser: half-way between flat and upright."""
 CLOSER = math.radians(1.0)
-"""How far off its angles an operator is advised to keep a flipper who has the time for it [rad]."""
+"""Error of a flipper angle that an operator with time is advised to keep [rad]."""
 SLOWEST = 0.01
 """Slowest speed that an operator is advised [m/s]."""
 WORTH_TELLING = math.radians(0.05)
@@ -119,11 +119,11 @@ def what_would_help(
 def _planned(
     question: Question, then: Conclusion, search: "Found | None", *, anew: bool
 ) -> tuple[Conclusion, bool]:
-    """Conclusion of a plan with the verdict that it has off its angles, or that of another plan.
+    """Conclusion of a plan with its verdict when perturbed, or that of another plan.
 
     search: what found the plan; without it no other one is sought.
     anew: whether another plan is sought where this one is no GO at its angles, not only where its
-        verdict does not hold off them.
+        verdict is worse when perturbed.
     """
     may_lower = question.tolerance and then.verdict in (Verdict.GO, Verdict.ROUGH)
     seeks = anew and search is not None and then.verdict is not Verdict.GO
@@ -141,7 +141,7 @@ def _planned(
     if search is not None and question.robot.com_range is None:
         asked = question.changed(best_of=search.best_of)
         own = better_than(then.verdict, asked, drives=drives, other_frictions=anew)
-        if own is not None and own.sturdy:
+        if own is not None and own.robust:
             best = conclude(own.question, own.findings)
             return (best, True) if best.verdict.rank < then.verdict.rank else (then, False)
     return then, False

@@ -50,7 +50,7 @@ class PlanShown(Part):
     found: bool
     """Whether the plan was found; else it was stated."""
     holds_within_deg: float | None
-    """How far off its angles the verdict holds [deg]; null: it was not tried."""
+    """Error of the angles within which the verdict holds [deg]; null: it was not tried."""
     tried: int | None
     """Drives of a phase with which it was found; null where it was stated."""
 

@@ -92,7 +92,7 @@ def _best_of(
         found = judged_off(judged, bar, drives, search)
         if best is None or found.worst > best.worst:
             best = found
-            as_hoped = found.sturdy and -judged.merit[0] == _rank(search, each.off)
+            as_hoped = found.robust and -judged.merit[0] == _rank(search, each.off)
             of_best = each if as_hoped else None
     return best, first
 

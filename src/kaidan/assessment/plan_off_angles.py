@@ -21,7 +21,7 @@ class OffAngles(NamedTuple):
     """Whether every way off its angles was judged that may be the worst."""
 
     @property
-    def sturdy(self) -> bool:
+    def robust(self) -> bool:
         """Whether its verdict holds off its angles."""
         return self.worst[0] == self.judged.merit[0]
 
@@ -59,7 +59,7 @@ def holds_off_its_angles(question: Question, drives: Drives | None = None) -> bo
     judged = judged_of(short, drives.judge(short))
     # any worse verdict tells
     worse = (judged.merit[0] - 1, True, 0, math.inf)
-    return judged_off(judged, worse, drives).sturdy
+    return judged_off(judged, worse, drives).robust
 
 
 def friction_off_its_angles(question: Question, drives: Drives | None = None) -> float:

@@ -39,7 +39,7 @@ class Found(NamedTuple):
     """With the plan."""
     findings: Findings
     """Of that question."""
-    sturdy: bool
+    robust: bool
     """Whether its verdict holds off its angles by the question's tolerance."""
     short: Question
     """On which it searched: a long uniform flight repeats itself."""
@@ -138,7 +138,7 @@ def _may_pass_over(question: Question) -> bool:
 
 
 class _Ends:
-    """Searches with one end leading, and with the other where the first has no sturdy GO."""
+    """Searches with one end leading, and with the other where the first has no robust GO."""
 
     def __init__(
         self, facings: tuple[Facing, ...], limits: tuple[float, float], drives: Drives
@@ -163,7 +163,7 @@ class _Ends:
             if found is None or (beaten is not None and found.worst <= beaten):
                 continue
             plans.append(found)
-            if found.sturdy and found.judged.conclusion.verdict is Verdict.GO:
+            if found.robust and found.judged.conclusion.verdict is Verdict.GO:
                 break
         return plans
 
@@ -183,11 +183,11 @@ def _at_unknown_friction(
     findings = judge(asked)
     if verdict is not None and conclude(asked, findings).verdict.rank >= verdict.rank:
         return None
-    sturdy = found.sturdy or holds_off_its_angles(asked, drives)
+    robust = found.robust or holds_off_its_angles(asked, drives)
     return found._replace(
         question=asked,
         findings=findings,
-        sturdy=sturdy,
+        robust=robust,
         short=found.short.changed(surface=None),
     )
 
@@ -201,7 +201,7 @@ def _on_the_whole(stated: Question, plans: Sequence[OffAngles], drives: Drives) 
         if each[-1][0].merit[0] >= plan.judged.merit[0]:
             break
     whole, plan = max(each, key=lambda one: one[0].merit[0])
-    return Found(whole.question, whole.findings, plan.sturdy, plan.judged.question, drives)
+    return Found(whole.question, whole.findings, plan.robust, plan.judged.question, drives)
 
 
 def _on_all_of(stated: Question, plan: Judged) -> Judged:

@@ -112,7 +112,7 @@ def with_less_friction(
         middle = round((low + enough) / 2, 2)
         at_that = asked.changed(surface=Surface.of_friction(middle))
         other = better_than(Verdict.ROUGH, at_that, drives=search.drives, other_frictions=False)
-        if other is None or not other.sturdy:
+        if other is None or not other.robust:
             low = middle
             continue
         enough = middle

@@ -62,7 +62,7 @@ class FieldCard(Part):
     largest_rotation_deg: float | None
     """Largest rotation that is arrested [deg]; null likewise."""
     flippers_within_deg: float | None
-    """How far off its angles the verdict of a found plan holds [deg]; null: not known."""
+    """Error of the angles within which the verdict of a found plan holds [deg]; null: not known."""
     path_m: float | None
     """Path of the centroid [m]; null where it does not arrive."""
     time_s: float | None
