@@ -94,7 +94,7 @@ ELSEWHERE = {
     "kaidan lab calibrate rig.toml": "tests/lab/rig/test_rig_kit.py",
     "kaidan lab calibrate theta-m --store theta-m": "by hand",
     "kaidan lab calibrate engagement --store engagement": "by hand",
-    "kaidan lab calibrate grousers --store grousers --figure grousers.svg": "by hand",
+    "kaidan lab calibrate grousers --store grousers": "by hand",
     "kaidan lab calibrate effects --store effects --figure effects.svg --csv effects.csv": (
         "by hand"
     ),
