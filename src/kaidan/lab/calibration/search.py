@@ -162,13 +162,13 @@ def demands(robot: Robot) -> tuple[Demand, ...]:
     """What the text says of falls, theta_d and theta_M, as ranges."""
     zone, lean, seen = PAPER.zone, PAPER.theta_d, PAPER.rotation
     at_200, at_220 = (_formula(robot, p) for p in PAPER.agreement_at)
-    near = PAPER.agreement
+    near, wide = PAPER.agreement, 2 * lean.uncertainty
     return (
         Demand("falls from, 150 mm", zone.low, zone.high),
         Demand("falls from, 200 mm", seen.angle, at_200 + near),
         Demand("falls from, 220 mm", at_220 - near, at_220 + near),
         Demand("theta_M, 150 mm", *PAPER.theta_M),
-        Demand("theta_d, 150 mm", lean.extra - 2 * lean.uncertainty, lean.extra + 2 * lean.uncertainty),
+        Demand("theta_d, 150 mm", lean.extra - wide, lean.extra + wide),
         Demand("rotation, 200 mm 44 deg", seen.extra, math.inf),
     )  # fmt: skip
 
