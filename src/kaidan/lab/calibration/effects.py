@@ -27,7 +27,7 @@ VARIED: Mapping[str, tuple[float, ...]] = {
     "stiffness": (2e4, 5e4, 1e5, 4e5),
     "friction": (0.8, 1.2, 2.0, 3.0),
 }
-UP, DOWN = (40.0, 66.0), (54.0, 80.0)
+UP, DOWN = (40.0, 67.0), (42.0, 75.0)
 """Slopes between which margins are looked for, ascending and descending [deg]."""
 
 

@@ -100,7 +100,8 @@ def _track(each: "Candidate") -> str:
             continue
         for ending, (factor, unit) in _UNITS.items():
             if name.endswith(ending):
-                name, value = f"{name.removesuffix(ending)} {factor * value:.3g} {unit}", None
+                shown.append(f"{name.removesuffix(ending)} {factor * value:.3g} {unit}")
                 break
-        shown.append((name if value is None else f"{name} {value:.2g}").replace("_", " "))
-    return ", ".join(shown)
+        else:
+            shown.append(f"{name} {value:.2g}")
+    return ", ".join(shown).replace("_", " ")
