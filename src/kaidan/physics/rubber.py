@@ -283,6 +283,85 @@ def add_contact(
     impulses[owner, 1] += g_z * dt
 
 
+def meet_grousers(
+    total: Array,
+    impulses: Array,
+    owners: Array,
+    state: Array,
+    points: Array,
+    corners: Array,
+    bars: Array,
+    shear: Array,
+    touched: Array,
+    now: float,
+    first: int,
+    last: int,
+    dt: float,
+    constants: Array,
+) -> None:
+    """Add the contacts of grousers with corners and pieces; each belt has half of the rubber.
+
+    total: see `add_contact`; now: number of the step; all else: see `advance`.
+    """
+    x, z, cos, sin = state[0], state[1], math.cos(state[2]), math.sin(state[2])
+    n, count = len(points), len(bars)
+    ends = len(shear) - 1 - 2 * count
+    for j in range(count):
+        i = first_near(points, first, last, bars[j, 7] - bars[j, 3]) - 1
+        corner = 1 + ends + j
+        while i + 1 < last and points[i + 1, 0] < bars[j, 7] + bars[j, 3]:
+            i += 1
+            if i < first:
+                continue
+            for row in (corner, corner + count):
+                if row == corner:
+                    if corners[i] == 0.0:
+                        continue
+                    depth, n_x, n_z = tip_met(points, i, corners[i], bars, j, x, z, cos, sin)
+                    at_x, at_z = points[i, 0], points[i, 1]
+                elif i + 1 < n and corners[i] != 2.0:
+                    depth, s, t_x, t_z = end_met(points, i, bars[:, 1:], j, x, z, cos, sin)
+                    n_x, n_z = -t_z, t_x
+                    at_x, at_z = points[i, 0] + s * t_x, points[i, 1] + s * t_z
+                else:
+                    continue
+                if depth <= 0.0:
+                    continue
+                if touched[row, i] < now - 1.0:
+                    shear[row, i] = shear_when_met(
+                        shear,
+                        touched,
+                        now - 1.0,
+                        row,
+                        i,
+                        corner,
+                        corner + count,
+                        corner + count + 1,
+                    )
+                touched[row, i] = now
+                off_x = at_x - x - cos * bars[j, 1] + sin * bars[j, 2]
+                off_z = at_z - z - sin * bars[j, 1] - cos * bars[j, 2]
+                add_contact(
+                    total,
+                    impulses,
+                    int(owners[i, 0 if row == corner else 1]),
+                    state,
+                    shear,
+                    row,
+                    i,
+                    at_x,
+                    at_z,
+                    n_x,
+                    n_z,
+                    depth,
+                    cos * bars[j, 4] - sin * bars[j, 5] - bars[j, 6] * off_z,
+                    sin * bars[j, 4] + cos * bars[j, 5] + bars[j, 6] * off_x,
+                    0.5,
+                    dt,
+                    constants,
+                )
+
+
 def advance(
     state: Array,
     points: Array,
@@ -330,14 +409,12 @@ def advance(
     impulses, shape (r, 2): what the ground gave the robot by rows of `owners` [N s]; added to.
     """
     mass, inertia, gravity = constants[0], constants[1], constants[7]
-    n, ends, count = len(points), len(discs), len(bars)
-    total = np.zeros(4)
+    n, ends, total = len(points), len(discs), np.zeros(4)
     for step in range(steps):
         x, z, phi = state[0], state[1], state[2]
         cos, sin = math.cos(phi), math.sin(phi)
         belt, now = speed + change * step * dt, float(done + step + 1)
-        if count:
-            carry_round(bars, parts[0], run, belt, constants[8], x, cos, sin)
+        carry_round(bars, parts[0], run, belt, constants[8], x, cos, sin)
         run += belt * dt
         total[0], total[1], total[2], total[3] = push[0], push[1] - mass * gravity, push[2], 0.0
         for i in range(first, last):
@@ -379,60 +456,22 @@ def advance(
                     dt,
                     constants,
                 )
-        for j in range(count):
-            i = first_near(points, first, last, bars[j, 7] - bars[j, 3]) - 1
-            corner = 1 + ends + j
-            while i + 1 < last and points[i + 1, 0] < bars[j, 7] + bars[j, 3]:
-                i += 1
-                if i < first:
-                    continue
-                for row in (corner, corner + count):
-                    if row == corner:
-                        if corners[i] == 0.0:
-                            continue
-                        depth, n_x, n_z = tip_met(points, i, corners[i], bars, j, x, z, cos, sin)
-                        at_x, at_z = points[i, 0], points[i, 1]
-                    elif i + 1 < n and corners[i] != 2.0:
-                        depth, s, t_x, t_z = end_met(points, i, bars[:, 1:], j, x, z, cos, sin)
-                        n_x, n_z = -t_z, t_x
-                        at_x, at_z = points[i, 0] + s * t_x, points[i, 1] + s * t_z
-                    else:
-                        continue
-                    if depth <= 0.0:
-                        continue
-                    if touched[row, i] < now - 1.0:
-                        shear[row, i] = shear_when_met(
-                            shear,
-                            touched,
-                            now - 1.0,
-                            row,
-                            i,
-                            corner,
-                            corner + count,
-                            corner + count + 1,
-                        )
-                    touched[row, i] = now
-                    off_x = at_x - x - cos * bars[j, 1] + sin * bars[j, 2]
-                    off_z = at_z - z - sin * bars[j, 1] - cos * bars[j, 2]
-                    add_contact(
-                        total,
-                        impulses,
-                        int(owners[i, 0 if row == corner else 1]),
-                        state,
-                        shear,
-                        row,
-                        i,
-                        at_x,
-                        at_z,
-                        n_x,
-                        n_z,
-                        depth,
-                        cos * bars[j, 4] - sin * bars[j, 5] - bars[j, 6] * off_z,
-                        sin * bars[j, 4] + cos * bars[j, 5] + bars[j, 6] * off_x,
-                        0.5,
-                        dt,
-                        constants,
-                    )
+        meet_grousers(
+            total,
+            impulses,
+            owners,
+            state,
+            points,
+            corners,
+            bars,
+            shear,
+            touched,
+            now,
+            first,
+            last,
+            dt,
+            constants,
+        )
         state[3] += total[0] / mass * dt
         state[4] += total[1] / mass * dt
         state[5] += total[2] / inertia * dt
