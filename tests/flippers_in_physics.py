@@ -180,7 +180,7 @@ class Rig:
                 body.add_geom(
                     name=name,
                     type=engine().mjtGeom.mjGEOM_CAPSULE,
-                    size=[self.height / 2, half, 0.0],
+                    size=[self.height, half, 0.0],
                     pos=[1e-3 * (n + 1), 0.0, 0.0],
                     quat=[math.sqrt(0.5), -math.sqrt(0.5), 0.0, 0.0],
                     contype=2,
@@ -240,8 +240,8 @@ class Rig:
             on = points[k] * (1 - share) + points[(k + 1) % count] * share
             angle = normals[k]
             out = np.column_stack([np.cos(angle), np.sin(angle)])
-            centre = on + 0.5 * self.height * out
-            compiled.geom_pos[ids, 0], compiled.geom_pos[ids, 2] = centre[:, 0], centre[:, 1]
+            # half-round: the axis on the belt, as high as their radius; no flank is undercut
+            compiled.geom_pos[ids, 0], compiled.geom_pos[ids, 2] = on[:, 0], on[:, 1]
             # the capsule's frame: its y is the body's -z, as it was added
             compiled.geom_surfacevel[ids, 0] = speed * out[:, 1]
             compiled.geom_surfacevel[ids, 1] = speed * out[:, 0]

@@ -94,10 +94,9 @@ ELSEWHERE = {
     "kaidan lab calibrate rig.toml": "tests/lab/rig/test_rig_kit.py",
     "kaidan lab calibrate theta-m --store theta-m": "by hand",
     "kaidan lab calibrate engagement --store engagement": "by hand",
-    "kaidan lab calibrate grousers --store grousers --figure grousers.svg": "by hand",
-    "kaidan lab calibrate effects --store effects --figure effects.svg --csv effects.csv": (
-        "by hand"
-    ),
+    "kaidan lab calibrate grousers --seed 1 --tried 160 --store grousers": "by hand",
+    "kaidan lab calibrate effects --trials 2 --step 3deg --store effects --figure effects.svg "
+    "--csv effects.csv": "by hand",
     "pytest -m slow -s tests/validation/test_physics_acceptance.py": "by hand",
     "pip install 'kaidan[physics,calibration]'": ".ci/run, within '.[dev]'",
     "pip install 'kaidan[physics]'": ".ci/run, within '.[dev]'",

@@ -18,6 +18,7 @@ from kaidan.physics import (
     ShoeChain,
     SmoothBelt,
     SprungNoses,
+    YieldingBelt,
     model_of,
     run,
 )
@@ -101,12 +102,24 @@ def test_static_stiffness_of_a_nosing(stiffness):
         assert forces[k, 0] / -(moved @ along) == pytest.approx(stiffness, rel=0.05)
 
 
-@pytest.mark.parametrize(("radius", "friction"), [(0.060, 3.0), (0.008, 0.8)])
-def test_a_half_round_grouser_swings_the_robot_by_its_height_over_the_spacing(radius, friction):
+BARS = {"height": 0.007, "spacing": 0.028, "stiffness": 1e6}
+
+
+@pytest.mark.parametrize(
+    ("track", "radius", "friction"),
+    [
+        (DrivenGrousers(**BARS), 0.060, 3.0),
+        (DrivenGrousers(**BARS), 0.008, 0.8),
+        (YieldingBelt(**BARS, damping_ratio=0.3), 0.060, 3.0),
+        (YieldingBelt(**BARS, damping_ratio=0.3), 0.008, 2.0),
+    ],
+)
+def test_a_half_round_grouser_swings_the_robot_by_its_height_over_the_spacing(
+    track, radius, friction
+):
     # hand: one end stands on a tip, the other between two: h / p = 2.67 deg. An undercut flank
     # hooks the nosing and swings it by 10 deg in the first of these. 0.7 deg: tips come at phases
-    height, p = 0.007, 0.150
-    track = DrivenGrousers(height=height, spacing=0.028, stiffness=1e6)
+    height, p = BARS["height"], 0.150
     found = run(
         spec(40.0, p, radius=radius, friction=friction, track=track, grouser_phase=0.25, nosings=6)
     )

@@ -6,9 +6,9 @@
     hinge   about that axle, on the round ends
     spring  radially: the grouser yields
 
-Each is a half-round bar: a cylinder across the robot, its axis on the belt, its radius the height.
+Each is a half-round bar: a cylinder across a belt, its axis on the belt, its radius the height.
 So its flanks leave the belt at a right angle and hook no nosing, as an undercut flank does. The
-surface between the bars is the smooth belt.
+surface between the bars is the smooth belt. Each of the two belts has its own phase.
 """
 
 import math
@@ -45,7 +45,7 @@ class Motion(NamedTuple):
 
     geoms: tuple[str, ...]
     places: Array
-    """Places along the belt at the start, from the front end backward [m]."""
+    """Places along their belt at the start, from the front end backward [m]."""
     rear: float
     front: float
     radius: float
@@ -96,13 +96,20 @@ def add_grousers(
     length = 2 * (front - rear) + 2 * math.pi * radius
     spacing = track.spacing or spec.question.robot.track.grouser_spacing or length / COUNT
     count = max(4, round(length / spacing))
-    places = (np.arange(count) + spec.drawn()[1]) * length / count
+    phases = sorted(set(spec.drawn()[1:]))  # belts in one phase are as good as a wide one
+    stiffness, half = track.stiffness / len(phases), lane.half_width / len(phases)
+    places = np.concatenate([np.arange(count) + each for each in phases])
     motion = Motion(
-        tuple(f"grouser{k}" for k in range(count)), places, float(rear), float(front), float(radius)
+        tuple(f"grouser{k}" for k in range(len(places))),
+        places * length / count,
+        float(rear),
+        float(front),
+        float(radius),
     )
     targets = motion.targets(0.0).reshape(-1, 2)
     hinge, slide = mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE
-    for name, (x, angle) in zip(motion.geoms, targets, strict=True):
+    for k, (name, (x, angle)) in enumerate(zip(motion.geoms, targets, strict=True)):
+        y = (half if k < count else -half) * (len(phases) - 1)
         # the body's frame is turned with the grouser, so that the model opens with it in place
         c, s = math.cos(angle), math.sin(angle)
         one = body.add_body(
@@ -119,14 +126,14 @@ def add_grousers(
             name=f"{name}_r",
             type=slide,
             axis=[0.0, 0.0, 1.0],
-            stiffness=[track.stiffness, 0.0, 0.0],
-            damping=[2 * _RATIO * math.sqrt(track.stiffness * MASS), 0.0, 0.0],
+            stiffness=[stiffness, 0.0, 0.0],
+            damping=[2 * _RATIO * math.sqrt(stiffness * MASS), 0.0, 0.0],
         )
         one.add_geom(
             name=name,
             type=mujoco.mjtGeom.mjGEOM_CAPSULE,
-            size=[height, lane.half_width, 0.0],
-            pos=[0.0, 0.0, -radius],
+            size=[height, half, 0.0],
+            pos=[0.0, y, -radius],
             quat=[math.sqrt(0.5), -math.sqrt(0.5), 0.0, 0.0],
             rgba=_COLOUR,
             **common,

@@ -35,11 +35,18 @@ RESOLVED = 0.1
 SIGNATURES = {
     "depth_below": "Tuple((f8, f8, f8))(f8[::1], f8, f8, f8)",
     "corner_met": "Tuple((f8, f8, f8, f8))(f8[:, ::1], i8, f8, f8[:, ::1], f8, f8, f8, f8)",
-    "end_met": "Tuple((f8, f8, f8, f8))(f8[:, ::1], i8, f8[:, ::1], i8, f8, f8, f8, f8)",
-    "shear_when_met": "f8(f8[:, ::1], f8[:, ::1], i8, i8)",
+    "end_met": "Tuple((f8, f8, f8, f8))(f8[:, ::1], i8, f8[:, :], i8, f8, f8, f8, f8)",
+    "shear_when_met": "f8(f8[:, ::1], f8[:, ::1], f8, i8, i8, i8, i8, i8)",
+    "carry_round": "void(f8[:, ::1], f8[::1], f8, f8, f8, f8, f8, f8)",
+    "tip_met": "Tuple((f8, f8, f8))(f8[:, ::1], i8, f8, f8[:, ::1], i8, f8, f8, f8, f8)",
     "rubber_force": "Tuple((f8, f8, f8))(f8, f8, f8, f8, f8, f8[::1])",
+    "first_near": "i8(f8[:, ::1], i8, i8, f8)",
+    "add_contact": "void(f8[::1], f8[:, ::1], i8, f8[::1], f8[:, ::1], i8, i8, f8, f8, f8, f8, f8, "
+    "f8, f8, f8, f8, f8[::1])",
+    "meet_grousers": "void(f8[::1], f8[:, ::1], f8[:, ::1], f8[::1], f8[:, ::1], f8[::1], "
+    "f8[:, ::1], f8[:, ::1], f8[:, ::1], f8, i8, i8, f8, f8[::1])",
     "advance": "i8(f8[::1], f8[:, ::1], f8[:, ::1], f8[::1], f8[:, ::1], f8[:, ::1], f8[:, ::1], "
-    "f8[:, ::1], f8[::1], i8, i8, i8, f8, f8, f8, f8[::1], f8[:, ::1])",
+    "f8[:, ::1], f8[:, ::1], f8[::1], i8, i8, i8, i8, f8, f8, f8, f8, f8[::1], f8[:, ::1])",
 }
 """What is compiled, each for those that follow, in the types of numba."""
 
@@ -86,9 +93,11 @@ class RubberBody(MovingBody):
         self.belt = Belt(spec, self.course, at_once=True)
         self.advance = kernel().advance
         course = self.course
-        self.state = np.array([course.x, course.z, course.phi, 0.0, 0.0, 0.0])
+        lift = track.height or 0.0  # no grouser is in a nosing at the start
+        self.state = np.array([course.x, course.z + lift, course.phi, 0.0, 0.0, 0.0])
         self._terrain()
         self._robot()
+        self._grousers(track)
         mass = spec.mass()[0]
         inertia = mass * course.outline.gyration**2
         k, kt = spec.stiffness, spec.shear_stiffness
@@ -102,6 +111,7 @@ class RubberBody(MovingBody):
                 2.0 * track.damping_ratio * math.sqrt(kt * mass),
                 spec.static_friction,
                 STANDARD_GRAVITY,
+                self.window,
             ]
         )
         back, ahead = course.outline.reach
@@ -110,9 +120,9 @@ class RubberBody(MovingBody):
         fastest = math.sqrt(2.0 * max(k, kt) * (1.0 / mass + max(back, ahead) ** 2 / inertia))
         fine = min(FINEST * spec.step / 1e-3, RESOLVED / fastest)
         self.inner = max(1, math.ceil(spec.step / fine))
-        self.shear = np.zeros((1 + len(self.discs), len(self.points)))
-        self.touching = np.zeros_like(self.shear)
-        self.push = np.zeros(2)
+        self.shear = np.zeros((1 + len(self.discs) + 2 * len(self.bars), len(self.points)))
+        self.touched, self.done = np.full_like(self.shear, -1.0), 0
+        self.push = np.zeros(3)
         self.impulses = np.zeros((len(course.profile.nosings) + 1, 2))
         self.contacts, self.lasted = 0, 1.0
 
@@ -158,6 +168,19 @@ class RubberBody(MovingBody):
         self.parts = np.array(rows)
         self.discs = np.array([(*disc, runs) for disc, runs in discs.items()])
 
+    def _grousers(self, track: YieldingBelt) -> None:
+        """Grousers of both belts, over the underside and the ends of the main track."""
+        self.window, self.bars = 1.0, np.zeros((0, 8))
+        if not track.height:
+            return
+        part = self.parts[0]
+        count = math.ceil((part[10] + math.pi * (part[2] + part[5])) / track.spacing) + 1
+        self.window = count * track.spacing
+        places = [np.arange(count) + each for each in self.spec.drawn()[1:]]
+        self.bars = np.zeros((2 * count, 8))
+        self.bars[:, 0] = np.concatenate(places) * track.spacing
+        self.bars[:, 3] = track.height
+
     def pose(self) -> tuple[float, float, float]:
         """Centroid x, z [m] and inclination [rad]."""
         x, z, phi = self.state[:3].tolist()
@@ -175,18 +198,24 @@ class RubberBody(MovingBody):
         x, around = self.state[0], self.reach + 0.05
         first = max(0, int(np.searchsorted(self.points[:, 0], x - around)) - 1)
         last = int(np.searchsorted(self.points[:, 0], x + around))
-        self.touching[:, :first] = self.touching[:, last:] = 0.0
         self.impulses[:] = 0.0
         self.lasted = lasts
         self.contacts = self.advance(
-            self.state, self.points, self.owners, self.corners, self.parts, self.discs,
-            self.shear, self.touching, self.constants, first, last, steps * self.inner,
-            self.spec.step / self.inner, speed, change, self.push, self.impulses,
+            self.state, self.points, self.owners, self.corners, self.parts, self.discs, self.bars,
+            self.shear, self.touched, self.constants, first, last, self.done, steps * self.inner,
+            self.spec.step / self.inner, self.belt.run(time) if on else 0.0, speed, change,
+            self.push, self.impulses,
         )  # fmt: skip
+        self.done += steps * self.inner
 
     def pull(self, force: float) -> None:
-        """Pull at the centroid up the line of the nosings [N]."""
-        self.push[:] = force * self.course.along
+        """Pull up the line of the nosings [N]: at the centroid, with grousers at the underside.
+
+        They hold there, on ends of any radius; at the centroid it would tip a robot with sharp
+        ends over its nose.
+        """
+        self.push[:2] = force * self.course.along
+        self.push[2] = force * self.course.outline.stance.com_height if len(self.bars) else 0.0
 
     @property
     def tether(self) -> tuple[tuple[float, float], ...]:

@@ -91,6 +91,13 @@ class TrialSpec(Sheet):
     grouser_phase: float | None = quantity(
         "1", 0.0, 1.0, "share of a grouser spacing; random without", default=None
     )
+    other_phase: float | None = quantity(
+        "1",
+        0.0,
+        1.0,
+        "likewise of the other belt; without, as stated of the first, else random",
+        default=None,
+    )
     seed: int = Field(default=0, ge=0, le=2**63 - 1, description="of what is random")
     timestep: float | None = quantity(
         "s", 1e-5, 5e-3, "of the simulation; 1 ms, 0.25 ms for the chain, without", default=None
@@ -228,7 +235,9 @@ class TrialSpec(Sheet):
         """
         if self.question.surface is not None:
             return self.question.surface.friction_low
-        return SMOOTH_FRICTION if self.track.kind in _SMOOTH else RUBBER_FRICTION
+        stands_out = isinstance(self.track, YieldingBelt) and self.track.height
+        smooth = self.track.kind in _SMOOTH and not stands_out
+        return SMOOTH_FRICTION if smooth else RUBBER_FRICTION
 
     @property
     def softness(self) -> float:
@@ -255,15 +264,18 @@ class TrialSpec(Sheet):
         stated = self.question.stance.mass
         return (UNPUBLISHED_MASS, True) if stated is None else (stated, False)
 
-    def drawn(self) -> tuple[float, float]:
-        """Start offset and grouser phase [1]: as stated, or drawn from the seed.
+    def drawn(self) -> tuple[float, float, float]:
+        """Start offset and both belts' grouser phases [1]: as stated, or drawn from the seed.
 
         The offset is drawn from 0.1 to 0.5, so that the robot has a third of a second or more at
         the paper's speed before the first nosing is lost, and none has just been lost.
         """
         draw = np.random.default_rng(self.seed)
-        offset, phase = 0.1 + 0.4 * draw.random(), draw.random()
+        offset, phase, other = 0.1 + 0.4 * draw.random(), draw.random(), draw.random()
+        if self.grouser_phase is not None:
+            phase = other = self.grouser_phase
         return (
             float(offset) if self.start_offset is None else self.start_offset,
-            float(phase) if self.grouser_phase is None else self.grouser_phase,
+            float(phase),
+            float(other) if self.other_phase is None else self.other_phase,
         )

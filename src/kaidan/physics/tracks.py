@@ -34,7 +34,10 @@ class SprungNoses(Sheet):
 
 
 class YieldingBelt(Sheet):
-    """Smooth belt whose rubber presses in and shears at each nosing: compliance in the robot."""
+    """Belt whose rubber presses in and shears at each contact: compliance in the robot.
+
+    Smooth without a height; else with half-round grousers of the same rubber on both belts.
+    """
 
     label: ClassVar[str] = "track model: yielding belt"
     kind: Literal["yielding-belt"] = "yielding-belt"
@@ -55,6 +58,10 @@ class YieldingBelt(Sheet):
     damping_ratio: float = quantity(
         "1", 0.0, 5.0, "of the robot's mass on the rubber at one nosing", default=0.08
     )
+    height: float | None = quantity(
+        "m", 0.0, 0.1, "of half-round grousers above the belt; none without", default=None
+    )
+    spacing: float = quantity("m", 0.01, 0.5, "of the grousers along the belt", default=0.033)
 
 
 class DrivenGrousers(Sheet):
@@ -72,7 +79,9 @@ class DrivenGrousers(Sheet):
         "along the belt, rounded to fit; the robot sheet's, else a 40th of the belt",
         default=None,
     )
-    stiffness: float = quantity("N/m", 1e3, 1e8, "of a grouser, radially", default=2e5)
+    stiffness: float = quantity(
+        "N/m", 1e3, 1e8, "of a grouser, radially, both belts together", default=2e5
+    )
 
 
 class ShoeChain(Sheet):

@@ -256,7 +256,7 @@ class _Drive:
 
     def _result(self, outcome: Outcome, columns: dict[str, Array], began: float) -> TrialResult:
         spec = self.spec
-        offset, grouser_phase = spec.drawn()
+        offset, grouser_phase, _ = spec.drawn()
         mass, assumed = spec.mass()
         yields = isinstance(spec.track, YieldingBelt)
         nowhere = outcome in (Outcome.CLIMBED, Outcome.UNSTABLE, Outcome.START_FALL)

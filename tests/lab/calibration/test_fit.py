@@ -16,7 +16,6 @@ from kaidan.lab.calibration.fitting import (
     WITHIN,
     compliance_grid,
     fit,
-    grouser_grid,
     intervals,
 )
 from kaidan.lab.calibration.likelihood import log_best_zone, log_extra, log_falls
@@ -219,12 +218,6 @@ def test_effects_vary_one_figure_at_a_time():
     table = found.columns()
     assert GrouserEffects.from_json(found.to_json()) == found
     assert {len(column) for column in table.values()} == {4}
-
-
-def test_grousers_are_told_by_height_and_stiffness():
-    grid = grouser_grid(KENAF, (0.01,), (2e4, 2e5), 0.7)
-    assert [setting.friction for _, setting in grid] == [0.7, 0.7]
-    assert [values["grouser_stiffness_N_m"] for values, _ in grid] == [2e4, 2e5]
 
 
 def test_ends_of_another_radius():

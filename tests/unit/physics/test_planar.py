@@ -60,3 +60,27 @@ def test_numba_is_named_where_it_is_missing(monkeypatch):
     monkeypatch.setattr(planar.importlib.util, "find_spec", lambda name: None)
     with pytest.raises(ImportError, match="pip install 'kaidan"):
         planar.kernel.__wrapped__()
+
+
+def test_grousers_are_carried_round_underside_and_ends():
+    """By hand: start at -pi r before the rear tangent; a belt that runs takes them backward."""
+    bars = np.zeros((3, 8))
+    # below the middle, at the rear end's rearmost point, at the front's foremost
+    quarter = 0.1 * np.pi / 2
+    bars[:, 0] = 0.1 * np.pi + np.array([0.5, -quarter, 1.0 + quarter])
+    rubber.carry_round(bars, PART, 0.0, 0.2, 10.0, 5.0, 1.0, 0.0)
+    assert bars[:, 1:3] == pytest.approx(np.array([[0.5, -0.1], [-0.1, 0.0], [1.1, 0.0]]))
+    # speed 0.2 m/s: backward below, up at the rear, down at the front; in space 5 m farther
+    assert bars[:, 4:6] == pytest.approx(np.array([[-0.2, 0.0], [0.0, 0.2], [0.0, -0.2]]), abs=1e-9)
+    assert bars[:, 7] == pytest.approx(bars[:, 1] + 5.0)
+    rubber.carry_round(bars, PART, 0.1, 0.2, 10.0, 5.0, 1.0, 0.0)
+    assert bars[0, 1:3] == pytest.approx([0.4, -0.1])
+
+
+def test_a_tip_bears_a_nosing_until_it_has_passed_it():
+    bars = np.zeros((1, 8))
+    bars[0, 1:4] = 0.0, 0.0, 0.007
+    nosing = np.array([[0.0, -0.005], [0.1, -0.005]])
+    depth, n_x, n_z = rubber.tip_met(nosing, 0, 2.0, bars, 0, 0.0, 0.0, 1.0, 0.0)
+    assert (depth, n_x, n_z) == pytest.approx((0.002, 0.0, 1.0))  # 7 mm high, 5 mm away
+    assert rubber.tip_met(nosing, 1, 2.0, bars, 0, 0.0, 0.0, 1.0, 0.0)[0] == 0.0

@@ -120,7 +120,7 @@ def test_the_start_is_drawn_from_the_seed_or_as_stated():
     assert free.drawn() == spec(40.0, start_offset=None, seed=3).drawn()
     assert free.drawn() != spec(50.0, start_offset=None, seed=4).drawn()
     assert 0.1 <= free.drawn()[0] <= 0.5
-    assert spec(50.0, start_offset=0.25, grouser_phase=0.5).drawn() == (0.25, 0.5)
+    assert spec(50.0, start_offset=0.25, grouser_phase=0.5).drawn() == (0.25, 0.5, 0.5)
 
 
 def test_stiffness_is_the_tracks_unless_the_trial_states_one():

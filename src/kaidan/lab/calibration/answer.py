@@ -171,10 +171,10 @@ class Calibration(Answer):
 class Effect(Part):
     """theta_M of one kind of grousers."""
 
-    varied: Literal["none", "height", "spacing", "stiffness"]
+    varied: Literal["none", "height", "spacing", "stiffness", "friction"]
     """What is varied; "none" for the smooth belt."""
     value: float
-    """Of what is varied [m or N/m]."""
+    """Of what is varied [m, N/m or 1]."""
     up: MarginShown
     """Ascending margin."""
     down: MarginShown
@@ -188,7 +188,7 @@ class Effect(Part):
 
 
 class GrouserEffects(Answer):
-    """Effects of the grousers' height, spacing and stiffness on both margins and on theta_M."""
+    """Effects of the grousers' height, spacing, stiffness and friction on margins and theta_M."""
 
     text_module = "kaidan.lab.calibration.effects_text"
 
@@ -197,9 +197,7 @@ class GrouserEffects(Answer):
     """Trials of each condition."""
     seed: int
     base: dict[str, float]
-    """Height [m], spacing [m] and stiffness [N/m] while another is varied."""
-    friction: float
-    """Of the grousers on the nosings [1]."""
+    """Height [m], spacing [m], stiffness [N/m] and friction [1] while another is varied."""
     nosing_spacing_m: float
     """Nosing to nosing [m]."""
     step_deg: float
@@ -210,7 +208,7 @@ class GrouserEffects(Answer):
     """The smooth belt first, then each varied value."""
 
     def columns(self) -> dict[str, list[Any]]:
-        """Columns of a table; lengths in m, stiffness in N/m, angles in degrees."""
+        """Columns of a table; lengths in m, stiffness in N/m, friction in 1, angles in degrees."""
         columns: dict[str, list[Any]] = {
             name: [getattr(each, name) for each in self.effects] for name in ("varied", "value")
         }

@@ -66,10 +66,15 @@ class Bench:
         setting, so that settings are compared on the same starts.
     trials : int
         Trials a condition.
+    nosings : int
+        To be passed in a trial. From more than two on, as on the rig, phases are spread evenly
+        over the trials of a condition.
     """
 
-    def __init__(self, runner: Runner, *, seed: int = 0, trials: int = FIVE) -> None:
-        self.runner, self.seed, self.trials = runner, seed, trials
+    def __init__(
+        self, runner: Runner, *, seed: int = 0, trials: int = FIVE, nosings: int = 2
+    ) -> None:
+        self.runner, self.seed, self.trials, self.nosings = runner, seed, trials, nosings
         self._counts: dict[str, tuple[Figures, ...]] = {}
 
     def counts(
@@ -90,7 +95,12 @@ class Bench:
 
     def _specs(self, setting: Setting, condition: Condition) -> list[TrialSpec]:
         plan = VerificationTest(
-            setting=setting, conditions=(condition,), trials=self.trials, seed=self.seed
+            setting=setting,
+            conditions=(condition,),
+            trials=self.trials,
+            seed=self.seed,
+            nosings=self.nosings,
+            stratified=self.nosings > 2,
         )
         return list(plan.specs())
 

@@ -1,4 +1,4 @@
-"""Effects of the grousers' height, spacing and stiffness on theta_M: the paper's open question.
+"""Effects of the grousers' height, spacing, stiffness and friction on theta_M: an open question.
 
 "quantitative methods to estimate the effects of the grouser shape have not been established yet"
 (Endo & Nagatani 2016, Conclusion). What comes out is this model's answer, not a measurement.
@@ -14,19 +14,20 @@ from kaidan.lab.calibration.evidence import PAPER
 from kaidan.lab.calibration.margins import Margin, margins_of, slopes
 from kaidan.lab.calibration.report import margin_shown
 from kaidan.lab.campaign import Setting
-from kaidan.physics import DrivenGrousers
+from kaidan.physics import YieldingBelt
 from kaidan.robot import Robot
 
 SPACING = 0.150
 """Nosing spacing at which theta_M is found [m]: where the paper prints it."""
-BASE = {"height": 0.010, "spacing": 0.033, "stiffness": 2e5}
-"""Grousers about which one figure at a time is changed [m, m, N/m]; guessed."""
+BASE = {"height": 0.007, "spacing": 0.033, "stiffness": 1e5, "friction": 2.0}
+"""Grousers on rubber about which one figure at a time is changed [m, m, N/m, 1]; guessed."""
 VARIED: Mapping[str, tuple[float, ...]] = {
-    "height": (0.005, 0.010, 0.015, 0.020),
-    "spacing": (0.020, 0.033, 0.050, 0.100),
-    "stiffness": (2e4, 5e4, 2e5, 1e6),
+    "height": (0.003, 0.005, 0.007, 0.010),
+    "spacing": (0.020, 0.028, 0.033, 0.050),
+    "stiffness": (2e4, 5e4, 1e5, 4e5),
+    "friction": (0.8, 1.2, 2.0, 3.0),
 }
-UP, DOWN = (40.0, 66.0), (54.0, 80.0)
+UP, DOWN = (40.0, 67.0), (42.0, 75.0)
 """Slopes between which margins are looked for, ascending and descending [deg]."""
 
 
@@ -36,7 +37,6 @@ def effects(
     *,
     base: Mapping[str, float] = BASE,
     varied: Mapping[str, Sequence[float]] = VARIED,
-    friction: float = 0.8,
     step: float = 2.0,
     up: tuple[float, float] = UP,
     down: tuple[float, float] = DOWN,
@@ -51,11 +51,9 @@ def effects(
     robot : Robot
         The robot.
     base : mapping
-        height [m], spacing [m] and stiffness [N/m] of the grousers that are varied.
+        height [m], spacing [m], stiffness [N/m] and friction [1] of the grousers.
     varied : mapping
         Values of each.
-    friction : float
-        Of the grousers on the nosings [1].
     step : float
         Between slopes [deg].
     up, down : (low, high)
@@ -71,7 +69,9 @@ def effects(
     kinds: list[tuple[str, float, Setting]] = [("none", 0.0, Setting.of(robot))]
     for name, values in varied.items():
         for value in values:
-            track = DrivenGrousers.model_validate({**base, name: value})
+            own = {**base, name: value}
+            friction = own.pop("friction")
+            track = YieldingBelt.model_validate(own)
             kinds.append((name, value, Setting.of(robot, track=track, friction=friction)))
     directions = (("up", slopes(*up, step)), ("down", slopes(*down, step)))
     found = margins_of(
@@ -88,7 +88,6 @@ def effects(
         trials=bench.trials,
         seed=bench.seed,
         base=dict(base),
-        friction=friction,
         nosing_spacing_m=nosing_spacing,
         step_deg=step,
         theta_M_printed_deg=PAPER.theta_M,

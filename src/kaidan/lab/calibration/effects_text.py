@@ -39,7 +39,7 @@ def text(found: "GrouserEffects") -> str:
 
 
 def _row(each: "Effect", smooth: "Effect") -> dict[str, str]:
-    name = "stiffness_N_m" if each.varied == "stiffness" else "length_m"
+    name = {"stiffness": "stiffness_N_m", "friction": "friction"}.get(each.varied, "length_m")
     both = (smooth.up.deviation_deg, each.up.deviation_deg)
     spread = None if None in both else sum(x**2 for x in both if x is not None) ** 0.5
     return {

@@ -156,7 +156,7 @@ def _draw_blind(axes: Axes, found: "Calibration") -> None:
 
 
 def effects_figure(found: "GrouserEffects") -> Figure:
-    """theta_M and both margins over height, spacing and stiffness of the grousers.
+    """theta_M and both margins over height, spacing, stiffness and friction of the grousers.
 
     found: what `kaidan.lab.calibration.effects.effects` found.
     """
@@ -164,14 +164,15 @@ def effects_figure(found: "GrouserEffects") -> Figure:
         ("height", 1e3, "height [mm]"),
         ("spacing", 1e3, "spacing [mm]"),
         ("stiffness", 1e-3, "stiffness [kN/m]"),
+        ("friction", 1.0, "friction"),
     ]
     low, high = found.theta_M_printed_deg
     with look.settings():
         figure = look.blank(4.4)
         for column, (name, scale, label) in enumerate(panels):
-            left = 0.08 + 0.315 * column
-            margins = figure.add_axes((left, 0.52, 0.26, 0.33))
-            gain = figure.add_axes((left, 0.11, 0.26, 0.33))
+            left = 0.08 + 0.235 * column
+            margins = figure.add_axes((left, 0.52, 0.19, 0.33))
+            gain = figure.add_axes((left, 0.11, 0.19, 0.33))
             x = _draw_panel(margins, gain, found, name, scale)
             for axes in (margins, gain):
                 if name == "stiffness" and x:
@@ -188,7 +189,7 @@ def effects_figure(found: "GrouserEffects") -> Figure:
         look.title(
             figure,
             0.5,
-            "Effects of the grousers on the margins and on theta_M, as MuJoCo has them",
+            "Effects of grousers on rubber on the margins and on theta_M",
             "bars: two standard deviations (counts, grid); dotted: smooth belt; grey: the text's "
             f"{low:g} to {high:g}°",
         )

@@ -9,7 +9,7 @@ from kaidan.lab.calibration.bench import Bench, Count, with_ends
 from kaidan.lab.calibration.evidence import Evidence, conditions_fitted
 from kaidan.lab.calibration.likelihood import log_likelihood
 from kaidan.lab.campaign import Setting
-from kaidan.physics import DrivenGrousers, SprungNoses
+from kaidan.physics import SprungNoses
 from kaidan.robot import Robot
 
 WITHIN = 1.92
@@ -22,11 +22,6 @@ RADIUS = (0.005, 0.01, 0.02, 0.03, 0.045, 0.065)
 GROUND = ("steps", "noses")
 """Steps with treads on which the tail can rest, or nothing but nosings: a nuisance; the text does
 not say which the rig had."""
-HEIGHT = (0.005, 0.01, 0.0125, 0.015, 0.0175, 0.02, 0.0225)
-"""Of a grouser [m]."""
-GROUSER_STIFFNESS = (2e4, 6e4, 2e5, 6e5)
-"""Of a grouser, radially [N/m]."""
-GROUSER_FRICTION = 0.8
 
 Value = float | str
 
@@ -99,22 +94,6 @@ def compliance_grid(
             Setting.of(with_ends(robot, r), track=SprungNoses(stiffness=k), ground=on),
         )
         for on, r, k in product(ground, radius, stiffness)
-    ]
-
-
-def grouser_grid(
-    robot: Robot,
-    height: Sequence[float] = HEIGHT,
-    stiffness: Sequence[float] = GROUSER_STIFFNESS,
-    friction: float = GROUSER_FRICTION,
-) -> list[tuple[dict[str, Value], Setting]]:
-    """Candidates of the belt with driven grousers."""
-    return [
-        (
-            {"grouser_stiffness_N_m": k, "grouser_height_m": h},
-            Setting.of(robot, track=DrivenGrousers(height=h, stiffness=k), friction=friction),
-        )
-        for h, k in product(height, stiffness)
     ]
 
 

@@ -52,7 +52,7 @@ def calibrate(
     kind : str
         What is fitted.
     grid : sequence of (values, setting)
-        Candidates; see `kaidan.lab.calibration.fitting.compliance_grid` and `grouser_grid`.
+        Candidates; see `kaidan.lab.calibration.fitting.compliance_grid`.
     evidence : Evidence
         Figures of the text.
     judged : int

@@ -81,7 +81,7 @@ def quantity(name: str, value: float | str) -> str:
         return value
     if name.endswith("_m") and not name.endswith("_N_m"):
         return f"{1e3 * value:g} mm"
-    return f"{value / 1e3:g} kN/m"
+    return f"{value / 1e3:g} kN/m" if name.endswith("_N_m") else f"{value:g}"
 
 
 def zone(

@@ -197,16 +197,18 @@ class VerificationTest(Sheet):
         return self.setting.trial(condition, seed, nosings=self.nosings, **start)
 
     def _start(self, trial: int) -> dict[str, float]:
-        """Start offset and grouser phase of the k-th trials: one in each stratum of both."""
+        """Start offset and grouser phases of the k-th trials: one in each stratum of all."""
         if not self.stratified:
             return {}
         draw = np.random.default_rng(self.seed)
         within, order = draw.random(2), draw.permutation(self.trials)
         offset, phase = (np.array([order[trial], trial]) + within) / self.trials
+        other = (draw.permutation(self.trials)[trial] + draw.random()) / self.trials
         least, most = OFFSETS
         return {
             "start_offset": float(least + (most - least) * offset),
             "grouser_phase": float(phase),
+            "other_phase": float(other),
         }
 
     def _seed(self, condition: Condition, trial: int) -> int:

@@ -73,7 +73,7 @@ def run(spec: TrialSpec) -> dict[str, Any]:
 def inputs(spec: TrialSpec) -> dict[str, Any]:
     """Columns of what a trial depends on."""
     question, profile, stance = spec.question, spec.profile(), spec.question.stance
-    offset, phase = spec.drawn()
+    offset, phase, _ = spec.drawn()
     track = spec.track
     grousers = track if isinstance(track, DrivenGrousers) else None
     return {
