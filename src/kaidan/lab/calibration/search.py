@@ -11,7 +11,6 @@ from importlib import import_module
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kaidan.answer import Answer, Part
 from kaidan.lab.calibration.bench import Bench, Count, with_ends
@@ -26,8 +25,6 @@ from kaidan.physics import YieldingBelt
 from kaidan.physics.spec import SPEED, UNPUBLISHED_MASS
 from kaidan.robot import Robot
 
-Array = NDArray[np.float64]
-
 AXES = (
     Axis("end_radius_m", 0.002, 0.065, True, "radius of the ends"),
     Axis("height_m", 0.002, 0.012, False, "height of the grousers"),
@@ -41,8 +38,8 @@ AXES = (
 """What is drawn; the first four are the question."""
 SPACINGS = (0.150, 0.180, 0.200, 0.220)
 """Of the paper's nosings [m]."""
-LEAST_GYRATION, MOST_GYRATION = 0.10, 0.18
-"""Radii of gyration of the closed forms, as in `kaidan.lab.reproduction.phase` [m]."""
+MOST_GYRATION = 0.18
+"""Largest radius of gyration of the closed forms, as in `kaidan.lab.reproduction.phase` [m]."""
 SCREEN = (
     (0.150, 54.0, False),
     (0.220, 40.0, True),
@@ -259,7 +256,7 @@ def search(
     tried : int
         Tracks tried in dynamics at most: the first that closed forms leave.
     nearest : int
-        How many of the nearest are told.
+        How many of the nearest are shown.
     """
     required = demands(robot)
     possible = [each for each in drawn(count, bench.seed) if not refuted(robot, each, required)]

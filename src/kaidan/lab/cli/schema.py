@@ -16,6 +16,7 @@ KINDS = {
     "engagement": "kaidan.lab.calibration.engagement:Engagement",
     "rig-calibration": "kaidan.lab.rig.calibration:RigCalibration",
     "grouser-effects": "kaidan.lab.calibration.answer:GrouserEffects",
+    "grouser-search": "kaidan.lab.calibration.search:GrouserSearch",
     "reproduction": "kaidan.lab.reproduction.reproduction:Reproduction",
     "outcomes": "kaidan.lab.outcomes.known_outcomes:KnownOutcomes",
     "bench": "kaidan.lab.outcomes.bench:Bench",
