@@ -1,7 +1,7 @@
 """Does any track with grousers on rubber meet all that the paper's text says of the rig's falls?
 
 Tracks are drawn: R, h, s and k, and what else is not known. Closed forms leave out those that they
-refute; of what is left the dynamics try two conditions, then all. A run is like the rig's: ten
+refute; of what is left the dynamics try a few conditions, then all. A run is like the rig's: ten
 nosings, each at its own phase, two belts out of step.
 """
 
@@ -142,7 +142,7 @@ class GrouserSearch(Answer):
     tried: int
     """Of these, the tracks that were tried in dynamics."""
     screened: int
-    """Of these, tracks that both first conditions leave."""
+    """Of these, tracks that hold or fall as the text has it at each condition of `SCREEN`."""
     demands: tuple[tuple[str, float, float | None], ...]
     """What the text says: name, least and largest [deg]; null: no bound."""
     failing: tuple[int, ...]
